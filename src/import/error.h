@@ -1,0 +1,25 @@
+/// What goes wrong outside the program's control, said in one line.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace mobbscope {
+
+/// A file or value given by the user cannot be used. what() is one line: the file (and, where one file names another, both),
+/// the place in it, and what to do. The program exits with 2.
+class InputError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+    /// "file: place: message"; an empty place is left out.
+    InputError(const std::string& file, const std::string& place, const std::string& message)
+        : std::runtime_error(file + ": " + (place.empty() ? "" : place + ": ") + message) {}
+};
+
+/// The machine lacks something: no GL, a file that cannot be written. The program exits with 3.
+class MachineError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace mobbscope

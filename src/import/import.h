@@ -1,0 +1,43 @@
+/// Files to clips: one door for every format.
+#pragma once
+
+#include <mobb/clip.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+enum class Origin { keep, start, start_heading };
+
+/// How a file becomes clips: the import keys of a scene's clip and the import options of the command line.
+/// An empty option takes the default of the contract, section 2.
+struct ImportOptions {
+    std::optional<std::string> animation;  ///< index or name; a number counts as an index
+    std::optional<std::string> root;       ///< joint name
+    std::optional<double> fps;             ///< samples per second, > 0; default 30
+    std::optional<std::string> unit;       ///< "m", "cm", "in", "auto" or metres per file unit
+    std::optional<std::string> up;         ///< "y" or "z"
+    std::optional<std::pair<double, double>> trim;  ///< file seconds from the first key, before sampling
+    std::optional<Origin> origin;
+    std::optional<std::string> id;   ///< CSV: the track to take
+    std::optional<double> radius;    ///< metres; overrides r of every sample
+    std::optional<double> dt;        ///< seconds between rows of a CSV without a time column
+
+    friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
+};
+
+/// A clip and where it came from.
+struct ImportedClip {
+    std::string name;    ///< the file's stem; of one clip of several, the track's id or the animation's name
+    std::string id;      ///< CSV with many tracks: the track; else empty
+    mobb::ClipPtr clip;
+};
+
+/// Every clip in a file, by its extension (.csv so far), in the file's order: of a CSV with many tracks each of them, unless
+/// options.id names one. Throws InputError.
+std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options);
+
+}  // namespace mobbscope

@@ -1,0 +1,104 @@
+/// Clips and where they are placed: a motion reduced to a path of disks on the floor (paper, Section 3).
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace mobb {
+
+/// One sample: a disk on the floor, in metres. r >= 0.
+struct Disk {
+    double x = 0;
+    double y = 0;
+    double r = 0;
+};
+
+/// The largest coordinate or radius (m) and the longest duration or start time (s) that are taken for real.
+inline constexpr double kMaxLength = 1e9;
+inline constexpr double kMaxTime = 1e12;
+
+/// N >= 1 disks at uniform spacing dt > 0 seconds; disk i holds over [i*dt, (i+1)*dt). Immutable: share it freely.
+class Clip {
+  public:
+    /// Throws std::invalid_argument, naming the sample, if dt is not finite and positive, there is no sample, a number is
+    /// not finite or beyond kMaxLength, a radius is negative, or the clip lasts longer than kMaxTime.
+    Clip(double dt, std::vector<Disk> samples);
+
+    double dt() const { return dt_; }
+    int count() const { return static_cast<int>(samples_.size()); }
+    std::span<const Disk> samples() const { return samples_; }
+    /// Seconds: count * dt, as the last sample has its cylinder too (reading of Eq. 1, "o < t_end").
+    double duration() const { return count() * dt_; }
+    /// An upper bound in metres on |x| + |y| + r over the samples: what the slack of box tests is made from.
+    double reach() const { return reach_; }
+
+  private:
+    double dt_;
+    std::vector<Disk> samples_;
+    double reach_;
+};
+
+using ClipPtr = std::shared_ptr<const Clip>;
+
+/// Places a clip in the world: rotate about the clip's origin, then translate, and start at a global time.
+struct Placement {
+    glm::dvec2 translate{0, 0};  ///< metres
+    double rotate_deg = 0;       ///< degrees, counter-clockwise; multiples of 90 rotate exactly
+    double start = 0;            ///< seconds, global
+
+    friend bool operator==(const Placement&, const Placement&) = default;
+};
+
+/// True if every number is finite and within kMaxLength and kMaxTime (the rotation: within 1e9 degrees).
+bool is_valid(const Placement& placement);
+
+/// Cosine and sine of a rotation, exact for multiples of 90 degrees.
+struct Rotation {
+    double c = 1;
+    double s = 0;
+
+    static Rotation from_degrees(double degrees);
+    glm::dvec2 operator()(glm::dvec2 v) const { return {c * v.x - s * v.y, s * v.x + c * v.y}; }
+    Rotation inverse() const { return {c, -s}; }
+    /// First `other`, then this.
+    Rotation operator*(const Rotation& other) const {
+        return {c * other.c - s * other.s, s * other.c + c * other.s};
+    }
+};
+
+/// A clip seen through a placement: samples in world metres and global seconds. It refers to the clip, which must outlive it.
+class PlacedClip {
+  public:
+    PlacedClip(const Clip& clip, const Placement& placement)
+        : samples_(clip.samples().data()),
+          dt_(clip.dt()),
+          clip_(&clip),
+          placement_(placement),
+          rotation_(Rotation::from_degrees(placement.rotate_deg)) {}
+
+    const Clip& clip() const { return *clip_; }
+    int count() const { return clip_->count(); }
+    const Placement& placement() const { return placement_; }
+    const Rotation& rotation() const { return rotation_; }
+
+    /// Sample i in the world.
+    Disk disk(int i) const {
+        const Disk& d = samples_[i];
+        return {rotation_.c * d.x - rotation_.s * d.y + placement_.translate.x,
+                rotation_.s * d.x + rotation_.c * d.y + placement_.translate.y, d.r};
+    }
+    /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
+    double time(int i) const { return placement_.start + i * dt_; }
+
+  private:
+    const Disk* samples_;
+    double dt_;
+    const Clip* clip_;
+    Placement placement_;
+    Rotation rotation_;
+};
+
+}  // namespace mobb

@@ -1,0 +1,40 @@
+/// What may watch a traversal. The traversal calls these hooks and nothing else; with NoObserver they compile to nothing.
+#pragma once
+
+#include <mobb/box.h>
+#include <mobb/separation.h>
+
+#include <cstdint>
+
+namespace mobb {
+
+/// How many tests of each kind a query made: what the paper's tables count.
+struct TestCounts {
+    std::int64_t time = 0;
+    std::int64_t obb2d = 0;
+    std::int64_t obb3d = 0;
+    std::int64_t samples = 0;  ///< pairs (i, j) whose distance was measured
+
+    friend bool operator==(const TestCounts&, const TestCounts&) = default;
+};
+
+/// The hooks, doing nothing. Other observers have the same members.
+struct NoObserver {
+    void enter(int /*a*/, int /*b*/) {}                 ///< a pair of nodes is about to be tested
+    void leave() {}                                     ///< ... and it and all below it is done
+    void time_test(bool /*overlap*/) {}
+    void box_test(BoxKind /*test*/, const Separation&) {}
+    void sample_pair(int /*i*/, int /*j*/, double /*squared_distance*/) {}
+    void sample_test(bool /*hit*/) {}                   ///< after the pairs of two leaves
+};
+
+/// Counts tests.
+struct Statistics : NoObserver {
+    TestCounts tests;
+
+    void time_test(bool) { ++tests.time; }
+    void box_test(BoxKind test, const Separation&) { ++(test == BoxKind::obb2d ? tests.obb2d : tests.obb3d); }
+    void sample_pair(int, int, double) { ++tests.samples; }
+};
+
+}  // namespace mobb

@@ -1,0 +1,74 @@
+/// Do two placed clips ever collide? (paper, Section 3.2)
+#pragma once
+
+#include <mobb/observer.h>
+#include <mobb/traversal.h>
+#include <mobb/tree.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace mobb {
+
+/// The earliest pair of samples that collide.
+struct Contact {
+    double time = 0;  ///< global seconds: the start of the pair's overlap
+    int a_sample = 0;
+    int b_sample = 0;
+    double distance = 0;  ///< metres between the centres
+    double radii = 0;     ///< sum of the two radii, metres; distance < radii
+
+    friend bool operator==(const Contact&, const Contact&) = default;
+};
+
+/// A maximal interval of global time, [t0, t1) in seconds, over which two clips collide.
+struct Interval {
+    double t0 = 0;
+    double t1 = 0;
+
+    friend bool operator==(const Interval&, const Interval&) = default;
+};
+
+/// What is known of the pair (i, j), which must overlap in time.
+inline Contact contact_of(const PlacedClip& a, int i, const PlacedClip& b, int j) {
+    const Disk disk_a = a.disk(i);
+    const Disk disk_b = b.disk(j);
+    return {std::max(a.time(i), b.time(j)), i, j, std::sqrt(squared_distance(disk_a, disk_b)), disk_a.r + disk_b.r};
+}
+
+/// The earliest contact of two trees, or none. The answer does not depend on the trees' kinds, only on the clips; it is that
+/// of direct_search bit for bit. Trees of different time scales may be asked; their 3D boxes then prune nothing.
+template <NodeSource A, NodeSource B, class Observer>
+std::optional<Contact> query(const A& a, const B& b, Observer& observer) {
+    std::optional<Contact> contact;
+    auto on_hit = [&](int i, int j) {
+        contact = contact_of(a.placed_clip(), i, b.placed_clip(), j);
+        return true;
+    };
+    Traversal(a, b, observer, on_hit).run();
+    return contact;
+}
+std::optional<Contact> query(const PlacedTree& a, const PlacedTree& b);
+
+/// All intervals of contact, earliest first.
+std::vector<Interval> contact_intervals(const PlacedTree& a, const PlacedTree& b);
+
+/// The answer without a tree: every pair of samples that overlap in time is measured, in order of time, up to the first hit.
+template <class Observer>
+std::optional<Contact> direct_search(const PlacedClip& a, const PlacedClip& b, Observer& observer) {
+    std::optional<Contact> contact;
+    auto on_hit = [&](int i, int j) {
+        contact = contact_of(a, i, b, j);
+        return true;
+    };
+    observer.enter(0, 0);
+    const bool hit = visit_sample_pairs(a, 0, a.count(), b, 0, b.count(), observer, on_hit);
+    observer.sample_test(hit);
+    observer.leave();
+    return contact;
+}
+std::optional<Contact> direct_search(const PlacedClip& a, const PlacedClip& b);
+std::vector<Interval> direct_contact_intervals(const PlacedClip& a, const PlacedClip& b);
+
+}  // namespace mobb

@@ -1,0 +1,88 @@
+/// The record of a query: one event per test, in order.
+#pragma once
+
+#include <mobb/observer.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mobb {
+
+enum class Test : std::uint8_t { time, obb2d, obb3d, samples };
+enum class Outcome : std::uint8_t { disjoint_in_time, separated, overlap, hit, no_hit };
+
+std::string_view name(Test test);
+std::string_view name(Outcome outcome);
+std::optional<Test> test_from_name(std::string_view name);
+std::optional<Outcome> outcome_from_name(std::string_view name);
+
+/// A pair of samples whose distance was measured.
+struct MeasuredPair {
+    int i = 0;
+    int j = 0;
+    double distance = 0;  ///< metres between the centres
+};
+
+/// Events as a struct of arrays, with one pool for the measured pairs of all of them.
+class Trace {
+  public:
+    struct Event {
+        int parent = -1;  ///< last event of the pair that called this one; -1 at the root
+        int depth = 0;    ///< in node pairs; 0 at the root
+        int a = 0;        ///< node indices
+        int b = 0;
+        Test test = Test::time;
+        Outcome outcome = Outcome::overlap;
+        int axis = -1;   ///< of a separation (see Separation); else -1
+        double gap = 0;  ///< of a separation, metres; else 0
+        std::span<const MeasuredPair> pairs;
+    };
+
+    int size() const { return static_cast<int>(test_.size()); }
+    bool empty() const { return test_.empty(); }
+    /// 0 <= step < size().
+    Event operator[](int step) const;
+    /// The event's `pairs` are copied into the pool. A parent must be an earlier event or -1.
+    void push(const Event& event);
+    /// What the statistics observer would have counted over the same query.
+    TestCounts counts() const;
+
+  private:
+    std::vector<int> parent_, depth_, a_, b_, axis_;
+    std::vector<Test> test_;
+    std::vector<Outcome> outcome_;
+    std::vector<double> gap_;
+    std::vector<std::size_t> pairs_end_;  ///< end of event i's pairs in the pool; they begin where those of i-1 end
+    std::vector<MeasuredPair> pool_;
+};
+
+/// Records a trace while it watches a traversal.
+class TraceRecorder {
+  public:
+    void enter(int a, int b);
+    void leave() { open_.pop_back(); }
+    void time_test(bool overlap);
+    void box_test(BoxKind test, const Separation& separation);
+    void sample_pair(int i, int j, double squared_distance);
+    void sample_test(bool hit);
+
+    const Trace& trace() const { return trace_; }
+    Trace take() { return std::move(trace_); }
+
+  private:
+    struct OpenPair {
+        int a, b, parent, last;
+    };
+    void push(Test test, Outcome outcome, const Separation& separation = {});
+
+    Trace trace_;
+    std::vector<OpenPair> open_;
+    std::vector<MeasuredPair> pairs_;
+};
+
+}  // namespace mobb

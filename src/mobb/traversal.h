@@ -1,0 +1,164 @@
+/// The traversal of two trees (paper, Section 3.2): the only one, for answers, counts and traces alike.
+#pragma once
+
+#include <mobb/observer.h>
+#include <mobb/predicate.h>
+#include <mobb/separation.h>
+
+#include <concepts>
+
+namespace mobb {
+
+/// What the traversal reads: nodes (box, children, sample range) and the placed samples below them.
+template <class S>
+concept NodeSource = requires(const S& source, int i) {
+    { source.node(i).is_leaf() } -> std::convertible_to<bool>;
+    { source.node(i).children[0] } -> std::convertible_to<int>;
+    { source.node(i).first } -> std::convertible_to<int>;
+    { source.node(i).end() } -> std::convertible_to<int>;
+    { source.node(i).box } -> std::convertible_to<const Box&>;
+    { source.begin(source.node(i)) } -> std::convertible_to<double>;
+    { source.end(source.node(i)) } -> std::convertible_to<double>;
+    { source.placed_clip() } -> std::convertible_to<const PlacedClip&>;
+    { source.time_scale() } -> std::convertible_to<double>;
+};
+
+/// The first index i in [first, last) with time(i + 1) > t, or last: a binary search on hold intervals.
+inline int first_ending_after(const PlacedClip& clip, int first, int last, double t) {
+    while (first < last) {
+        const int middle = first + (last - first) / 2;
+        if (clip.time(middle + 1) > t) {
+            last = middle;
+        } else {
+            first = middle + 1;
+        }
+    }
+    return first;
+}
+
+/// Visits, in order of time, every pair (i, j) of samples from [first_a, end_a) x [first_b, end_b) whose hold intervals
+/// overlap, measures their distance, and calls on_hit(i, j) on those that collide. Stops and returns true once on_hit does.
+template <class Observer, class OnHit>
+bool visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b, int end_b,
+                        Observer& observer, OnHit& on_hit) {
+    const double begin = std::max(a.time(first_a), b.time(first_b));
+    int i = first_ending_after(a, first_a, end_a, begin);
+    int j = first_ending_after(b, first_b, end_b, begin);
+    while (i < end_a && j < end_b) {
+        const double end_i = a.time(i + 1);
+        const double end_j = b.time(j + 1);
+        if (overlap_in_time(a.time(i), end_i, b.time(j), end_j)) {
+            const Disk disk_a = a.disk(i);
+            const Disk disk_b = b.disk(j);
+            observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
+            if (collide(disk_a, disk_b) && on_hit(i, j)) {
+                return true;
+            }
+        }
+        if (end_i < end_j) {
+            ++i;
+        } else {
+            ++j;
+        }
+    }
+    return false;
+}
+
+/// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says whether
+/// to stop.
+template <NodeSource A, NodeSource B, class Observer, class OnHit>
+class Traversal {
+  public:
+    Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
+        : a_(a),
+          b_(b),
+          frame_(a.placed_clip(), b.placed_clip(), a.time_scale()),
+          same_scale_(a.time_scale() == b.time_scale()),
+          observer_(observer),
+          on_hit_(on_hit) {}
+
+    /// Returns true if on_hit stopped it.
+    bool run() { return visit(0, 0); }
+
+  private:
+    bool visit(int ia, int ib) {
+        const auto& na = a_.node(ia);
+        const auto& nb = b_.node(ib);
+        observer_.enter(ia, ib);
+        bool stop = false;
+        if (may_meet_in_time(na, nb) && may_meet_in_space(na.box, nb.box)) {
+            if (na.is_leaf()) {
+                stop = nb.is_leaf() ? test_samples(na, nb) : walk_b(ia, nb);
+            } else if (nb.is_leaf()) {
+                stop = walk_a(na, ib);
+            } else {
+                // In this order the traversal runs forward in time: one of the two mixed pairs is always apart in time.
+                stop = visit(na.children[0], nb.children[0]) || visit(na.children[0], nb.children[1]) ||
+                       visit(na.children[1], nb.children[0]) || visit(na.children[1], nb.children[1]);
+            }
+        }
+        observer_.leave();
+        return stop;
+    }
+
+    /// A's leaf against the children of an inner node of B (Fig. 4): in time only, as a box test gains nothing there.
+    bool walk_b(int ia, const auto& inner) {
+        const auto& leaf = a_.node(ia);
+        for (const int child : inner.children) {
+            const auto& nb = b_.node(child);
+            observer_.enter(ia, child);
+            const bool stop = may_meet_in_time(leaf, nb) && (nb.is_leaf() ? test_samples(leaf, nb) : walk_b(ia, nb));
+            observer_.leave();
+            if (stop) return true;
+        }
+        return false;
+    }
+
+    /// The mirror image of walk_b.
+    bool walk_a(const auto& inner, int ib) {
+        const auto& leaf = b_.node(ib);
+        for (const int child : inner.children) {
+            const auto& na = a_.node(child);
+            observer_.enter(child, ib);
+            const bool stop = may_meet_in_time(na, leaf) && (na.is_leaf() ? test_samples(na, leaf) : walk_a(na, ib));
+            observer_.leave();
+            if (stop) return true;
+        }
+        return false;
+    }
+
+    bool may_meet_in_time(const auto& na, const auto& nb) {
+        const bool overlap = overlap_in_time(a_.begin(na), a_.end(na), b_.begin(nb), b_.end(nb));
+        observer_.time_test(overlap);
+        return overlap;
+    }
+
+    bool may_meet_in_space(const Box& a, const Box& b) {
+        if (a.kind == BoxKind::obb2d && b.kind == BoxKind::obb2d) {
+            const Separation separation = separate_obb2d(a, b, frame_);
+            observer_.box_test(BoxKind::obb2d, separation);
+            return !separation.separated();
+        }
+        // Boxes of different time scales live in different spaces: never compared, the pair counts as overlapping.
+        if (!same_scale_) return true;
+        const Separation separation = separate_obb3d(a, b, frame_);
+        observer_.box_test(BoxKind::obb3d, separation);
+        return !separation.separated();
+    }
+
+    bool test_samples(const auto& na, const auto& nb) {
+        const bool hit = visit_sample_pairs(a_.placed_clip(), na.first, na.end(), b_.placed_clip(), nb.first, nb.end(),
+                                            observer_, on_hit_);
+        observer_.sample_test(hit);
+        return hit;
+    }
+
+    const A& a_;
+    const B& b_;
+    RelativeFrame frame_;
+    bool same_scale_;
+    Observer& observer_;
+    OnHit& on_hit_;
+};
+
+}  // namespace mobb

@@ -1,0 +1,86 @@
+/// The scene: clips, agents that play them, and the questions asked of them. Read from and written to `*.json`.
+#pragma once
+
+#include <import/error.h>
+#include <import/import.h>
+#include <mobb/query.h>
+#include <mobb/trace.h>
+#include <mobb/tree.h>
+#include <scene/view_state.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+struct Color {
+    std::uint8_t r = 0, g = 0, b = 0;
+    friend bool operator==(const Color&, const Color&) = default;
+};
+
+struct SceneClip {
+    std::string name;
+    std::optional<std::string> source;  ///< relative to the scene file; none: the samples stand in the scene
+    ImportOptions options;              ///< of the source; empty for inline samples
+    mobb::ClipPtr clip;                 ///< never null in a loaded scene
+};
+
+/// One side of a query: a clip and where it is placed.
+struct Participant {
+    std::string name;  ///< the agent's, or the clip's where the query places a clip itself
+    int clip = 0;      ///< index into Scene::clips
+    mobb::Placement placement;
+    int agent = -1;    ///< index into Scene::agents, or -1
+};
+
+struct Agent {
+    std::string name;
+    int clip = 0;  ///< index into Scene::clips
+    mobb::Placement placement;
+    std::optional<Color> color;  ///< default: the palette's, by index
+};
+
+/// What a capture says the answer was.
+struct Expectation {
+    bool collides = false;
+    std::optional<mobb::Contact> contact;
+};
+
+struct SceneQuery {
+    Participant a, b;
+    std::optional<Expectation> expect;
+    std::optional<mobb::Trace> trace;
+};
+
+struct Scene {
+    std::filesystem::path file;  ///< where it was read from; empty for a scene made in memory
+    std::vector<SceneClip> clips;
+    std::vector<Agent> agents;
+    mobb::FitOptions fit;
+    std::vector<SceneQuery> queries;  ///< as in the file; see effective_queries
+    ViewState view;
+};
+
+/// The scene's queries; without any, all pairs of agents in order (0,1) (0,2) ... (1,2) ...; empty with neither.
+std::vector<SceneQuery> effective_queries(const Scene& scene);
+
+/// What is drawn and asked about: the agents, or without any, every clip where it is.
+std::vector<Participant> participants(const Scene& scene);
+
+/// Reads a scene, a capture, or a clip file (a scene with its clips and no agents). `overrides` go over the import keys of every
+/// clip with a source. Throws InputError; all files are checked before it returns.
+Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {});
+
+/// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
+Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                  const ImportOptions& overrides = {});
+
+/// The scene as JSON text, numbers with 17 digits. Clips with a source are written as their source; with `inline_samples`
+/// every clip is written with its samples, so the file stands alone.
+std::string to_json(const Scene& scene, bool inline_samples = false);
+
+}  // namespace mobbscope

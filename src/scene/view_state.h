@@ -1,0 +1,66 @@
+/// What is seen of a scene, and from where. A plain value: JSON in, JSON out. The window edits it, `render` reads it, and every
+/// picture is a function of (scene, view state, size).
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <string>
+
+namespace mobbscope {
+
+enum class CameraPreset { iso, top, front, side, free };
+enum class Theme { dark, light };
+
+struct Camera {
+    CameraPreset preset = CameraPreset::iso;  ///< `free` takes the angles below; the others bring their own
+    double yaw_deg = 45;                      ///< free: direction from the target to the eye, counter-clockwise from +x
+    double pitch_deg = 25;                    ///< free: above the floor, -90..90
+    bool perspective = true;                  ///< top, front and side are orthographic whatever this says
+    double fov_deg = 30;                      ///< vertical, 5..120
+    /// What is looked at, world metres with time drawn as height; none: the camera frames the scene by itself.
+    std::optional<glm::dvec3> target;
+    double distance = 0;  ///< metres from the target to the eye (> 0) when there is a target
+    friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+/// Which boxes are drawn: those of levels first..last, with the leaves above `first` (so that a level covers the whole clip).
+struct LevelRange {
+    int first = 2;
+    int last = 2;
+    bool leaves = false;  ///< the leaves alone, whatever their level
+    friend bool operator==(const LevelRange&, const LevelRange&) = default;
+};
+
+/// Where in a query's trace we stand.
+struct Step {
+    enum class Unit { event, percent, end } unit = Unit::end;
+    double value = 0;  ///< event number, or percentage 0..100
+    friend bool operator==(const Step&, const Step&) = default;
+};
+
+struct ViewState {
+    Camera camera;
+    LevelRange levels;
+    std::optional<int> query;   ///< index into the effective queries: its state at `step` is drawn instead of the levels
+    Step step;
+    std::optional<double> time; ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
+    double time_height = 0;     ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
+    Theme theme = Theme::dark;
+    bool disks = true;
+    bool boxes = true;
+    bool floor = true;      ///< grid in metres, and the paths' traces on it
+    bool time_axis = true;  ///< ticks in seconds
+    bool labels = true;     ///< all text
+    bool legend = true;
+    friend bool operator==(const ViewState&, const ViewState&) = default;
+};
+
+/// "2", "1:3" or "leaves". Throws std::invalid_argument saying what is allowed.
+LevelRange parse_level_range(const std::string& text);
+/// An event number, "end" or a percentage such as "40%". Throws std::invalid_argument.
+Step parse_step(const std::string& text);
+/// "iso", "top", "front", "side" (and "free"); nothing for any other name.
+std::optional<CameraPreset> camera_preset(const std::string& name);
+
+}  // namespace mobbscope
