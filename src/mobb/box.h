@@ -15,8 +15,8 @@ enum class BoxKind : std::uint8_t {
     obb3d,  ///< a free oriented box: a UMOBB node (paper, Section 4)
 };
 
-/// An oriented box. Every box is complete in three dimensions; an obb2d has (0, 0, 1) as its third axis, so that it can be
-/// tested against an obb3d. Lengths are metres; time is mixed in by the tree's time scale w (m/s).
+/// An oriented box. Every box is complete in three dimensions; an obb2d has (0, 0, 1) as its third axis, so that it can
+/// be tested against an obb3d. Lengths are metres; time is mixed in by the tree's time scale w (m/s).
 struct Box {
     BoxKind kind = BoxKind::obb2d;
     glm::dvec3 center{0};

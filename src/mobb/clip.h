@@ -23,8 +23,8 @@ inline constexpr double kMaxTime = 1e12;
 /// N >= 1 disks at uniform spacing dt > 0 seconds; disk i holds over [i*dt, (i+1)*dt). Immutable: share it freely.
 class Clip {
   public:
-    /// Throws std::invalid_argument, naming the sample, if dt is not finite and positive, there is no sample, a number is
-    /// not finite or beyond kMaxLength, a radius is negative, or the clip lasts longer than kMaxTime.
+    /// Throws std::invalid_argument, naming the sample, if dt is not finite and positive, there is no sample, a number
+    /// is not finite or beyond kMaxLength, a radius is negative, or the clip lasts longer than kMaxTime.
     Clip(double dt, std::vector<Disk> samples);
 
     double dt() const { return dt_; }
@@ -64,12 +64,11 @@ struct Rotation {
     glm::dvec2 operator()(glm::dvec2 v) const { return {c * v.x - s * v.y, s * v.x + c * v.y}; }
     Rotation inverse() const { return {c, -s}; }
     /// First `other`, then this.
-    Rotation operator*(const Rotation& other) const {
-        return {c * other.c - s * other.s, s * other.c + c * other.s};
-    }
+    Rotation operator*(const Rotation& other) const { return {c * other.c - s * other.s, s * other.c + c * other.s}; }
 };
 
-/// A clip seen through a placement: samples in world metres and global seconds. It refers to the clip, which must outlive it.
+/// A clip seen through a placement: samples in world metres and global seconds. It refers to the clip, which must
+/// outlive it.
 class PlacedClip {
   public:
     PlacedClip(const Clip& clip, const Placement& placement)

@@ -1,4 +1,5 @@
-/// What may watch a traversal. The traversal calls these hooks and nothing else; with NoObserver they compile to nothing.
+/// What may watch a traversal. The traversal calls these hooks and nothing else; with NoObserver they compile to
+/// nothing.
 #pragma once
 
 #include <mobb/box.h>
@@ -20,12 +21,12 @@ struct TestCounts {
 
 /// The hooks, doing nothing. Other observers have the same members.
 struct NoObserver {
-    void enter(int /*a*/, int /*b*/) {}                 ///< a pair of nodes is about to be tested
-    void leave() {}                                     ///< ... and it and all below it is done
+    void enter(int /*a*/, int /*b*/) {}  ///< a pair of nodes is about to be tested
+    void leave() {}                      ///< ... and it and all below it is done
     void time_test(bool /*overlap*/) {}
     void box_test(BoxKind /*test*/, const Separation&) {}
     void sample_pair(int /*i*/, int /*j*/, double /*squared_distance*/) {}
-    void sample_test(bool /*hit*/) {}                   ///< after the pairs of two leaves
+    void sample_test(bool /*hit*/) {}  ///< after the pairs of two leaves
 };
 
 /// Counts tests.

@@ -8,7 +8,8 @@
 
 namespace mobb {
 
-/// Two half-open time intervals overlap if they share more than this many seconds; sharing an end point is not overlapping.
+/// Two half-open time intervals overlap if they share more than this many seconds; sharing an end point is not
+/// overlapping.
 inline constexpr double kMinOverlap = 1e-9;
 
 inline bool overlap_in_time(double begin_a, double end_a, double begin_b, double end_b) {

@@ -37,8 +37,8 @@ inline Contact contact_of(const PlacedClip& a, int i, const PlacedClip& b, int j
     return {std::max(a.time(i), b.time(j)), i, j, std::sqrt(squared_distance(disk_a, disk_b)), disk_a.r + disk_b.r};
 }
 
-/// The earliest contact of two trees, or none. The answer does not depend on the trees' kinds, only on the clips; it is that
-/// of direct_search bit for bit. Trees of different time scales may be asked; their 3D boxes then prune nothing.
+/// The earliest contact of two trees, or none. The answer does not depend on the trees' kinds, only on the clips; it is
+/// that of direct_search bit for bit. Trees of different time scales may be asked; their 3D boxes then prune nothing.
 template <NodeSource A, NodeSource B, class Observer>
 std::optional<Contact> query(const A& a, const B& b, Observer& observer) {
     std::optional<Contact> contact;
@@ -54,7 +54,8 @@ std::optional<Contact> query(const PlacedTree& a, const PlacedTree& b);
 /// All intervals of contact, earliest first.
 std::vector<Interval> contact_intervals(const PlacedTree& a, const PlacedTree& b);
 
-/// The answer without a tree: every pair of samples that overlap in time is measured, in order of time, up to the first hit.
+/// The answer without a tree: every pair of samples that overlap in time is measured, in order of time, up to the first
+/// hit.
 template <class Observer>
 std::optional<Contact> direct_search(const PlacedClip& a, const PlacedClip& b, Observer& observer) {
     std::optional<Contact> contact;

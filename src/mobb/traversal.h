@@ -37,7 +37,8 @@ inline int first_ending_after(const PlacedClip& clip, int first, int last, doubl
 }
 
 /// Visits, in order of time, every pair (i, j) of samples from [first_a, end_a) x [first_b, end_b) whose hold intervals
-/// overlap, measures their distance, and calls on_hit(i, j) on those that collide. Stops and returns true once on_hit does.
+/// overlap, measures their distance, and calls on_hit(i, j) on those that collide. Stops and returns true once on_hit
+/// does.
 template <class Observer, class OnHit>
 bool visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b, int end_b,
                         Observer& observer, OnHit& on_hit) {
@@ -64,8 +65,8 @@ bool visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const Place
     return false;
 }
 
-/// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says whether
-/// to stop.
+/// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says
+/// whether to stop.
 template <NodeSource A, NodeSource B, class Observer, class OnHit>
 class Traversal {
   public:

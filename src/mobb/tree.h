@@ -22,10 +22,10 @@ enum class TreeKind : std::uint8_t {
 
 struct FitOptions {
     TreeKind tree = TreeKind::mobb;  ///< the paper's best all round
-    int leaf = 10;                   ///< n_min >= 1: a node of at most so many samples is a leaf; 10 is the paper's optimum
-    int levels = 0;                  ///< 0: all; n >= 1: level n-1 is the last. 1 is the paper's "1 level" tree
-    Axes axes = Axes::endpoints;     ///< the paper's
-    double time_scale = 1.0;         ///< w > 0, metres per second that mix time with space in 3D boxes; the paper's is 1
+    int leaf = 10;   ///< n_min >= 1: a node of at most so many samples is a leaf; 10 is the paper's optimum
+    int levels = 0;  ///< 0: all; n >= 1: level n-1 is the last. 1 is the paper's "1 level" tree
+    Axes axes = Axes::endpoints;  ///< the paper's
+    double time_scale = 1.0;      ///< w > 0, metres per second that mix time with space in 3D boxes; the paper's is 1
 
     friend bool operator==(const FitOptions&, const FitOptions&) = default;
 };
@@ -83,12 +83,14 @@ class Tree {
 /// Throws std::invalid_argument, naming the option, if one is out of range.
 void check(const FitOptions& options);
 
-/// How well one level bounds its clip. The figures cover the level's nodes and the leaves above it: always the whole clip.
+/// How well one level bounds its clip. The figures cover the level's nodes and the leaves above it: always the whole
+/// clip.
 struct LevelFigures {
     int level = 0;
     int nodes = 0;
-    double volume = 0;                ///< of the boxes, m^2*s
-    std::optional<double> tightness;  ///< volume of the cylinders / volume of the boxes; none where the boxes have no volume
+    double volume = 0;  ///< of the boxes, m^2*s
+    std::optional<double>
+        tightness;  ///< volume of the cylinders / volume of the boxes; none where the boxes have no volume
 };
 std::vector<LevelFigures> level_figures(const Tree& tree);
 

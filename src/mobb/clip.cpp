@@ -1,0 +1,59 @@
+#include <mobb/clip.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace mobb {
+
+namespace {
+
+bool within(double value, double limit) { return std::isfinite(value) && std::abs(value) <= limit; }
+
+}  // namespace
+
+Clip::Clip(double dt, std::vector<Disk> samples) : dt_(dt), samples_(std::move(samples)), reach_(0) {
+    if (!std::isfinite(dt) || dt <= 0) throw std::invalid_argument("dt must be a finite number above 0 s");
+    if (samples_.empty()) throw std::invalid_argument("a clip needs at least one sample");
+    if (samples_.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() / 4)) {
+        throw std::invalid_argument("a clip holds at most 536870911 samples");
+    }
+    if (duration() > kMaxTime) throw std::invalid_argument("the clip lasts longer than 1e12 s");
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        const Disk& d = samples_[i];
+        const auto fail = [i](const char* what) {
+            throw std::invalid_argument("sample " + std::to_string(i) + ": " + what);
+        };
+        if (!within(d.x, kMaxLength)) fail("x must be finite and within 1e9 m");
+        if (!within(d.y, kMaxLength)) fail("y must be finite and within 1e9 m");
+        if (!within(d.r, kMaxLength) || d.r < 0) fail("r must be finite, not negative and within 1e9 m");
+        reach_ = std::max(reach_, std::abs(d.x) + std::abs(d.y) + d.r);
+    }
+}
+
+bool is_valid(const Placement& placement) {
+    return within(placement.translate.x, kMaxLength) && within(placement.translate.y, kMaxLength) &&
+           within(placement.rotate_deg, 1e9) && within(placement.start, kMaxTime);
+}
+
+Rotation Rotation::from_degrees(double degrees) {
+    // Quarter turns first, so that 90, 180 and 270 degrees are exact and the rest is small.
+    const double quarters = std::nearbyint(degrees / 90);
+    const double rest = (degrees - quarters * 90) * (std::numbers::pi / 180);
+    const double c = std::cos(rest);
+    const double s = std::sin(rest);
+    switch (static_cast<long long>(quarters) & 3) {
+        case 0:
+            return {c, s};
+        case 1:
+            return {-s, c};
+        case 2:
+            return {-c, -s};
+        default:
+            return {s, -c};
+    }
+}
+
+}  // namespace mobb

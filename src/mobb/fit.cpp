@@ -1,0 +1,317 @@
+#include <mobb/fit.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace mobb {
+
+namespace {
+
+using Axes3 = std::array<glm::dvec3, 3>;
+
+std::span<const Disk> disks(const Clip& clip, SampleRange range) {
+    return clip.samples().subspan(static_cast<std::size_t>(range.first), static_cast<std::size_t>(range.count));
+}
+
+glm::dvec2 perpendicular(glm::dvec2 u) { return {-u.y, u.x}; }
+
+/// Extent of a set along one axis.
+struct Extent {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    void add(double from, double to) {
+        low = std::min(low, from);
+        high = std::max(high, to);
+    }
+    double length() const { return high - low; }
+    double center() const { return (low + high) / 2; }
+    double half() const { return (high - low) / 2; }
+};
+
+/// Extents of the disks along u and its perpendicular (paper, Section 3.1: add and subtract r).
+std::array<Extent, 2> extents(std::span<const Disk> disks, glm::dvec2 u) {
+    std::array<Extent, 2> e;
+    for (const Disk& d : disks) {
+        const double along = d.x * u.x + d.y * u.y;
+        const double across = d.y * u.x - d.x * u.y;
+        e[0].add(along - d.r, along + d.r);
+        e[1].add(across - d.r, across + d.r);
+    }
+    return e;
+}
+
+Box rectangle_over_time(const Clip& clip, SampleRange range, glm::dvec2 u, double w) {
+    const std::array<Extent, 2> e = extents(disks(clip, range), u);
+    const glm::dvec2 v = perpendicular(u);
+    const glm::dvec2 center = e[0].center() * u + e[1].center() * v;
+    const double t0 = w * (range.first * clip.dt());
+    const double t1 = w * (range.end() * clip.dt());
+    Box box;
+    box.kind = BoxKind::obb2d;
+    box.center = {center.x, center.y, (t0 + t1) / 2};
+    box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{v.x, v.y, 0}, glm::dvec3{0, 0, 1}};
+    box.half = {e[0].half(), e[1].half(), (t1 - t0) / 2};
+    return box;
+}
+
+/// The box along given axes. A cylinder spans p.a -/+ r*|a_xy|, and its height w*dt shifts one side by w*dt*a_t: Fig.
+/// 6, whose signs hold for one orientation only.
+Box box_along(const Clip& clip, SampleRange range, const Axes3& axes, double w) {
+    const double height = w * clip.dt();
+    Box box;
+    box.kind = BoxKind::obb3d;
+    box.axes = axes;
+    box.center = {0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 a = axes[static_cast<std::size_t>(k)];
+        const double in_plane = std::hypot(a.x, a.y);
+        const double below = std::min(0.0, height * a.z);
+        const double above = std::max(0.0, height * a.z);
+        Extent e;
+        int i = range.first;
+        for (const Disk& d : disks(clip, range)) {
+            const double p = d.x * a.x + d.y * a.y + (height * i) * a.z;
+            e.add(p - d.r * in_plane + below, p + d.r * in_plane + above);
+            ++i;
+        }
+        box.center += e.center() * a;
+        box.half[k] = e.half();
+    }
+    return box;
+}
+
+/// Of the two opposite directions, the one with the positive first component that is not zero.
+glm::dvec2 positive(glm::dvec2 u) { return u.x < 0 || (u.x == 0 && u.y < 0) ? -u : u; }
+
+/// Principal axis of the centres; +x where they have none.
+glm::dvec2 principal_axis(std::span<const Disk> disks) {
+    // Offsets from the first centre: a standing figure gives exact zeros, wherever it stands.
+    double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+    for (const Disk& d : disks) {
+        const double x = d.x - disks[0].x;
+        const double y = d.y - disks[0].y;
+        sx += x, sy += y;
+        sxx += x * x, sxy += x * y, syy += y * y;
+    }
+    const double n = static_cast<double>(disks.size());
+    const double cxx = sxx - sx * sx / n;
+    const double cxy = sxy - sx * sy / n;
+    const double cyy = syy - sy * sy / n;
+    const double angle = 0.5 * std::atan2(2 * cxy, cxx - cyy);
+    return positive({std::cos(angle), std::sin(angle)});
+}
+
+/// From the first centre to the last; where they coincide (standing still, a closed loop) the principal axis.
+glm::dvec2 travel_axis(std::span<const Disk> disks) {
+    const glm::dvec2 travel{disks.back().x - disks.front().x, disks.back().y - disks.front().y};
+    const double length = glm::length(travel);
+    return length > kStandingStill ? travel / length : principal_axis(disks);
+}
+
+/// The direction of the smallest rectangle around the disks, over 1,800 angles in a quarter turn and the two other
+/// axes.
+glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks) {
+    constexpr int kCells = 90;
+    constexpr int kAnglesPerCell = 20;
+    constexpr double kCellAngle = std::numbers::pi / 2 / kCells;
+
+    const auto sides = [&](glm::dvec2 u) {
+        const std::array<Extent, 2> e = extents(disks, u);
+        return glm::dvec2{e[0].length(), e[1].length()};
+    };
+    const auto direction = [](double angle) { return glm::dvec2{std::cos(angle), std::sin(angle)}; };
+
+    glm::dvec2 best = travel_axis(disks);
+    double best_area = std::numeric_limits<double>::infinity();
+    const auto consider = [&](glm::dvec2 u, glm::dvec2 side) {
+        if (side.x * side.y < best_area) {
+            best_area = side.x * side.y;
+            best = u;
+        }
+    };
+    consider(best, sides(best));
+    const glm::dvec2 principal = principal_axis(disks);
+    consider(principal, sides(principal));
+
+    // A side changes by at most the diameter of the centres per radian: a whole cell of angles can be ruled out at
+    // once.
+    double reach = 0;
+    for (const Disk& d : disks) reach = std::max(reach, std::hypot(d.x - disks[0].x, d.y - disks[0].y));
+    const double most_change = 2 * reach * kCellAngle / 2;
+
+    std::array<glm::dvec2, kCells> cell_sides;
+    for (int cell = 0; cell < kCells; ++cell) {
+        const glm::dvec2 u = direction((cell + 0.5) * kCellAngle);
+        cell_sides[static_cast<std::size_t>(cell)] = sides(u);
+        consider(u, cell_sides[static_cast<std::size_t>(cell)]);
+    }
+    for (int cell = 0; cell < kCells; ++cell) {
+        const glm::dvec2 side = cell_sides[static_cast<std::size_t>(cell)];
+        const double least = std::max(0.0, side.x - most_change) * std::max(0.0, side.y - most_change);
+        if (least >= best_area) continue;
+        for (int i = 0; i < kAnglesPerCell; ++i) {
+            const glm::dvec2 u = direction((cell + static_cast<double>(i) / kAnglesPerCell) * kCellAngle);
+            consider(u, sides(u));
+        }
+    }
+    return best;
+}
+
+glm::dvec2 axis_2d(std::span<const Disk> disks, Axes axes) {
+    switch (axes) {
+        case Axes::endpoints:
+            return travel_axis(disks);
+        case Axes::covariance:
+            return principal_axis(disks);
+        case Axes::minarea:
+            return smallest_rectangle_axis(disks);
+    }
+    return {1, 0};
+}
+
+bool is_along_time(glm::dvec3 a) { return std::hypot(a.x, a.y) < 1e-12; }
+
+/// a1 lies in the floor, across a0; a2 completes the frame (paper, Section 4). a0 must not be along time.
+Axes3 frame_around(glm::dvec3 a0) {
+    const glm::dvec3 a1 = glm::normalize(glm::dvec3{a0.y, -a0.x, 0});
+    return {a0, a1, glm::cross(a0, a1)};
+}
+
+glm::dvec3 space_time_travel(const Clip& clip, SampleRange range, double w) {
+    const std::span<const Disk> d = disks(clip, range);
+    return glm::normalize(
+        glm::dvec3{d.back().x - d.front().x, d.back().y - d.front().y, w * (range.count - 1) * clip.dt()});
+}
+
+/// Turns two columns of a frame into each other.
+void turn(glm::dvec3& a, glm::dvec3& b, double c, double s) {
+    const glm::dvec3 turned = c * a + s * b;
+    b = c * b - s * a;
+    a = turned;
+}
+
+/// Principal axes of the centres in (x, y, w*t), longest first, by Jacobi's method on their 3x3 covariance.
+Axes3 principal_axes(const Clip& clip, SampleRange range, double w) {
+    const std::span<const Disk> d = disks(clip, range);
+    glm::dvec3 sum{0};
+    double m[3][3] = {};
+    int i = 0;
+    for (const Disk& disk : d) {
+        const glm::dvec3 p{disk.x - d[0].x, disk.y - d[0].y, w * clip.dt() * i++};
+        sum += p;
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c) m[r][c] += p[r] * p[c];
+    }
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) m[r][c] -= sum[r] * sum[c] / range.count;
+
+    Axes3 v{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0}, glm::dvec3{0, 0, 1}};
+    for (int sweep = 0; sweep < 32; ++sweep) {
+        const double off = std::abs(m[0][1]) + std::abs(m[0][2]) + std::abs(m[1][2]);
+        if (off <= 1e-15 * (std::abs(m[0][0]) + std::abs(m[1][1]) + std::abs(m[2][2]))) break;
+        for (int p = 0; p < 2; ++p) {
+            for (int q = p + 1; q < 3; ++q) {
+                if (m[p][q] == 0) continue;
+                const double angle = 0.5 * std::atan2(2 * m[p][q], m[p][p] - m[q][q]);
+                const double c = std::cos(angle);
+                const double s = std::sin(angle);
+                for (int k = 0; k < 3; ++k) {
+                    const double mp = m[k][p], mq = m[k][q];
+                    m[k][p] = c * mp + s * mq;
+                    m[k][q] = c * mq - s * mp;
+                }
+                for (int k = 0; k < 3; ++k) {
+                    const double mp = m[p][k], mq = m[q][k];
+                    m[p][k] = c * mp + s * mq;
+                    m[q][k] = c * mq - s * mp;
+                }
+                turn(v[static_cast<std::size_t>(p)], v[static_cast<std::size_t>(q)], c, s);
+            }
+        }
+    }
+    std::array<std::size_t, 3> order{0, 1, 2};
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return m[a][a] > m[b][b]; });
+    const glm::dvec3 a0 = v[order[0]] * (v[order[0]].z < 0 ? -1.0 : 1.0);
+    // A straight walk has no second direction: take the floor's.
+    if (m[order[1]][order[1]] <= 1e-12 * m[order[0]][order[0]] && !is_along_time(a0)) return frame_around(a0);
+    return {a0, v[order[1]], glm::cross(a0, v[order[1]])};
+}
+
+/// The box along axes of which one may turn out to be time's.
+Box box_along_or_upright(const Clip& clip, SampleRange range, const Axes3& axes, double w) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!is_along_time(axes[k])) continue;
+        const glm::dvec3 u = axes[(k + 1) % 3];
+        return rectangle_over_time(clip, range, positive(glm::normalize(glm::dvec2{u.x, u.y})), w);
+    }
+    return box_along(clip, range, axes, w);
+}
+
+/// Turns the box about its own axes by ever smaller steps for as long as its volume shrinks.
+Box shrink_by_turning(const Clip& clip, SampleRange range, Box best, double w) {
+    constexpr double kFirstStep = 0.2;   // radians
+    constexpr double kLastStep = 0.002;  // below this the volume no longer changes by a per mille
+    constexpr int kMostTurnsPerStep = 32;
+    double least = volume(best, w);
+    for (double step = kFirstStep; step > kLastStep; step /= 2) {
+        const double c = std::cos(step);
+        const double s = std::sin(step);
+        bool improved = true;
+        for (int turns = 0; improved && turns < kMostTurnsPerStep; ++turns) {
+            improved = false;
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (const double sign : {1.0, -1.0}) {
+                    Axes3 axes = best.axes;
+                    turn(axes[k], axes[(k + 1) % 3], c, sign * s);
+                    const Box turned = box_along_or_upright(clip, range, axes, w);
+                    if (volume(turned, w) < least) {
+                        least = volume(turned, w);
+                        best = turned;
+                        improved = true;
+                    }
+                }
+            }
+        }
+    }
+    return best;
+}
+
+Box smallest_box(const Clip& clip, SampleRange range, double w) {
+    Box best = box_along(clip, range, frame_around(space_time_travel(clip, range, w)), w);
+    const auto consider = [&](const Box& box) {
+        if (volume(box, w) < volume(best, w)) best = box;
+    };
+    consider(box_along_or_upright(clip, range, principal_axes(clip, range, w), w));
+    consider(fit_obb2d(clip, range, Axes::minarea, w));
+    return shrink_by_turning(clip, range, best, w);
+}
+
+}  // namespace
+
+Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
+    return rectangle_over_time(clip, range, axis_2d(disks(clip, range), axes), time_scale);
+}
+
+Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
+    const std::span<const Disk> d = disks(clip, range);
+    const double travel = std::hypot(d.back().x - d.front().x, d.back().y - d.front().y);
+    if (range.count == 1 || travel <= kStandingStill) return fit_obb2d(clip, range, axes, time_scale);
+    switch (axes) {
+        case Axes::endpoints:
+            return box_along_or_upright(clip, range, frame_around(space_time_travel(clip, range, time_scale)),
+                                        time_scale);
+        case Axes::covariance:
+            return box_along_or_upright(clip, range, principal_axes(clip, range, time_scale), time_scale);
+        case Axes::minarea:
+            return smallest_box(clip, range, time_scale);
+    }
+    return {};
+}
+
+}  // namespace mobb

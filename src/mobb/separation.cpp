@@ -1,0 +1,97 @@
+#include <mobb/separation.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace mobb {
+
+namespace {
+
+/// Roundings between a sample and a gap, counted generously: fitting, two placements, the rotation, the projections.
+constexpr double kSlackFactor = 256 * std::numeric_limits<double>::epsilon();
+
+/// Edge-edge axes shorter than this are skipped.
+constexpr double kShortestEdgeAxis = 1e-3;
+
+double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
+
+}  // namespace
+
+RelativeFrame::RelativeFrame(const PlacedClip& a, const PlacedClip& b, double time_scale)
+    : rotation_(a.rotation().inverse() * b.rotation()) {
+    const glm::dvec2 between = a.rotation().inverse()(b.placement().translate - a.placement().translate);
+    offset_ = {between.x, between.y, time_scale * (b.placement().start - a.placement().start)};
+    const double lengths =
+        manhattan(a.placement().translate) + manhattan(b.placement().translate) + a.clip().reach() + b.clip().reach();
+    const double times =
+        std::abs(a.placement().start) + std::abs(b.placement().start) + a.clip().duration() + b.clip().duration();
+    slack2d_ = kSlackFactor * lengths;
+    slack3d_ = kSlackFactor * (lengths + time_scale * times);
+}
+
+Separation separate_obb2d(const Box& a, const Box& b, const RelativeFrame& frame) {
+    const glm::dvec2 u{a.axes[0].x, a.axes[0].y};
+    const glm::dvec2 v = frame.direction(glm::dvec2{b.axes[0].x, b.axes[0].y});
+    const glm::dvec3 center_b = frame.point(b.center);
+    const glm::dvec2 d{center_b.x - a.center.x, center_b.y - a.center.y};
+    const double c = std::abs(u.x * v.x + u.y * v.y);
+    const double s = std::abs(u.x * v.y - u.y * v.x);
+    const double slack = frame.slack2d();
+
+    const double a0 = std::abs(d.x * u.x + d.y * u.y) - (a.half.x + b.half.x * c + b.half.y * s);
+    if (a0 > slack) return {0, a0};
+    const double a1 = std::abs(d.y * u.x - d.x * u.y) - (a.half.y + b.half.x * s + b.half.y * c);
+    if (a1 > slack) return {1, a1};
+    const double b0 = std::abs(d.x * v.x + d.y * v.y) - (b.half.x + a.half.x * c + a.half.y * s);
+    if (b0 > slack) return {2, b0};
+    const double b1 = std::abs(d.y * v.x - d.x * v.y) - (b.half.y + a.half.x * s + a.half.y * c);
+    if (b1 > slack) return {3, b1};
+    return {};
+}
+
+Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame) {
+    const glm::dvec3 axes_b[3] = {frame.direction(b.axes[0]), frame.direction(b.axes[1]), frame.direction(b.axes[2])};
+    const glm::dvec3 d = frame.point(b.center) - a.center;
+    const double slack = frame.slack3d();
+
+    double r[3][3];  // r[i][j] = A's axis i . B's axis j
+    double abs_r[3][3];
+    double t[3];  // d along A's axes
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3& axis_a = a.axes[static_cast<std::size_t>(i)];
+        for (int j = 0; j < 3; ++j) {
+            r[i][j] = glm::dot(axis_a, axes_b[j]);
+            abs_r[i][j] = std::abs(r[i][j]);
+        }
+        t[i] = glm::dot(d, axis_a);
+    }
+    for (int i = 0; i < 3; ++i) {
+        const double reach_b = b.half[0] * abs_r[i][0] + b.half[1] * abs_r[i][1] + b.half[2] * abs_r[i][2];
+        const double gap = std::abs(t[i]) - (a.half[i] + reach_b);
+        if (gap > slack) return {i, gap};
+    }
+    for (int j = 0; j < 3; ++j) {
+        const double reach_a = a.half[0] * abs_r[0][j] + a.half[1] * abs_r[1][j] + a.half[2] * abs_r[2][j];
+        const double gap = std::abs(glm::dot(d, axes_b[j])) - (b.half[j] + reach_a);
+        if (gap > slack) return {3 + j, gap};
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+        for (int j = 0; j < 3; ++j) {
+            const double length_squared = 1 - r[i][j] * r[i][j];
+            if (length_squared < kShortestEdgeAxis * kShortestEdgeAxis) continue;
+            const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+            const double distance = std::abs(t[i2] * r[i1][j] - t[i1] * r[i2][j]);
+            const double reach_a = a.half[i1] * abs_r[i2][j] + a.half[i2] * abs_r[i1][j];
+            const double reach_b = b.half[j1] * abs_r[i][j2] + b.half[j2] * abs_r[i][j1];
+            // Along the axis as it comes, not yet of unit length: there the rounding errors are those the slack covers.
+            const double gap = distance - (reach_a + reach_b);
+            if (gap > slack) return {6 + 3 * i + j, gap / std::sqrt(length_squared)};
+        }
+    }
+    return {};
+}
+
+}  // namespace mobb
