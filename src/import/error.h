@@ -6,8 +6,8 @@
 
 namespace mobbscope {
 
-/// A file or value given by the user cannot be used. what() is one line: the file (and, where one file names another, both),
-/// the place in it, and what to do. The program exits with 2.
+/// A file or value given by the user cannot be used. what() is one line: the file (and, where one file names another,
+/// both), the place in it, and what to do. The program exits with 2.
 class InputError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -4,8 +4,10 @@
 #include <mobb/clip.h>
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -15,29 +17,61 @@ enum class Origin { keep, start, start_heading };
 /// How a file becomes clips: the import keys of a scene's clip and the import options of the command line.
 /// An empty option takes the default of the contract, section 2.
 struct ImportOptions {
-    std::optional<std::string> animation;  ///< index or name; a number counts as an index
-    std::optional<std::string> root;       ///< joint name
-    std::optional<double> fps;             ///< samples per second, > 0; default 30
-    std::optional<std::string> unit;       ///< "m", "cm", "in", "auto" or metres per file unit
-    std::optional<std::string> up;         ///< "y" or "z"
+    std::optional<std::string> animation;           ///< index or name; a number counts as an index
+    std::optional<std::string> root;                ///< joint name
+    std::optional<double> fps;                      ///< samples per second, > 0; default 30
+    std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit
+    std::optional<std::string> up;                  ///< "y" or "z"
     std::optional<std::pair<double, double>> trim;  ///< file seconds from the first key, before sampling
     std::optional<Origin> origin;
-    std::optional<std::string> id;   ///< CSV: the track to take
-    std::optional<double> radius;    ///< metres; overrides r of every sample
-    std::optional<double> dt;        ///< seconds between rows of a CSV without a time column
+    std::optional<std::string> id;  ///< CSV: the track to take
+    std::optional<double> radius;   ///< metres; overrides r of every sample
+    std::optional<double> dt;       ///< seconds between rows of a CSV without a time column
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };
 
-/// A clip and where it came from.
-struct ImportedClip {
-    std::string name;    ///< the file's stem; of one clip of several, the track's id or the animation's name
-    std::string id;      ///< CSV with many tracks: the track; else empty
-    mobb::ClipPtr clip;
+/// Throws std::invalid_argument, naming the option, if one is out of range whatever the file.
+void check(const ImportOptions& options);
+
+/// Names as they stand in files: "keep", "start", "start_heading".
+std::string_view name(Origin origin);
+std::optional<Origin> origin_from_name(std::string_view name);
+
+/// What the file said, before sampling.
+struct SourceFacts {
+    std::string format;  ///< "csv"
+    double unit = 1;     ///< metres per file unit
+    int frames = 0;
+    std::optional<double> dt;           ///< seconds between frames, where they are uniform
+    double duration = 0;                ///< last key - first key, seconds
+    std::vector<std::string> warnings;  ///< what was passed over, one sentence each
 };
 
-/// Every clip in a file, by its extension (.csv so far), in the file's order: of a CSV with many tracks each of them, unless
-/// options.id names one. Throws InputError.
+/// A clip and where it came from.
+struct ImportedClip {
+    std::string name;  ///< the file's stem; of one clip of several, the track's id or the animation's name
+    std::string id;    ///< CSV with many tracks: the track; else empty
+    mobb::ClipPtr clip;
+    SourceFacts facts;
+};
+
+/// Reads clips from files, each file once however many of its clips are asked for.
+class Importer {
+  public:
+    Importer();
+    ~Importer();
+
+    /// Every clip in a file, by its extension (.csv so far), in the file's order: of a CSV with many tracks each of
+    /// them, unless options.id names one. Throws InputError.
+    std::vector<ImportedClip> clips(const std::filesystem::path& file, const ImportOptions& options);
+
+  private:
+    struct ParsedFiles;
+    std::unique_ptr<ParsedFiles> parsed_;
+};
+
+/// The same for one file.
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace mobbscope

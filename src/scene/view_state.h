@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace mobbscope {
 
@@ -62,5 +63,12 @@ LevelRange parse_level_range(const std::string& text);
 Step parse_step(const std::string& text);
 /// "iso", "top", "front", "side" (and "free"); nothing for any other name.
 std::optional<CameraPreset> camera_preset(const std::string& name);
+/// The names as they stand in files and on the command line.
+std::string_view name(CameraPreset preset);
+std::string_view name(Theme theme);
+std::optional<Theme> theme_from_name(std::string_view name);
+/// What parse_level_range and parse_step read.
+std::string to_string(const LevelRange& levels);
+std::string to_string(const Step& step);
 
 }  // namespace mobbscope

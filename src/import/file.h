@@ -1,0 +1,20 @@
+/// Whole files, read and written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace mobbscope {
+
+/// All bytes of a regular file. Throws InputError if it is missing, unreadable, no regular file or beyond 2 GiB.
+std::string read_file(const std::filesystem::path& file);
+
+/// Writes a file whole or not at all: into a temporary file beside it, which then takes its name. What was there stays
+/// until then, so reading from and writing to one name is safe. Throws MachineError.
+void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// The extension in lower case, with its dot (".csv"); "" if there is none.
+std::string lower_extension(const std::filesystem::path& file);
+
+}  // namespace mobbscope

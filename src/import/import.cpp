@@ -1,0 +1,87 @@
+#include <import/csv.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <import/import.h>
+#include <import/text.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kMaxFps = 1e6;
+constexpr double kMaxUnit = 1e6;
+constexpr std::array<std::pair<std::string_view, Origin>, 3> kOrigins{
+    {{"keep", Origin::keep}, {"start", Origin::start}, {"start_heading", Origin::start_heading}}};
+
+void require(bool in_range, const std::string& message) {
+    if (!in_range) throw std::invalid_argument(message);
+}
+
+bool is_unit(const std::string& text) {
+    if (text == "m" || text == "cm" || text == "in" || text == "auto") return true;
+    const std::optional<double> scale = parse_double(text);
+    return scale && *scale > 0 && *scale <= kMaxUnit;
+}
+
+}  // namespace
+
+void check(const ImportOptions& options) {
+    // Written so that NaN fails each of them.
+    require(!options.fps || (*options.fps > 0 && *options.fps <= kMaxFps), "fps must be over 0 and at most 1000000");
+    require(!options.unit || is_unit(*options.unit),
+            "unit must be m, cm, in, auto or metres per file unit (over 0, at most 1000000)");
+    require(!options.up || *options.up == "y" || *options.up == "z", "up must be y or z");
+    require(!options.trim || (options.trim->first >= 0 && options.trim->first < options.trim->second &&
+                              options.trim->second <= mobb::kMaxTime),
+            "trim must be two times A and B in seconds, 0 <= A < B");
+    require(!options.radius || (*options.radius >= 0 && *options.radius <= mobb::kMaxLength),
+            "radius must be 0 or more metres");
+    require(!options.dt || (*options.dt > 0 && *options.dt <= mobb::kMaxTime), "dt must be over 0 seconds");
+}
+
+std::string_view name(Origin origin) {
+    for (const auto& [text, value] : kOrigins) {
+        if (value == origin) return text;
+    }
+    return "";
+}
+
+std::optional<Origin> origin_from_name(std::string_view name) {
+    for (const auto& [text, value] : kOrigins) {
+        if (text == name) return value;
+    }
+    return std::nullopt;
+}
+
+struct Importer::ParsedFiles {
+    std::map<std::filesystem::path, CsvTable> tables;
+};
+
+Importer::Importer() : parsed_(std::make_unique<ParsedFiles>()) {}
+Importer::~Importer() = default;
+
+std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, const ImportOptions& options) {
+    try {
+        check(options);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(file.string(), "", error.what());
+    }
+    // The one place that knows which reader takes which extension.
+    if (lower_extension(file) == ".csv") {
+        auto table = parsed_->tables.find(file);
+        if (table == parsed_->tables.end()) {
+            table = parsed_->tables.emplace(file, parse_csv(read_file(file), file.string())).first;
+        }
+        return csv_clips(table->second, file, options);
+    }
+    throw InputError(file.string(), "", "no reader for this kind of file; clips can be .csv, scenes .json");
+}
+
+std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {
+    return Importer().clips(file, options);
+}
+
+}  // namespace mobbscope

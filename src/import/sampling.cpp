@@ -1,0 +1,78 @@
+#include <import/sampling.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kHeadingDistance = 0.1;  // metres: the contract's least distance that gives a heading
+
+mobb::Disk mix(const mobb::Disk& a, const mobb::Disk& b, double share) {
+    return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.r, b.r, share)};
+}
+
+}  // namespace
+
+bool is_uniform(std::span<const TimedDisk> frames) {
+    const double begin = frames.front().t;
+    const double dt = (frames.back().t - begin) / static_cast<double>(frames.size() - 1);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (std::abs(frames[i].t - (begin + static_cast<double>(i) * dt)) > kFrameTolerance * dt) return false;
+    }
+    return true;
+}
+
+double sample_count(double begin, double end, double step) {
+    return std::max(std::floor((end - begin) / step + kFrameTolerance), 0.0) + 1;
+}
+
+std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, double begin, double step, std::size_t count) {
+    std::vector<mobb::Disk> out;
+    out.reserve(count);
+    std::size_t next = 0;  // the first frame not before the time
+    for (std::size_t k = 0; k < count; ++k) {
+        const double t = begin + static_cast<double>(k) * step;
+        while (next < frames.size() && frames[next].t < t) ++next;
+        if (next == 0) {
+            out.push_back(frames.front().disk);
+        } else if (next == frames.size()) {
+            out.push_back(frames.back().disk);
+        } else {
+            const TimedDisk& a = frames[next - 1];
+            const TimedDisk& b = frames[next];
+            const double share = (t - a.t) / (b.t - a.t);
+            if (share <= kFrameTolerance) {
+                out.push_back(a.disk);
+            } else if (share >= 1 - kFrameTolerance) {
+                out.push_back(b.disk);
+            } else {
+                out.push_back(mix(a.disk, b.disk, share));
+            }
+        }
+    }
+    return out;
+}
+
+void put_at_origin(std::vector<mobb::Disk>& samples, Origin origin) {
+    if (origin == Origin::keep) return;
+    const mobb::Disk start = samples.front();
+    for (mobb::Disk& disk : samples) {
+        disk.x -= start.x;
+        disk.y -= start.y;
+    }
+    if (origin == Origin::start) return;
+    for (const mobb::Disk& ahead : samples) {
+        const double distance = std::hypot(ahead.x, ahead.y);
+        if (distance < kHeadingDistance) continue;
+        const double c = ahead.x / distance;
+        const double s = ahead.y / distance;
+        for (mobb::Disk& disk : samples) {
+            disk = {c * disk.x + s * disk.y, c * disk.y - s * disk.x, disk.r};
+        }
+        return;
+    }
+}
+
+}  // namespace mobbscope

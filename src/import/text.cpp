@@ -1,0 +1,99 @@
+#include <import/text.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kLongestQuote = 60;
+
+/// Levenshtein's edit distance in bytes.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::optional<double> parse_double(std::string_view text) {
+    // from_chars takes no plus sign and takes "inf" and "nan"; a file of numbers wants it the other way round.
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<int> parse_int(std::string_view text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::optional<std::pair<double, double>> parse_range(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const std::optional<double> first = parse_double(text.substr(0, colon));
+    const std::optional<double> last = parse_double(text.substr(colon + 1));
+    if (!first || !last) return std::nullopt;
+    return std::pair{*first, *last};
+}
+
+std::string format_double(double value) {
+    // A JSON reader takes "-0" for the integer 0 and loses the sign.
+    if (value == 0 && std::signbit(value)) return "-0.0";
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17);
+    return {buffer, end};
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string in_quotes(std::string_view text) {
+    std::string out = "'";
+    for (const char c : text.substr(0, kLongestQuote)) {
+        const auto byte = static_cast<unsigned char>(c);
+        out += byte < 0x20 || byte == 0x7f ? '?' : c;
+    }
+    if (text.size() > kLongestQuote) out += "...";
+    return out + "'";
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
+    const std::string* nearest = nullptr;
+    // A word that is wrong in half of its letters is another word.
+    std::size_t best = std::max<std::size_t>(word.size() / 2, 1) + 1;
+    if (word.size() > kLongestQuote) return "";
+    for (const std::string& name : names) {
+        if (name.size() > 2 * kLongestQuote) continue;
+        const std::size_t distance = edit_distance(word, name);
+        if (distance < best) {
+            best = distance;
+            nearest = &name;
+        }
+    }
+    return nearest ? " (did you mean " + in_quotes(*nearest) + "?)" : "";
+}
+
+}  // namespace mobbscope

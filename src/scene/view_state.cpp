@@ -1,0 +1,94 @@
+#include <import/text.h>
+#include <scene/view_state.h>
+
+#include <stdexcept>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr int kMaxLevel = 1000;  // far beyond the depth of any tree: halving 2^31 samples takes 31 levels
+
+std::optional<int> level(std::string_view text) {
+    const std::optional<int> value = parse_int(text);
+    return value && *value >= 0 && *value <= kMaxLevel ? value : std::nullopt;
+}
+
+}  // namespace
+
+LevelRange parse_level_range(const std::string& text) {
+    if (text == "leaves") return {0, kMaxLevel, true};
+    const std::size_t colon = text.find(':');
+    const std::optional<int> first = level(std::string_view(text).substr(0, colon));
+    const std::optional<int> last =
+        colon == std::string::npos ? first : level(std::string_view(text).substr(colon + 1));
+    if (!first || !last || *first > *last) {
+        throw std::invalid_argument(in_quotes(text) +
+                                    " is no range of levels: give a level (2), a range (1:3) or leaves");
+    }
+    return {*first, *last, false};
+}
+
+Step parse_step(const std::string& text) {
+    if (text == "end") return {Step::Unit::end, 0};
+    if (text.ends_with('%')) {
+        const std::optional<double> percent = parse_double(std::string_view(text).substr(0, text.size() - 1));
+        if (percent && *percent >= 0 && *percent <= 100) return {Step::Unit::percent, *percent};
+    } else if (const std::optional<int> event = parse_int(text); event && *event >= 0) {
+        return {Step::Unit::event, static_cast<double>(*event)};
+    }
+    throw std::invalid_argument(in_quotes(text) +
+                                " is no step: give an event number from 0, a percentage (40%) or end");
+}
+
+std::string to_string(const LevelRange& levels) {
+    if (levels.leaves) return "leaves";
+    const std::string first = std::to_string(levels.first);
+    return levels.first == levels.last ? first : first + ':' + std::to_string(levels.last);
+}
+
+std::string to_string(const Step& step) {
+    switch (step.unit) {
+        case Step::Unit::event:
+            return std::to_string(static_cast<int>(step.value));
+        case Step::Unit::percent:
+            return format_double(step.value) + '%';
+        case Step::Unit::end:
+            break;
+    }
+    return "end";
+}
+
+std::optional<CameraPreset> camera_preset(const std::string& name) {
+    for (const CameraPreset preset :
+         {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side, CameraPreset::free}) {
+        if (name == mobbscope::name(preset)) return preset;
+    }
+    return std::nullopt;
+}
+
+std::string_view name(CameraPreset preset) {
+    switch (preset) {
+        case CameraPreset::iso:
+            return "iso";
+        case CameraPreset::top:
+            return "top";
+        case CameraPreset::front:
+            return "front";
+        case CameraPreset::side:
+            return "side";
+        case CameraPreset::free:
+            return "free";
+    }
+    return "";
+}
+
+std::string_view name(Theme theme) { return theme == Theme::dark ? "dark" : "light"; }
+
+std::optional<Theme> theme_from_name(std::string_view text) {
+    if (text == "dark") return Theme::dark;
+    if (text == "light") return Theme::light;
+    return std::nullopt;
+}
+
+}  // namespace mobbscope
