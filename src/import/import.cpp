@@ -5,6 +5,7 @@
 #include <import/text.h>
 
 #include <array>
+#include <map>
 #include <stdexcept>
 
 namespace mobbscope {
