@@ -40,7 +40,7 @@ class Trace {
         Outcome outcome = Outcome::overlap;
         int axis = -1;   ///< of a separation (see Separation); else -1
         double gap = 0;  ///< of a separation, metres; else 0
-        std::span<const MeasuredPair> pairs;
+        std::span<const MeasuredPair> pairs{};  ///< of a samples test, in order
     };
 
     int size() const { return static_cast<int>(test_.size()); }

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+#include <mobb/clip.h>
+#include <mobb/predicate.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace mobb {
+namespace {
+
+TEST(Clip, RefusesWhatIsNotAMotion) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(Clip(0, {{0, 0, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(-1, {{0, 0, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(nan, {{0, 0, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(infinity, {{0, 0, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(1, {}), std::invalid_argument);
+    EXPECT_THROW(Clip(1, {{nan, 0, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(1, {{0, infinity, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(1, {{0, 0, -1e-9}}), std::invalid_argument);
+    EXPECT_THROW(Clip(1, {{1e10, 0, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(1e12, {{0, 0, 1}, {0, 0, 1}}), std::invalid_argument);
+    try {
+        Clip(1, {{0, 0, 1}, {0, 0, -1}});
+        FAIL();
+    } catch (const std::invalid_argument& error) {
+        EXPECT_STREQ(error.what(), "sample 1: r must be finite, not negative and within 1e9 m");
+    }
+}
+
+TEST(Clip, LastsAsLongAsItsCylinders) {
+    const Clip clip(0.5, {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}});
+    EXPECT_EQ(clip.duration(), 1.5);
+    EXPECT_EQ(clip.reach(), 3);
+}
+
+TEST(Rotation, QuarterTurnsAreExact) {
+    for (int quarters = -9; quarters <= 9; ++quarters) {
+        const Rotation r = Rotation::from_degrees(90.0 * quarters);
+        const int k = ((quarters % 4) + 4) % 4;
+        EXPECT_EQ(r.c, k == 0 ? 1 : k == 2 ? -1 : 0) << quarters;
+        EXPECT_EQ(r.s, k == 1 ? 1 : k == 3 ? -1 : 0) << quarters;
+    }
+}
+
+TEST(Rotation, AgreesWithTheFormula) {
+    for (double degrees = -725; degrees < 725; degrees += 7.3) {
+        const Rotation r = Rotation::from_degrees(degrees);
+        EXPECT_NEAR(r.c, std::cos(degrees * std::acos(-1.0) / 180), 1e-13);
+        EXPECT_NEAR(r.s, std::sin(degrees * std::acos(-1.0) / 180), 1e-13);
+    }
+}
+
+TEST(PlacedClip, RotatesAboutTheOriginThenTranslates) {
+    const Clip clip(0.25, {{1, 0, 0.5}, {2, 0, 0.5}});
+    const PlacedClip placed(clip, {.translate = {10, 20}, .rotate_deg = 90, .start = 3});
+    EXPECT_EQ(placed.disk(1).x, 10);
+    EXPECT_EQ(placed.disk(1).y, 22);
+    EXPECT_EQ(placed.disk(1).r, 0.5);
+    EXPECT_EQ(placed.time(0), 3);
+    EXPECT_EQ(placed.time(2), 3.5);
+}
+
+TEST(Predicate, TouchingIsNotColliding) {
+    EXPECT_FALSE(collide({0, 0, 1}, {2, 0, 1}));
+    EXPECT_TRUE(collide({0, 0, 1}, {std::nextafter(2.0, 0.0), 0, 1}));
+    EXPECT_FALSE(collide({0, 0, 0}, {0, 0, 0}));
+}
+
+TEST(Predicate, SharingAnEndPointIsNotOverlapping) {
+    EXPECT_FALSE(overlap_in_time(0, 1, 1, 2));
+    EXPECT_FALSE(overlap_in_time(0, 1 + 0.9e-9, 1, 2));
+    EXPECT_TRUE(overlap_in_time(0, 1 + 1.1e-9, 1, 2));
+}
+
+TEST(Placement, Validity) {
+    EXPECT_TRUE(is_valid({}));
+    EXPECT_FALSE(is_valid({.translate = {1e10, 0}}));
+    EXPECT_FALSE(is_valid({.rotate_deg = std::nan("")}));
+    EXPECT_FALSE(is_valid({.start = 1e13}));
+}
+
+}  // namespace
+}  // namespace mobb

@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+#include <mobb/random_motion.h>
+#include <mobb/tree.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace mobb {
+namespace {
+
+using test::Random;
+
+/// How far the cylinders of a range reach along a unit axis of (x, y, w*t): worked out from the rim, not from the
+/// formula.
+struct Reach {
+    double low = 1e300;
+    double high = -1e300;
+};
+Reach reach_along(const Clip& clip, SampleRange range, glm::dvec3 axis, double w) {
+    const double in_plane = std::sqrt(axis.x * axis.x + axis.y * axis.y);
+    const glm::dvec2 rim = in_plane > 0 ? glm::dvec2{axis.x, axis.y} / in_plane : glm::dvec2{1, 0};
+    Reach reach;
+    for (int i = range.first; i < range.end(); ++i) {
+        const Disk d = clip.samples()[static_cast<std::size_t>(i)];
+        for (const double side : {-1.0, 1.0}) {
+            for (const int end : {0, 1}) {
+                const glm::dvec3 p{d.x + side * d.r * rim.x, d.y + side * d.r * rim.y, w * clip.dt() * (i + end)};
+                const double along = glm::dot(p, axis);
+                reach.low = std::min(reach.low, along);
+                reach.high = std::max(reach.high, along);
+            }
+        }
+    }
+    return reach;
+}
+
+/// Contains every cylinder and touches one with each side, to 1e-6 m; axes are orthonormal.
+void expect_tight(const Clip& clip, SampleRange range, const Box& box, double w) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 axis = box.axes[k];
+        EXPECT_NEAR(glm::length(axis), 1, 1e-12);
+        EXPECT_NEAR(glm::dot(axis, box.axes[(k + 1) % 3]), 0, 1e-12);
+        const Reach reach = reach_along(clip, range, axis, w);
+        const double center = glm::dot(box.center, axis);
+        const double half = box.half[static_cast<int>(k)];
+        EXPECT_GE(half, 0);
+        EXPECT_NEAR(center - half, reach.low, 1e-9);
+        EXPECT_NEAR(center + half, reach.high, 1e-9);
+    }
+    if (box.kind == BoxKind::obb2d) {
+        EXPECT_EQ(box.axes[2], glm::dvec3(0, 0, 1));
+        EXPECT_EQ(box.axes[0].z, 0);
+    }
+}
+
+TEST(Fit, EveryBoxIsTightAndContainsItsCylinders) {
+    Random random(1);
+    for (int round = 0; round < 400; ++round) {
+        const ClipPtr clip = test::random_clip(random, 300);
+        FitOptions options = test::random_fit(random);
+        options.time_scale = random.chance(0.5) ? 1 : random.real(0.05, 20);
+        const Tree tree(clip, options);
+        for (const Node& node : tree.nodes()) {
+            expect_tight(*clip, {node.first, node.count}, node.box, options.time_scale);
+        }
+        if (HasFailure()) FAIL() << "round " << round;
+    }
+}
+
+TEST(Fit, MobbAxesRunFromFirstToLastSample) {
+    const Clip clip(0.1, {{0, 0, 0.5}, {5, -3, 0.2}, {3, 4, 0.4}});
+    const Box box = fit_obb2d(clip, {0, 3}, Axes::endpoints, 1);
+    EXPECT_NEAR(box.axes[0].x, 0.6, 1e-15);
+    EXPECT_NEAR(box.axes[0].y, 0.8, 1e-15);
+    EXPECT_NEAR(box.axes[1].x, -0.8, 1e-15);
+    EXPECT_NEAR(box.axes[1].y, 0.6, 1e-15);
+    EXPECT_NEAR(box.half.z, 0.15, 1e-15);
+}
+
+TEST(Fit, UmobbAxesOfTheRootAreThePapers) {
+    const Clip clip(0.5, {{0, 0, 0.3}, {1, 0, 0.3}, {2, 2, 0.3}});
+    const double w = 2;
+    const Box box = fit_obb3d(clip, {0, 3}, Axes::endpoints, w);
+    ASSERT_EQ(box.kind, BoxKind::obb3d);
+    const glm::dvec3 a0 = glm::normalize(glm::dvec3{2, 2, w * 2 * 0.5});
+    const glm::dvec3 a1 = glm::normalize(glm::cross(a0, glm::dvec3{0, 0, 1}));
+    const glm::dvec3 a2 = glm::cross(a0, a1);
+    EXPECT_NEAR(glm::length(box.axes[0] - a0), 0, 1e-14);
+    EXPECT_NEAR(glm::length(box.axes[1] - a1), 0, 1e-14);
+    EXPECT_NEAR(glm::length(box.axes[2] - a2), 0, 1e-14);
+}
+
+TEST(Fit, OneDiskOnTheAxesOfFigure6) {
+    // Two samples give the axes; the extents of the first one alone are those of Eq. "min_0 .. max_2" with a0_t > 0.
+    const double r = 0.4, dt = 0.5;
+    const Clip clip(dt, {{0, 0, r}, {0.3, 0, 0}});
+    const Box box = fit_obb3d(clip, {0, 2}, Axes::endpoints, 1);
+    const glm::dvec3 a0 = box.axes[0], a2 = box.axes[2];
+    const double low0 = glm::dot(box.center, a0) - box.half.x;
+    const double high2 = glm::dot(box.center, a2) + box.half.z;
+    EXPECT_NEAR(low0, -r * std::hypot(a0.x, a0.y), 1e-12);
+    const double over = std::max(0.0, dt * a2.z);
+    EXPECT_NEAR(high2, std::max(r * std::hypot(a2.x, a2.y) + over, 0.3 * a2.x + dt * a2.z + over), 1e-12);
+}
+
+TEST(Fit, StandingStillFallsBackToPrincipalAxisThenX) {
+    const Clip standing(0.1, {{5, 7, 0.5}, {5, 7, 0.4}, {5, 7, 0.5}});
+    EXPECT_EQ(fit_obb2d(standing, {0, 3}, Axes::endpoints, 1).axes[0], glm::dvec3(1, 0, 0));
+    const Clip there_and_back(0.1, {{0, 0, 0.5}, {-1, -1, 0.5}, {-2, -2, 0.5}, {-1, -1, 0.5}, {0, 0, 0.5}});
+    const Box box = fit_obb2d(there_and_back, {0, 5}, Axes::endpoints, 1);
+    EXPECT_NEAR(box.axes[0].x, std::numbers::sqrt2 / 2, 1e-12);
+    EXPECT_NEAR(box.axes[0].y, std::numbers::sqrt2 / 2, 1e-12);
+}
+
+TEST(Fit, FreeBoxAlongTimeIsStoredAs2D) {
+    for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
+        const Clip one(0.1, {{1, 2, 0.5}});
+        EXPECT_EQ(fit_obb3d(one, {0, 1}, axes, 1).kind, BoxKind::obb2d);
+        const Clip back_again(0.1, {{0, 0, 0.5}, {2, 0, 0.5}, {5e-7, 0, 0.5}});
+        EXPECT_EQ(fit_obb3d(back_again, {0, 3}, axes, 1).kind, BoxKind::obb2d);
+        const Clip walk(0.1, {{0, 0, 0.01}, {1, 0, 0.01}, {2, 0.1, 0.01}});
+        EXPECT_EQ(fit_obb3d(walk, {0, 3}, axes, 1).kind, BoxKind::obb3d);
+    }
+}
+
+double area(const Clip& clip, glm::dvec2 u) {
+    const Reach along = reach_along(clip, {0, clip.count()}, {u.x, u.y, 0}, 1);
+    const Reach across = reach_along(clip, {0, clip.count()}, {-u.y, u.x, 0}, 1);
+    return (along.high - along.low) * (across.high - across.low);
+}
+
+TEST(Fit, MinareaIsWithinOnePercentOfTheBestOf1800Angles) {
+    Random random(2);
+    for (int round = 0; round < 150; ++round) {
+        const ClipPtr clip = test::random_clip(random, 200);
+        double best = 1e300;
+        for (int k = 0; k < 1800; ++k) {
+            const double angle = std::numbers::pi * k / 1800;
+            best = std::min(best, area(*clip, {std::cos(angle), std::sin(angle)}));
+        }
+        const SampleRange all{0, clip->count()};
+        const auto flat_area = [&](Axes axes) {
+            const Box box = fit_obb2d(*clip, all, axes, 1);
+            return 4 * box.half.x * box.half.y;
+        };
+        const double found = flat_area(Axes::minarea);
+        EXPECT_LE(found, best * 1.01 + 1e-12) << round;
+        EXPECT_LE(found, flat_area(Axes::endpoints)) << round;
+        EXPECT_LE(found, flat_area(Axes::covariance)) << round;
+    }
+}
+
+TEST(Fit, MinareaInSpaceTimeIsNeverLooserThanTheOthers) {
+    Random random(3);
+    for (int round = 0; round < 200; ++round) {
+        const ClipPtr clip = test::random_clip(random, 200);
+        const SampleRange all{0, clip->count()};
+        const double w = random.real(0.2, 5);
+        const double found = volume(fit_obb3d(*clip, all, Axes::minarea, w), w);
+        EXPECT_LE(found, volume(fit_obb3d(*clip, all, Axes::endpoints, w), w)) << round;
+        EXPECT_LE(found, volume(fit_obb3d(*clip, all, Axes::covariance, w), w)) << round;
+    }
+}
+
+}  // namespace
+}  // namespace mobb

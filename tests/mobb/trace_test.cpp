@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+#include <mobb/query.h>
+#include <mobb/random_motion.h>
+#include <mobb/trace.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace mobb {
+namespace {
+
+using test::Random;
+
+/// A node's box in the world, from what `fit --json` and the scene say of it.
+struct WorldBox {
+    glm::dvec3 center;
+    glm::dvec3 axes[3];
+    glm::dvec3 half;
+};
+WorldBox world_box(const Box& box, const Placement& placement, double w) {
+    const double angle = placement.rotate_deg * std::acos(-1.0) / 180;
+    const auto turned = [angle](glm::dvec3 v) {
+        return glm::dvec3{std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y,
+                          v.z};
+    };
+    WorldBox out;
+    out.center = turned(box.center) + glm::dvec3{placement.translate, w * placement.start};
+    for (std::size_t k = 0; k < 3; ++k) out.axes[k] = turned(box.axes[k]);
+    out.half = box.half;
+    return out;
+}
+
+/// The gap between the projections of two boxes' corners on a unit axis; negative where they overlap.
+double gap_along(const WorldBox& a, const WorldBox& b, glm::dvec3 axis) {
+    const auto reach = [axis](const WorldBox& box, double sign) {
+        double best = -1e300;
+        for (int corner = 0; corner < 8; ++corner) {
+            // Relative to a's center, so that a far scene costs no digits here.
+            glm::dvec3 p{0};
+            for (int k = 0; k < 3; ++k) p += ((corner >> k) & 1 ? 1.0 : -1.0) * box.half[k] * box.axes[k];
+            best = std::max(best, sign * glm::dot(p, axis));
+        }
+        return best;
+    };
+    const double offset = glm::dot(b.center - a.center, axis);
+    return std::max(offset - reach(b, -1) - reach(a, 1), -offset - reach(b, 1) - reach(a, -1));
+}
+
+/// Replays a trace against the contract's description of the traversal, with box tests of its own.
+class Replay {
+  public:
+    Replay(const PlacedTree& a, const PlacedTree& b, const Trace& trace) : a_(a), b_(b), trace_(trace) {}
+
+    /// True if the traversal of the trace ends in a hit. Every event must have been used up.
+    bool run() {
+        const bool hit = visit(0, 0, 0, -1);
+        EXPECT_EQ(step_, trace_.size());
+        return hit;
+    }
+
+  private:
+    bool visit(int ia, int ib, int depth, int parent) {
+        const Node& na = a_.node(ia);
+        const Node& nb = b_.node(ib);
+        if (!time(ia, ib, depth, parent)) return false;
+        if (!box(ia, ib, depth, parent)) return false;
+        const int caller = step_ - 1;
+        if (na.is_leaf() && nb.is_leaf()) return samples(ia, ib, depth, parent);
+        if (na.is_leaf()) return walk(ia, ib, false, depth, caller);
+        if (nb.is_leaf()) return walk(ib, ia, true, depth, caller);
+        for (const int ca : na.children) {
+            for (const int cb : nb.children) {
+                if (visit(ca, cb, depth + 1, caller)) return true;
+            }
+        }
+        return false;
+    }
+
+    bool walk(int leaf, int inner, bool inner_is_a, int depth, int caller) {
+        const Node& node = inner_is_a ? a_.node(inner) : b_.node(inner);
+        for (const int child : node.children) {
+            const int ia = inner_is_a ? child : leaf, ib = inner_is_a ? leaf : child;
+            if (!time(ia, ib, depth + 1, caller)) continue;
+            const Node& child_node = inner_is_a ? a_.node(child) : b_.node(child);
+            const bool hit = child_node.is_leaf() ? samples(ia, ib, depth + 1, caller)
+                                                  : walk(leaf, child, inner_is_a, depth + 1, step_ - 1);
+            if (hit) return true;
+        }
+        return false;
+    }
+
+    Trace::Event next(int ia, int ib, int depth, int parent) {
+        if (step_ >= trace_.size()) throw std::runtime_error("the trace ends early");
+        const Trace::Event event = trace_[step_++];
+        EXPECT_EQ(event.a, ia);
+        EXPECT_EQ(event.b, ib);
+        EXPECT_EQ(event.depth, depth);
+        EXPECT_EQ(event.parent, parent);
+        return event;
+    }
+
+    bool time(int ia, int ib, int depth, int parent) {
+        const Trace::Event event = next(ia, ib, depth, parent);
+        EXPECT_EQ(event.test, mobb::Test::time);
+        const auto interval = [](const PlacedTree& tree, const Node& node) {
+            const double dt = tree.tree().clip().dt(), start = tree.placed_clip().placement().start;
+            return Interval{start + node.first * dt, start + node.end() * dt};
+        };
+        const Interval x = interval(a_, a_.node(ia)), y = interval(b_, b_.node(ib));
+        const bool overlap = std::min(x.t1, y.t1) - std::max(x.t0, y.t0) > 1e-9;
+        EXPECT_EQ(event.outcome, overlap ? Outcome::overlap : Outcome::disjoint_in_time);
+        EXPECT_EQ(event.axis, -1);
+        return overlap;
+    }
+
+    bool box(int ia, int ib, int depth, int parent) {
+        const Trace::Event event = next(ia, ib, depth, parent);
+        const Box& box_a = a_.node(ia).box;
+        const Box& box_b = b_.node(ib).box;
+        const bool flat = box_a.kind == BoxKind::obb2d && box_b.kind == BoxKind::obb2d;
+        EXPECT_EQ(event.test, flat ? mobb::Test::obb2d : mobb::Test::obb3d);
+        const double w = a_.time_scale();
+        const WorldBox a = world_box(box_a, a_.placed_clip().placement(), w);
+        const WorldBox b = world_box(box_b, b_.placed_clip().placement(), w);
+
+        std::vector<glm::dvec3> axes;
+        if (flat) {
+            axes = {a.axes[0], a.axes[1], b.axes[0], b.axes[1]};
+        } else {
+            for (const auto& axis : a.axes) axes.push_back(axis);
+            for (const auto& axis : b.axes) axes.push_back(axis);
+            for (const auto& u : a.axes)
+                for (const auto& v : b.axes) axes.push_back(glm::cross(u, v));
+        }
+        const bool separated = event.outcome == Outcome::separated;
+        EXPECT_TRUE(separated || event.outcome == Outcome::overlap);
+        EXPECT_EQ(event.axis >= 0, separated);
+        const int last = separated ? event.axis : static_cast<int>(axes.size());
+        for (int k = 0; k < last; ++k) {
+            const glm::dvec3 axis = axes[static_cast<std::size_t>(k)];
+            const double length = glm::length(axis);
+            if (length < 1e-3) continue;
+            EXPECT_LE(gap_along(a, b, axis / length), 1e-8 / length) << "axis " << k;
+        }
+        if (separated) {
+            const glm::dvec3 axis = axes[static_cast<std::size_t>(event.axis)];
+            EXPECT_GE(glm::length(axis), 0.9e-3);
+            EXPECT_GT(event.gap, 0);
+            EXPECT_NEAR(gap_along(a, b, glm::normalize(axis)), event.gap, 1e-8 / glm::length(axis));
+        }
+        return !separated;
+    }
+
+    bool samples(int ia, int ib, int depth, int parent) {
+        const Trace::Event event = next(ia, ib, depth, parent);
+        EXPECT_EQ(event.test, mobb::Test::samples);
+        const Node& na = a_.node(ia);
+        const Node& nb = b_.node(ib);
+        const PlacedClip& a = a_.placed_clip();
+        const PlacedClip& b = b_.placed_clip();
+        std::vector<MeasuredPair> expected;
+        for (int i = na.first; i < na.end(); ++i) {
+            for (int j = nb.first; j < nb.end(); ++j) {
+                if (!overlap_in_time(a.time(i), a.time(i + 1), b.time(j), b.time(j + 1))) continue;
+                expected.push_back({i, j, std::sqrt(squared_distance(a.disk(i), b.disk(j)))});
+            }
+        }
+        std::sort(expected.begin(), expected.end(),
+                  [](const MeasuredPair& x, const MeasuredPair& y) { return x.i + x.j < y.i + y.j; });
+        bool hit = false;
+        std::size_t measured = 0;
+        for (; measured < expected.size() && !hit; ++measured) {
+            hit = collide(a.disk(expected[measured].i), b.disk(expected[measured].j));
+        }
+        expected.resize(measured);
+        EXPECT_EQ(event.outcome, hit ? Outcome::hit : Outcome::no_hit);
+        EXPECT_EQ(event.pairs.size(), expected.size());
+        for (std::size_t k = 0; k < std::min(expected.size(), event.pairs.size()); ++k) {
+            EXPECT_EQ(event.pairs[k].i, expected[k].i);
+            EXPECT_EQ(event.pairs[k].j, expected[k].j);
+            EXPECT_EQ(event.pairs[k].distance, expected[k].distance);
+        }
+        return hit;
+    }
+
+    const PlacedTree& a_;
+    const PlacedTree& b_;
+    const Trace& trace_;
+    int step_ = 0;
+};
+
+TEST(Trace, EveryEventReEvaluatedGivesTheSame) {
+    Random random(20);
+    std::int64_t events = 0, separations_3d = 0, edge_axes = 0;
+    for (int round = 0; round < 1500; ++round) {
+        const ClipPtr a = test::random_clip(random, 400), b = test::random_clip(random, 400);
+        FitOptions fit_a = test::random_fit(random), fit_b = test::random_fit(random);
+        fit_a.time_scale = fit_b.time_scale = random.chance(0.5) ? 1 : random.real(0.2, 5);
+        const Tree tree_a(a, fit_a), tree_b(b, fit_b);
+        for (int k = 0; k < 5; ++k) {
+            Placement place_a, place_b;
+            test::random_placements(random, *a, *b, place_a, place_b);
+            const PlacedTree placed_a(tree_a, place_a), placed_b(tree_b, place_b);
+            TraceRecorder recorder;
+            const std::optional<Contact> contact = query(placed_a, placed_b, recorder);
+            const Trace& trace = recorder.trace();
+            ASSERT_EQ(Replay(placed_a, placed_b, trace).run(), contact.has_value());
+            ASSERT_EQ(contact, query(placed_a, placed_b));
+            Statistics statistics;
+            query(placed_a, placed_b, statistics);
+            ASSERT_EQ(trace.counts(), statistics.tests);
+            events += trace.size();
+            for (int step = 0; step < trace.size(); ++step) {
+                separations_3d += trace[step].test == mobb::Test::obb3d && trace[step].outcome == Outcome::separated;
+                edge_axes += trace[step].axis >= 6;
+            }
+            if (HasFailure()) FAIL() << "round " << round << ", " << name(fit_a.tree) << " / " << name(fit_b.tree);
+        }
+    }
+    EXPECT_GT(events, 50000);
+    EXPECT_GT(separations_3d, 2000);
+    EXPECT_GT(edge_axes, 20);
+}
+
+TEST(Trace, OfTheDirectSearchIsOneEvent) {
+    const Clip clip(0.1, {{0, 0, 0.5}, {1, 0, 0.5}, {1.5, 0, 0.5}});
+    const PlacedClip a(clip, {}), b(clip, {.translate = {3, 0}, .rotate_deg = 180});
+    TraceRecorder recorder;
+    const std::optional<Contact> contact = direct_search(a, b, recorder);
+    ASSERT_TRUE(contact.has_value());
+    EXPECT_EQ(*contact, (Contact{0.2, 2, 2, 0, 1})) << "they touch at sample 1 and meet at sample 2";
+    ASSERT_EQ(recorder.trace().size(), 1);
+    EXPECT_EQ(recorder.trace()[0].outcome, Outcome::hit);
+    EXPECT_EQ(recorder.trace()[0].pairs.size(), 3u);
+}
+
+TEST(Trace, PushKeepsThePairsOfEachEventApart) {
+    Trace trace;
+    const MeasuredPair pairs[] = {{1, 2, 0.5}, {3, 4, 0.25}};
+    trace.push({.test = mobb::Test::samples, .outcome = Outcome::no_hit, .pairs = std::span(pairs).first(1)});
+    trace.push({.parent = 0,
+                .depth = 1,
+                .a = 5,
+                .b = 6,
+                .test = mobb::Test::obb3d,
+                .outcome = Outcome::separated,
+                .axis = 7,
+                .gap = 2});
+    trace.push({.test = mobb::Test::samples, .outcome = Outcome::hit, .pairs = pairs});
+    ASSERT_EQ(trace.size(), 3);
+    EXPECT_EQ(trace[0].pairs.size(), 1u);
+    EXPECT_TRUE(trace[1].pairs.empty());
+    EXPECT_EQ(trace[1].axis, 7);
+    EXPECT_EQ(trace[1].b, 6);
+    ASSERT_EQ(trace[2].pairs.size(), 2u);
+    EXPECT_EQ(trace[2].pairs[1].j, 4);
+    EXPECT_EQ(trace.counts(), (TestCounts{.time = 0, .obb2d = 0, .obb3d = 1, .samples = 3}));
+}
+
+}  // namespace
+}  // namespace mobb
