@@ -28,6 +28,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+/// Edit distance of what a message would show: damaged files hold words of any length.
+std::size_t distance_to(std::string_view word, std::string_view name) {
+    return edit_distance(word.substr(0, kLongestQuote), name.substr(0, kLongestQuote));
+}
+
 }  // namespace
 
 std::optional<double> parse_double(std::string_view text) {
@@ -81,19 +86,17 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
-    const std::string* nearest = nullptr;
-    // A word that is wrong in half of its letters is another word.
-    std::size_t best = std::max<std::size_t>(word.size() / 2, 1) + 1;
-    if (word.size() > kLongestQuote) return "";
-    for (const std::string& name : names) {
-        if (name.size() > 2 * kLongestQuote) continue;
-        const std::size_t distance = edit_distance(word, name);
-        if (distance < best) {
-            best = distance;
-            nearest = &name;
-        }
-    }
-    return nearest ? " (did you mean " + in_quotes(*nearest) + "?)" : "";
+    if (names.empty()) return "";
+    const std::string& name = nearest(word, names);
+    // A word that is wrong in more than half of its letters is another word.
+    const bool meant = distance_to(word, name) <= std::max<std::size_t>(word.size() / 2, 1);
+    return meant ? " (did you mean " + in_quotes(name) + "?)" : "";
+}
+
+const std::string& nearest(std::string_view word, std::span<const std::string> names) {
+    return *std::min_element(names.begin(), names.end(), [word](const std::string& a, const std::string& b) {
+        return distance_to(word, a) < distance_to(word, b);
+    });
 }
 
 }  // namespace mobbscope

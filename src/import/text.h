@@ -29,4 +29,7 @@ std::string in_quotes(std::string_view text);
 /// " (did you mean 'leaf'?)" if one of the names is near enough to be meant, else "".
 std::string did_you_mean(std::string_view word, std::span<const std::string> names);
 
+/// The name with the least edit distance; the first of equals. There must be one.
+const std::string& nearest(std::string_view word, std::span<const std::string> names);
+
 }  // namespace mobbscope

@@ -18,7 +18,7 @@ class FittedScene {
     const Scene& scene() const { return scene_; }
     const mobb::FitOptions& options() const { return options_; }
     const mobb::Tree& tree(int clip) const { return trees_[static_cast<std::size_t>(clip)]; }
-    const std::vector<SceneQuery>& queries() const { return queries_; }          ///< effective ones
+    const std::vector<SceneQuery>& queries() const { return queries_; }             ///< effective ones
     const std::vector<Participant>& participants() const { return participants_; }  ///< what is drawn
 
     mobb::PlacedTree placed(const Participant& participant) const {

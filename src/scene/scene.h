@@ -8,11 +8,11 @@
 #include <mobb/tree.h>
 #include <scene/view_state.h>
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -27,6 +27,7 @@ struct SceneClip {
     std::optional<std::string> source;  ///< relative to the scene file; none: the samples stand in the scene
     ImportOptions options;              ///< of the source; empty for inline samples
     mobb::ClipPtr clip;                 ///< never null in a loaded scene
+    SourceFacts facts{};                ///< of the source
 };
 
 /// One side of a query: a clip and where it is placed.
@@ -34,7 +35,7 @@ struct Participant {
     std::string name;  ///< the agent's, or the clip's where the query places a clip itself
     int clip = 0;      ///< index into Scene::clips
     mobb::Placement placement;
-    int agent = -1;    ///< index into Scene::agents, or -1
+    int agent = -1;  ///< index into Scene::agents, or -1
 };
 
 struct Agent {
@@ -71,16 +72,16 @@ std::vector<SceneQuery> effective_queries(const Scene& scene);
 /// What is drawn and asked about: the agents, or without any, every clip where it is.
 std::vector<Participant> participants(const Scene& scene);
 
-/// Reads a scene, a capture, or a clip file (a scene with its clips and no agents). `overrides` go over the import keys of every
-/// clip with a source. Throws InputError; all files are checked before it returns.
+/// Reads a scene, a capture, or a clip file (a scene with its clips and no agents). `overrides` go over the import keys
+/// of every clip with a source. Throws InputError; all files are checked before it returns.
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {});
 
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                   const ImportOptions& overrides = {});
 
-/// The scene as JSON text, numbers with 17 digits. Clips with a source are written as their source; with `inline_samples`
-/// every clip is written with its samples, so the file stands alone.
+/// The scene as JSON text, numbers with 17 digits. Clips with a source are written as their source; with
+/// `inline_samples` every clip is written with its samples, so the file stands alone.
 std::string to_json(const Scene& scene, bool inline_samples = false);
 
 }  // namespace mobbscope

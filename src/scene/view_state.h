@@ -1,5 +1,5 @@
-/// What is seen of a scene, and from where. A plain value: JSON in, JSON out. The window edits it, `render` reads it, and every
-/// picture is a function of (scene, view state, size).
+/// What is seen of a scene, and from where. A plain value: JSON in, JSON out. The window edits it, `render` reads it,
+/// and every picture is a function of (scene, view state, size).
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -25,7 +25,8 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-/// Which boxes are drawn: those of levels first..last, with the leaves above `first` (so that a level covers the whole clip).
+/// Which boxes are drawn: those of levels first..last, with the leaves above `first` (so that a level covers the whole
+/// clip).
 struct LevelRange {
     int first = 2;
     int last = 2;
@@ -43,10 +44,10 @@ struct Step {
 struct ViewState {
     Camera camera;
     LevelRange levels;
-    std::optional<int> query;   ///< index into the effective queries: its state at `step` is drawn instead of the levels
+    std::optional<int> query;  ///< index into the effective queries: its state at `step` is drawn instead of the levels
     Step step;
-    std::optional<double> time; ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
-    double time_height = 0;     ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
+    std::optional<double> time;  ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
+    double time_height = 0;      ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
     Theme theme = Theme::dark;
     bool disks = true;
     bool boxes = true;

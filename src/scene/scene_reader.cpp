@@ -1,0 +1,342 @@
+// Scene files read: JSON to Scene, with every complaint at its place.
+#include <import/file.h>
+#include <import/text.h>
+#include <scene/json_place.h>
+#include <scene/scene.h>
+#include <scene/trace_json.h>
+#include <scene/view_json.h>
+
+#include <charconv>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr int kVersion = 1;
+constexpr int kMaxInt = std::numeric_limits<int>::max();
+
+std::string joined(std::span<const std::string_view> names) {
+    std::string out;
+    for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
+    return out;
+}
+
+/// Options over options: what `over` says wins.
+ImportOptions merged(ImportOptions base, const ImportOptions& over) {
+    const auto take = [](auto& option, const auto& replacement) {
+        if (replacement) option = replacement;
+    };
+    take(base.animation, over.animation);
+    take(base.root, over.root);
+    take(base.fps, over.fps);
+    take(base.unit, over.unit);
+    take(base.up, over.up);
+    take(base.trim, over.trim);
+    take(base.origin, over.origin);
+    take(base.id, over.id);
+    take(base.radius, over.radius);
+    take(base.dt, over.dt);
+    return base;
+}
+
+Color read_color(const JsonPlace& place) {
+    const std::string& text = place.string();
+    std::uint32_t rgb = 0;
+    const char* const end = text.data() + text.size();
+    if (text.size() != 7 || text[0] != '#' || std::from_chars(text.data() + 1, end, rgb, 16).ptr != end) {
+        place.fail(in_quotes(text) + " is no colour; give one like #E69F00");
+    }
+    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 0xff),
+            static_cast<std::uint8_t>(rgb & 0xff)};
+}
+
+std::pair<double, double> read_pair(const JsonPlace& place, const char* what) {
+    place.require_size(2, what);
+    return {place[0].number(), place[1].number()};
+}
+
+mobb::Placement read_placement(const JsonPlace& place) {
+    mobb::Placement placement;
+    if (const auto translate = place.find("translate")) {
+        translate->require_size(2, "[x, y] in metres");
+        placement.translate = {(*translate)[0].number(-mobb::kMaxLength, mobb::kMaxLength),
+                               (*translate)[1].number(-mobb::kMaxLength, mobb::kMaxLength)};
+    }
+    if (const auto degrees = place.find("rotate_deg")) placement.rotate_deg = degrees->number(-1e9, 1e9);
+    if (const auto start = place.find("start")) placement.start = start->number(-mobb::kMaxTime, mobb::kMaxTime);
+    return placement;
+}
+
+/// A string, or a number as it would be written on the command line.
+std::string read_word(const JsonPlace& place) {
+    return place.is_number() ? format_double(place.number()) : place.string();
+}
+
+ImportOptions read_import_options(const JsonPlace& place) {
+    ImportOptions options;
+    if (const auto animation = place.find("animation")) {
+        options.animation =
+            animation->is_number() ? std::to_string(animation->integer(0, kMaxInt)) : animation->string();
+    }
+    if (const auto root = place.find("root")) options.root = root->string();
+    if (const auto fps = place.find("fps")) options.fps = fps->number();
+    if (const auto unit = place.find("unit")) options.unit = read_word(*unit);
+    if (const auto up = place.find("up")) options.up = up->string();
+    if (const auto trim = place.find("trim")) options.trim = read_pair(*trim, "[A, B] in seconds");
+    if (const auto origin = place.find("origin")) {
+        options.origin = origin_from_name(origin->string());
+        if (!options.origin)
+            origin->fail(in_quotes(origin->string()) + " is no origin; give keep, start or start_heading");
+    }
+    if (const auto id = place.find("id")) options.id = read_word(*id);
+    if (const auto radius = place.find("radius")) options.radius = radius->number();
+    if (const auto dt = place.find("dt")) options.dt = dt->number();
+    try {
+        check(options);
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+    return options;
+}
+
+mobb::ClipPtr read_samples(const JsonPlace& place) {
+    const double dt = place.require("dt").number();
+    const JsonPlace list = place.require("samples");
+    std::vector<mobb::Disk> samples;
+    samples.reserve(static_cast<std::size_t>(list.size()));
+    for (int i = 0; i < list.size(); ++i) {
+        const JsonPlace sample = list[i];
+        sample.require_size(3, "[x, y, r] in metres");
+        samples.push_back({sample[0].number(-mobb::kMaxLength, mobb::kMaxLength),
+                           sample[1].number(-mobb::kMaxLength, mobb::kMaxLength),
+                           sample[2].number(0, mobb::kMaxLength)});
+    }
+    try {
+        return std::make_shared<mobb::Clip>(dt, std::move(samples));
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+}
+
+/// Finds a named thing, or names the nearest one.
+class NameTable {
+  public:
+    /// False if the name is taken.
+    bool add(const std::string& name) {
+        names_.push_back(name);
+        return index_.try_emplace(name, static_cast<int>(names_.size()) - 1).second;
+    }
+    int find(const JsonPlace& place, const char* what) const {
+        const auto found = index_.find(place.string());
+        if (found != index_.end()) return found->second;
+        place.fail("there is no " + std::string(what) + " " + in_quotes(place.string()) +
+                   (names_.empty() ? "; the scene has none"
+                                   : "; the nearest is " + in_quotes(nearest(place.string(), names_))));
+    }
+
+  private:
+    std::vector<std::string> names_;
+    std::unordered_map<std::string, int> index_;
+};
+
+class SceneReader {
+  public:
+    SceneReader(const JsonPlace& root, std::filesystem::path folder, const ImportOptions& overrides)
+        : root_(root), folder_(std::move(folder)), overrides_(overrides) {}
+
+    Scene read() {
+        root_.allow_only({"$schema", "mobbscope", "clips", "agents", "fit", "queries", "view"});
+        check_version();
+        const JsonPlace clips = root_.require("clips");
+        if (clips.members() == 0) clips.fail("there is no clip; add one");
+        for (int i = 0; i < clips.members(); ++i) scene_.clips.push_back(read_clip(clips.member(i)));
+        if (const auto agents = root_.find("agents")) {
+            for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
+        }
+        if (const auto fit = root_.find("fit")) scene_.fit = read_fit(*fit);
+        if (const auto queries = root_.find("queries")) {
+            for (int i = 0; i < queries->size(); ++i) scene_.queries.push_back(read_query((*queries)[i]));
+        }
+        if (const auto view = root_.find("view")) {
+            scene_.view = read_view(*view);
+            check_viewed_query(*view);
+        }
+        return std::move(scene_);
+    }
+
+  private:
+    void check_version() const {
+        if (const auto schema = root_.find("$schema")) schema->string();
+        const auto version = root_.find("mobbscope");
+        if (version && version->number() != kVersion) {
+            version->fail("the file has version " + format_double(version->number()) + "; this program reads version " +
+                          std::to_string(kVersion));
+        }
+    }
+
+    SceneClip read_clip(const JsonPlace& place) {
+        SceneClip clip;
+        clip.name = place.key();
+        if (clip.name.empty()) place.fail("a clip needs a name");
+        clip_names_.add(clip.name);
+        if (place.find("source")) {
+            read_source(place, clip);
+        } else {
+            // "dt" alone would also be an import key; without a source it belongs to samples.
+            place.allow_only({"dt", "samples"});
+            clip.clip = read_samples(place);
+        }
+        return clip;
+    }
+
+    void read_source(const JsonPlace& place, SceneClip& clip) {
+        if (const auto samples = place.find("samples"))
+            samples->fail("a clip has a source or samples, not both; remove one");
+        place.allow_only({"source", "animation", "root", "fps", "unit", "up", "trim", "origin", "id", "radius", "dt"});
+        const JsonPlace source = place.require("source");
+        if (source.string().empty()) source.fail("the source is empty; name a clip file");
+        clip.source = source.string();
+        clip.options = read_import_options(place);
+        try {
+            std::vector<ImportedClip> imported =
+                importer_.clips(folder_ / *clip.source, merged(clip.options, overrides_));
+            if (imported.size() > 1) {
+                throw InputError((folder_ / *clip.source).string(), "",
+                                 "has " + std::to_string(imported.size()) + " tracks; name one with id, such as " +
+                                     in_quotes(imported.front().id));
+            }
+            clip.clip = imported.front().clip;
+            clip.facts = std::move(imported.front().facts);
+        } catch (const InputError& error) {
+            source.fail(error.what());
+        }
+    }
+
+    Agent read_agent(const JsonPlace& place) {
+        place.allow_only({"name", "clip", "translate", "rotate_deg", "start", "color"});
+        const JsonPlace name = place.require("name");
+        if (name.string().empty()) name.fail("an agent needs a name");
+        if (!agent_names_.add(name.string()))
+            name.fail("another agent is named " + in_quotes(name.string()) + "; rename one");
+        Agent agent;
+        agent.name = name.string();
+        agent.clip = clip_names_.find(place.require("clip"), "clip");
+        agent.placement = read_placement(place);
+        if (const auto color = place.find("color")) agent.color = read_color(*color);
+        return agent;
+    }
+
+    static mobb::FitOptions read_fit(const JsonPlace& place) {
+        place.allow_only({"tree", "leaf", "levels", "axes", "time_scale"});
+        mobb::FitOptions fit;
+        if (const auto tree = place.find("tree")) {
+            const auto kind = mobb::tree_kind(tree->string());
+            if (!kind)
+                tree->fail(in_quotes(tree->string()) + " is no tree; give one of " + joined(mobb::tree_kind_names()));
+            fit.tree = *kind;
+        }
+        if (const auto leaf = place.find("leaf")) fit.leaf = leaf->integer(1, kMaxInt);
+        if (const auto levels = place.find("levels")) fit.levels = levels->integer(0, kMaxInt);
+        if (const auto axes = place.find("axes")) {
+            const auto value = mobb::axes_from_name(axes->string());
+            if (!value)
+                axes->fail(in_quotes(axes->string()) + " names no axes; give one of " + joined(mobb::axes_names()));
+            fit.axes = *value;
+        }
+        if (const auto scale = place.find("time_scale")) {
+            fit.time_scale = scale->number(1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
+        }
+        return fit;
+    }
+
+    SceneQuery read_query(const JsonPlace& place) {
+        place.allow_only({"a", "b", "expect", "trace"});
+        SceneQuery query;
+        query.a = read_participant(place.require("a"));
+        query.b = read_participant(place.require("b"));
+        const int samples_a = clip_of(query.a).count();
+        const int samples_b = clip_of(query.b).count();
+        if (const auto expect = place.find("expect")) query.expect = read_expectation(*expect, samples_a, samples_b);
+        if (const auto trace = place.find("trace")) query.trace = read_trace(*trace, samples_a, samples_b);
+        return query;
+    }
+
+    Participant read_participant(const JsonPlace& place) const {
+        if (place.is_string()) {
+            const int index = agent_names_.find(place, "agent");
+            const Agent& agent = scene_.agents[static_cast<std::size_t>(index)];
+            return {agent.name, agent.clip, agent.placement, index};
+        }
+        place.allow_only({"clip", "translate", "rotate_deg", "start"});
+        const JsonPlace name = place.require("clip");
+        return {name.string(), clip_names_.find(name, "clip"), read_placement(place), -1};
+    }
+
+    static Expectation read_expectation(const JsonPlace& place, int samples_a, int samples_b) {
+        place.allow_only({"collides", "contact"});
+        Expectation expect;
+        expect.collides = place.require("collides").boolean();
+        if (const auto contact = place.find("contact")) {
+            expect.contact = read_contact(*contact, samples_a, samples_b);
+            if (expect.contact && !expect.collides) contact->fail("there is no contact without a collision; give null");
+        }
+        return expect;
+    }
+
+    void check_viewed_query(const JsonPlace& view) const {
+        if (!scene_.view.query) return;
+        const auto count =
+            scene_.queries.empty() ? scene_.agents.size() * (scene_.agents.size() - 1) / 2 : scene_.queries.size();
+        if (static_cast<std::size_t>(*scene_.view.query) >=
+            (scene_.agents.empty() && scene_.queries.empty() ? 0 : count)) {
+            view.require("query").fail("there is no such query; they count from 0");
+        }
+    }
+
+    const mobb::Clip& clip_of(const Participant& participant) const {
+        return *scene_.clips[static_cast<std::size_t>(participant.clip)].clip;
+    }
+
+    const JsonPlace& root_;
+    std::filesystem::path folder_;
+    const ImportOptions& overrides_;
+    Importer importer_;
+    NameTable clip_names_;
+    NameTable agent_names_;
+    Scene scene_;
+};
+
+Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& options) {
+    Scene scene;
+    for (ImportedClip& imported : import_clips(file, options)) {
+        SceneClip clip{imported.name, file.filename().string(), options, std::move(imported.clip),
+                       std::move(imported.facts)};
+        if (!imported.id.empty()) clip.options.id = imported.id;
+        scene.clips.push_back(std::move(clip));
+    }
+    return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides) {
+    const bool is_scene = lower_extension(file) == ".json";
+    Scene scene = is_scene ? parse_scene(read_file(file), file.string(), file.parent_path(), overrides)
+                           : scene_of_clips(file, overrides);
+    scene.file = file;
+    return scene;
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                  const ImportOptions& overrides) {
+    const JsonValue value = parse_json(text, name);
+    const JsonPlace root(value, name);
+    return SceneReader(root, folder, overrides).read();
+}
+
+}  // namespace mobbscope

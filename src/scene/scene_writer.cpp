@@ -1,0 +1,143 @@
+// Scene files written: what is read back is the same scene, bit for bit.
+#include <import/text.h>
+#include <scene/json_writer.h>
+#include <scene/scene.h>
+#include <scene/trace_json.h>
+#include <scene/view_json.h>
+
+#include <cstdio>
+#include <sstream>
+
+namespace mobbscope {
+
+namespace {
+
+using Layout = JsonWriter::Layout;
+
+void write_options(JsonWriter& out, const ImportOptions& options) {
+    if (options.animation) out.member("animation", *options.animation);
+    if (options.root) out.member("root", *options.root);
+    if (options.fps) out.member("fps", *options.fps);
+    if (options.unit) out.member("unit", *options.unit);
+    if (options.up) out.member("up", *options.up);
+    if (options.trim) {
+        out.key("trim");
+        out.numbers({options.trim->first, options.trim->second});
+    }
+    if (options.origin) out.member("origin", name(*options.origin));
+    if (options.id) out.member("id", *options.id);
+    if (options.radius) out.member("radius", *options.radius);
+    if (options.dt) out.member("dt", *options.dt);
+}
+
+void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
+    out.key(clip.name);
+    if (clip.source && !inline_samples) {
+        out.begin_object(Layout::row);
+        out.member("source", *clip.source);
+        write_options(out, clip.options);
+        out.end_object();
+        return;
+    }
+    out.begin_object();
+    out.member("dt", clip.clip->dt());
+    out.key("samples");
+    out.begin_array();
+    for (const mobb::Disk& disk : clip.clip->samples()) out.numbers({disk.x, disk.y, disk.r});
+    out.end_array();
+    out.end_object();
+}
+
+void write_placement(JsonWriter& out, const mobb::Placement& placement) {
+    out.key("translate");
+    out.numbers({placement.translate.x, placement.translate.y});
+    out.member("rotate_deg", placement.rotate_deg);
+    out.member("start", placement.start);
+}
+
+void write_agent(JsonWriter& out, const Scene& scene, const Agent& agent) {
+    out.begin_object(Layout::row);
+    out.member("name", agent.name);
+    out.member("clip", scene.clips[static_cast<std::size_t>(agent.clip)].name);
+    write_placement(out, agent.placement);
+    if (agent.color) {
+        char text[8];
+        std::snprintf(text, sizeof text, "#%02X%02X%02X", agent.color->r, agent.color->g, agent.color->b);
+        out.member("color", text);
+    }
+    out.end_object();
+}
+
+void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
+    out.begin_object(Layout::row);
+    out.member("tree", mobb::name(fit.tree));
+    out.member("leaf", fit.leaf);
+    out.member("levels", fit.levels);
+    out.member("axes", mobb::name(fit.axes));
+    out.member("time_scale", fit.time_scale);
+    out.end_object();
+}
+
+void write_participant(JsonWriter& out, const Scene& scene, const Participant& participant) {
+    if (participant.agent >= 0) return out.value(scene.agents[static_cast<std::size_t>(participant.agent)].name);
+    out.begin_object(Layout::row);
+    out.member("clip", scene.clips[static_cast<std::size_t>(participant.clip)].name);
+    write_placement(out, participant.placement);
+    out.end_object();
+}
+
+void write_query(JsonWriter& out, const Scene& scene, const SceneQuery& query) {
+    out.begin_object();
+    out.key("a");
+    write_participant(out, scene, query.a);
+    out.key("b");
+    write_participant(out, scene, query.b);
+    if (query.expect) {
+        out.key("expect");
+        out.begin_object(Layout::row);
+        out.member("collides", query.expect->collides);
+        out.key("contact");
+        write_contact(out, query.expect->contact);
+        out.end_object();
+    }
+    if (query.trace) {
+        out.key("trace");
+        write_trace(out, *query.trace);
+    }
+    out.end_object();
+}
+
+}  // namespace
+
+std::string to_json(const Scene& scene, bool inline_samples) {
+    std::ostringstream text;
+    JsonWriter out(text);
+    out.begin_object();
+    out.member("mobbscope", 1);
+    out.key("clips");
+    out.begin_object();
+    for (const SceneClip& clip : scene.clips) write_clip(out, clip, inline_samples);
+    out.end_object();
+    if (!scene.agents.empty()) {
+        out.key("agents");
+        out.begin_array();
+        for (const Agent& agent : scene.agents) write_agent(out, scene, agent);
+        out.end_array();
+    }
+    out.key("fit");
+    write_fit(out, scene.fit);
+    if (!scene.queries.empty()) {
+        out.key("queries");
+        out.begin_array();
+        for (const SceneQuery& query : scene.queries) write_query(out, scene, query);
+        out.end_array();
+    }
+    if (scene.view != ViewState{}) {
+        out.key("view");
+        write_view(out, scene.view);
+    }
+    out.end_object();
+    return std::move(text).str();
+}
+
+}  // namespace mobbscope

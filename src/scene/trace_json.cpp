@@ -1,0 +1,159 @@
+#include <import/text.h>
+#include <scene/trace_json.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kAnyTime = 2 * mobb::kMaxTime;        // a start plus a clip's duration
+constexpr double kAnyLength = 1e2 * mobb::kMaxLength;  // sums and differences of placed coordinates
+constexpr int kLastAxis2d = 3;
+constexpr int kLastAxis3d = 14;
+
+/// A tree over n samples has at most 2n - 1 nodes.
+int last_node(int samples) {
+    return samples > std::numeric_limits<int>::max() / 2 ? std::numeric_limits<int>::max() : 2 * samples - 2;
+}
+
+bool is_box_test(mobb::Test test) { return test == mobb::Test::obb2d || test == mobb::Test::obb3d; }
+
+/// Whether a test can end so.
+bool fits(mobb::Test test, mobb::Outcome outcome) {
+    switch (outcome) {
+        case mobb::Outcome::disjoint_in_time:
+            return test == mobb::Test::time;
+        case mobb::Outcome::separated:
+            return is_box_test(test);
+        case mobb::Outcome::overlap:
+            return test != mobb::Test::samples;
+        case mobb::Outcome::hit:
+        case mobb::Outcome::no_hit:
+            return test == mobb::Test::samples;
+    }
+    return false;
+}
+
+mobb::Test read_test(const JsonPlace& place) {
+    if (const auto test = mobb::test_from_name(place.string())) return *test;
+    place.fail(in_quotes(place.string()) + " is no test; give time, obb2d, obb3d or samples");
+}
+
+mobb::Outcome read_outcome(const JsonPlace& place, mobb::Test test) {
+    const auto outcome = mobb::outcome_from_name(place.string());
+    if (!outcome) {
+        place.fail(in_quotes(place.string()) +
+                   " is no outcome; give disjoint_in_time, separated, overlap, hit or no_hit");
+    }
+    if (!fits(test, *outcome)) {
+        place.fail("a test of kind " + std::string(mobb::name(test)) + " cannot end as " + place.string());
+    }
+    return *outcome;
+}
+
+std::vector<mobb::MeasuredPair> read_pairs(const JsonPlace& place, int samples_a, int samples_b) {
+    std::vector<mobb::MeasuredPair> pairs;
+    for (int i = 0; i < place.size(); ++i) {
+        const JsonPlace pair = place[i];
+        pair.require_size(3, "[i, j, distance]");
+        pairs.push_back(
+            {pair[0].integer(0, samples_a - 1), pair[1].integer(0, samples_b - 1), pair[2].number(0, kAnyLength)});
+    }
+    return pairs;
+}
+
+void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event) {
+    const bool separated = event.outcome == mobb::Outcome::separated;
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("step", step);
+    out.member("parent", event.parent);
+    out.member("depth", event.depth);
+    out.member("a", event.a);
+    out.member("b", event.b);
+    out.member("test", mobb::name(event.test));
+    out.member("outcome", mobb::name(event.outcome));
+    out.key("axis");
+    separated ? out.value(event.axis) : out.null();
+    out.key("gap");
+    separated ? out.value(event.gap) : out.null();
+    out.key("pairs");
+    out.begin_array();
+    for (const mobb::MeasuredPair& pair : event.pairs) {
+        out.begin_array();
+        out.value(pair.i);
+        out.value(pair.j);
+        out.value(pair.distance);
+        out.end_array();
+    }
+    out.end_array();
+    out.end_object();
+}
+
+}  // namespace
+
+void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact) {
+    if (!contact) return out.null();
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("time", contact->time);
+    out.member("a_sample", contact->a_sample);
+    out.member("b_sample", contact->b_sample);
+    out.member("distance", contact->distance);
+    out.member("radii", contact->radii);
+    out.end_object();
+}
+
+std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a, int samples_b) {
+    if (place.is_null()) return std::nullopt;
+    place.allow_only({"time", "a_sample", "b_sample", "distance", "radii"});
+    return mobb::Contact{place.require("time").number(-kAnyTime, kAnyTime),
+                         place.require("a_sample").integer(0, samples_a - 1),
+                         place.require("b_sample").integer(0, samples_b - 1),
+                         place.require("distance").number(0, kAnyLength), place.require("radii").number(0, kAnyLength)};
+}
+
+void write_trace(JsonWriter& out, const mobb::Trace& trace) {
+    out.begin_array();
+    for (int step = 0; step < trace.size(); ++step) write_event(out, step, trace[step]);
+    out.end_array();
+}
+
+mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b) {
+    mobb::Trace trace;
+    for (int step = 0; step < place.size(); ++step) {
+        const JsonPlace entry = place[step];
+        entry.allow_only({"step", "parent", "depth", "a", "b", "test", "outcome", "axis", "gap", "pairs"});
+        mobb::Trace::Event event;
+        entry.require("step").integer(step, step);
+        event.parent = entry.require("parent").integer(-1, step - 1);
+        // An event with no earlier one to call it is at the root.
+        const int depth = event.parent < 0 ? 0 : trace[event.parent].depth + 1;
+        event.depth = entry.require("depth").integer(depth, depth);
+        event.a = entry.require("a").integer(0, last_node(samples_a));
+        event.b = entry.require("b").integer(0, last_node(samples_b));
+        event.test = read_test(entry.require("test"));
+        event.outcome = read_outcome(entry.require("outcome"), event.test);
+        if (event.outcome == mobb::Outcome::separated) {
+            event.axis = entry.require("axis").integer(0, event.test == mobb::Test::obb2d ? kLastAxis2d : kLastAxis3d);
+            event.gap = entry.require("gap").number(0, kAnyLength);
+        } else {
+            for (const char* key : {"axis", "gap"}) {
+                const auto value = entry.find(key);
+                if (value && !value->is_null()) value->fail("only a separation has one; give null");
+            }
+        }
+        std::vector<mobb::MeasuredPair> pairs;
+        if (const auto list = entry.find("pairs")) {
+            pairs = read_pairs(*list, samples_a, samples_b);
+            if (!pairs.empty() && event.test != mobb::Test::samples)
+                list->fail("only a test of samples measures pairs");
+        }
+        event.pairs = pairs;
+        trace.push(event);
+    }
+    return trace;
+}
+
+}  // namespace mobbscope

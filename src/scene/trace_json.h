@@ -1,0 +1,24 @@
+/// Contacts and traces as they stand in scene files and in the output of `query --json`.
+#pragma once
+
+#include <mobb/query.h>
+#include <mobb/trace.h>
+#include <scene/json_place.h>
+#include <scene/json_writer.h>
+
+#include <optional>
+
+namespace mobbscope {
+
+/// An object, or null for no contact.
+void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact);
+/// `samples_a`, `samples_b`: how many samples the two clips have. Throws InputError.
+std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a, int samples_b);
+
+/// One event a line. `axis` and `gap` are null where nothing is separated, `pairs` is empty where none is measured.
+void write_trace(JsonWriter& out, const mobb::Trace& trace);
+/// Checks that steps count from 0, parents come earlier, depths follow from them, outcomes fit their tests, and nodes
+/// and samples exist in clips of so many samples. Throws InputError.
+mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b);
+
+}  // namespace mobbscope

@@ -1,0 +1,118 @@
+#include <import/text.h>
+#include <mobb/clip.h>
+#include <scene/view_json.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr int kMaxInt = std::numeric_limits<int>::max();
+constexpr double kSmallestDistance = 1e-6;
+
+struct Toggle {
+    const char* key;
+    bool ViewState::*value;
+};
+constexpr Toggle kToggles[] = {{"disks", &ViewState::disks},   {"boxes", &ViewState::boxes},
+                               {"floor", &ViewState::floor},   {"time_axis", &ViewState::time_axis},
+                               {"labels", &ViewState::labels}, {"legend", &ViewState::legend}};
+
+CameraPreset read_preset(const JsonPlace& place) {
+    if (const auto preset = camera_preset(place.string())) return *preset;
+    place.fail(in_quotes(place.string()) + " is no camera; give iso, top, front, side or free");
+}
+
+Camera read_camera(const JsonPlace& place) {
+    place.allow_only({"preset", "yaw_deg", "pitch_deg", "perspective", "fov_deg", "target", "distance"});
+    Camera camera;
+    if (const auto preset = place.find("preset")) camera.preset = read_preset(*preset);
+    if (const auto yaw = place.find("yaw_deg")) camera.yaw_deg = yaw->number(-1e9, 1e9);
+    if (const auto pitch = place.find("pitch_deg")) camera.pitch_deg = pitch->number(-90, 90);
+    if (const auto perspective = place.find("perspective")) camera.perspective = perspective->boolean();
+    if (const auto fov = place.find("fov_deg")) camera.fov_deg = fov->number(5, 120);
+    if (const auto target = place.find("target")) {
+        target->require_size(3, "[x, y, height] in metres");
+        glm::dvec3 point;
+        for (int i = 0; i < 3; ++i) point[i] = (*target)[i].number(-mobb::kMaxTime, mobb::kMaxTime);
+        camera.target = point;
+        camera.distance = place.require("distance").number(kSmallestDistance, mobb::kMaxTime);
+    } else if (const auto distance = place.find("distance")) {
+        distance->fail("a distance needs a target; add one, or leave both out and the camera frames the scene");
+    }
+    return camera;
+}
+
+/// A whole number, or text that `parse` understands.
+template <class Parse>
+auto read_number_or_text(const JsonPlace& place, int most, const Parse& parse) {
+    try {
+        return parse(place.is_number() ? std::to_string(place.integer(0, most)) : place.string());
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+}
+
+void write_camera(JsonWriter& out, const Camera& camera) {
+    const Camera standard;
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("preset", name(camera.preset));
+    if (camera.yaw_deg != standard.yaw_deg) out.member("yaw_deg", camera.yaw_deg);
+    if (camera.pitch_deg != standard.pitch_deg) out.member("pitch_deg", camera.pitch_deg);
+    if (camera.perspective != standard.perspective) out.member("perspective", camera.perspective);
+    if (camera.fov_deg != standard.fov_deg) out.member("fov_deg", camera.fov_deg);
+    if (camera.target) {
+        out.key("target");
+        out.numbers({camera.target->x, camera.target->y, camera.target->z});
+        out.member("distance", camera.distance);
+    }
+    out.end_object();
+}
+
+}  // namespace
+
+ViewState read_view(const JsonPlace& place) {
+    place.allow_only({"camera", "levels", "query", "step", "time", "time_height", "theme", "disks", "boxes", "floor",
+                      "time_axis", "labels", "legend"});
+    ViewState view;
+    if (const auto camera = place.find("camera")) view.camera = read_camera(*camera);
+    if (const auto levels = place.find("levels"))
+        view.levels = read_number_or_text(*levels, kMaxInt, parse_level_range);
+    if (const auto query = place.find("query")) view.query = query->integer(0, kMaxInt);
+    if (const auto step = place.find("step")) view.step = read_number_or_text(*step, kMaxInt, parse_step);
+    if (const auto time = place.find("time")) view.time = time->number(-mobb::kMaxTime, mobb::kMaxTime);
+    if (const auto height = place.find("time_height")) view.time_height = height->number(0, 1e6);
+    if (const auto theme = place.find("theme")) {
+        const auto value = theme_from_name(theme->string());
+        if (!value) theme->fail(in_quotes(theme->string()) + " is no theme; give dark or light");
+        view.theme = *value;
+    }
+    for (const Toggle& toggle : kToggles) {
+        if (const auto value = place.find(toggle.key)) view.*toggle.value = value->boolean();
+    }
+    return view;
+}
+
+void write_view(JsonWriter& out, const ViewState& view) {
+    const ViewState standard;
+    out.begin_object();
+    if (view.camera != standard.camera) {
+        out.key("camera");
+        write_camera(out, view.camera);
+    }
+    if (view.levels != standard.levels) out.member("levels", to_string(view.levels));
+    if (view.query) out.member("query", *view.query);
+    if (view.step != standard.step) out.member("step", to_string(view.step));
+    if (view.time) out.member("time", *view.time);
+    if (view.time_height != standard.time_height) out.member("time_height", view.time_height);
+    if (view.theme != standard.theme) out.member("theme", name(view.theme));
+    for (const Toggle& toggle : kToggles) {
+        if (view.*toggle.value != standard.*toggle.value) out.member(toggle.key, view.*toggle.value);
+    }
+    out.end_object();
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,23 @@
+/// The `view` of a scene file: every key is optional and has ViewState's name for it.
+///
+///     {"camera": {"preset": "iso", "yaw_deg": 45, "pitch_deg": 25, "perspective": true, "fov_deg": 30,
+///                 "target": [0, 0, 1], "distance": 12},
+///      "levels": "1:3", "query": 0, "step": "40%", "time": 1.5, "time_height": 2, "theme": "dark",
+///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true}
+///
+/// `levels` is a level or what `--level` takes, `step` an event number or what `--step` takes.
+#pragma once
+
+#include <scene/json_place.h>
+#include <scene/json_writer.h>
+#include <scene/view_state.h>
+
+namespace mobbscope {
+
+/// Throws InputError.
+ViewState read_view(const JsonPlace& place);
+
+/// An object with what differs from the default.
+void write_view(JsonWriter& out, const ViewState& view);
+
+}  // namespace mobbscope
