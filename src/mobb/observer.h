@@ -19,8 +19,15 @@ struct TestCounts {
     friend bool operator==(const TestCounts&, const TestCounts&) = default;
 };
 
-/// The hooks, doing nothing. Other observers have the same members.
+/// Nobody watches: the calls of the hooks are not even compiled.
 struct NoObserver {
+    static constexpr bool watches = false;
+};
+
+/// The hooks, doing nothing: a base for observers that need only some of them.
+struct ObserverBase {
+    static constexpr bool watches = true;
+
     void enter(int /*a*/, int /*b*/) {}  ///< a pair of nodes is about to be tested
     void leave() {}                      ///< ... and it and all below it is done
     void time_test(bool /*overlap*/) {}
@@ -30,7 +37,7 @@ struct NoObserver {
 };
 
 /// Counts tests.
-struct Statistics : NoObserver {
+struct Statistics : ObserverBase {
     TestCounts tests;
 
     void time_test(bool) { ++tests.time; }

@@ -63,10 +63,12 @@ std::optional<Contact> direct_search(const PlacedClip& a, const PlacedClip& b, O
         contact = contact_of(a, i, b, j);
         return true;
     };
-    observer.enter(0, 0);
-    const bool hit = visit_sample_pairs(a, 0, a.count(), b, 0, b.count(), observer, on_hit);
-    observer.sample_test(hit);
-    observer.leave();
+    if constexpr (Observer::watches) observer.enter(0, 0);
+    [[maybe_unused]] const bool hit = visit_sample_pairs(a, 0, a.count(), b, 0, b.count(), observer, on_hit);
+    if constexpr (Observer::watches) {
+        observer.sample_test(hit);
+        observer.leave();
+    }
     return contact;
 }
 std::optional<Contact> direct_search(const PlacedClip& a, const PlacedClip& b);

@@ -38,8 +38,8 @@ class Trace {
         int b = 0;
         Test test = Test::time;
         Outcome outcome = Outcome::overlap;
-        int axis = -1;   ///< of a separation (see Separation); else -1
-        double gap = 0;  ///< of a separation, metres; else 0
+        int axis = -1;                          ///< of a separation (see Separation); else -1
+        double gap = 0;                         ///< of a separation, metres; else 0
         std::span<const MeasuredPair> pairs{};  ///< of a samples test, in order
     };
 
@@ -64,6 +64,8 @@ class Trace {
 /// Records a trace while it watches a traversal.
 class TraceRecorder {
   public:
+    static constexpr bool watches = true;
+
     void enter(int a, int b);
     void leave() { open_.pop_back(); }
     void time_test(bool overlap);

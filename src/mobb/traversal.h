@@ -41,7 +41,7 @@ inline int first_ending_after(const PlacedClip& clip, int first, int last, doubl
 /// does.
 template <class Observer, class OnHit>
 bool visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b, int end_b,
-                        Observer& observer, OnHit& on_hit) {
+                        [[maybe_unused]] Observer& observer, OnHit& on_hit) {
     const double begin = std::max(a.time(first_a), b.time(first_b));
     int i = first_ending_after(a, first_a, end_a, begin);
     int j = first_ending_after(b, first_b, end_b, begin);
@@ -51,7 +51,7 @@ bool visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const Place
         if (overlap_in_time(a.time(i), end_i, b.time(j), end_j)) {
             const Disk disk_a = a.disk(i);
             const Disk disk_b = b.disk(j);
-            observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
+            if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
             if (collide(disk_a, disk_b) && on_hit(i, j)) {
                 return true;
             }
@@ -85,7 +85,7 @@ class Traversal {
     bool visit(int ia, int ib) {
         const auto& na = a_.node(ia);
         const auto& nb = b_.node(ib);
-        observer_.enter(ia, ib);
+        if constexpr (Observer::watches) observer_.enter(ia, ib);
         bool stop = false;
         if (may_meet_in_time(na, nb) && may_meet_in_space(na.box, nb.box)) {
             if (na.is_leaf()) {
@@ -98,7 +98,7 @@ class Traversal {
                        visit(na.children[1], nb.children[0]) || visit(na.children[1], nb.children[1]);
             }
         }
-        observer_.leave();
+        if constexpr (Observer::watches) observer_.leave();
         return stop;
     }
 
@@ -107,9 +107,9 @@ class Traversal {
         const auto& leaf = a_.node(ia);
         for (const int child : inner.children) {
             const auto& nb = b_.node(child);
-            observer_.enter(ia, child);
+            if constexpr (Observer::watches) observer_.enter(ia, child);
             const bool stop = may_meet_in_time(leaf, nb) && (nb.is_leaf() ? test_samples(leaf, nb) : walk_b(ia, nb));
-            observer_.leave();
+            if constexpr (Observer::watches) observer_.leave();
             if (stop) return true;
         }
         return false;
@@ -120,9 +120,9 @@ class Traversal {
         const auto& leaf = b_.node(ib);
         for (const int child : inner.children) {
             const auto& na = a_.node(child);
-            observer_.enter(child, ib);
+            if constexpr (Observer::watches) observer_.enter(child, ib);
             const bool stop = may_meet_in_time(na, leaf) && (na.is_leaf() ? test_samples(na, leaf) : walk_a(na, ib));
-            observer_.leave();
+            if constexpr (Observer::watches) observer_.leave();
             if (stop) return true;
         }
         return false;
@@ -130,27 +130,27 @@ class Traversal {
 
     bool may_meet_in_time(const auto& na, const auto& nb) {
         const bool overlap = overlap_in_time(a_.begin(na), a_.end(na), b_.begin(nb), b_.end(nb));
-        observer_.time_test(overlap);
+        if constexpr (Observer::watches) observer_.time_test(overlap);
         return overlap;
     }
 
     bool may_meet_in_space(const Box& a, const Box& b) {
         if (a.kind == BoxKind::obb2d && b.kind == BoxKind::obb2d) {
             const Separation separation = separate_obb2d(a, b, frame_);
-            observer_.box_test(BoxKind::obb2d, separation);
+            if constexpr (Observer::watches) observer_.box_test(BoxKind::obb2d, separation);
             return !separation.separated();
         }
         // Boxes of different time scales live in different spaces: never compared, the pair counts as overlapping.
         if (!same_scale_) return true;
         const Separation separation = separate_obb3d(a, b, frame_);
-        observer_.box_test(BoxKind::obb3d, separation);
+        if constexpr (Observer::watches) observer_.box_test(BoxKind::obb3d, separation);
         return !separation.separated();
     }
 
     bool test_samples(const auto& na, const auto& nb) {
         const bool hit = visit_sample_pairs(a_.placed_clip(), na.first, na.end(), b_.placed_clip(), nb.first, nb.end(),
                                             observer_, on_hit_);
-        observer_.sample_test(hit);
+        if constexpr (Observer::watches) observer_.sample_test(hit);
         return hit;
     }
 

@@ -1,0 +1,33 @@
+/// Walks for measurements: about as fast, as wide and as winding as people's.
+#pragma once
+
+#include <mobb/random_motion.h>
+
+namespace mobb::bench {
+
+/// A walk of `seconds` at 30 samples a second, inside a room of about 3 m as motion capture has it.
+inline ClipPtr walk(test::Random& random, double seconds) {
+    const int n = static_cast<int>(seconds * 30);
+    const double speed = random.real(0.6, 1.4);
+    const double turn = random.real(0.4, 1.2) * (random.chance(0.5) ? 1 : -1);
+    double x = 0, y = 0, heading = random.real(0, 6.28);
+    std::vector<Disk> samples;
+    for (int i = 0; i < n; ++i) {
+        samples.push_back({x, y, 0.4 + 0.07 * std::sin(0.37 * i)});
+        // Turning back whenever the wall is near keeps the walk in the room.
+        const bool outward = x * std::cos(heading) + y * std::sin(heading) > 0;
+        heading += (outward && std::hypot(x, y) > 1 ? 2.5 : 0.3) * turn / 30 + random.real(-0.05, 0.05);
+        x += speed / 30 * std::cos(heading);
+        y += speed / 30 * std::sin(heading);
+    }
+    return std::make_shared<const Clip>(1.0 / 30, std::move(samples));
+}
+
+/// Both clips somewhere in the room, apart in time by up to 1.2 clip lengths: mostly misses, many of them close.
+inline Placement somewhere(test::Random& random, double seconds) {
+    return {.translate = {random.real(-5, 5), random.real(-5, 5)},
+            .rotate_deg = random.real(0, 360),
+            .start = random.real(-1.2, 1.2) * seconds};
+}
+
+}  // namespace mobb::bench
