@@ -95,7 +95,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> nam
     if (names.empty()) return "";
     const std::string& name = nearest(word, names);
     // A word that is wrong in more than half of its letters is another word.
-    const bool meant = distance_to(word, name) <= std::max<std::size_t>(word.size() / 2, 1);
+    const bool meant = distance_to(word, name) <= (word.size() + 1) / 2;
     return meant ? " (did you mean " + in_quotes(name) + "?)" : "";
 }
 
