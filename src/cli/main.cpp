@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
     int status = kDone;
     add_convert_command(program);
     add_fit_command(program);
+    add_info_command(program);
     add_query_command(program, status);
     add_render_command(program);
     for (CLI::App* command : program.get_subcommands({})) {

@@ -1,0 +1,141 @@
+#include <cli/commands.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <mobb/predicate.h>
+#include <scene/json_writer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+using Layout = JsonWriter::Layout;
+
+struct Arguments {
+    std::vector<std::filesystem::path> files;
+    bool json = false;
+    ImportOptions import_options;
+};
+
+/// What a clip's samples say, in metres and m/s.
+struct PathFigures {
+    double length = 0;
+    double mean_speed = 0;  ///< between the first sample and the last; 0 for one sample
+    double min_radius = 0;
+    double mean_radius = 0;
+    double max_radius = 0;
+};
+
+PathFigures figures_of(const mobb::Clip& clip) {
+    PathFigures figures;
+    figures.min_radius = clip.samples().front().r;
+    const mobb::Disk* before = nullptr;
+    for (const mobb::Disk& disk : clip.samples()) {
+        if (before) figures.length += std::sqrt(mobb::squared_distance(*before, disk));
+        figures.min_radius = std::min(figures.min_radius, disk.r);
+        figures.max_radius = std::max(figures.max_radius, disk.r);
+        figures.mean_radius += disk.r / clip.count();
+        before = &disk;
+    }
+    if (clip.count() > 1) figures.mean_speed = figures.length / ((clip.count() - 1) * clip.dt());
+    return figures;
+}
+
+/// Of a clip with its samples in the scene, the scene is the file.
+SourceFacts facts_of(const SceneClip& clip) {
+    if (clip.source) return clip.facts;
+    return {"scene", 1, clip.clip->count(), clip.clip->dt(), (clip.clip->count() - 1) * clip.clip->dt(), {}};
+}
+
+/// Where a clip was read from: the source that its scene names, or the file itself.
+std::string file_of(const Scene& scene, const SceneClip& clip) {
+    return clip.source ? (scene.file.parent_path() / *clip.source).string() : scene.file.string();
+}
+
+void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
+    const SourceFacts facts = facts_of(clip);
+    const PathFigures figures = figures_of(*clip.clip);
+    out.begin_object();
+    out.member("file", file_of(scene, clip));
+    out.member("name", clip.name);
+    out.member("format", facts.format);
+    // Neither a CSV nor a scene has a skeleton.
+    for (const char* key : {"animation", "root", "joints"}) {
+        out.key(key);
+        out.null();
+    }
+    out.member("unit", facts.unit);
+    out.member("file_frames", facts.frames);
+    out.key("file_dt");
+    facts.dt ? out.value(*facts.dt) : out.null();
+    out.member("file_duration", facts.duration);
+    out.member("samples", clip.clip->count());
+    out.member("dt", clip.clip->dt());
+    out.member("duration", clip.clip->duration());
+    out.member("path_length", figures.length);
+    out.member("mean_speed", figures.mean_speed);
+    out.member("min_radius", figures.min_radius);
+    out.member("mean_radius", figures.mean_radius);
+    out.member("max_radius", figures.max_radius);
+    out.key("warnings");
+    out.begin_array(Layout::row);
+    for (const std::string& warning : facts.warnings) out.value(warning);
+    out.end_array();
+    out.end_object();
+}
+
+void print_clip(const Scene& scene, const SceneClip& clip) {
+    const SourceFacts facts = facts_of(clip);
+    const PathFigures figures = figures_of(*clip.clip);
+    std::cout << clip.name << " (" << file_of(scene, clip) << ", " << facts.format << ")\n"
+              << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
+              << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
+              << brief(facts.unit) << " m per unit\n"
+              << "  taken        " << counted(clip.clip->count(), "sample", "samples") << " of "
+              << brief(clip.clip->dt()) << " s, " << brief(clip.clip->duration()) << " s in all\n"
+              << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
+              << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
+              << brief(figures.mean_radius) << " m\n";
+    for (const std::string& warning : facts.warnings) std::cout << "  warning      " << warning << '\n';
+}
+
+void run(const Arguments& arguments) {
+    std::vector<Scene> scenes;
+    for (const std::filesystem::path& file : arguments.files)
+        scenes.push_back(load_scene(file, arguments.import_options));
+    JsonWriter json(std::cout);
+    if (arguments.json) {
+        json.begin_object();
+        json.key("clips");
+        json.begin_array();
+    }
+    for (const Scene& scene : scenes) {
+        for (const SceneClip& clip : scene.clips) {
+            arguments.json ? write_clip(json, scene, clip) : print_clip(scene, clip);
+        }
+    }
+    if (arguments.json) {
+        json.end_array();
+        json.end_object();
+    }
+    flush_results();
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("FILE", arguments->files, "Scenes (.json) and clips (.csv)")->required();
+    command->add_flag("--json", arguments->json, "The same as JSON");
+    add_import_options(*command, arguments->import_options);
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace mobbscope::cli
