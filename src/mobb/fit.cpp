@@ -255,11 +255,12 @@ Box box_along_or_upright(const Clip& clip, SampleRange range, const Axes3& axes,
 
 /// Turns the box about its own axes by ever smaller steps for as long as its volume shrinks.
 Box shrink_by_turning(const Clip& clip, SampleRange range, Box best, double w) {
-    constexpr double kFirstStep = 0.2;   // radians
-    constexpr double kLastStep = 0.002;  // below this the volume no longer changes by a per mille
+    constexpr double kFirstStep = 0.2;  // radians
+    constexpr int kHalvings = 7;        // down to 0.003: finer steps change the volume by less than a per mille
     constexpr int kMostTurnsPerStep = 32;
     double least = volume(best, w);
-    for (double step = kFirstStep; step > kLastStep; step /= 2) {
+    for (int halving = 0; halving < kHalvings; ++halving) {
+        const double step = std::ldexp(kFirstStep, -halving);
         const double c = std::cos(step);
         const double s = std::sin(step);
         bool improved = true;
