@@ -1,13 +1,16 @@
 #include <import/error.h>
 #include <import/file.h>
+#include <import/text.h>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <system_error>
 #include <vector>
@@ -32,18 +35,33 @@ std::filesystem::path resolved(const std::filesystem::path& file) {
     return error ? file : target;
 }
 
-/// The rights that a new file would get, or those of the file that is replaced.
-mode_t mode_for(const std::filesystem::path& file) {
-    struct stat status {};
-    if (::stat(file.c_str(), &status) == 0) return status.st_mode & 07777;
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    return 0666 & ~mask;
+/// A new file with the rights that the process gives to new files.
+struct TemporaryFile {
+    std::string name;
+    int descriptor;  ///< -1: errno says why there is none
+};
+
+TemporaryFile make_temporary(const std::filesystem::path& folder) {
+    static std::atomic<unsigned> made{0};
+    for (;;) {
+        const std::string number = std::to_string(::getpid()) + '-' + std::to_string(made++);
+        TemporaryFile file{(folder / (".mobbscope-" + number)).string(), -1};
+        file.descriptor = ::open(file.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        // A file of that name was left by a process that was killed.
+        if (file.descriptor >= 0 || errno != EEXIST) return file;
+    }
 }
 
 }  // namespace
 
+void check_file_name(const std::filesystem::path& file) {
+    if (file.empty()) throw InputError("the name of a file is empty; give one");
+    if (file.native().find('\0') != std::string::npos)
+        throw InputError(in_quotes(file.native()), "", "the name of a file holds a NUL byte; remove it");
+}
+
 std::string read_file(const std::filesystem::path& file) {
+    check_file_name(file);
     const std::string name = file.string();
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
@@ -73,6 +91,7 @@ std::string read_file(const std::filesystem::path& file) {
 }
 
 void write_file(const std::filesystem::path& file, std::string_view bytes) {
+    check_file_name(file);
     const auto failure = [&](int error) {
         return MachineError(file.string() + ": cannot be written: " + system_message(error));
     };
@@ -83,9 +102,12 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
         throw MachineError(file.string() + ": cannot be written: is no regular file");
     }
+    struct stat replaced {};
+    const bool replaces = ::stat(target.c_str(), &replaced) == 0;
+    // Renaming asks for rights over the folder alone, so a protected file would be replaced too.
+    if (replaces && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) throw failure(errno);
 
-    std::string temporary = (target.parent_path() / ".mobbscope-XXXXXX").string();
-    const int descriptor = ::mkstemp(temporary.data());
+    const auto [temporary, descriptor] = make_temporary(target.parent_path());
     if (descriptor < 0) throw failure(errno);
     int error = 0;
     for (std::size_t done = 0; done < bytes.size() && error == 0;) {
@@ -96,7 +118,7 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
             error = errno;
         }
     }
-    if (error == 0 && ::fchmod(descriptor, mode_for(target)) != 0) error = errno;
+    if (error == 0 && replaces && ::fchmod(descriptor, replaced.st_mode & 07777) != 0) error = errno;
     if (::close(descriptor) != 0 && error == 0) error = errno;
     if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
     if (error != 0) {

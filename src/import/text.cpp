@@ -33,6 +33,24 @@ std::size_t distance_to(std::string_view word, std::string_view name) {
     return edit_distance(word.substr(0, kLongestQuote), name.substr(0, kLongestQuote));
 }
 
+/// Whether a decimal number beyond double's range is too small for it, not too large.
+bool is_tiny(std::string_view number) {
+    const std::size_t e = number.find_first_of("eE");
+    const std::string_view digits = number.substr(0, e);
+    const auto first = static_cast<long long>(digits.find_first_of("123456789"));
+    const auto point = static_cast<long long>(std::min(digits.find('.'), digits.size()));
+    if (e == std::string_view::npos) return point < first;
+    std::string_view power = number.substr(e + 1);
+    if (power.starts_with('+')) power.remove_prefix(1);
+    long long exponent = 0;
+    // A power that no integer holds outweighs any number of digits.
+    if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec != std::errc{})
+        return power.starts_with('-');
+    return exponent < first - point;
+}
+
+bool is_trail_byte(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
 }  // namespace
 
 std::optional<double> parse_double(std::string_view text) {
@@ -40,7 +58,9 @@ std::optional<double> parse_double(std::string_view text) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    if (end != text.data() + text.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range && is_tiny(text)) return text[0] == '-' ? -0.0 : 0.0;
+    if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
     return value;
 }
 
@@ -74,6 +94,22 @@ std::string short_double(double value) {
     return {buffer, end};
 }
 
+std::string brief(double value) {
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
+    return {buffer, end};
+}
+
+std::string counted(long long count, std::string_view singular, std::string_view plural) {
+    return std::to_string(count) + ' ' + std::string(count == 1 ? singular : plural);
+}
+
+std::string listed(std::span<const std::string_view> names) {
+    std::string out;
+    for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
+    return out;
+}
+
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r";
     const std::size_t first = text.find_first_not_of(kBlanks);
@@ -105,15 +141,28 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
-std::string in_quotes(std::string_view text) {
-    std::string out = "'";
-    for (const char c : text.substr(0, kLongestQuote)) {
-        const auto byte = static_cast<unsigned char>(c);
-        out += byte < 0x20 || byte == 0x7f ? '?' : c;
+std::string cleaned(std::string_view text) {
+    const bool utf8 = is_utf8(text);
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+        // U+0080 to U+009F steer terminals as the characters below a blank do.
+        const bool upper_control = utf8 && byte == 0xc2 && next < 0xa0;
+        const bool plain = byte >= 0x20 && byte != 0x7f && !upper_control && (utf8 || byte < 0x80);
+        out += plain ? text[i] : '?';
+        if (upper_control) ++i;
     }
-    if (text.size() > kLongestQuote) out += "...";
-    return out + "'";
+    return out;
 }
+
+std::string shortened(std::string_view text, std::size_t most) {
+    if (text.size() <= most) return std::string(text);
+    while (most > 0 && is_trail_byte(text[most])) --most;
+    return std::string(text.substr(0, most)) + "...";
+}
+
+std::string in_quotes(std::string_view text) { return "'" + cleaned(shortened(text, kLongestQuote)) + "'"; }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
     if (names.empty()) return "";

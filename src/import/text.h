@@ -1,17 +1,20 @@
 /// Numbers and words in text, the same in every locale.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace mobbscope {
 
-/// The whole text as a finite decimal number; nothing for anything else (blanks, "nan", "1e999", "0x1", "1.5m").
+/// The whole text as a finite decimal number; nothing for anything else ("", blanks, "nan", "1e999", "0x1", "1.5m").
+/// What is too small for a double ("1e-400") is zero.
 std::optional<double> parse_double(std::string_view text);
 
-/// The whole text as a decimal int; nothing for anything else.
+/// The whole text as a decimal int ("010" is 10); nothing for anything else.
 std::optional<int> parse_int(std::string_view text);
 
 /// "A:B" as two finite numbers; nothing for anything else.
@@ -23,13 +26,29 @@ std::string format_double(double value);
 /// The fewest digits that are read back as the same double: for messages.
 std::string short_double(double value);
 
+/// A number for people: six significant digits.
+std::string brief(double value);
+
+/// "1 sample", "12 samples".
+std::string counted(long long count, std::string_view singular, std::string_view plural);
+
+/// "mobb, umobb, hybrid1".
+std::string listed(std::span<const std::string_view> names);
+
 /// Without blanks (space, tab, carriage return) at both ends.
 std::string_view trimmed(std::string_view text);
 
 /// Whether the bytes are well-formed UTF-8 (RFC 3629).
 bool is_utf8(std::string_view text);
 
-/// Text in single quotes for a message: control characters are replaced, long text is cut.
+/// Text from a file or a name, fit for a line on a terminal: control characters, and bytes that are not UTF-8, become
+/// '?'.
+std::string cleaned(std::string_view text);
+
+/// At most `most` bytes of the text, whole characters of UTF-8, with "..." where something was cut.
+std::string shortened(std::string_view text, std::size_t most);
+
+/// Text in single quotes for a message: cleaned and shortened.
 std::string in_quotes(std::string_view text);
 
 /// " (did you mean 'leaf'?)" if one of the names is near enough to be meant, else "".

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <string>
 
@@ -50,6 +51,43 @@ TEST(File, MissingFoldersAndDevicesAreNotWritten) {
     std::filesystem::create_symlink("/dev/full", folder.path() / "full.csv");
     EXPECT_THROW(write_file(folder.path() / "full.csv", "x"), MachineError);
     EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(File, AProtectedFileIsNotReplaced) {
+    const TempFolder folder;
+    const auto target = folder.write("x.csv", "old");
+    std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+    ::chmod(target.c_str(), 0444);
+    // Root may write everything: be someone else for a while.
+    const bool was_root = ::geteuid() == 0;
+    if (was_root) {
+        ASSERT_EQ(::seteuid(65534), 0);
+    }
+    EXPECT_THROW(write_file(target, "new"), MachineError);
+    EXPECT_NO_THROW(write_file(folder.path() / "y.csv", "new")) << "the folder itself may be written";
+    if (was_root) {
+        ASSERT_EQ(::seteuid(0), 0);
+    }
+    EXPECT_EQ(slurp(target), "old");
+    EXPECT_EQ(files_in(folder.path()), 2u);
+}
+
+TEST(File, ANewFileHasTheRightsOfTheProcess) {
+    const TempFolder folder;
+    const mode_t before = ::umask(027);
+    write_file(folder.path() / "x.csv", "x");
+    ::umask(before);
+    struct stat status {};
+    ::stat((folder.path() / "x.csv").c_str(), &status);
+    EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST(File, WhatIsNoNameIsRefused) {
+    const std::filesystem::path hidden(std::string("a.csv\0.txt", 10));
+    EXPECT_NE(input_error([] { read_file(""); }).find("is empty"), std::string::npos);
+    EXPECT_NE(input_error([] { write_file("", "x"); }).find("is empty"), std::string::npos);
+    EXPECT_NE(input_error([&] { read_file(hidden); }).find("NUL byte"), std::string::npos);
+    EXPECT_NE(input_error([&] { write_file(hidden, "x"); }).find("NUL byte"), std::string::npos);
 }
 
 TEST(File, OnlyRegularFilesAreRead) {

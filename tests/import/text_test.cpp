@@ -15,7 +15,15 @@ TEST(Text, NumbersAreWholeFiniteAndDecimal) {
     for (const char* bad : {"", " 1", "1 ", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "1.5m", "+-1", "+"}) {
         EXPECT_FALSE(parse_double(bad)) << bad;
     }
+    for (const char* tiny : {"1e-400", "0.00001e-330", "1e-99999999999999999999", "12345e-500"})
+        EXPECT_EQ(parse_double(tiny), 0) << tiny;
+    EXPECT_TRUE(std::signbit(*parse_double("-1e-400")));
+    EXPECT_EQ(parse_double("0." + std::string(400, '0') + "1"), 0);
+    EXPECT_FALSE(parse_double("1" + std::string(400, '0')));
+    EXPECT_FALSE(parse_double("0.00001e400"));
+    EXPECT_FALSE(parse_double("1e99999999999999999999"));
     EXPECT_EQ(parse_int("-7"), -7);
+    EXPECT_EQ(parse_int("010"), 10);
     EXPECT_FALSE(parse_int("7.0"));
     EXPECT_FALSE(parse_int("99999999999"));
 }
@@ -51,6 +59,19 @@ TEST(Text, Utf8IsToldFromOtherBytes) {
 TEST(Text, QuotesAreShortAndOnOneLine) {
     EXPECT_EQ(in_quotes("a\nb"), "'a?b'");
     EXPECT_LT(in_quotes(std::string(10'000, 'x')).size(), 80u);
+    // 60 bytes would end inside a letter of two.
+    std::string accents = "x";
+    for (int i = 0; i < 50; ++i) accents += "\xc3\xa9";
+    EXPECT_TRUE(is_utf8(in_quotes(accents)));
+    EXPECT_EQ(in_quotes(accents), "'" + accents.substr(0, 59) + "...'");
+}
+
+TEST(Text, WhatSteersATerminalIsCleaned) {
+    EXPECT_EQ(cleaned("a\x1b[2J\r\n\t\x7f"), "a?[2J????");
+    EXPECT_EQ(cleaned("\xc2\x9b"
+                      "1m \xc2\xa0\xc3\xa9"),
+              "?1m \xc2\xa0\xc3\xa9");
+    EXPECT_EQ(cleaned("caf\xe9"), "caf?");
 }
 
 TEST(Text, TheNearestNameIsFoundAndOnlyNamedWhenMeant) {
