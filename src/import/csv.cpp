@@ -38,9 +38,10 @@ class CsvParser {
             }
             const std::string id = table.has_id ? identifier() : "";
             const auto [track, is_new] = track_of.try_emplace(id, table.tracks.size());
-            if (is_new) table.tracks.push_back({id, line_, {}});
+            if (is_new) table.tracks.push_back({id, {}, {}});
             std::vector<TimedDisk>& rows = table.tracks[track->second].rows;
             rows.push_back(row());
+            table.tracks[track->second].lines.push_back(line_);
             if (table.has_time && rows.size() > 1) check_order(rows, id);
         }
         if (table.tracks.empty()) throw InputError(file_, at(line_), "there is no row after the header; add samples");
@@ -223,7 +224,15 @@ class ClipMaker {
         facts.dt = stored_dt;
         facts.duration = rows.back().t - rows.front().t;
 
-        const double step = stored_dt.value_or(1 / options_.fps.value_or(kDefaultFps));
+        const double fps = options_.fps.value_or(kDefaultFps);
+        const double step = stored_dt.value_or(1 / fps);
+        if (!stored_dt) facts.warnings.push_back(resampled(track, fps));
+        if (rows.size() == 1) facts.warnings.push_back("there is one row: it holds for " + brief(step) + " s");
+        // The last row still holds for a step.
+        if (options_.trim && options_.trim->second > facts.duration + step) {
+            facts.warnings.push_back("trim ends at " + brief(options_.trim->second) + " s, but the rows last " +
+                                     brief(facts.duration) + " s; all of them to the end are taken");
+        }
         std::vector<mobb::Disk> samples;
         if (stored_dt && !options_.trim) {
             for (const TimedDisk& row : rows) samples.push_back(row.disk);
@@ -239,6 +248,15 @@ class ClipMaker {
     }
 
   private:
+    static std::string resampled(const CsvTrack& track, double fps) {
+        const std::vector<TimedDisk>& rows = track.rows;
+        const std::size_t row = *first_out_of_step(rows);
+        const double dt = (rows.back().t - rows.front().t) / static_cast<double>(rows.size() - 1);
+        return "the times are not uniform (line " + std::to_string(track.lines[row]) + ": " + brief(rows[row].t) +
+               " s, in step would be " + brief(rows.front().t + static_cast<double>(row) * dt) +
+               " s); the path is resampled at " + brief(fps) + " fps";
+    }
+
     /// The rows' uniform spacing in seconds, or none. Gives rows without a time column their times.
     std::optional<double> spacing(std::vector<TimedDisk>& rows, SourceFacts& facts) const {
         if (options_.fps && (!table_.has_time || rows.size() == 1 || is_uniform(rows))) {
@@ -311,7 +329,7 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
             try {
                 clips.push_back(maker.make(track));
             } catch (const std::invalid_argument& error) {
-                const std::string place = "line " + std::to_string(track.first_line);
+                const std::string place = "line " + std::to_string(track.lines.front());
                 throw InputError(name, table.has_id ? place + ", track " + in_quotes(track.id) : place, error.what());
             }
             clips.back().name = table.tracks.size() > 1 ? track.id : file.stem().string();

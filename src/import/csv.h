@@ -4,6 +4,7 @@
 #include <import/import.h>
 #include <import/sampling.h>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +13,9 @@ namespace mobbscope {
 
 /// The rows of one id, in the file's order; times increase.
 struct CsvTrack {
-    std::string id;      ///< empty without an id column
-    int first_line = 0;  ///< of the file, from 1
+    std::string id;  ///< empty without an id column
     std::vector<TimedDisk> rows;
+    std::vector<int> lines;  ///< of each row in the file, from 1
 };
 
 /// A file as it stands: nothing scaled, nothing sampled.

@@ -37,10 +37,11 @@ void check(const ImportOptions& options) {
     require(!options.up || *options.up == "y" || *options.up == "z", "up must be y or z");
     require(!options.trim || (options.trim->first >= 0 && options.trim->first < options.trim->second &&
                               options.trim->second <= mobb::kMaxTime),
-            "trim must be two times A and B in seconds, 0 <= A < B");
+            "trim must be two times A and B in seconds, 0 <= A < B <= " + short_double(mobb::kMaxTime));
     require(!options.radius || (*options.radius >= 0 && *options.radius <= mobb::kMaxLength),
-            "radius must be 0 or more metres");
-    require(!options.dt || (*options.dt > 0 && *options.dt <= mobb::kMaxTime), "dt must be over 0 seconds");
+            "radius must be from 0 to " + short_double(mobb::kMaxLength) + " metres");
+    require(!options.dt || (*options.dt > 0 && *options.dt <= mobb::kMaxTime),
+            "dt must be over 0 and at most " + short_double(mobb::kMaxTime) + " seconds");
 }
 
 std::string_view name(Origin origin) {

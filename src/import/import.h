@@ -15,18 +15,18 @@ namespace mobbscope {
 enum class Origin { keep, start, start_heading };
 
 /// How a file becomes clips: the import keys of a scene's clip and the import options of the command line.
-/// An empty option takes the default of the contract, section 2.
+/// An empty option takes the default of the contract, section 2; see applicable.h for what a CSV has no use for.
 struct ImportOptions {
-    std::optional<std::string> animation;           ///< index or name; a number counts as an index
+    std::optional<std::string> animation;           ///< index (from 0) or name; a number counts as an index
     std::optional<std::string> root;                ///< joint name
-    std::optional<double> fps;                      ///< samples per second, > 0; default 30
-    std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit
+    std::optional<double> fps;                      ///< samples per second, over 0 to 1e6; default 30
+    std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit, over 0 to 1e6
     std::optional<std::string> up;                  ///< "y" or "z"
-    std::optional<std::pair<double, double>> trim;  ///< file seconds from the first key, before sampling
-    std::optional<Origin> origin;
-    std::optional<std::string> id;  ///< CSV: the track to take
-    std::optional<double> radius;   ///< metres; overrides r of every sample
-    std::optional<double> dt;       ///< seconds between rows of a CSV without a time column
+    std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key
+    std::optional<Origin> origin;                   ///< default keep
+    std::optional<std::string> id;                  ///< CSV: the track to take
+    std::optional<double> radius;                   ///< metres, 0 to kMaxLength; overrides r of every sample
+    std::optional<double> dt;  ///< seconds, over 0 to kMaxTime, between rows of a CSV without a time column
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };

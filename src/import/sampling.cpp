@@ -15,13 +15,13 @@ mobb::Disk mix(const mobb::Disk& a, const mobb::Disk& b, double share) {
 
 }  // namespace
 
-bool is_uniform(std::span<const TimedDisk> frames) {
+std::optional<std::size_t> first_out_of_step(std::span<const TimedDisk> frames) {
     const double begin = frames.front().t;
     const double dt = (frames.back().t - begin) / static_cast<double>(frames.size() - 1);
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        if (std::abs(frames[i].t - (begin + static_cast<double>(i) * dt)) > kFrameTolerance * dt) return false;
+        if (std::abs(frames[i].t - (begin + static_cast<double>(i) * dt)) > kFrameTolerance * dt) return i;
     }
-    return true;
+    return std::nullopt;
 }
 
 double sample_count(double begin, double end, double step) {
@@ -42,13 +42,14 @@ std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, double begin, 
         } else {
             const TimedDisk& a = frames[next - 1];
             const TimedDisk& b = frames[next];
-            const double share = (t - a.t) / (b.t - a.t);
-            if (share <= kFrameTolerance) {
+            // In a long gap a share of it would be many samples.
+            const double near = kFrameTolerance * std::min(b.t - a.t, step);
+            if (t - a.t <= near) {
                 out.push_back(a.disk);
-            } else if (share >= 1 - kFrameTolerance) {
+            } else if (b.t - t <= near) {
                 out.push_back(b.disk);
             } else {
-                out.push_back(mix(a.disk, b.disk, share));
+                out.push_back(mix(a.disk, b.disk, (t - a.t) / (b.t - a.t)));
             }
         }
     }

@@ -37,6 +37,16 @@ TEST(Sampling, BetweenFramesIsLinearAndNearOneIsThatFrame) {
     EXPECT_NE(sample(rows, 1.05, 1, 1)[0].x, rows[1].disk.x);
 }
 
+TEST(Sampling, NearAFrameIsMeasuredInFramesNotInTheGap) {
+    const auto rows = frames({0, 10, 10.1});
+    // 9.9 s is 3 samples before the frame at 10 s, though only a hundredth of the gap.
+    EXPECT_DOUBLE_EQ(sample(rows, 9.9, 1.0 / 30, 1)[0].x, 99);
+    EXPECT_DOUBLE_EQ(sample(rows, 0.1, 1.0 / 30, 1)[0].x, 1);
+    EXPECT_EQ(sample(rows, 9.9995, 1.0 / 30, 1)[0].x, rows[1].disk.x);
+    // With long steps the stored gap is the frame.
+    EXPECT_DOUBLE_EQ(sample(rows, 10.01, 5, 1)[0].x, 100.1);
+}
+
 TEST(Sampling, BeyondTheFramesTheEndsStay) {
     const auto rows = frames({0, 1});
     const auto disks = sample(rows, -1, 3, 2);
