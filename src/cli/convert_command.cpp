@@ -6,7 +6,10 @@
 #include <import/file.h>
 #include <import/text.h>
 
+#include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <string>
 
 namespace mobbscope::cli {
 
@@ -55,6 +58,7 @@ void warn_of_lost_dt(const Scene& scene) {
 }
 
 void run(const Arguments& arguments) {
+    check_file_name(arguments.out);
     const std::string extension = lower_extension(arguments.out);
     if (extension != ".csv" && extension != ".json") {
         throw InputError(arguments.out.string(), "", "clips can be written as .csv or .json; rename the output");

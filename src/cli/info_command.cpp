@@ -1,6 +1,7 @@
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
+#include <import/text.h>
 #include <mobb/predicate.h>
 #include <scene/json_writer.h>
 
@@ -34,15 +35,18 @@ struct PathFigures {
 
 PathFigures figures_of(const mobb::Clip& clip) {
     PathFigures figures;
+    double radii = 0;
     figures.min_radius = clip.samples().front().r;
     const mobb::Disk* before = nullptr;
     for (const mobb::Disk& disk : clip.samples()) {
         if (before) figures.length += std::sqrt(mobb::squared_distance(*before, disk));
         figures.min_radius = std::min(figures.min_radius, disk.r);
         figures.max_radius = std::max(figures.max_radius, disk.r);
-        figures.mean_radius += disk.r / clip.count();
+        radii += disk.r;
         before = &disk;
     }
+    // Rounding must not push the mean of equal radii off them.
+    figures.mean_radius = std::clamp(radii / clip.count(), figures.min_radius, figures.max_radius);
     if (clip.count() > 1) figures.mean_speed = figures.length / ((clip.count() - 1) * clip.dt());
     return figures;
 }
@@ -93,7 +97,7 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
 void print_clip(const Scene& scene, const SceneClip& clip) {
     const SourceFacts facts = facts_of(clip);
     const PathFigures figures = figures_of(*clip.clip);
-    std::cout << clip.name << " (" << file_of(scene, clip) << ", " << facts.format << ")\n"
+    std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n"
               << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
               << brief(facts.unit) << " m per unit\n"
@@ -102,7 +106,7 @@ void print_clip(const Scene& scene, const SceneClip& clip) {
               << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
               << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
               << brief(figures.mean_radius) << " m\n";
-    for (const std::string& warning : facts.warnings) std::cout << "  warning      " << warning << '\n';
+    for (const std::string& warning : facts.warnings) std::cout << "  warning      " << cleaned(warning) << '\n';
 }
 
 void run(const Arguments& arguments) {

@@ -19,15 +19,16 @@ namespace mobbscope::cli {
 
 namespace {
 
-/// `mobbscope [FILE...]` is for the window.
+/// `mobbscope [FILE...]` is for the window. Throws InputError if a file cannot be used.
 int open_window(const CLI::App& program, const std::vector<std::string>& files) {
     std::vector<std::string> commands;
     for (const CLI::App* command : program.get_subcommands({})) commands.push_back(command->get_name());
     for (const std::string& file : files) {
         std::error_code ignored;
-        if (std::filesystem::exists(file, ignored)) continue;
-        complain(in_quotes(file) + " is neither a command nor a file" + did_you_mean(file, commands));
-        return kBadInput;
+        if (!file.empty() && !std::filesystem::exists(file, ignored)) {
+            throw InputError(in_quotes(file) + " is neither a command nor a file" + did_you_mean(file, commands));
+        }
+        load_scene(file);
     }
     complain("this version has no window yet; give a command, see mobbscope --help");
     return kNoMachine;
@@ -46,6 +47,13 @@ int end_of_parse(const CLI::App& program, const CLI::ParseError& end) {
     return kBadInput;
 }
 
+/// A command of the contract that is still to come: its name is taken, its arguments are not.
+void add_planned_command(CLI::App& program, const std::string& name) {
+    CLI::App* command = program.add_subcommand(name, "Not in this version")->group("");
+    command->allow_extras()->set_help_flag();
+    command->callback([name] { throw InputError("the command " + name + " is not in this version"); });
+}
+
 int run(int argc, char** argv) {
     CLI::App program("See and debug bounding-volume trees in space-time", "mobbscope");
     program.set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
@@ -61,6 +69,15 @@ int run(int argc, char** argv) {
     for (CLI::App* command : program.get_subcommands({})) {
         command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
     }
+    add_planned_command(program, "diff");
+    add_planned_command(program, "bench");
+    // Before any command runs: what stands in front of its name is no argument of it.
+    program.parse_complete_callback([&program, &files] {
+        const std::vector<CLI::App*> chosen = program.get_subcommands();
+        if (files.empty() || chosen.empty()) return;
+        throw InputError(in_quotes(files.front()) + " stands before the command " + chosen.front()->get_name() +
+                         "; a command's files come after its name");
+    });
     try {
         program.parse(argc, argv);
         return program.get_subcommands().empty() ? open_window(program, files) : status;

@@ -2,23 +2,32 @@
 #include <cli/options.h>
 #include <import/text.h>
 
+#include <algorithm>
+#include <limits>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace mobbscope::cli {
 
 namespace {
 
-std::string listed(std::span<const std::string_view> names, std::string_view one_more = {}) {
-    std::string out;
-    for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
-    return one_more.empty() ? out : out + ", " + std::string(one_more);
-}
-
 /// What is wrong with an option, as a usage error that names the option.
 [[noreturn]] void refuse(const std::string& option, const std::string& message) {
     throw CLI::ValidationError(option, message);
+}
+
+// CLI11's own reading of numbers takes "" for 0 and "010" for 8, so every number comes as text.
+double number(const std::string& option, const std::string& text) {
+    if (const std::optional<double> value = parse_double(text)) return *value;
+    refuse(option, in_quotes(text) + " is no finite number; write it like 0.25");
+}
+
+int whole_number(const std::string& option, const std::string& text) {
+    if (const std::optional<int> value = parse_int(text)) return *value;
+    refuse(option, in_quotes(text) + " is no whole number up to " + std::to_string(std::numeric_limits<int>::max()) +
+                       "; write it like 10");
 }
 
 /// Turns a complaint of `check` into a usage error.
@@ -55,11 +64,11 @@ mobb::FitOptions FitArguments::over(mobb::FitOptions fit) const {
 
 void add_fit_options(CLI::App& command, FitArguments& arguments, Brute brute) {
     const bool takes_brute = brute == Brute::allowed;
-    const std::string trees = listed(mobb::tree_kind_names(), takes_brute ? "brute" : "");
+    const std::string trees = listed(mobb::tree_kind_names()) + (takes_brute ? ", brute" : "");
     const std::string axes = listed(mobb::axes_names());
     const auto checked = [&arguments](const std::string& option) { check_as(option, arguments.over({})); };
     const auto set_tree = [&arguments, takes_brute, trees](const std::string& text) {
-        arguments.tree = mobb::tree_kind(text);
+        arguments.tree = mobb::tree_kind_from_name(text);
         arguments.brute = takes_brute && text == "brute";
         if (!arguments.tree && !arguments.brute) refuse("--tree", in_quotes(text) + " is none of " + trees);
     };
@@ -67,40 +76,43 @@ void add_fit_options(CLI::App& command, FitArguments& arguments, Brute brute) {
         arguments.axes = mobb::axes_from_name(text);
         if (!arguments.axes) refuse("--axes", in_quotes(text) + " is none of " + axes);
     };
-    const auto set_leaf = [&arguments, checked](int leaf) {
-        arguments.leaf = leaf;
+    const auto set_leaf = [&arguments, checked](const std::string& text) {
+        arguments.leaf = whole_number("--leaf", text);
         checked("--leaf");
     };
-    const auto set_levels = [&arguments, checked](int levels) {
-        arguments.levels = levels;
+    const auto set_levels = [&arguments, checked](const std::string& text) {
+        arguments.levels = whole_number("--levels", text);
         checked("--levels");
     };
-    const auto set_time_scale = [&arguments, checked](double scale) {
-        arguments.time_scale = scale;
+    const auto set_time_scale = [&arguments, checked](const std::string& text) {
+        arguments.time_scale = number("--time-scale", text);
         checked("--time-scale");
     };
     constexpr const char* kGroup = "Fit (over the scene's)";
     command.add_option_function<std::string>("--tree", set_tree, trees)->group(kGroup)->type_name("K");
-    command.add_option_function<int>("--leaf", set_leaf, "Most samples in a leaf (10)")->group(kGroup)->type_name("N");
-    command.add_option_function<int>("--levels", set_levels, "Levels in a tree; 0 is all (0)")
+    command.add_option_function<std::string>("--leaf", set_leaf, "Most samples in a leaf (10)")
+        ->group(kGroup)
+        ->type_name("N");
+    command.add_option_function<std::string>("--levels", set_levels, "Levels in a tree; 0 is all (0)")
         ->group(kGroup)
         ->type_name("N");
     command.add_option_function<std::string>("--axes", set_axes, axes)->group(kGroup)->type_name("K");
     command
-        .add_option_function<double>("--time-scale", set_time_scale, "Metres per second that mix time with space (1)")
+        .add_option_function<std::string>("--time-scale", set_time_scale,
+                                          "Metres per second that mix time with space (1)")
         ->group(kGroup)
         ->type_name("W");
 }
 
 void add_import_options(CLI::App& command, ImportOptions& options) {
     constexpr const char* kGroup = "Import (over the scene's, for clips with a source)";
-    const auto number = [&](const std::string& option, std::optional<double> ImportOptions::*field, const char* type,
-                            const char* help) {
-        const auto set = [&options, option, field](double value) {
-            options.*field = value;
+    const auto quantity = [&](const std::string& option, std::optional<double> ImportOptions::*field, const char* type,
+                              const char* help) {
+        const auto set = [&options, option, field](const std::string& text) {
+            options.*field = number(option, text);
             check_as(option, options);
         };
-        command.add_option_function<double>(option, set, help)->group(kGroup)->type_name(type);
+        command.add_option_function<std::string>(option, set, help)->group(kGroup)->type_name(type);
     };
     const auto word = [&](const std::string& option, std::optional<std::string> ImportOptions::*field, const char* type,
                           const char* help) {
@@ -116,15 +128,15 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
             refuse("--trim", in_quotes(text) + " is no range; give two times in seconds, such as 0.5:3.2");
         check_as("--trim", options);
     };
-    number("--fps", &ImportOptions::fps, "F", "Samples per second where the file is resampled (30)");
+    quantity("--fps", &ImportOptions::fps, "F", "Samples per second where the file is resampled (30)");
     word("--unit", &ImportOptions::unit, "U", "m, cm, in, auto or metres per file unit");
     word("--up", &ImportOptions::up, "AXIS", "y or z");
     word("--root", &ImportOptions::root, "JOINT", "The joint whose path is taken");
     command.add_option_function<std::string>("--trim", set_trim, "Only this part, in seconds from the first key")
         ->group(kGroup)
         ->type_name("A:B");
-    number("--dt", &ImportOptions::dt, "S", "Seconds between the rows of a CSV without times");
-    number("--radius", &ImportOptions::radius, "R", "Radius of every sample, in metres");
+    quantity("--dt", &ImportOptions::dt, "S", "Seconds between the rows of a CSV without times");
+    quantity("--radius", &ImportOptions::radius, "R", "Radius of every sample, in metres");
     word("--animation", &ImportOptions::animation, "A", "Index or name of the animation");
 }
 

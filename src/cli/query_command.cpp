@@ -1,13 +1,16 @@
-#include <cli/answer.h>
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
 #include <cli/options.h>
+#include <cli/print_answer.h>
 #include <import/error.h>
 
+#include <cstddef>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -30,14 +33,13 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const Arguments& 
         json.key("results");
         json.begin_array();
     }
-    int index = 0;
-    for (const SceneQuery& query : fitted.queries()) {
+    for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
+        const SceneQuery query = fitted.queries()[index];
         const Answer found = answer(fitted, query, arguments.details);
         arguments.json ? write_answer(json, index, query, found) : print_answer(std::cout, index, query, found);
         if (const auto complaint = disagreement(query, found)) {
             complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
         }
-        ++index;
     }
     if (arguments.json) {
         json.end_array();
@@ -53,7 +55,7 @@ void run(Arguments& arguments, int& status) {
     if (fitted.queries().empty()) {
         throw InputError(arguments.file.string(), "", "there is nothing to ask; add queries, or two agents at least");
     }
-    arguments.details.brute = arguments.fit.brute;
+    arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
     const std::vector<std::string> complaints = answer_all(fitted, arguments);
     flush_results();
     for (const std::string& complaint : complaints) complain(arguments.file.string() + ": " + complaint);

@@ -5,10 +5,7 @@
 namespace mobbscope {
 
 FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options)
-    : scene_(std::move(scene)),
-      options_(options),
-      queries_(effective_queries(scene_)),
-      participants_(mobbscope::participants(scene_)) {
+    : scene_(std::move(scene)), options_(options), participants_(mobbscope::participants(scene_)) {
     mobb::check(options);
     trees_.reserve(scene_.clips.size());
     for (const SceneClip& clip : scene_.clips) {
@@ -16,10 +13,10 @@ FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options)
     }
 }
 
-RecordedQuery record(const FittedScene& fitted, const SceneQuery& query) {
+RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search) {
     mobb::TraceRecorder recorder;
     RecordedQuery out;
-    out.contact = mobb::query(fitted.placed(query.a), fitted.placed(query.b), recorder);
+    out.contact = ask(fitted, query, search, recorder);
     out.trace = recorder.take();
     out.tests = out.trace.counts();
     return out;

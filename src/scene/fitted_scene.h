@@ -3,11 +3,25 @@
 
 #include <scene/scene.h>
 
-#include <memory>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace mobbscope {
+
+/// The queries of a scene as a list whose elements are made when asked for (query_at). Refers to the scene.
+class QueryList {
+  public:
+    explicit QueryList(const Scene& scene) : scene_(&scene) {}
+
+    std::size_t size() const { return query_count(*scene_); }
+    bool empty() const { return size() == 0; }
+    /// 0 <= index < size().
+    SceneQuery operator[](std::size_t index) const { return query_at(*scene_, index); }
+
+  private:
+    const Scene* scene_;
+};
 
 /// Immutable once made; refers to nothing outside itself.
 class FittedScene {
@@ -18,7 +32,7 @@ class FittedScene {
     const Scene& scene() const { return scene_; }
     const mobb::FitOptions& options() const { return options_; }
     const mobb::Tree& tree(int clip) const { return trees_[static_cast<std::size_t>(clip)]; }
-    const std::vector<SceneQuery>& queries() const { return queries_; }             ///< effective ones
+    QueryList queries() const { return QueryList(scene_); }  ///< what is asked; valid as long as this
     const std::vector<Participant>& participants() const { return participants_; }  ///< what is drawn
 
     mobb::PlacedTree placed(const Participant& participant) const {
@@ -29,9 +43,11 @@ class FittedScene {
     Scene scene_;
     mobb::FitOptions options_;
     std::vector<mobb::Tree> trees_;
-    std::vector<SceneQuery> queries_;
     std::vector<Participant> participants_;
 };
+
+/// Through the trees, or by measuring every pair of samples.
+enum class Search { trees, direct };
 
 /// The answer of one query with all that was recorded on the way.
 struct RecordedQuery {
@@ -40,7 +56,17 @@ struct RecordedQuery {
     mobb::Trace trace;
 };
 
-/// Runs a query of the scene through its trees with the recorder.
-RecordedQuery record(const FittedScene& fitted, const SceneQuery& query);
+/// Runs a query of the scene under an observer (mobb/observer.h).
+template <class Observer>
+std::optional<mobb::Contact> ask(const FittedScene& fitted, const SceneQuery& query, Search search,
+                                 Observer& observer) {
+    const mobb::PlacedTree a = fitted.placed(query.a);
+    const mobb::PlacedTree b = fitted.placed(query.b);
+    return search == Search::direct ? mobb::direct_search(a.placed_clip(), b.placed_clip(), observer)
+                                    : mobb::query(a, b, observer);
+}
+
+/// Runs a query of the scene with the recorder.
+RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search = Search::trees);
 
 }  // namespace mobbscope

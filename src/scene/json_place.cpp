@@ -10,19 +10,7 @@ namespace mobbscope {
 
 std::string JsonPlace::pointer() const {
     if (!parent_) return "";
-    std::string out = parent_->pointer() + '/';
-    if (!key_) return out + std::to_string(index_);
-    constexpr std::size_t kLongest = 80;
-    for (const char c : std::string_view(*key_).substr(0, kLongest)) {
-        if (c == '~') {
-            out += "~0";
-        } else if (c == '/') {
-            out += "~1";
-        } else {
-            out += c;
-        }
-    }
-    return out;
+    return parent_->pointer() + (key_ ? pointer_token(*key_) : "/" + std::to_string(index_));
 }
 
 std::string JsonPlace::description() const {

@@ -13,6 +13,8 @@ namespace {
 
 // A capture nests seven deep. Destroying a value recurses, so depth must be bounded.
 constexpr std::size_t kMaxDepth = 64;
+constexpr std::size_t kLongestComplaint = 160;
+constexpr std::size_t kLongestToken = 80;
 
 /// Reads characters and tells which was read last: the parser keeps no positions of its own for values.
 class TrackedIterator {
@@ -120,9 +122,7 @@ class ValueBuilder : public nlohmann::json_sax<nlohmann::json> {
             const std::size_t end = text.find(before);
             if (end != std::string::npos) text.erase(0, end + before.size());
         }
-        constexpr std::size_t kLongest = 160;
-        if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-        return "this is not JSON: " + text;
+        return "this is not JSON: " + shortened(text, kLongestComplaint);
     }
 
     template <class T>
@@ -167,9 +167,19 @@ class ValueBuilder : public nlohmann::json_sax<nlohmann::json> {
             sorted.begin(), sorted.end(), [](const JsonMember* a, const JsonMember* b) { return a->key == b->key; });
         if (twice == sorted.end()) return;
         const JsonMember& second = **std::next(twice);
-        throw InputError(file_, "line " + std::to_string(second.line),
+        throw InputError(file_, "line " + std::to_string(second.line) + ", " + pointer() + pointer_token(second.key),
                          "the key " + in_quotes(second.key) + " stands twice, first in line " +
                              std::to_string((*twice)->line) + "; remove one");
+    }
+
+    /// Of the container that is being filled.
+    std::string pointer() const {
+        std::string out;
+        for (std::size_t i = 1; i < open_.size(); ++i) {
+            const auto* array = std::get_if<JsonValue::Array>(&open_[i - 1].value.data);
+            out += array ? "/" + std::to_string(array->size()) : pointer_token(open_[i].key);
+        }
+        return out;
     }
 
     const std::string& file_;
@@ -182,6 +192,20 @@ class ValueBuilder : public nlohmann::json_sax<nlohmann::json> {
 };
 
 }  // namespace
+
+std::string pointer_token(std::string_view key) {
+    std::string out = "/";
+    for (const char c : shortened(key, kLongestToken)) {
+        if (c == '~') {
+            out += "~0";
+        } else if (c == '/') {
+            out += "~1";
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
 
 JsonValue parse_json(std::string_view text, const std::string& file) {
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {

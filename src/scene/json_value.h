@@ -26,6 +26,9 @@ struct JsonMember {
     JsonValue value;
 };
 
+/// "/key" as it stands in a JSON pointer (RFC 6901); a long key is shortened.
+std::string pointer_token(std::string_view key);
+
 /// Parses UTF-8 JSON (RFC 8259). `file` stands for the text in messages. Throws InputError with line and column where
 /// the syntax is wrong, a key stands twice in an object, a number is beyond double, or values are nested absurdly deep.
 JsonValue parse_json(std::string_view text, const std::string& file);

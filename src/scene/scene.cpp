@@ -4,30 +4,38 @@ namespace mobbscope {
 
 namespace {
 
-Participant participant_of(const Scene& scene, int agent) {
-    const Agent& a = scene.agents[static_cast<std::size_t>(agent)];
-    return {a.name, a.clip, a.placement, agent};
+Participant participant_of(const Scene& scene, std::size_t agent) {
+    const Agent& a = scene.agents[agent];
+    return {a.name, a.clip, a.placement, static_cast<int>(agent)};
 }
+
+/// How many pairs come before those whose first agent is `a`.
+std::size_t pairs_before(std::size_t a, std::size_t agents) { return a * (2 * agents - a - 1) / 2; }
 
 }  // namespace
 
-std::vector<SceneQuery> effective_queries(const Scene& scene) {
-    if (!scene.queries.empty()) return scene.queries;
-    std::vector<SceneQuery> pairs;
-    const int count = static_cast<int>(scene.agents.size());
-    for (int a = 0; a < count; ++a) {
-        for (int b = a + 1; b < count; ++b) {
-            pairs.push_back({participant_of(scene, a), participant_of(scene, b), {}, {}});
-        }
+std::size_t query_count(const Scene& scene) {
+    if (!scene.queries.empty()) return scene.queries.size();
+    const std::size_t agents = scene.agents.size();
+    return agents == 0 ? 0 : agents * (agents - 1) / 2;
+}
+
+SceneQuery query_at(const Scene& scene, std::size_t index) {
+    if (!scene.queries.empty()) return scene.queries[index];
+    const std::size_t agents = scene.agents.size();
+    std::size_t a = 0;
+    // Bisection: the last agent with so few pairs before its own.
+    for (std::size_t end = agents; end - a > 1;) {
+        const std::size_t middle = a + (end - a) / 2;
+        (pairs_before(middle, agents) <= index ? a : end) = middle;
     }
-    return pairs;
+    const std::size_t b = a + 1 + (index - pairs_before(a, agents));
+    return {participant_of(scene, a), participant_of(scene, b), {}, {}};
 }
 
 std::vector<Participant> participants(const Scene& scene) {
     std::vector<Participant> out;
-    for (int agent = 0; agent < static_cast<int>(scene.agents.size()); ++agent) {
-        out.push_back(participant_of(scene, agent));
-    }
+    for (std::size_t agent = 0; agent < scene.agents.size(); ++agent) out.push_back(participant_of(scene, agent));
     if (!out.empty()) return out;
     for (int clip = 0; clip < static_cast<int>(scene.clips.size()); ++clip) {
         out.push_back({scene.clips[static_cast<std::size_t>(clip)].name, clip, {}, -1});

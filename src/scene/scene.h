@@ -8,8 +8,10 @@
 #include <mobb/tree.h>
 #include <scene/view_state.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -54,7 +56,7 @@ struct Expectation {
 struct SceneQuery {
     Participant a, b;
     std::optional<Expectation> expect;
-    std::optional<mobb::Trace> trace;
+    std::shared_ptr<const mobb::Trace> trace{};  ///< null: none; shared, so that a query is cheap to copy
 };
 
 struct Scene {
@@ -62,12 +64,15 @@ struct Scene {
     std::vector<SceneClip> clips;
     std::vector<Agent> agents;
     mobb::FitOptions fit;
-    std::vector<SceneQuery> queries;  ///< as in the file; see effective_queries
+    std::vector<SceneQuery> queries;  ///< as in the file; see query_at
     ViewState view;
 };
 
-/// The scene's queries; without any, all pairs of agents in order (0,1) (0,2) ... (1,2) ...; empty with neither.
-std::vector<SceneQuery> effective_queries(const Scene& scene);
+/// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0.
+std::size_t query_count(const Scene& scene);
+/// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
+/// when asked for: the pairs of a crowd would fill the memory.
+SceneQuery query_at(const Scene& scene, std::size_t index);
 
 /// What is drawn and asked about: the agents, or without any, every clip where it is.
 std::vector<Participant> participants(const Scene& scene);

@@ -1,4 +1,5 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
+#include <import/applicable.h>
 #include <import/file.h>
 #include <import/text.h>
 #include <scene/json_place.h>
@@ -7,8 +8,9 @@
 #include <scene/view_json.h>
 
 #include <charconv>
+#include <cmath>
 #include <limits>
-#include <span>
+#include <memory>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -20,11 +22,8 @@ namespace {
 constexpr int kVersion = 1;
 constexpr int kMaxInt = std::numeric_limits<int>::max();
 
-std::string joined(std::span<const std::string_view> names) {
-    std::string out;
-    for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
-    return out;
-}
+/// Trees of the contract that this version cannot build.
+bool is_planned(std::string_view tree) { return tree == "moving" || tree == "aabb" || tree == "production"; }
 
 /// Options over options: what `over` says wins.
 ImportOptions merged(ImportOptions base, const ImportOptions& over) {
@@ -72,41 +71,66 @@ mobb::Placement read_placement(const JsonPlace& place) {
     return placement;
 }
 
-/// A string, or a number as it would be written on the command line.
-std::string read_word(const JsonPlace& place) {
-    return place.is_number() ? short_double(place.number()) : place.string();
+/// The name of a track: a string, or a whole number, which a file of tracks has as decimal digits.
+std::string read_id(const JsonPlace& place) {
+    if (!place.is_number()) return place.string();
+    const double number = place.number();
+    // Beyond 2^53 a double no longer tells whole numbers apart.
+    if (number != std::floor(number) || std::abs(number) >= 0x1p53)
+        place.fail(short_double(number) + " is not exact as a number; write the id as a string");
+    return std::to_string(static_cast<std::int64_t>(number));
+}
+
+Origin read_origin(const JsonPlace& place) {
+    if (const auto origin = origin_from_name(place.string())) return *origin;
+    place.fail(in_quotes(place.string()) + " is no origin; give keep, start or start_heading");
 }
 
 ImportOptions read_import_options(const JsonPlace& place) {
     ImportOptions options;
-    if (const auto animation = place.find("animation")) {
-        options.animation =
-            animation->is_number() ? std::to_string(animation->integer(0, kMaxInt)) : animation->string();
-    }
-    if (const auto root = place.find("root")) options.root = root->string();
-    if (const auto fps = place.find("fps")) options.fps = fps->number();
-    if (const auto unit = place.find("unit")) options.unit = read_word(*unit);
-    if (const auto up = place.find("up")) options.up = up->string();
-    if (const auto trim = place.find("trim")) options.trim = read_pair(*trim, "[A, B] in seconds");
-    if (const auto origin = place.find("origin")) {
-        options.origin = origin_from_name(origin->string());
-        if (!options.origin)
-            origin->fail(in_quotes(origin->string()) + " is no origin; give keep, start or start_heading");
-    }
-    if (const auto id = place.find("id")) options.id = read_word(*id);
-    if (const auto radius = place.find("radius")) options.radius = radius->number();
-    if (const auto dt = place.find("dt")) options.dt = dt->number();
-    try {
-        check(options);
-    } catch (const std::invalid_argument& error) {
-        place.fail(error.what());
-    }
+    // Checked after each key, so that a complaint stands at the value it is about.
+    const auto read = [&](const char* key, const auto& take) {
+        const auto value = place.find(key);
+        if (!value) return;
+        take(*value);
+        try {
+            check(options);
+        } catch (const std::invalid_argument& error) {
+            value->fail(error.what());
+        }
+    };
+    read("animation", [&](const JsonPlace& at) {
+        options.animation = at.is_number() ? std::to_string(at.integer(0, kMaxInt)) : at.string();
+    });
+    read("root", [&](const JsonPlace& at) { options.root = at.string(); });
+    read("fps", [&](const JsonPlace& at) { options.fps = at.number(); });
+    read("unit", [&](const JsonPlace& at) { options.unit = at.is_number() ? short_double(at.number()) : at.string(); });
+    read("up", [&](const JsonPlace& at) { options.up = at.string(); });
+    read("trim", [&](const JsonPlace& at) { options.trim = read_pair(at, "[A, B] in seconds"); });
+    read("origin", [&](const JsonPlace& at) { options.origin = read_origin(at); });
+    read("id", [&](const JsonPlace& at) { options.id = read_id(at); });
+    read("radius", [&](const JsonPlace& at) { options.radius = at.number(); });
+    read("dt", [&](const JsonPlace& at) { options.dt = at.number(); });
     return options;
 }
 
+/// Options of the command line that apply to a file; those that do not are named in `warnings`.
+ImportOptions overrides_for(const std::filesystem::path& file, const ImportOptions& overrides,
+                            std::vector<std::string>& warnings) {
+    const ApplicableOptions taken = applicable(overrides, file);
+    for (const std::string& key : taken.left_out) warnings.push_back(does_not_apply(key, file));
+    return taken.options;
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
 mobb::ClipPtr read_samples(const JsonPlace& place) {
-    const double dt = place.require("dt").number();
+    const JsonPlace dt = place.require("dt");
+    const double seconds = dt.number();
     const JsonPlace list = place.require("samples");
+    if (list.size() == 0) list.fail("a clip needs at least one sample");
     std::vector<mobb::Disk> samples;
     samples.reserve(static_cast<std::size_t>(list.size()));
     for (int i = 0; i < list.size(); ++i) {
@@ -117,9 +141,10 @@ mobb::ClipPtr read_samples(const JsonPlace& place) {
                            sample[2].number(0, mobb::kMaxLength)});
     }
     try {
-        return std::make_shared<mobb::Clip>(dt, std::move(samples));
+        return std::make_shared<mobb::Clip>(seconds, std::move(samples));
     } catch (const std::invalid_argument& error) {
-        place.fail(error.what());
+        // The samples are in range by now: what is left is how long they last.
+        dt.fail(error.what());
     }
 }
 
@@ -184,35 +209,44 @@ class SceneReader {
         clip.name = place.key();
         if (clip.name.empty()) place.fail("a clip needs a name");
         clip_names_.add(clip.name);
+        // A misspelt key is named as such before anything is concluded from what is missing.
+        place.allow_only(
+            {"source", "animation", "root", "fps", "unit", "up", "trim", "origin", "id", "radius", "dt", "samples"});
         if (place.find("source")) {
             read_source(place, clip);
-        } else {
-            check_inline(place);
+        } else if (place.find("samples")) {
+            refuse_import_keys(place);
             clip.clip = read_samples(place);
+        } else {
+            place.fail("a clip needs a source, or dt and samples");
         }
         return clip;
     }
 
-    static void check_inline(const JsonPlace& place) {
+    static void refuse_import_keys(const JsonPlace& place) {
         for (const char* key : {"animation", "root", "fps", "unit", "up", "trim", "origin", "id", "radius"}) {
             const auto import_key = place.find(key);
             if (import_key) import_key->fail("an import key is for a clip with a source; remove it");
         }
-        place.allow_only({"dt", "samples"});
-        if (!place.find("samples")) place.fail("a clip needs a source, or dt and samples");
     }
 
     void read_source(const JsonPlace& place, SceneClip& clip) {
         if (const auto samples = place.find("samples"))
             samples->fail("a clip has a source or samples, not both; remove one");
-        place.allow_only({"source", "animation", "root", "fps", "unit", "up", "trim", "origin", "id", "radius", "dt"});
         const JsonPlace source = place.require("source");
         if (source.string().empty()) source.fail("the source is empty; name a clip file");
+        if (source.string().find('\0') != std::string::npos)
+            source.fail("the source holds a NUL byte, as no file name does; remove it");
         clip.source = source.string();
         clip.options = read_import_options(place);
+        for (const std::string& key : applicable(clip.options, *clip.source).left_out) {
+            place.require(key).fail(does_not_apply(key, *clip.source) + "; leave it out");
+        }
+        std::vector<std::string> warnings;
+        const ImportOptions overrides = overrides_for(*clip.source, overrides_, warnings);
         try {
             std::vector<ImportedClip> imported =
-                importer_.clips(folder_ / *clip.source, merged(clip.options, overrides_));
+                importer_.clips(folder_ / *clip.source, merged(clip.options, overrides));
             if (imported.size() > 1) {
                 throw InputError((folder_ / *clip.source).string(), "",
                                  "has " + std::to_string(imported.size()) + " tracks; name one with id, such as " +
@@ -220,6 +254,7 @@ class SceneReader {
             }
             clip.clip = imported.front().clip;
             clip.facts = std::move(imported.front().facts);
+            append(clip.facts.warnings, warnings);
         } catch (const InputError& error) {
             source.fail(error.what());
         }
@@ -243,9 +278,11 @@ class SceneReader {
         place.allow_only({"tree", "leaf", "levels", "axes", "time_scale"});
         mobb::FitOptions fit;
         if (const auto tree = place.find("tree")) {
-            const auto kind = mobb::tree_kind(tree->string());
+            const auto kind = mobb::tree_kind_from_name(tree->string());
+            if (is_planned(tree->string()))
+                tree->fail(in_quotes(tree->string()) + " trees are not in this version yet");
             if (!kind)
-                tree->fail(in_quotes(tree->string()) + " is no tree; give one of " + joined(mobb::tree_kind_names()));
+                tree->fail(in_quotes(tree->string()) + " is no tree; give one of " + listed(mobb::tree_kind_names()));
             fit.tree = *kind;
         }
         if (const auto leaf = place.find("leaf")) fit.leaf = leaf->integer(1, kMaxInt);
@@ -253,7 +290,7 @@ class SceneReader {
         if (const auto axes = place.find("axes")) {
             const auto value = mobb::axes_from_name(axes->string());
             if (!value)
-                axes->fail(in_quotes(axes->string()) + " names no axes; give one of " + joined(mobb::axes_names()));
+                axes->fail(in_quotes(axes->string()) + " names no axes; give one of " + listed(mobb::axes_names()));
             fit.axes = *value;
         }
         if (const auto scale = place.find("time_scale")) {
@@ -270,7 +307,9 @@ class SceneReader {
         const int samples_a = clip_of(query.a).count();
         const int samples_b = clip_of(query.b).count();
         if (const auto expect = place.find("expect")) query.expect = read_expectation(*expect, samples_a, samples_b);
-        if (const auto trace = place.find("trace")) query.trace = read_trace(*trace, samples_a, samples_b);
+        if (const auto trace = place.find("trace")) {
+            query.trace = std::make_shared<mobb::Trace>(read_trace(*trace, samples_a, samples_b));
+        }
         return query;
     }
 
@@ -298,8 +337,7 @@ class SceneReader {
 
     void check_viewed_query(const JsonPlace& view) const {
         if (!scene_.view.query) return;
-        const std::size_t agents = scene_.agents.size();
-        const std::size_t count = scene_.queries.empty() ? agents * (agents - 1) / 2 : scene_.queries.size();
+        const std::size_t count = query_count(scene_);
         if (static_cast<std::size_t>(*scene_.view.query) >= count) {
             view.require("query").fail("the scene has " + std::to_string(count) + " queries, counted from 0");
         }
@@ -318,11 +356,14 @@ class SceneReader {
     Scene scene_;
 };
 
-Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& options) {
+Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& overrides) {
     Scene scene;
+    std::vector<std::string> warnings;
+    const ImportOptions options = overrides_for(file, overrides, warnings);
     for (ImportedClip& imported : import_clips(file, options)) {
         SceneClip clip{imported.name, file.filename().string(), options, std::move(imported.clip),
                        std::move(imported.facts)};
+        append(clip.facts.warnings, warnings);
         if (!imported.id.empty()) clip.options.id = imported.id;
         scene.clips.push_back(std::move(clip));
     }
@@ -332,6 +373,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& opt
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides) {
+    check_file_name(file);
     const bool is_scene = lower_extension(file) == ".json";
     Scene scene = is_scene ? parse_scene(read_file(file), file.string(), file.parent_path(), overrides)
                            : scene_of_clips(file, overrides);

@@ -11,7 +11,8 @@ namespace mobbscope {
 namespace {
 
 constexpr int kMaxInt = std::numeric_limits<int>::max();
-constexpr double kSmallestDistance = 1e-6;
+constexpr double kSmallestDistance = 1e-6;  // metres
+constexpr double kMaxHeight = 1e6;          // metres drawn per second
 
 struct Toggle {
     const char* key;
@@ -37,9 +38,9 @@ Camera read_camera(const JsonPlace& place) {
     if (const auto target = place.find("target")) {
         target->require_size(3, "[x, y, height] in metres");
         glm::dvec3 point;
-        for (int i = 0; i < 3; ++i) point[i] = (*target)[i].number(-mobb::kMaxTime, mobb::kMaxTime);
+        for (int i = 0; i < 3; ++i) point[i] = (*target)[i].number(-mobb::kMaxLength, mobb::kMaxLength);
         camera.target = point;
-        camera.distance = place.require("distance").number(kSmallestDistance, mobb::kMaxTime);
+        camera.distance = place.require("distance").number(kSmallestDistance, mobb::kMaxLength);
     } else if (const auto distance = place.find("distance")) {
         distance->fail("a distance needs a target; add one, or leave both out and the camera frames the scene");
     }
@@ -48,9 +49,9 @@ Camera read_camera(const JsonPlace& place) {
 
 /// A whole number, or text that `parse` understands.
 template <class Parse>
-auto read_number_or_text(const JsonPlace& place, int most, const Parse& parse) {
+auto read_number_or_text(const JsonPlace& place, const Parse& parse) {
     try {
-        return parse(place.is_number() ? std::to_string(place.integer(0, most)) : place.string());
+        return parse(place.is_number() ? std::to_string(place.integer(0, kMaxInt)) : place.string());
     } catch (const std::invalid_argument& error) {
         place.fail(error.what());
     }
@@ -79,12 +80,11 @@ ViewState read_view(const JsonPlace& place) {
                       "time_axis", "labels", "legend"});
     ViewState view;
     if (const auto camera = place.find("camera")) view.camera = read_camera(*camera);
-    if (const auto levels = place.find("levels"))
-        view.levels = read_number_or_text(*levels, kMaxInt, parse_level_range);
+    if (const auto levels = place.find("levels")) view.levels = read_number_or_text(*levels, parse_level_range);
     if (const auto query = place.find("query")) view.query = query->integer(0, kMaxInt);
-    if (const auto step = place.find("step")) view.step = read_number_or_text(*step, kMaxInt, parse_step);
+    if (const auto step = place.find("step")) view.step = read_number_or_text(*step, parse_step);
     if (const auto time = place.find("time")) view.time = time->number(-mobb::kMaxTime, mobb::kMaxTime);
-    if (const auto height = place.find("time_height")) view.time_height = height->number(0, 1e6);
+    if (const auto height = place.find("time_height")) view.time_height = height->number(0, kMaxHeight);
     if (const auto theme = place.find("theme")) {
         const auto value = theme_from_name(theme->string());
         if (!value) theme->fail(in_quotes(theme->string()) + " is no theme; give dark or light");

@@ -23,8 +23,10 @@ LevelRange parse_level_range(const std::string& text) {
     const std::optional<int> last =
         colon == std::string::npos ? first : level(std::string_view(text).substr(colon + 1));
     if (!first || !last || *first > *last) {
-        throw std::invalid_argument(in_quotes(text) +
-                                    " is no range of levels: give a level (2), a range (1:3) or leaves");
+        throw std::invalid_argument(
+            in_quotes(text) +
+            " is no range of levels: give a level (2), a range (1:3) or leaves; levels go from 0 to " +
+            std::to_string(kMaxLevel));
     }
     return {*first, *last, false};
 }

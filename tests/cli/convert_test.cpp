@@ -17,6 +17,17 @@ using testing::TempFolder;
 
 const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
+/// Every sample of both clips, and when it begins.
+void expect_same(const mobb::Clip& a, const mobb::Clip& b) {
+    ASSERT_EQ(a.count(), b.count());
+    EXPECT_NEAR(a.dt(), b.dt(), 1e-15);
+    for (std::size_t i = 0; i < a.samples().size(); ++i) {
+        EXPECT_EQ(a.samples()[i].x, b.samples()[i].x) << i;
+        EXPECT_EQ(a.samples()[i].y, b.samples()[i].y) << i;
+        EXPECT_EQ(a.samples()[i].r, b.samples()[i].r) << i;
+    }
+}
+
 TEST(Convert, OneClipToCsvAndBack) {
     const TempFolder folder;
     const std::string out = folder.path() / "out.csv";
@@ -24,29 +35,27 @@ TEST(Convert, OneClipToCsvAndBack) {
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.out + run.err, "");
     EXPECT_TRUE(slurp(out).starts_with("t,x,y,r\n0,"));
-    const Scene before = load_scene(kScenes + "circles.json");
-    const Scene after = load_scene(out);
-    ASSERT_EQ(after.clips[0].clip->count(), before.clips[0].clip->count());
-    EXPECT_NEAR(after.clips[0].clip->dt(), before.clips[0].clip->dt(), 1e-15);
-    for (int i = 0; i < before.clips[0].clip->count(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        EXPECT_EQ(after.clips[0].clip->samples()[k].x, before.clips[0].clip->samples()[k].x);
-        EXPECT_EQ(after.clips[0].clip->samples()[k].r, before.clips[0].clip->samples()[k].r);
-    }
+    expect_same(*load_scene(out).clips.at(0).clip, *load_scene(kScenes + "circles.json").clips.at(0).clip);
 }
 
 TEST(Convert, SeveralClipsToCsvHaveIds) {
     const TempFolder folder;
     const std::string scene =
-        folder.write("s.json", R"({"clips": {"a, \"b\"": {"dt": 0.5, "samples": [[0,0,1],[1,0,1]]},
-        "c": {"dt": 2, "samples": [[5,0,1],[6,0,1]]}}})");
+        folder.write("s.json", R"({"clips": {"a, \"b\"": {"dt": 0.5, "samples": [[1,2,0.25],[4,-7,0.75],[9,5,0.125]]},
+        "c": {"dt": 2, "samples": [[5,-3,1.5],[6,0.1,2]]}}})");
     const std::string out = folder.path() / "out.csv";
     ASSERT_EQ(run_program({"convert", scene, "-o", out}).status, 0);
-    EXPECT_TRUE(slurp(out).starts_with("id,t,x,y,r\n\"a, \"\"b\"\"\",0,0,0,1\n"));
+    EXPECT_EQ(slurp(out),
+              "id,t,x,y,r\n"
+              "\"a, \"\"b\"\"\",0,1,2,0.25\n\"a, \"\"b\"\"\",0.5,4,-7,0.75\n\"a, \"\"b\"\"\",1,9,5,0.125\n"
+              "c,0,5,-3,1.5\nc,2,6,0.10000000000000001,2\n");
     const Scene read = load_scene(out);
+    const Scene written = load_scene(scene);
     ASSERT_EQ(read.clips.size(), 2u);
-    EXPECT_EQ(read.clips[0].name, "a, \"b\"");
-    EXPECT_EQ(read.clips[1].clip->dt(), 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(read.clips[i].name, written.clips[i].name);
+        expect_same(*read.clips[i].clip, *written.clips[i].clip);
+    }
 }
 
 TEST(Convert, ToJsonKeepsTheSceneAndNeedsNoOtherFile) {
@@ -60,6 +69,7 @@ TEST(Convert, ToJsonKeepsTheSceneAndNeedsNoOtherFile) {
     ASSERT_EQ(run_program({"convert", scene, "-o", out}).status, 0);
     const Scene read = load_scene(out);
     EXPECT_FALSE(read.clips[0].source);
+    expect_same(*read.clips[0].clip, *load_scene(scene).clips[0].clip);
     EXPECT_EQ(read.clips[0].clip->count(), 31);
     EXPECT_EQ(read.agents[1].placement.start, 5);
     EXPECT_EQ(read.fit.leaf, 4);

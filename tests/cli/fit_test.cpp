@@ -1,6 +1,8 @@
 #include "run_program.h"
 
+#include <mobb/level_figures.h>
 #include <scene/fitted_scene.h>
+#include <support/json_keys.h>
 
 #include <gtest/gtest.h>
 
@@ -11,16 +13,11 @@ namespace mobbscope {
 namespace {
 
 using nlohmann::json;
+using testing::keys;
 using testing::Result;
 using testing::run_program;
 
 const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
-
-std::set<std::string> keys(const json& object) {
-    std::set<std::string> out;
-    for (const auto& [key, value] : object.items()) out.insert(key);
-    return out;
-}
 
 TEST(Fit, JsonIsTheTree) {
     const Result run = run_program({"fit", kScenes + "crossing.json", "--json", "--tree", "umobb", "--leaf", "7",
@@ -47,6 +44,7 @@ TEST(Fit, JsonIsTheTree) {
                                                       "center", "axes", "half", "t0", "t1"}));
         EXPECT_EQ(entry["index"], i);
         EXPECT_EQ(entry["parent"], node.parent);
+        EXPECT_EQ(entry["level"], node.level);
         EXPECT_EQ(entry["first"], node.first);
         EXPECT_EQ(entry["count"], node.count);
         EXPECT_EQ(entry["leaf"], node.is_leaf());
@@ -58,9 +56,12 @@ TEST(Fit, JsonIsTheTree) {
             const auto at = static_cast<std::size_t>(k);
             EXPECT_EQ(entry["center"][at], node.box.center[k]);
             EXPECT_EQ(entry["half"][at], node.box.half[k]);
-            EXPECT_EQ(entry["axes"][at][0], node.box.axes[at][0]);
-            EXPECT_EQ(entry["axes"][at].size(), dimensions);
+            ASSERT_EQ(entry["axes"][at].size(), dimensions);
+            for (int m = 0; m < static_cast<int>(dimensions); ++m) {
+                EXPECT_EQ(entry["axes"][at][static_cast<std::size_t>(m)], node.box.axes[at][m]);
+            }
         }
+        EXPECT_EQ(entry["t0"], tree.t0(node));
         EXPECT_EQ(entry["t1"], tree.t1(node));
     }
     const auto figures = mobb::level_figures(tree);

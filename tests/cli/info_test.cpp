@@ -1,5 +1,6 @@
 #include "run_program.h"
 
+#include <support/json_keys.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -24,9 +25,7 @@ TEST(Info, JsonTellsWhatIsInTheFiles) {
     const json clips = json::parse(run.out)["clips"];
     ASSERT_EQ(clips.size(), 2u);
     const json& a = clips[0];
-    std::set<std::string> keys;
-    for (const auto& [key, value] : a.items()) keys.insert(key);
-    EXPECT_EQ(keys,
+    EXPECT_EQ(testing::keys(a),
               (std::set<std::string>{"file", "name", "format", "animation", "root", "joints", "unit", "file_frames",
                                      "file_dt", "file_duration", "samples", "dt", "duration", "path_length",
                                      "mean_speed", "min_radius", "mean_radius", "max_radius", "warnings"}));
@@ -44,6 +43,25 @@ TEST(Info, JsonTellsWhatIsInTheFiles) {
     EXPECT_DOUBLE_EQ(a["max_radius"], 0.6);
     EXPECT_EQ(clips[1]["format"], "scene");
     EXPECT_EQ(clips[1]["mean_speed"], 0);
+}
+
+TEST(Info, TheMeanRadiusLiesBetweenTheOthers) {
+    const TempFolder folder;
+    std::string scene = R"({"clips": {"c": {"dt": 1, "samples": [[0,0,0.45])";
+    for (int i = 1; i < 1001; ++i) scene += ",[0,0,0.45]";
+    const Result run = run_program({"info", folder.write("s.json", scene + "]}}}"), "--json"});
+    const json clip = json::parse(run.out)["clips"][0];
+    EXPECT_EQ(clip["mean_radius"], 0.45);
+}
+
+TEST(Info, NamesDoNotSteerTheTerminal) {
+    const TempFolder folder;
+    const std::string scene =
+        folder.write("s.json", "{\"clips\": {\"a\\u001b[2Jb\\u009b1m\": {\"dt\": 1, \"samples\": [[0,0,1]]}}}");
+    for (const char* command : {"info", "fit"}) {
+        const std::string out = run_program({command, scene}).out;
+        EXPECT_TRUE(out.starts_with("a?[2Jb?1m")) << command << out;
+    }
 }
 
 TEST(Info, OneBadFileAmongGoodOnesLeavesNoOutput) {

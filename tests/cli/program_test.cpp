@@ -64,6 +64,67 @@ TEST(Program, BadUsageIsOneLineAndStatusTwo) {
     }
 }
 
+TEST(Program, NumbersAreReadAsTheFilesHaveThem) {
+    const std::string csv = kScenes + "walk.csv";
+    for (const char* option : {"--leaf", "--levels", "--time-scale", "--fps", "--dt", "--radius", "--unit", "--trim"}) {
+        for (const char* bad : {"", "0x10", " 5", "5 ", "nan", "inf", "1e999", "1,5", "5m"}) {
+            const Result run = run_program({"fit", csv, option, bad});
+            EXPECT_EQ(run.status, 2) << option << " '" << bad << "'";
+            EXPECT_TRUE(is_one_line(run.err)) << run.err;
+            EXPECT_NE(run.err.find(option), std::string::npos) << run.err;
+        }
+    }
+    // Ten, not the octal eight.
+    EXPECT_EQ(run_program({"fit", csv, "--leaf", "010"}).out, run_program({"fit", csv, "--leaf", "10"}).out);
+    EXPECT_NE(run_program({"fit", csv, "--leaf", "010"}).out, run_program({"fit", csv, "--leaf", "8"}).out);
+}
+
+TEST(Program, RangesAreToldWithBothTheirBounds) {
+    const std::string csv = kScenes + "walk.csv";
+    const auto complaint = [&](const std::vector<std::string>& option) {
+        std::vector<std::string> arguments{"fit", csv};
+        arguments.insert(arguments.end(), option.begin(), option.end());
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 2) << option[0];
+        return run.err;
+    };
+    EXPECT_NE(complaint({"--radius", "1e10"}).find("from 0 to 1e+09"), std::string::npos);
+    EXPECT_NE(complaint({"--dt", "1e13"}).find("over 0 and at most 1e+12"), std::string::npos);
+    EXPECT_NE(complaint({"--trim", "0:1e13"}).find("0 <= A < B <= 1e+12"), std::string::npos);
+    EXPECT_NE(complaint({"--fps", "1e7"}).find("over 0 and at most 1000000"), std::string::npos);
+}
+
+TEST(Program, FilesBeforeACommandAreNotDropped) {
+    for (const std::string& file : {std::string("nofile.json"), kScenes + "crossing.json"}) {
+        const Result run = run_program({file, "query", kScenes + "crossing.json"});
+        EXPECT_EQ(run.status, 2);
+        EXPECT_EQ(run.out, "");
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_NE(run.err.find("stands before the command query"), std::string::npos) << run.err;
+    }
+}
+
+TEST(Program, CommandsToComeAreNotTakenForFiles) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"diff", "a.png", "b.png"},
+                                                      {"diff", "a.png", "b.png", "--threshold", "3"},
+                                                      {"bench"},
+                                                      {"bench", "walk", "--json", "--help"}}) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 2);
+        EXPECT_EQ(run.out, "");
+        EXPECT_EQ(run.err, "mobbscope: the command " + arguments[0] + " is not in this version\n");
+    }
+}
+
+TEST(Program, AnEmptyNameIsSaidToBeEmpty) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"fit", ""}, {"info", ""}, {"convert", kScenes + "walk.csv", "-o", ""}, {""}}) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 2);
+        EXPECT_NE(run.err.find("the name of a file is empty"), std::string::npos) << run.err;
+    }
+}
+
 TEST(Program, BadInputIsOneLineAndStatusTwoForEveryCommand) {
     const TempFolder folder;
     const std::string files[] = {folder.write("syntax.json", "{\"clips\": \n oops}"),
@@ -71,12 +132,16 @@ TEST(Program, BadInputIsOneLineAndStatusTwoForEveryCommand) {
                                  folder.write("nan.csv", "t,x,y,r\n0,0,0,0\n1,nan,0,0\n"),
                                  folder.write("empty.json", ""),
                                  folder.write("walk.bvh", "HIERARCHY"),
+                                 folder.write("source.json", R"({"clips": {"c": {"source": "nan.csv"}}})"),
                                  folder.write("line\nbreak.csv", "nothing"),
                                  folder.path() / "none.json",
                                  folder.path()};
     for (const std::string& file : files) {
         for (const std::vector<std::string>& arguments : {std::vector<std::string>{"fit", file},
                                                           {"fit", file, "--json"},
+                                                          {"info", file},
+                                                          {"info", file, "--json"},
+                                                          {file},
                                                           {"query", file},
                                                           {"query", file, "--json"},
                                                           {"convert", file, "-o", folder.path() / "out.csv"},
@@ -122,6 +187,12 @@ TEST(Program, WhatDoesNotApplyIsSaidButStopsNothing) {
     EXPECT_NE(run.err.find("warning: "), std::string::npos);
     EXPECT_NE(run.err.find("fps does not apply"), std::string::npos);
     EXPECT_NE(run.out, "");
+    const Result other = run_program({"fit", csv, "--up", "z", "--root", "Hips", "--animation", "0", "--unit", "auto"});
+    EXPECT_EQ(other.status, 0) << other.err;
+    for (const char* option : {"up", "root", "animation", "unit auto"}) {
+        EXPECT_NE(other.err.find(std::string(option) + " does not apply to .csv files"), std::string::npos)
+            << other.err;
+    }
     EXPECT_NE(run_program({"fit", kScenes + "circles.json", "--fps", "10"}).err.find("import options do not apply"),
               std::string::npos);
 }

@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <scene/fitted_scene.h>
+#include <support/json_keys.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@ namespace {
 
 using nlohmann::json;
 using testing::is_one_line;
+using testing::keys;
 using testing::Result;
 using testing::run_program;
 using testing::slurp;
@@ -25,12 +27,6 @@ json results(const std::vector<std::string>& arguments) {
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     return json::parse(run.out)["results"];
-}
-
-std::set<std::string> keys(const json& object) {
-    std::set<std::string> out;
-    for (const auto& [key, value] : object.items()) out.insert(key);
-    return out;
 }
 
 TEST(Query, JsonIsTheAnswer) {
@@ -87,26 +83,87 @@ TEST(Query, TheTraceIsTheRecord) {
     const FittedScene fitted(scene, options);
     const mobb::Trace trace = record(fitted, fitted.queries()[0]).trace;
     const json& printed = found[0]["trace"];
+    int separations = 0;
+    std::size_t measured = 0;
     ASSERT_EQ(static_cast<int>(printed.size()), trace.size());
     for (int step = 0; step < trace.size(); ++step) {
         const json& event = printed[static_cast<std::size_t>(step)];
         EXPECT_EQ(keys(event), (std::set<std::string>{"step", "parent", "depth", "a", "b", "test", "outcome", "axis",
                                                       "gap", "pairs"}));
+        const mobb::Trace::Event recorded = trace[step];
         EXPECT_EQ(event["step"], step);
-        EXPECT_EQ(event["parent"], trace[step].parent);
-        EXPECT_EQ(event["test"], mobb::name(trace[step].test));
-        const bool separated = event["outcome"] == "separated";
-        EXPECT_EQ(event["axis"].is_null(), !separated);
-        EXPECT_EQ(event["gap"].is_null(), !separated);
-        if (separated) {
-            EXPECT_EQ(event["gap"], trace[step].gap);
-        }
-        EXPECT_EQ(event["pairs"].size(), trace[step].pairs.size());
-        if (event["test"] != "samples") {
-            EXPECT_TRUE(event["pairs"].empty());
-        }
+        EXPECT_EQ(event["parent"], recorded.parent);
+        EXPECT_EQ(event["depth"], recorded.depth);
+        EXPECT_EQ(event["a"], recorded.a);
+        EXPECT_EQ(event["b"], recorded.b);
+        EXPECT_EQ(event["test"], mobb::name(recorded.test));
+        EXPECT_EQ(event["outcome"], mobb::name(recorded.outcome));
+        const bool separated = recorded.outcome == mobb::Outcome::separated;
+        EXPECT_EQ(event["axis"], separated ? json(recorded.axis) : json());
+        EXPECT_EQ(event["gap"], separated ? json(recorded.gap) : json());
+        json pairs = json::array();
+        for (const mobb::MeasuredPair& pair : recorded.pairs) pairs.push_back({pair.i, pair.j, pair.distance});
+        EXPECT_EQ(event["pairs"], pairs);
+        separations += separated ? 1 : 0;
+        measured += pairs.size();
     }
+    EXPECT_GT(separations, 0) << "the scene shows nothing";
+    EXPECT_GT(measured, 0u);
     EXPECT_EQ(printed.back()["outcome"], "hit");
+}
+
+TEST(Query, TheTraceOfTheDirectSearchIsOneTestOfSamples) {
+    const json found = results({"query", kScenes + "collision.json", "--json", "--trace", "--tree", "brute"});
+    const json& trace = found[0]["trace"];
+    ASSERT_EQ(trace.size(), 1u);
+    EXPECT_EQ(trace[0]["test"], "samples");
+    EXPECT_EQ(trace[0]["outcome"], "hit");
+    EXPECT_EQ(static_cast<std::int64_t>(trace[0]["pairs"].size()), found[0]["tests"]["samples"]);
+    EXPECT_EQ(trace[0]["pairs"].back()[0], found[0]["contact"]["a_sample"]);
+    EXPECT_EQ(trace[0]["pairs"].back()[1], found[0]["contact"]["b_sample"]);
+    EXPECT_EQ(trace[0]["pairs"].back()[2], found[0]["contact"]["distance"]);
+}
+
+TEST(Query, LevelsCutTheTreeButNotTheAnswer) {
+    const std::string file = kScenes + "collision.json";
+    const json whole = results({"query", file, "--json", "--all-contacts"});
+    const json cut = results({"query", file, "--json", "--all-contacts", "--levels", "1"});
+    EXPECT_EQ(cut[0]["contact"], whole[0]["contact"]);
+    EXPECT_EQ(cut[0]["contacts"], whole[0]["contacts"]);
+    EXPECT_EQ(cut[0]["tests"]["time"], 1) << "there is nothing below the roots";
+    EXPECT_GT(cut[0]["tests"]["samples"], whole[0]["tests"]["samples"]);
+}
+
+TEST(Query, EveryIntervalOfContactIsTold) {
+    const TempFolder folder;
+    // A walks past two posts that stand on its way.
+    const std::string file = folder.write("s.json", R"({"clips": {
+        "walk": {"dt": 0.5, "samples": [[0,0,0.5],[1,0,0.5],[2,0,0.5],[3,0,0.5],[4,0,0.5],[5,0,0.5],[6,0,0.5],[7,0,0.5]]},
+        "jump": {"dt": 2, "samples": [[1,0,0.25],[6,0,1.25]]}},
+        "queries": [{"a": {"clip": "walk"}, "b": {"clip": "jump"}}]})");
+    for (const std::string tree : {"mobb", "umobb", "brute"}) {
+        const json found = results({"query", file, "--json", "--all-contacts", "--leaf", "1", "--tree", tree});
+        EXPECT_EQ(found[0]["contacts"], json::parse("[[0.5, 1], [2.5, 4]]")) << tree << found[0]["contacts"];
+    }
+    EXPECT_NE(run_program({"query", file, "--all-contacts"}).out.find("In contact: 0.5 to 1 s, 2.5 to 4 s."),
+              std::string::npos);
+}
+
+TEST(Query, ACrowdsPairsAreAskedInOrder) {
+    const json found = [] {
+        const TempFolder folder;
+        std::string agents;
+        for (const char* name : {"A", "B", "C", "D"}) {
+            agents += (agents.empty() ? "" : ",") + std::string(R"({"name": ")") + name + R"(", "clip": "c"})";
+        }
+        return results(
+            {"query",
+             folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1]]}}, "agents": [)" + agents + "]}"),
+             "--json"});
+    }();
+    std::string pairs;
+    for (const json& entry : found) pairs += entry["a"].get<std::string>() + entry["b"].get<std::string>() + ' ';
+    EXPECT_EQ(pairs, "AB AC AD BC BD CD ");
 }
 
 TEST(Query, TextIsASentence) {
@@ -153,15 +210,21 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
 
 TEST(Query, PlacementsInAQueryAreUsed) {
     const TempFolder folder;
-    const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]}},
+    const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]},
+        "rod": {"dt": 1, "samples": [[5,0,1]]}},
         "queries": [{"a": {"clip": "c"}, "b": {"clip": "c", "translate": [0, 2]}},
                     {"a": {"clip": "c"}, "b": {"clip": "c", "translate": [0, 1.9], "start": 1.5}},
-                    {"a": {"clip": "c"}, "b": {"clip": "c", "rotate_deg": 90, "start": 2}}]})");
+                    {"a": {"clip": "c"}, "b": {"clip": "c", "rotate_deg": 90, "start": 2}},
+                    {"a": {"clip": "c"}, "b": {"clip": "rod", "translate": [0, 5]}},
+                    {"a": {"clip": "c"}, "b": {"clip": "rod", "translate": [0, 5], "rotate_deg": -90}}]})");
     const json found = results({"query", file, "--json"});
     EXPECT_EQ(found[0]["collides"], false) << "touching is not colliding";
     EXPECT_EQ(found[1]["collides"], false) << "1 m aside and 1.9 m ahead";
     EXPECT_EQ(found[2]["collides"], false) << "one ends when the other begins";
     EXPECT_EQ(found[2]["a"], "c");
+    EXPECT_EQ(found[3]["collides"], false) << "7 m away";
+    EXPECT_EQ(found[4]["collides"], true) << "turned onto the origin";
+    EXPECT_EQ(found[4]["contact"]["distance"], 0);
 }
 
 TEST(Query, RealPathsGiveTheDirectSearchsAnswer) {

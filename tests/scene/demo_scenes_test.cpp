@@ -37,7 +37,7 @@ TEST(DemoScenes, CrossingPathsMeetOnTheFloorButNotInTime) {
 TEST(DemoScenes, CollisionCollides) {
     const Scene scene = load_scene(kScenes / "collision.json");
     const FittedScene fitted(scene, scene.fit);
-    EXPECT_TRUE(record(fitted, fitted.queries().at(0)).contact);
+    EXPECT_TRUE(record(fitted, fitted.queries()[0]).contact);
 }
 
 TEST(DemoScenes, CirclesAreALongWalk) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <chrono>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -27,6 +30,48 @@ TEST(FittedScene, TheRecordIsTheAnswer) {
     mobb::query(a, b, statistics);
     EXPECT_EQ(recorded.tests, statistics.tests);
     EXPECT_EQ(recorded.trace[recorded.trace.size() - 1].outcome, mobb::Outcome::hit);
+}
+
+TEST(FittedScene, PairsAreCountedThrough) {
+    for (const int agents : {0, 1, 2, 3, 7, 50}) {
+        Scene scene = head_on();
+        scene.agents.assign(static_cast<std::size_t>(agents), scene.agents[0]);
+        std::size_t index = 0;
+        for (int a = 0; a < agents; ++a) {
+            for (int b = a + 1; b < agents; ++b, ++index) {
+                const SceneQuery query = query_at(scene, index);
+                ASSERT_EQ(query.a.agent, a) << index;
+                ASSERT_EQ(query.b.agent, b) << index;
+            }
+        }
+        EXPECT_EQ(query_count(scene), index);
+    }
+}
+
+TEST(FittedScene, ACrowdIsFittedWithoutItsMillionsOfPairs) {
+    Scene scene = head_on();
+    scene.agents.assign(3000, scene.agents[0]);
+    const auto memory = [] {
+        struct rusage usage {};
+        ::getrusage(RUSAGE_SELF, &usage);
+        return usage.ru_maxrss;
+    };
+    const long before = memory();
+    const auto start = std::chrono::steady_clock::now();
+    const FittedScene fitted(scene, scene.fit);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(500));
+    EXPECT_LT(memory() - before, 20'000) << "KiB";
+    ASSERT_EQ(fitted.queries().size(), 4'498'500u);
+    EXPECT_EQ(fitted.queries()[4'498'499].a.agent, 2998);
+    EXPECT_EQ(fitted.queries()[4'498'499].b.agent, 2999);
+}
+
+TEST(FittedScene, TheDirectSearchIsRecordedToo) {
+    const FittedScene fitted(head_on(), {});
+    const RecordedQuery direct = record(fitted, fitted.queries()[0], Search::direct);
+    EXPECT_EQ(direct.contact, record(fitted, fitted.queries()[0]).contact);
+    EXPECT_EQ(direct.tests.time, 0);
+    EXPECT_EQ(direct.trace.size(), 1);
 }
 
 TEST(FittedScene, OptionsOutOfRangeAreRefused) {

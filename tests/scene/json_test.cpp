@@ -74,7 +74,9 @@ TEST(Json, ALineBreakAfterANumberIsNotItsLine) {
 
 TEST(Json, AKeyThatStandsTwiceIsRefused) {
     EXPECT_EQ(refusal("{\"a\": 1,\n\"b\": 2,\n\"a\": 3}"),
-              "f.json: line 3: the key 'a' stands twice, first in line 1; remove one");
+              "f.json: line 3, /a: the key 'a' stands twice, first in line 1; remove one");
+    EXPECT_TRUE(refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}").starts_with("f.json: line 1, /x/1/y~1/b: "))
+        << refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}");
 }
 
 TEST(Json, DeepNestingIsRefusedNotFatal) {

@@ -38,9 +38,10 @@ TEST(SceneErrors, UnknownKeysNameThemselvesTheirLineAndTheNearest) {
 
 TEST(SceneErrors, ClipsAreChecked) {
     const std::pair<const char*, const char*> cases[] = {
-        {R"({"dt": 0, "samples": [[0,0,1]]})", "line 2, /clips/c: dt must be"},
+        {"{\"samples\": [[0,0,1]],\n\"dt\": 0}", "line 3, /clips/c/dt: dt must be"},
+        {R"({"dt": 1e12, "samples": [[0,0,1],[0,0,1]]})", "/clips/c/dt: the clip lasts longer"},
         {R"({"dt": -1, "samples": [[0,0,1]]})", "dt must be"},
-        {R"({"dt": 1, "samples": []})", "at least one sample"},
+        {"{\"dt\": 1,\n\"samples\": []}", "line 3, /clips/c/samples: a clip needs at least one sample"},
         {R"({"dt": 1, "samples": [[0,0,-1]]})", "/clips/c/samples/0/2: -1 is out of range"},
         {R"({"dt": 1, "samples": [[0,0,1],[1e10,0,1]]})", "/clips/c/samples/1/0: 1e+10 is out of range"},
         {R"({"dt": 1, "samples": [[0,0]]})", "/clips/c/samples/0: has 2 elements; give [x, y, r]"},
@@ -51,7 +52,20 @@ TEST(SceneErrors, ClipsAreChecked) {
         {R"({"dt": 1, "samples": [[0,0,1]], "fps": 30})", "/clips/c/fps: an import key is for a clip with a source"},
         {R"({"source": "x.csv", "samples": []})", "a source or samples, not both"},
         {R"({"source": ""})", "the source is empty"},
-        {R"({"source": "x.csv", "fps": -3})", "fps must be over 0"},
+        {"{\"source\": \"x.csv\",\n\"fps\": -3}", "line 3, /clips/c/fps: fps must be over 0"},
+        {R"({"source": "x.csv", "unit": "ell"})", "/clips/c/unit: unit must be"},
+        {R"({"source": "x.csv", "trim": [2, 1]})", "/clips/c/trim: trim must be"},
+        {R"({"source": "x.csv", "radius": -1, "fps": 30})", "/clips/c/radius: radius must be"},
+        {R"({"source": "x.csv", "dt": 1e13})", "/clips/c/dt: dt must be over 0 and at most"},
+        {R"({"source": "x.csv", "id": 1.5})", "/clips/c/id: 1.5 is not exact as a number; write the id as a string"},
+        {R"({"source": "x.csv", "id": 9007199254740992})", "write the id as a string"},
+        {R"({"source": "x.csv", "up": "z"})", "/clips/c/up: up does not apply to .csv files; leave it out"},
+        {R"({"source": "x.csv", "unit": "auto"})", "/clips/c/unit: unit auto does not apply"},
+        {R"({"source": "x\u0000.csv"})", "/clips/c/source: the source holds a NUL byte"},
+        {R"({"sourec": "walk.csv"})", "/clips/c/sourec: unknown key 'sourec'; the nearest known key is 'source'"},
+        {R"({"sorce": "walk.csv", "fps": 30})", "unknown key 'sorce'; the nearest known key is 'source'"},
+        {R"({"dt": 1, "sampels": [[0,0,1]]})", "unknown key 'sampels'; the nearest known key is 'samples'"},
+        {R"({"fps": 30})", "a clip needs a source, or dt and samples"},
         {R"({"source": "x.csv", "trim": [1]})", "give [A, B]"},
         {R"({"source": "x.csv", "origin": "here"})", "give keep, start or start_heading"},
         {R"({"source": "none.csv"})", "/clips/c/source: none.csv: no such file"},
@@ -76,6 +90,7 @@ TEST(SceneErrors, EverythingElseIsChecked) {
         {R"("$schema": 1)", "expected a string"},
         {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of mobb, umobb, hybrid1, hybrid2"},
         {R"("fit": {"tree": "brute"})", "is no tree"},
+        {R"("fit": {"tree": "moving"})", "'moving' trees are not in this version yet"},
         {R"("fit": {"leaf": 0})", "/fit/leaf: 0 is out of range"},
         {R"("fit": {"leaf": 2.5})", "whole number"},
         {R"("fit": {"leaf": 1e30})", "out of range"},
@@ -99,6 +114,8 @@ TEST(SceneErrors, EverythingElseIsChecked) {
             "b_sample": 0, "distance": 0, "radii": 1}}}])",
          "no contact without a collision"},
         {R"("view": {"levels": "3:1"})", "/view/levels: '3:1' is no range of levels"},
+        {R"("view": {"levels": 1001})", "levels go from 0 to 1000"},
+        {R"("view": {"camera": {"target": [0, 0, 1e10], "distance": 1}})", "out of range"},
         {R"("view": {"step": "soon"})", "is no step"},
         {R"("view": {"step": -1})", "out of range"},
         {R"("view": {"query": 1})", "/view/query: the scene has 1 queries"},
@@ -149,6 +166,8 @@ TEST(SceneErrors, TracesAreChecked) {
          "/trace/0/a"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "tiem", "outcome": "overlap"})",
          "is no test"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "moving", "outcome": "overlap"})",
+         "tests of 'moving' boxes are not in this version yet"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "maybe"})",
          "is no outcome"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "hit"})",
@@ -179,6 +198,28 @@ TEST(SceneErrors, AnErrorInsideASourceNamesBothFilesAndBothPlaces) {
     EXPECT_EQ(input_error([&] { load_scene(file); }),
               file.string() + ": line 3, /clips/c/source: " + (folder.path() / "bad.csv").string() +
                   ": line 3, column 2 (x): 'nan' is no finite number; write it like 0.25");
+}
+
+TEST(SceneErrors, ATracksNumberIsItsDigits) {
+    const TempFolder folder;
+    folder.write("two.csv", "id,t,x,y,r\n100000,0,7,0,0\n2,0,0,0,0\n100000,1,0,0,0\n2,1,0,0,0\n");
+    const auto file = folder.write("s.json", R"({"clips": {"c": {"source": "two.csv", "id": 100000}}})");
+    EXPECT_EQ(load_scene(file).clips[0].clip->samples()[0].x, 7);
+}
+
+TEST(SceneErrors, WhatIsForOtherFormatsIsRefusedInTheSceneAndPassedOverFromOutside) {
+    const TempFolder folder;
+    folder.write("a.csv", "t,x,y,r\n0,0,0,0\n1,1,0,0\n");
+    const auto file = folder.write("s.json", R"({"clips": {"c": {"source": "a.csv"}}})");
+    ImportOptions overrides;
+    overrides.up = "z";
+    overrides.root = "Hips";
+    overrides.radius = 0.5;
+    const Scene scene = load_scene(file, overrides);
+    EXPECT_EQ(scene.clips[0].clip->samples()[0].r, 0.5);
+    EXPECT_EQ(scene.clips[0].facts.warnings,
+              (std::vector<std::string>{"root does not apply to .csv files", "up does not apply to .csv files"}));
+    EXPECT_EQ(load_scene(folder.path() / "a.csv", overrides).clips[0].facts.warnings.size(), 2u);
 }
 
 TEST(SceneErrors, AFileOfManyTracksNeedsAnId) {

@@ -31,7 +31,7 @@ TEST(SceneFuzz, DamagedScenesAreReadOrRefused) {
             const Scene scene = parse_scene(text, "fuzz.json", "");
             // What was let in must be fit for use.
             const FittedScene fitted(scene, scene.fit);
-            for (const SceneQuery& query : fitted.queries()) record(fitted, query);
+            for (std::size_t i = 0; i < fitted.queries().size(); ++i) record(fitted, fitted.queries()[i]);
             ASSERT_NO_THROW(parse_scene(to_json(scene), "again.json", "")) << text;
             ++read;
         } catch (const InputError& error) {

@@ -20,7 +20,7 @@ TEST(Scene, OnlyClipsAreRequired) {
     EXPECT_EQ(scene.clips[0].clip->samples()[1].r, 0.5);
     EXPECT_EQ(scene.fit, mobb::FitOptions{});
     EXPECT_EQ(scene.view, ViewState{});
-    EXPECT_TRUE(effective_queries(scene).empty());
+    EXPECT_EQ(query_count(scene), 0u);
     ASSERT_EQ(participants(scene).size(), 2u);
     EXPECT_EQ(participants(scene)[1].name, "a");
     EXPECT_EQ(participants(scene)[1].agent, -1);
@@ -51,10 +51,11 @@ TEST(Scene, EverythingIsRead) {
 TEST(Scene, WithoutQueriesAllPairsOfAgentsAreAsked) {
     const Scene scene = parse(std::string("{") + kTwoClips + R"(, "queries": [],
         "agents": [{"name": "A", "clip": "a"}, {"name": "B", "clip": "z"}, {"name": "C", "clip": "z"}]})");
-    const auto queries = effective_queries(scene);
-    ASSERT_EQ(queries.size(), 3u);
-    EXPECT_EQ(queries[1].a.name + queries[1].b.name, "AC");
-    EXPECT_EQ(queries[2].a.name + queries[2].b.name, "BC");
+    ASSERT_EQ(query_count(scene), 3u);
+    EXPECT_EQ(query_at(scene, 0).a.name + query_at(scene, 0).b.name, "AB");
+    EXPECT_EQ(query_at(scene, 1).a.name + query_at(scene, 1).b.name, "AC");
+    EXPECT_EQ(query_at(scene, 2).a.name + query_at(scene, 2).b.name, "BC");
+    EXPECT_EQ(query_at(scene, 2).b.agent, 2);
     EXPECT_EQ(participants(scene)[2].agent, 2);
 }
 

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 namespace mobbscope {
@@ -66,6 +68,45 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
             testing::input_error([&] { parse_scene(scene_with(definition, object), "s.json", ""); });
         EXPECT_NE(message.find("unknown key 'unheard_of'"), std::string::npos) << definition << ": " << message;
     }
+}
+
+/// Whether parse_scene takes a scene with this value for a key of its view.
+bool view_is_read(const char* key, const std::string& text) {
+    const nlohmann::json view = {{key, text}};
+    try {
+        parse_scene(scene_with("view", view), "s.json", "");
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+TEST(Schema, PatternsTakeWhatTheReaderTakes) {
+    const std::string texts[] = {"",  "0",  "12",  "1:3", "leaves", "end", "40%", "33.5%", "+4%", "1e1%", ".5%",  "5.%",
+                                 "%", "-1", "-1%", "1.5", "nan%",   "x",   "2 ",  "1:",    "0x1", "all",  "1e-5%"};
+    for (const char* key : {"levels", "step"}) {
+        const std::regex pattern(properties("view")[key]["pattern"].get<std::string>());
+        for (const std::string& text : texts) {
+            EXPECT_EQ(std::regex_match(text, pattern), view_is_read(key, text)) << key << " '" << text << "'";
+        }
+    }
+    const std::regex unit(properties("imported")["unit"]["pattern"].get<std::string>());
+    for (const std::string text : {"m", "cm", "in", "auto", "ell", "", "0.01", "+2", "1e-3", ".5", "1m", "-1", "nan"}) {
+        ImportOptions options;
+        options.unit = text;
+        bool taken = true;
+        try {
+            check(options);
+        } catch (const std::invalid_argument&) {
+            taken = false;
+        }
+        EXPECT_EQ(std::regex_match(text, unit), taken) << text;
+    }
+}
+
+TEST(Schema, BoundsAreTheReaders) {
+    EXPECT_TRUE(properties("view")["levels"]["maximum"] == 1000 && view_is_read("levels", "1000"));
+    EXPECT_FALSE(view_is_read("levels", "1001"));
 }
 
 /// Every key of every "properties" below `value`.

@@ -1,0 +1,104 @@
+#include <import/text.h>
+#include <scene/answer.h>
+#include <scene/trace_json.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+using Layout = JsonWriter::Layout;
+
+// A capture may come from a program that computes in another order; this is far above rounding, far below meaning.
+constexpr double kAgreement = 1e-9;
+
+bool agrees(double expected, double found) {
+    return std::abs(expected - found) <= kAgreement * std::max(1.0, std::abs(expected));
+}
+
+bool agrees(const mobb::Contact& expected, const mobb::Contact& found) {
+    return expected.a_sample == found.a_sample && expected.b_sample == found.b_sample &&
+           agrees(expected.time, found.time) && agrees(expected.distance, found.distance) &&
+           agrees(expected.radii, found.radii);
+}
+
+}  // namespace
+
+Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details& details) {
+    Answer answer;
+    if (details.trace) {
+        RecordedQuery recorded = record(fitted, query, details.search);
+        answer.contact = recorded.contact;
+        answer.tests = recorded.tests;
+        answer.trace = std::move(recorded.trace);
+    } else {
+        mobb::Statistics statistics;
+        answer.contact = ask(fitted, query, details.search, statistics);
+        answer.tests = statistics.tests;
+    }
+    if (details.all_contacts) {
+        const mobb::PlacedTree a = fitted.placed(query.a);
+        const mobb::PlacedTree b = fitted.placed(query.b);
+        answer.contacts = details.search == Search::direct
+                              ? mobb::direct_contact_intervals(a.placed_clip(), b.placed_clip())
+                              : mobb::contact_intervals(a, b);
+    }
+    return answer;
+}
+
+void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, const Answer& answer) {
+    out.begin_object();
+    out.member("query", static_cast<std::int64_t>(index));
+    out.member("a", query.a.name);
+    out.member("b", query.b.name);
+    out.member("collides", answer.contact.has_value());
+    out.key("contact");
+    write_contact(out, answer.contact);
+    out.key("tests");
+    out.begin_object(Layout::row);
+    out.member("time", answer.tests.time);
+    out.member("obb2d", answer.tests.obb2d);
+    out.member("obb3d", answer.tests.obb3d);
+    out.member("moving", 0);
+    out.member("aabb", 0);
+    out.member("samples", answer.tests.samples);
+    out.end_object();
+    if (answer.contacts) {
+        out.key("contacts");
+        out.begin_array();
+        for (const mobb::Interval& interval : *answer.contacts) out.numbers({interval.t0, interval.t1});
+        out.end_array();
+    }
+    if (answer.trace) {
+        out.key("trace");
+        write_trace(out, *answer.trace);
+    }
+    out.end_object();
+}
+
+std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>& contact) {
+    const std::string a = cleaned(query.a.name);
+    const std::string b = cleaned(query.b.name);
+    if (!contact) return a + " and " + b + " never collide.";
+    return a + " and " + b + " collide at " + brief(contact->time) + " s: sample " + std::to_string(contact->a_sample) +
+           " of " + a + " and sample " + std::to_string(contact->b_sample) + " of " + b + " are " +
+           brief(contact->distance) + " m apart, their radii add up to " + brief(contact->radii) + " m.";
+}
+
+std::optional<std::string> disagreement(const SceneQuery& query, const Answer& answer) {
+    if (!query.expect) return std::nullopt;
+    const bool same = query.expect->collides == answer.contact.has_value() &&
+                      (!query.expect->contact || agrees(*query.expect->contact, *answer.contact));
+    if (same) return std::nullopt;
+    if (!query.expect->collides) return "expected no collision, but " + sentence(query, answer.contact);
+    if (!query.expect->contact) return "expected a collision, but " + sentence(query, answer.contact);
+    const mobb::Contact& expected = *query.expect->contact;
+    return "expected contact at " + brief(expected.time) + " s between samples " + std::to_string(expected.a_sample) +
+           " and " + std::to_string(expected.b_sample) + ", but " + sentence(query, answer.contact);
+}
+
+}  // namespace mobbscope

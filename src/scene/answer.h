@@ -1,0 +1,39 @@
+/// The answer to one query of a scene, as the contract has it.
+#pragma once
+
+#include <scene/fitted_scene.h>
+#include <scene/json_writer.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// What is asked for besides the answer.
+struct Details {
+    Search search = Search::trees;
+    bool trace = false;
+    bool all_contacts = false;
+};
+
+struct Answer {
+    std::optional<mobb::Contact> contact;
+    mobb::TestCounts tests;
+    std::optional<mobb::Trace> trace;                     ///< if it was asked for
+    std::optional<std::vector<mobb::Interval>> contacts;  ///< likewise
+};
+
+Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details& details);
+
+/// One element of `results` in the output of `query --json`.
+void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, const Answer& answer);
+
+/// The answer in words: who collides when and where, or that they never do.
+std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>& contact);
+
+/// How the answer disagrees with what the file expects of it; nothing if it agrees or nothing is expected.
+std::optional<std::string> disagreement(const SceneQuery& query, const Answer& answer);
+
+}  // namespace mobbscope
