@@ -1,6 +1,8 @@
 #include <render/subject.h>
 
+#include <cstddef>
 #include <stdexcept>
+#include <string>
 
 namespace mobbscope {
 
@@ -21,12 +23,12 @@ std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view) 
         }
         return out;
     }
-    const int count = static_cast<int>(fitted.queries().size());
-    if (*view.query < 0 || *view.query >= count) {
+    const std::size_t count = fitted.queries().size();
+    if (*view.query < 0 || static_cast<std::size_t>(*view.query) >= count) {
         throw std::invalid_argument("there is no query " + std::to_string(*view.query) + ": the scene has " +
                                     (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
     }
-    const SceneQuery& query = fitted.queries()[static_cast<std::size_t>(*view.query)];
+    const SceneQuery query = fitted.queries()[static_cast<std::size_t>(*view.query)];
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
     out.push_back(make_subject(fitted, query.a, 0, color_a));
     out.push_back(make_subject(fitted, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
