@@ -1,1 +1,94 @@
-int main() { return 0; }
+// mobbscope: see and debug bounding-volume trees in space-time.
+#include <cli/commands.h>
+#include <cli/exit_status.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <import/error.h>
+#include <import/text.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+/// `mobbscope [FILE...]` is for the window.
+int open_window(const CLI::App& program, const std::vector<std::string>& files) {
+    std::vector<std::string> commands;
+    for (const CLI::App* command : program.get_subcommands({})) commands.push_back(command->get_name());
+    for (const std::string& file : files) {
+        std::error_code ignored;
+        if (std::filesystem::exists(file, ignored)) continue;
+        complain(in_quotes(file) + " is neither a command nor a file" + did_you_mean(file, commands));
+        return kBadInput;
+    }
+    complain("this version has no window yet; give a command, see mobbscope --help");
+    return kNoMachine;
+}
+
+/// Help and version are results; everything else that CLI11 throws is bad usage, whatever its own code is.
+int end_of_parse(const CLI::App& program, const CLI::ParseError& end) {
+    if (end.get_exit_code() == 0) {
+        program.exit(end, std::cout, std::cerr);
+        flush_results();
+        return kDone;
+    }
+    const std::vector<CLI::App*> chosen = program.get_subcommands();
+    const std::string command = chosen.empty() ? "" : chosen.front()->get_name() + " ";
+    complain(std::string(end.what()) + "; see mobbscope " + command + "--help");
+    return kBadInput;
+}
+
+int run(int argc, char** argv) {
+    CLI::App program("See and debug bounding-volume trees in space-time", "mobbscope");
+    program.set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
+    program.require_subcommand(0, 1);
+    std::vector<std::string> files;
+    program.add_option("FILE", files, "Scenes, captures or clips to open in the window");
+    int status = kDone;
+    add_convert_command(program, status);
+    add_fit_command(program, status);
+    add_query_command(program, status);
+    for (CLI::App* command : program.get_subcommands({})) {
+        command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
+    }
+    try {
+        program.parse(argc, argv);
+        return program.get_subcommands().empty() ? open_window(program, files) : status;
+    } catch (const CLI::ParseError& end) {
+        return end_of_parse(program, end);
+    }
+}
+
+}  // namespace
+
+}  // namespace mobbscope::cli
+
+int main(int argc, char** argv) {
+    using namespace mobbscope;
+    std::ios::sync_with_stdio(false);
+    // A reader that goes away is an error to report, not a signal to die of.
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        return cli::run(argc, argv);
+    } catch (const InputError& error) {
+        cli::complain(error.what());
+        return cli::kBadInput;
+    } catch (const MachineError& error) {
+        cli::complain(error.what());
+        return cli::kNoMachine;
+    } catch (const std::bad_alloc&) {
+        cli::complain("there is not enough memory for this");
+        return cli::kNoMachine;
+    } catch (const std::exception& error) {
+        cli::complain(std::string("this should not happen, please report it: ") + error.what());
+        return cli::kNoMachine;
+    }
+}

@@ -187,11 +187,19 @@ class SceneReader {
         if (place.find("source")) {
             read_source(place, clip);
         } else {
-            // "dt" alone would also be an import key; without a source it belongs to samples.
-            place.allow_only({"dt", "samples"});
+            check_inline(place);
             clip.clip = read_samples(place);
         }
         return clip;
+    }
+
+    static void check_inline(const JsonPlace& place) {
+        for (const char* key : {"animation", "root", "fps", "unit", "up", "trim", "origin", "id", "radius"}) {
+            const auto import_key = place.find(key);
+            if (import_key) import_key->fail("an import key is for a clip with a source; remove it");
+        }
+        place.allow_only({"dt", "samples"});
+        if (!place.find("samples")) place.fail("a clip needs a source, or dt and samples");
     }
 
     void read_source(const JsonPlace& place, SceneClip& clip) {
@@ -290,11 +298,10 @@ class SceneReader {
 
     void check_viewed_query(const JsonPlace& view) const {
         if (!scene_.view.query) return;
-        const auto count =
-            scene_.queries.empty() ? scene_.agents.size() * (scene_.agents.size() - 1) / 2 : scene_.queries.size();
-        if (static_cast<std::size_t>(*scene_.view.query) >=
-            (scene_.agents.empty() && scene_.queries.empty() ? 0 : count)) {
-            view.require("query").fail("there is no such query; they count from 0");
+        const std::size_t agents = scene_.agents.size();
+        const std::size_t count = scene_.queries.empty() ? agents * (agents - 1) / 2 : scene_.queries.size();
+        if (static_cast<std::size_t>(*scene_.view.query) >= count) {
+            view.require("query").fail("the scene has " + std::to_string(count) + " queries, counted from 0");
         }
     }
 

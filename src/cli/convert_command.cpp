@@ -1,0 +1,83 @@
+#include <cli/commands.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <import/csv.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <import/text.h>
+
+#include <memory>
+
+namespace mobbscope::cli {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    std::filesystem::path out;
+    ImportOptions import_options;
+};
+
+/// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the start of the sample's
+/// hold.
+std::string to_csv(const Scene& scene) {
+    const bool several = scene.clips.size() > 1;
+    std::string text = several ? "id,t,x,y,r\n" : "t,x,y,r\n";
+    for (const SceneClip& clip : scene.clips) {
+        const std::string id = several ? csv_field(clip.name) + ',' : "";
+        for (int i = 0; i < clip.clip->count(); ++i) {
+            const mobb::Disk& disk = clip.clip->samples()[static_cast<std::size_t>(i)];
+            text += id + format_double(i * clip.clip->dt()) + ',' + format_double(disk.x) + ',' +
+                    format_double(disk.y) + ',' + format_double(disk.r) + '\n';
+        }
+    }
+    return text;
+}
+
+/// Names of clips become a column; a line break in one would break the table.
+void check_names(const Scene& scene) {
+    if (scene.clips.size() < 2) return;
+    for (const SceneClip& clip : scene.clips) {
+        if (clip.name.find_first_of(std::string("\n\0", 2)) != std::string::npos) {
+            throw InputError(scene.file.string(), "clip " + in_quotes(clip.name),
+                             "its name has a line break, which a CSV cannot hold; rename it");
+        }
+    }
+}
+
+void warn_of_lost_dt(const Scene& scene) {
+    for (const SceneClip& clip : scene.clips) {
+        if (clip.clip->count() > 1) continue;
+        warn(scene.file.string() + ": clip " + in_quotes(clip.name) +
+             " has one sample, so the CSV does not tell its dt (" + format_double(clip.clip->dt()) +
+             " s); give --dt when reading it");
+    }
+}
+
+void run(const Arguments& arguments) {
+    const std::string extension = lower_extension(arguments.out);
+    if (extension != ".csv" && extension != ".json") {
+        throw InputError(arguments.out.string(), "", "clips can be written as .csv or .json; rename the output");
+    }
+    const Scene scene = load(arguments.file, arguments.import_options);
+    if (extension == ".json") {
+        write_file(arguments.out, to_json(scene, true));
+        return;
+    }
+    check_names(scene);
+    write_file(arguments.out, to_csv(scene));
+    warn_of_lost_dt(scene);
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& program, int&) {
+    CLI::App* command = program.add_subcommand("convert", "Write clips as CSV, or as a scene with its samples inside");
+    const auto arguments = std::make_shared<Arguments>();
+    add_scene_file(*command, arguments->file);
+    command->add_option("-o,--output", arguments->out, "Where to: .csv or .json")->required()->type_name("OUT");
+    add_import_options(*command, arguments->import_options);
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace mobbscope::cli

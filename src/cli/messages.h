@@ -1,0 +1,22 @@
+/// What the program says: results to standard output, everything else to standard error.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mobbscope::cli {
+
+/// One line on standard error, "mobbscope: ...", whatever characters a file's name or text brings along.
+void complain(std::string_view message);
+/// The same for something that does not stop the program.
+void warn(std::string_view message);
+
+/// Hands everything written to std::cout to the system. Throws MachineError if it did not take it all.
+void flush_results();
+
+/// A number for people: six significant digits.
+std::string brief(double value);
+/// "1 sample", "12 samples".
+std::string counted(long long count, std::string_view singular, std::string_view plural);
+
+}  // namespace mobbscope::cli

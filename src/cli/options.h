@@ -1,0 +1,43 @@
+/// Options that several commands share, and what they mean for a scene.
+#pragma once
+
+#include <import/import.h>
+#include <mobb/tree.h>
+#include <scene/scene.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace mobbscope::cli {
+
+/// The fit options as given; an empty one leaves the scene's.
+struct FitArguments {
+    std::optional<mobb::TreeKind> tree;
+    bool brute = false;  ///< `--tree brute`: no tree, the direct search
+    std::optional<int> leaf;
+    std::optional<int> levels;
+    std::optional<mobb::Axes> axes;
+    std::optional<double> time_scale;
+
+    /// The scene's options with those given over them.
+    mobb::FitOptions over(mobb::FitOptions fit) const;
+};
+
+/// Whether `--tree brute` is among the choices.
+enum class Brute { refused, allowed };
+
+/// Adds --tree --leaf --levels --axes --time-scale. `arguments` must live until the command has run.
+void add_fit_options(CLI::App& command, FitArguments& arguments, Brute brute = Brute::refused);
+
+/// Adds --fps --unit --up --root --trim --dt --radius --animation. `options` must live until the command has run.
+void add_import_options(CLI::App& command, ImportOptions& options);
+
+/// Adds the FILE that a command works on: a scene or a clip.
+void add_scene_file(CLI::App& command, std::filesystem::path& file);
+
+/// load_scene, with its warnings on standard error. Throws InputError.
+Scene load(const std::filesystem::path& file, const ImportOptions& options);
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,80 @@
+#include <cli/answer.h>
+#include <cli/commands.h>
+#include <cli/exit_status.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <import/error.h>
+
+#include <iostream>
+#include <memory>
+#include <utility>
+
+namespace mobbscope::cli {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    bool json = false;
+    Details details;
+    FitArguments fit;
+    ImportOptions import_options;
+};
+
+/// Answers every query in order; returns the sentences of those that disagree with what the file expects.
+std::vector<std::string> answer_all(const FittedScene& fitted, const Arguments& arguments) {
+    std::vector<std::string> complaints;
+    JsonWriter json(std::cout);
+    if (arguments.json) {
+        json.begin_object();
+        json.key("results");
+        json.begin_array();
+    }
+    int index = 0;
+    for (const SceneQuery& query : fitted.queries()) {
+        const Answer found = answer(fitted, query, arguments.details);
+        arguments.json ? write_answer(json, index, query, found) : print_answer(std::cout, index, query, found);
+        if (const auto complaint = disagreement(query, found)) {
+            complaints.push_back("query " + std::to_string(index) + ": " + *complaint);
+        }
+        ++index;
+    }
+    if (arguments.json) {
+        json.end_array();
+        json.end_object();
+    }
+    return complaints;
+}
+
+void run(Arguments& arguments, int& status) {
+    Scene scene = load(arguments.file, arguments.import_options);
+    const mobb::FitOptions options = arguments.fit.over(scene.fit);
+    const FittedScene fitted(std::move(scene), options);
+    if (fitted.queries().empty()) {
+        throw InputError(arguments.file.string(), "", "there is nothing to ask; add queries, or two agents at least");
+    }
+    arguments.details.brute = arguments.fit.brute;
+    const std::vector<std::string> complaints = answer_all(fitted, arguments);
+    flush_results();
+    for (const std::string& complaint : complaints) complain(arguments.file.string() + ": " + complaint);
+    if (!complaints.empty()) status = kFailed;
+}
+
+}  // namespace
+
+void add_query_command(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand(
+        "query",
+        "Answer the scene's queries: do two clips ever collide? Status 1 if an answer is not the expected one");
+    const auto arguments = std::make_shared<Arguments>();
+    add_scene_file(*command, arguments->file);
+    command->add_flag("--json", arguments->json, "Answers as JSON");
+    command->add_flag("--trace", arguments->details.trace, "Every test that was made");
+    command->add_flag("--all-contacts", arguments->details.all_contacts,
+                      "All intervals of contact, not only the first");
+    add_fit_options(*command, arguments->fit, Brute::allowed);
+    add_import_options(*command, arguments->import_options);
+    command->callback([arguments, &status] { run(*arguments, status); });
+}
+
+}  // namespace mobbscope::cli
