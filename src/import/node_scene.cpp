@@ -108,17 +108,16 @@ void evaluate(const Channel& channel, double seconds, double* out) {
 }
 
 MotionTimes key_times(const std::vector<Numbers>& lists) {
-    // Exporters write one list of times for all channels, or the same list again and again.
+    // Exporters write one list for all channels, or equal lists: merging each anew would be slow.
     std::vector<double> all;
     std::set<const std::vector<double>*> seen;
     for (const Numbers& list : lists) {
-        if (!seen.insert(list.get()).second) continue;
-        if (all == *list) continue;
-        std::vector<double> merged;
-        merged.reserve(all.size() + list->size());
-        std::set_union(all.begin(), all.end(), list->begin(), list->end(), std::back_inserter(merged));
-        all = std::move(merged);
+        if (!seen.insert(list.get()).second || *list == *lists.front()) continue;
+        all.insert(all.end(), list->begin(), list->end());
     }
+    if (!lists.empty()) all.insert(all.end(), lists.front()->begin(), lists.front()->end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     MotionTimes times;
     if (all.empty()) return times;
     times.first = all.front();
