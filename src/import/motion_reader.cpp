@@ -1,7 +1,9 @@
 // The one place that knows which reader takes which motion file.
 #include <import/bvh.h>
 #include <import/error.h>
+#include <import/fbx.h>
 #include <import/file.h>
+#include <import/gltf.h>
 #include <import/motion.h>
 
 #include <array>
@@ -16,7 +18,8 @@ std::unique_ptr<MotionFile> read_bvh(const std::filesystem::path& file) {
 }
 
 using Reader = std::unique_ptr<MotionFile> (*)(const std::filesystem::path&);
-constexpr std::array<std::pair<std::string_view, Reader>, 1> kReaders{{{".bvh", read_bvh}}};
+constexpr std::array<std::pair<std::string_view, Reader>, 4> kReaders{
+    {{".bvh", read_bvh}, {".gltf", read_gltf}, {".glb", read_gltf}, {".fbx", read_fbx}}};
 
 Reader reader_for(std::string_view extension) {
     for (const auto& [name, reader] : kReaders) {
