@@ -106,6 +106,7 @@ std::unique_ptr<MotionFile> read_fbx(const fs::path& file) {
     }
     scene.file = name;
     scene.format = "fbx";
+    scene.has_pivots = true;
     for (std::size_t i = 0; i < scene.animations.size(); ++i) {
         NodeAnimation& animation = scene.animations[i];
         animation.name = animation.name.empty() ? "#" + std::to_string(i) : one_line(animation.name);

@@ -18,8 +18,9 @@ constexpr std::size_t kMaxSurvey = 10'000;
 // What a joint that stands still may seem to move, as a share of the body's size: rounding of poses held in floats.
 constexpr double kStandstill = 1e-5;
 
-/// The topmost joint, its only child joint, and so on while there is but one.
-std::vector<std::size_t> only_children(std::span<const Joint> joints, int topmost) {
+/// The topmost joint, its only child joint, and so on while there is but one and the joint above is no pivot.
+std::vector<std::size_t> only_children(const Motion& motion) {
+    const std::span<const Joint> joints = motion.joints();
     std::vector<int> count(joints.size(), 0);
     std::vector<std::size_t> child(joints.size(), 0);
     for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -28,8 +29,10 @@ std::vector<std::size_t> only_children(std::span<const Joint> joints, int topmos
         ++count[parent];
         child[parent] = i;
     }
-    std::vector<std::size_t> chain{static_cast<std::size_t>(topmost)};
-    while (count[chain.back()] == 1) chain.push_back(child[chain.back()]);
+    std::vector<std::size_t> chain{static_cast<std::size_t>(motion.topmost())};
+    while (count[chain.back()] == 1 && !motion.is_pivot(static_cast<int>(chain.back()))) {
+        chain.push_back(child[chain.back()]);
+    }
     return chain;
 }
 
@@ -73,7 +76,7 @@ std::vector<bool> subtree(std::span<const Joint> joints, int root) {
 }
 
 int default_root(const GroundedMotion& motion) {
-    const std::vector<std::size_t> chain = only_children(motion.joints(), motion.motion().topmost());
+    const std::vector<std::size_t> chain = only_children(motion.motion());
     if (chain.size() == 1) return static_cast<int>(chain.front());
 
     std::vector<glm::dvec3> start;

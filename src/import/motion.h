@@ -39,6 +39,8 @@ class Motion {
     virtual std::span<const Joint> joints() const = 0;
     /// The topmost joint of the contract, where the search for the root begins.
     virtual int topmost() const = 0;
+    /// True if the search for the root, which goes down from joints that stand still, ends at this joint at the latest.
+    virtual bool is_pivot(int /*joint*/) const { return false; }
     virtual const MotionTimes& times() const = 0;
     /// Where all joints are at a time in file seconds, in file units and axes, with everything above them applied.
     /// Times outside the keys are clamped; with frames_only the nearest stored frame is taken. `positions` has room for

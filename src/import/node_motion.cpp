@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace mobbscope {
 
@@ -36,6 +37,18 @@ int topmost_animated(const NodeScene& scene, const std::vector<int>& order) {
     return first == order.end() ? -1 : *first;
 }
 
+/// True if a rotation is not the same at all keys.
+bool turns(const Channel& channel) {
+    const std::vector<double>& values = *channel.values;
+    const glm::dquat first = glm::normalize(glm::dquat{values[3], values[0], values[1], values[2]});
+    for (std::size_t i = 4; i < values.size(); i += 4) {
+        const glm::dquat q{values[i + 3], values[i], values[i + 1], values[i + 2]};
+        // The cosine of half the angle between them; single precision leaves it within 1e-7 of 1.
+        if (std::abs(glm::dot(first, glm::normalize(q))) < 1 - 1e-6) return true;
+    }
+    return false;
+}
+
 class NodeMotion : public Motion {
   public:
     NodeMotion(std::shared_ptr<const NodeScene> scene, std::size_t animation)
@@ -50,10 +63,18 @@ class NodeMotion : public Motion {
         const std::vector<int> order = parents_first(scene_->nodes);
         const std::vector<int> joint_of = choose_joints(order);
         choose_posed_nodes(order, joint_of);
+        is_pivot_.resize(joints_.size());
+        for (const Channel& channel : animation_->channels) {
+            const int joint = joint_of[at(channel.node)];
+            if (scene_->has_pivots && joint >= 0 && channel.property == NodeProperty::rotation && turns(channel)) {
+                is_pivot_[at(joint)] = true;
+            }
+        }
     }
 
     std::span<const Joint> joints() const override { return joints_; }
     int topmost() const override { return topmost_; }
+    bool is_pivot(int joint) const override { return is_pivot_[at(joint)]; }
     const MotionTimes& times() const override { return animation_->times; }
 
     void pose(double seconds, std::span<glm::dvec3> positions) const override {
@@ -150,6 +171,7 @@ class NodeMotion : public Motion {
     const NodeAnimation* animation_;
     std::vector<Joint> joints_;
     int topmost_ = 0;
+    std::vector<bool> is_pivot_;  ///< by joint
     std::vector<PosedNode> posed_;
 };
 

@@ -74,6 +74,9 @@ struct NodeScene {
     bool has_skin = false;
     std::vector<int> skin_joints;  ///< the nodes of skin 0, in its order
     int skins = 0;
+    /// A joint that turns on the spot is the pivot that the body hangs on, so the search for the root ends there. FBX:
+    /// unlike a skin, it does not say where the body begins.
+    bool has_pivots = false;
     std::vector<NodeAnimation> animations;
 };
 
