@@ -23,7 +23,7 @@ bool is_uniform(std::span<const TimedDisk> frames) {
 }
 
 double sample_count(double begin, double end, double step) {
-    return std::max(std::floor((end - begin) / step + kFrameTolerance), 0.0) + 1;
+    return std::max(std::floor((end - begin) / step + kEndTolerance), 0.0) + 1;
 }
 
 SampleGrid sample_grid(double first, double last, const std::optional<std::pair<double, double>>& trim, double step,
