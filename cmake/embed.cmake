@@ -22,9 +22,9 @@ function(mobbscope_embed target namespace)
 #include <string_view>
 ${externs}
 namespace ${namespace} {
-std::string_view embedded(std::string_view name)\;
+std::string_view embedded(std::string_view name);
 std::string_view embedded(std::string_view name) {
-${rows}    return {}\;
+${rows}    return {};
 }
 }  // namespace ${namespace}
 " @ONLY)

@@ -8,6 +8,7 @@ namespace mobbscope::cli {
 
 void add_convert_command(CLI::App& program, int& status);
 void add_fit_command(CLI::App& program, int& status);
+void add_info_command(CLI::App& program, int& status);
 void add_query_command(CLI::App& program, int& status);
 
 }  // namespace mobbscope::cli

@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
     int status = kDone;
     add_convert_command(program, status);
     add_fit_command(program, status);
+    add_info_command(program, status);
     add_query_command(program, status);
     for (CLI::App* command : program.get_subcommands({})) {
         command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);

@@ -165,7 +165,7 @@ class CsvParser {
         const std::optional<double> value = parse_double(field);
         if (!value) fail(column, in_quotes(field) + " is no finite number; write it like 0.25");
         if (std::abs(*value) > largest)
-            fail(column, in_quotes(field) + " is beyond " + format_double(largest) + "; check the units");
+            fail(column, in_quotes(field) + " is beyond " + short_double(largest) + "; check the units");
         return *value;
     }
 
@@ -180,7 +180,7 @@ class CsvParser {
         const double before = rows[rows.size() - 2].t;
         if (rows.back().t > before) return;
         fail(static_cast<std::size_t>(position_[kT]),
-             "the time does not come after " + format_double(before) + " of the row before" +
+             "the time does not come after " + short_double(before) + " of the row before" +
                  (id.empty() ? "" : " of track " + in_quotes(id)) + "; sort the rows and remove doubles");
     }
 

@@ -134,7 +134,7 @@ class MotionImport {
         }
         out.clip = std::make_shared<mobb::Clip>(grid.step, std::move(samples));
         if (!skeleton->positions.empty()) out.skeleton = std::move(skeleton);
-        add_motion_warnings(*out.clip, options_.trim ? options_.trim->first : 0, facts);
+        add_motion_warnings(*out.clip, options_.trim ? options_.trim->first : 0, out.skeleton.get(), facts);
         return out;
     }
 

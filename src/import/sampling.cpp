@@ -23,7 +23,7 @@ bool is_uniform(std::span<const TimedDisk> frames) {
 }
 
 double sample_count(double begin, double end, double step) {
-    return std::max(std::floor((end - begin) / step + kFrameTolerance), 0.0) + 1;
+    return std::max(std::floor((end - begin) / step + kEndTolerance), 0.0) + 1;
 }
 
 SampleGrid sample_grid(double first, double last, const std::optional<std::pair<double, double>>& trim, double step,
@@ -31,8 +31,8 @@ SampleGrid sample_grid(double first, double last, const std::optional<std::pair<
     const double length = last - first;
     const auto [from, to] = trim.value_or(std::pair{0.0, length});
     if (from > length) {
-        throw std::invalid_argument("trim begins at " + format_double(from) + " s but the file lasts " +
-                                    format_double(length) + " s");
+        throw std::invalid_argument("trim begins at " + short_double(from) + " s but the file lasts " +
+                                    short_double(length) + " s");
     }
     const double count = sample_count(from, std::min(to, length), step);
     if (count > static_cast<double>(most)) {

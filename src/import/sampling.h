@@ -21,6 +21,10 @@ struct TimedDisk {
 /// A time within so many frames of a stored frame is that frame: rounded times in files lose nothing.
 inline constexpr double kFrameTolerance = 0.02;
 
+/// A sampling time so many samples after the last key is still at it. Less than kFrameTolerance: a last key that comes
+/// that much earlier was meant to.
+inline constexpr double kEndTolerance = 0.001;
+
 /// The most samples that a file may become.
 inline constexpr std::size_t kMaxSamples = 10'000'000;
 

@@ -20,6 +20,9 @@ std::optional<std::pair<double, double>> parse_range(std::string_view text);
 /// 17 significant digits: the number that is read back is the same double. Negative zero keeps its sign ("-0.0").
 std::string format_double(double value);
 
+/// The fewest digits that are read back as the same double: for messages.
+std::string short_double(double value);
+
 /// Without blanks (space, tab, carriage return) at both ends.
 std::string_view trimmed(std::string_view text);
 

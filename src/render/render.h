@@ -1,29 +1,21 @@
-/// (scene, view state, size) -> pixels. Knows no window.
+/// (scene, view state, size) -> pixels, in one call.
 #pragma once
 
+#include <render/image.h>
+#include <render/renderer.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace mobbscope {
 
-/// Rows from top to bottom, 4 bytes a pixel (RGBA, straight alpha).
-struct Image {
-    int width = 0;
-    int height = 0;
-    std::vector<std::uint8_t> rgba;
-};
+/// The picture of a scene. The same arguments give the same picture on the same backend and machine. Throws
+/// std::invalid_argument (see build_draw_list) and MachineError (see Renderer::draw).
+Image render(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer);
 
-/// Object ids, one pair of 32-bit numbers a pixel, rows from top to bottom. (0, 0) is nothing. The first number is
-/// 1 + the participant's index; the second tells disks from boxes (see object_id.h).
-struct IdImage {
-    int width = 0;
-    int height = 0;
-    std::vector<std::uint32_t> rg;
-};
+/// What is in each pixel of that picture.
+IdImage render_ids(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer);
+
+/// Throws std::invalid_argument, saying what is allowed, unless a picture of this size can be made.
+void check(PictureSize size);
 
 }  // namespace mobbscope

@@ -74,7 +74,7 @@ mobb::Placement read_placement(const JsonPlace& place) {
 
 /// A string, or a number as it would be written on the command line.
 std::string read_word(const JsonPlace& place) {
-    return place.is_number() ? format_double(place.number()) : place.string();
+    return place.is_number() ? short_double(place.number()) : place.string();
 }
 
 ImportOptions read_import_options(const JsonPlace& place) {
@@ -174,7 +174,7 @@ class SceneReader {
         if (const auto schema = root_.find("$schema")) schema->string();
         const auto version = root_.find("mobbscope");
         if (version && version->number() != kVersion) {
-            version->fail("the file has version " + format_double(version->number()) + "; this program reads version " +
+            version->fail("the file has version " + short_double(version->number()) + "; this program reads version " +
                           std::to_string(kVersion));
         }
     }

@@ -152,6 +152,25 @@ TEST(Fit, MinareaIsWithinOnePercentOfTheBestOf1800Angles) {
     }
 }
 
+TEST(Fit, MinareaFindsANarrowOptimum) {
+    // Round a long thin rectangle, with a rest at one corner that pulls the principal axis off its sides.
+    for (const double degrees : {0.0, 11.37, 33.33, 58.02, 77.7}) {
+        const double angle = degrees * std::numbers::pi / 180;
+        const glm::dvec2 along{std::cos(angle), std::sin(angle)}, across{-along.y, along.x};
+        std::vector<Disk> path;
+        const auto add = [&](double u, double v) {
+            const glm::dvec2 p = u * along + v * across;
+            path.push_back({p.x, p.y, 0.02});
+        };
+        for (int i = 0; i <= 20; ++i) add(i, 0);
+        for (int i = 0; i < 60; ++i) add(20, 1);
+        for (int i = 20; i >= 3; --i) add(i, 1);
+        const Clip clip(0.1, path);
+        const Box box = fit_obb2d(clip, {0, clip.count()}, Axes::minarea, 1);
+        EXPECT_LE(4 * box.half.x * box.half.y, 1.01 * 20.04 * 1.04) << degrees;
+    }
+}
+
 TEST(Fit, MinareaInSpaceTimeIsNeverLooserThanTheOthers) {
     Random random(3);
     for (int round = 0; round < 200; ++round) {

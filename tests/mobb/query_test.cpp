@@ -174,6 +174,32 @@ TEST(Query, MixedTimeScalesStillGiveTheAnswer) {
     }
 }
 
+TEST(Query, WalksSideBySideThatOverlapByAHairAreHits) {
+    // The free boxes' sides lie flush against each other: only the slack keeps them from counting as separated.
+    Random random(17);
+    int hits = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const double speed = random.real(0.3, 3), r = random.real(0.1, 0.6), heading = random.real(0, 360);
+        std::vector<Disk> path;
+        for (int i = 0; i < 24; ++i) path.push_back({speed * i / 30, 0, r});
+        const auto clip = std::make_shared<const Clip>(1.0 / 30, path);
+        FitOptions fit = test::random_fit(random);
+        fit.tree = random.chance(0.7) ? TreeKind::umobb : TreeKind::hybrid1;
+        const Tree tree(clip, fit);
+        const Rotation turn = Rotation::from_degrees(heading);
+        const double apart = 2 * r * (1 - random.integer(0, 4) * 1e-16);
+        const bool far_away = random.chance(0.3);
+        const glm::dvec2 origin = far_away ? glm::dvec2{1e4, 1e4} : glm::dvec2{0, 0};
+        const double start = far_away ? 1e5 : 0;
+        const PlacedTree a(tree, {.translate = origin, .rotate_deg = heading, .start = start});
+        const PlacedTree b(tree, {.translate = origin + turn({0, apart}), .rotate_deg = heading, .start = start});
+        const std::optional<Contact> expected = direct_search(a.placed_clip(), b.placed_clip());
+        ASSERT_EQ(query(a, b), expected) << round;
+        hits += expected.has_value();
+    }
+    EXPECT_GT(hits, 2000);
+}
+
 /// Maximal runs of colliding pairs, from all pairs.
 std::vector<Interval> all_intervals(const PlacedClip& a, const PlacedClip& b) {
     std::vector<Interval> raw;

@@ -1,0 +1,26 @@
+#version 330 core
+in vec3 surface_normal;
+in vec3 surface_color;
+in vec2 local;
+flat in uvec2 object_id;
+
+uniform vec3 light;  // towards the light, unit
+
+layout(location = 0) out vec4 color;
+layout(location = 1) out uvec2 id;
+
+// How dark a line along the edge at `to_edge` = 0 is here: one pixel wide, and gone where disks are thinner than that.
+float seam(float to_edge) {
+    float pixel = fwidth(to_edge);
+    float line = 1.0 - smoothstep(0.6 * pixel, 1.6 * pixel, to_edge);
+    return line * (1.0 - smoothstep(0.25, 0.7, pixel));
+}
+
+void main() {
+    bool cap = abs(surface_normal.z) > 0.5;
+    vec3 n = normalize(surface_normal);
+    float shade = cap ? 1.0 : 0.54 + 0.36 * (0.5 + 0.5 * dot(n, light));
+    float edge = cap ? seam(1.0 - local.x) : seam(local.y);
+    color = vec4(surface_color * shade * (1.0 - 0.38 * edge), 1.0);
+    id = object_id;
+}

@@ -1,0 +1,50 @@
+#version 330 core
+// A line as a rectangle that is so many pixels wide, whatever the distance.
+layout(location = 0) in vec3 from;
+layout(location = 1) in vec3 to;
+layout(location = 2) in vec4 color;
+layout(location = 3) in vec4 dash;
+layout(location = 4) in vec3 shape;  // width and cap in pixels, opacity kept when hidden
+
+uniform mat4 clip_from_world;
+uniform vec2 viewport;
+uniform bool hidden;
+uniform float depth_bias;
+
+out vec4 line_color;
+flat out vec4 pattern;
+flat out float half_width;
+noperspective out float across;  // pixels from the middle
+noperspective out float along;   // pixels from the start
+
+void main() {
+    line_color = vec4(color.rgb, color.a * (hidden ? shape.z : 1.0));
+    pattern = dash;
+    half_width = 0.5 * shape.x;
+    across = 0.0;
+    along = 0.0;
+    vec4 a = clip_from_world * vec4(from, 1.0);
+    vec4 b = clip_from_world * vec4(to, 1.0);
+    // What is behind the eye would be mirrored by the division; it is cut off at the near plane.
+    float da = a.z + a.w;
+    float db = b.z + b.w;
+    if (line_color.a <= 0.0 || (da <= 0.0 && db <= 0.0)) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
+    if (da < 0.0) a = mix(a, b, da / (da - db));
+    if (db < 0.0) b = mix(b, a, db / (db - da));
+
+    vec2 pa = a.xy / a.w * 0.5 * viewport;
+    vec2 pb = b.xy / b.w * 0.5 * viewport;
+    vec2 run = pb - pa;
+    float span = length(run);
+    vec2 direction = span > 1e-4 ? run / span : vec2(1.0, 0.0);
+    bool end = gl_VertexID >= 2;
+    float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
+    across = side * (half_width + 0.5);
+    along = end ? span + shape.y : -shape.y;
+    vec2 pixel = (end ? pb : pa) + direction * (end ? shape.y : -shape.y) + vec2(-direction.y, direction.x) * across;
+    vec4 clip = end ? b : a;
+    gl_Position = vec4(pixel / (0.5 * viewport) * clip.w, clip.z - depth_bias * clip.w, clip.w);
+}

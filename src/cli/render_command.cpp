@@ -1,0 +1,170 @@
+#include <cli/commands.h>
+#include <cli/options.h>
+#include <import/error.h>
+#include <import/text.h>
+#include <render/build_draw_list.h>
+#include <render/png.h>
+#include <render/render.h>
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace mobbscope::cli {
+
+namespace {
+
+/// The view options as given; an empty one leaves the scene's view.
+struct Arguments {
+    std::filesystem::path file;
+    std::filesystem::path output;
+    PictureSize size{1280, 720};
+    Backend backend = Backend::automatic;
+    std::optional<CameraPreset> view;
+    std::optional<double> yaw, pitch, fov;
+    bool orthographic = false;
+    std::optional<LevelRange> levels;
+    std::optional<int> query;
+    std::optional<Step> step;
+    std::optional<double> time, time_height;
+    std::optional<Theme> theme;
+    FitArguments fit;
+    ImportOptions import_options;
+};
+
+/// "1280x720".
+PictureSize parse_size(const std::string& text) {
+    const std::size_t x = text.find('x');
+    const std::optional<int> width = parse_int(std::string_view(text).substr(0, x));
+    const std::optional<int> height =
+        x == std::string::npos ? std::nullopt : parse_int(std::string_view(text).substr(x + 1));
+    if (!width || !height) throw std::invalid_argument(in_quotes(text) + " is no size: give WIDTHxHEIGHT in pixels (1280x720)");
+    const PictureSize size{*width, *height};
+    check(size);
+    return size;
+}
+
+template <class T>
+T required(std::optional<T> value, const std::string& text, const char* allowed) {
+    if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + allowed);
+    return *value;
+}
+
+/// An option whose text goes through `parse`; what parse throws becomes bad usage.
+template <class Parse, class T>
+void add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
+                const char* placeholder) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &target, parse](const std::string& text) {
+                try {
+                    target = parse(text);
+                } catch (const std::invalid_argument& error) {
+                    throw CLI::ValidationError(name, error.what());
+                }
+            },
+            help)
+        ->type_name(placeholder);
+}
+
+/// A finite number within [low, high].
+auto number_within(double low, double high) {
+    return [low, high](const std::string& text) {
+        const std::optional<double> value = parse_double(text);
+        if (!value || !(*value >= low && *value <= high)) {
+            throw std::invalid_argument(in_quotes(text) + " is no number from " + format_double(low) + " to " + format_double(high));
+        }
+        return *value;
+    };
+}
+
+/// The scene's view with the options given over it.
+ViewState over(ViewState view, const Arguments& arguments) {
+    if (arguments.view) {
+        view.camera.preset = *arguments.view;
+        // A preset frames the scene; a target was meant for the camera that it replaces.
+        view.camera.target.reset();
+    }
+    if (arguments.yaw || arguments.pitch) view.camera.preset = CameraPreset::free;
+    if (arguments.yaw) view.camera.yaw_deg = *arguments.yaw;
+    if (arguments.pitch) view.camera.pitch_deg = *arguments.pitch;
+    if (arguments.fov) view.camera.fov_deg = *arguments.fov;
+    if (arguments.orthographic) view.camera.perspective = false;
+    if (arguments.levels) view.levels = *arguments.levels;
+    if (arguments.query) view.query = *arguments.query;
+    if (arguments.step) view.step = *arguments.step;
+    if (arguments.time) view.time = *arguments.time;
+    if (arguments.time_height) view.time_height = *arguments.time_height;
+    if (arguments.theme) view.theme = *arguments.theme;
+    return view;
+}
+
+void run(const Arguments& arguments) {
+    Scene scene = load(arguments.file, arguments.import_options);
+    const ViewState view = over(scene.view, arguments);
+    if (arguments.step && !view.query) throw InputError("--step: say with --query which query it is a step of");
+    const mobb::FitOptions options = arguments.fit.over(scene.fit);
+    const FittedScene fitted(std::move(scene), options);
+    const DrawList list = [&] {
+        try {
+            return build_draw_list(fitted, view, arguments.size);
+        } catch (const std::invalid_argument& error) {
+            throw InputError(arguments.file.string(), "", error.what());
+        }
+    }();
+    Renderer renderer(arguments.backend);
+    write_png(arguments.output, renderer.draw(list));
+}
+
+void add_view_options(CLI::App& command, Arguments& arguments) {
+    add_parsed(command, "--size", arguments.size, parse_size, "The picture's size in pixels, default 1280x720", "WxH");
+    const auto parse_view = [](const std::string& text) {
+        return required(camera_preset(text), text, "iso, top, front, side, free");
+    };
+    add_parsed(command, "--view", arguments.view, parse_view, "Camera: iso, top, front, side, or free (--yaw, --pitch)", "NAME");
+    add_parsed(command, "--yaw", arguments.yaw, number_within(-3600, 3600),
+               "Free camera: degrees from +x to the eye, counter-clockwise", "DEG");
+    add_parsed(command, "--pitch", arguments.pitch, number_within(-90, 90), "Free camera: degrees above the floor", "DEG");
+    add_parsed(command, "--fov", arguments.fov, number_within(5, 120), "Vertical field of view in degrees", "DEG");
+    command.add_flag("--ortho", arguments.orthographic, "Without perspective");
+    add_parsed(command, "--level", arguments.levels, parse_level_range, "Levels shown: N, A:B or leaves", "LEVELS");
+    add_parsed(
+        command, "--query", arguments.query,
+        [](const std::string& text) {
+            const std::optional<int> index = parse_int(text);
+            if (!index || *index < 0) throw std::invalid_argument(in_quotes(text) + " is no query: give its number, from 0");
+            return *index;
+        },
+        "Show a query instead of levels: its number, from 0", "K");
+    add_parsed(command, "--step", arguments.step, parse_step, "Step of the query: an event number, a percentage (40%) or end",
+               "STEP");
+    add_parsed(command, "--time", arguments.time, number_within(-mobb::kMaxTime, mobb::kMaxTime),
+               "Time cursor, global seconds", "T");
+    add_parsed(command, "--time-height", arguments.time_height, number_within(1e-6, 1e6),
+               "Metres drawn per second; default: as tall as wide", "M");
+    add_parsed(
+        command, "--backend", arguments.backend,
+        [](const std::string& text) { return required(backend_from_name(text), text, "auto, osmesa, egl"); },
+        "OpenGL without a display: auto, osmesa or egl", "NAME");
+    add_parsed(
+        command, "--theme", arguments.theme,
+        [](const std::string& text) { return required(theme_from_name(text), text, "dark, light"); }, "dark or light", "NAME");
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "Draw a scene into a picture, without a display");
+    const auto arguments = std::make_shared<Arguments>();
+    add_scene_file(*command, arguments->file);
+    command->add_option("-o,--output", arguments->output, "The picture, a PNG file")->required()->type_name("OUT.png");
+    add_view_options(*command, *arguments);
+    add_fit_options(*command, arguments->fit);
+    add_import_options(*command, arguments->import_options);
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,142 @@
+/// Everything that a picture shows, as plain numbers: what the view is turned into, and all that the renderer is told.
+#pragma once
+
+#include <render/drawn_space.h>
+#include <render/font.h>
+#include <render/image.h>
+#include <render/lens.h>
+#include <render/object_id.h>
+#include <render/palette.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// A line pattern in pixels: on, off, on, off. All zero: solid.
+using Dash = glm::vec4;
+inline constexpr Dash kSolid{0, 0, 0, 0};
+
+/// Where an instance stands among its like: what is drawn first where two are equally deep. Made from level and index, so the
+/// picture does not depend on the order of the lists.
+struct DrawOrder {
+    int layer = 0;  ///< 0 the surroundings, then levels or states, last the annotations
+    int level = 0;  ///< of the node; the sample's is 0
+    std::int64_t index = 0;
+    friend auto operator<=>(const DrawOrder&, const DrawOrder&) = default;
+};
+
+/// One sample: a short upright cylinder over the time that it holds.
+struct DiskInstance {
+    glm::vec3 base{0};  ///< centre of the lower face, drawn space
+    float radius = 0;
+    float height = 0;
+    Rgba color{1};
+    ObjectId id;
+    DrawOrder order;
+};
+
+/// What a box stands for: each state has its own colour and line.
+enum class BoxState { level, under_test, apart_in_time, separated, overlap, hit, annotation };
+
+/// A box as it is drawn: a parallelepiped.
+struct BoxInstance {
+    glm::vec3 center{0};                  ///< drawn space
+    std::array<glm::vec3, 3> extents{};  ///< half edges
+    BoxState state = BoxState::level;
+    Rgba fill{0};       ///< of the faces; opacity 0: edges only
+    Rgba edge{1};       ///< opacity 0: faces only
+    float width = 1;    ///< of the edges, pixels
+    Dash dash = kSolid;
+    ObjectId id;
+    bool pickable = true;  ///< stands for a node
+    DrawOrder order;
+};
+
+/// A straight line with a constant width on the screen.
+struct LineInstance {
+    glm::vec3 from{0};
+    glm::vec3 to{0};
+    Rgba color{1};
+    float width = 1;   ///< pixels
+    Dash dash = kSolid;
+    float hidden = 0;  ///< opacity kept behind disks, 0..1
+    float cap = 0;     ///< pixels drawn beyond both ends
+    DrawOrder order;
+};
+
+/// An axis-aligned rectangle on the screen, pixels from the upper left corner.
+struct Rect {
+    glm::vec2 min{0};
+    glm::vec2 max{0};
+    glm::vec2 size() const { return max - min; }
+    glm::vec2 center() const { return (min + max) * 0.5f; }
+    bool overlaps(const Rect& o) const { return min.x < o.max.x && o.min.x < max.x && min.y < o.max.y && o.min.y < max.y; }
+    bool contains(const Rect& o) const { return min.x <= o.min.x && min.y <= o.min.y && max.x >= o.max.x && max.y >= o.max.y; }
+    Rect grown(float by) const { return {min - by, max + by}; }
+};
+
+/// A filled rectangle with round corners over the picture; a radius of half its side makes a disk.
+struct Panel {
+    Rect rect;
+    float radius = 0;
+    Rgba fill{0};
+    Rgba border{0};
+    float border_width = 0;
+};
+
+/// A line over the picture, in pixels.
+struct OverlayLine {
+    glm::vec2 from{0};
+    glm::vec2 to{0};
+    Rgba color{1};
+    float width = 1;
+    Dash dash = kSolid;
+};
+
+/// One line of text over the picture.
+struct TextRun {
+    std::string text;  ///< UTF-8
+    FontFace face = FontFace::text;
+    float size = 12;         ///< pixels
+    glm::vec2 baseline{0};   ///< left end, pixels from the upper left corner
+    Rgba color{1};
+    Rect box;                ///< what it covers
+};
+
+/// A line of the legend: what a colour and line style stand for.
+struct LegendEntry {
+    enum class Mark { disk, box, line };
+    Mark mark = Mark::line;
+    Rgba color{1};
+    Rgba fill{0};
+    float width = 1.5f;
+    Dash dash = kSolid;
+    std::string text;
+};
+
+struct DrawList {
+    PictureSize size;
+    Palette palette;
+    DrawnSpace space;
+    Lens lens;
+    std::vector<std::string> participants;  ///< names of what ObjectId::participant counts
+
+    std::vector<DiskInstance> disks;
+    std::vector<BoxInstance> boxes;
+    std::vector<LineInstance> lines;
+
+    std::string headline;                ///< the sentence at the top
+    std::vector<LegendEntry> legend;
+    std::vector<Panel> panels;           ///< over the scene, in this order
+    std::vector<OverlayLine> overlay_lines;  ///< over the panels
+    std::vector<TextRun> texts;          ///< over all
+};
+
+}  // namespace mobbscope

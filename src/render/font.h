@@ -1,0 +1,57 @@
+/// The two faces that pictures are lettered in, both part of the program.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct stbtt_fontinfo;
+
+namespace mobbscope {
+
+enum class FontFace {
+    text,  ///< for words
+    mono,  ///< for numbers: digits of one width
+};
+
+/// A glyph as grey levels, and where they go relative to the pen on the baseline (pixels, y down).
+struct GlyphBitmap {
+    int width = 0;
+    int height = 0;
+    int left = 0;
+    int top = 0;
+    std::vector<std::uint8_t> coverage;
+};
+
+class Font {
+  public:
+    static const Font& of(FontFace face);
+
+    /// Pixels from pen start to pen end. `size` is the em's height in pixels.
+    float width(std::string_view utf8, float size) const;
+    float ascent(float size) const;   ///< above the baseline, pixels
+    float descent(float size) const;  ///< below the baseline, pixels, >= 0
+    /// Pixels to advance after a code point, including kerning with `next` (0: none).
+    float advance(char32_t code, char32_t next, float size) const;
+    /// The glyph with its pen `shift` (0..1) of a pixel to the right.
+    GlyphBitmap rasterise(char32_t code, float size, float shift) const;
+
+  private:
+    explicit Font(std::string_view data);
+    int glyph(char32_t code) const;
+
+    std::shared_ptr<const stbtt_fontinfo> info_;
+};
+
+/// The code points of UTF-8 text; a malformed byte becomes U+FFFD.
+std::vector<char32_t> code_points(std::string_view utf8);
+
+/// `text`, or its beginning and an ellipsis, so that it is at most `width` pixels wide.
+std::string fit_text(const std::string& text, FontFace face, float size, float width);
+
+/// Lines of at most `width` pixels, broken at spaces.
+std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width);
+
+}  // namespace mobbscope

@@ -1,0 +1,78 @@
+/// OpenGL objects that free themselves. All need a current context, also when they are destroyed.
+#pragma once
+
+#include <render/gl_context.h>
+
+#include <glad/gl.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mobbscope {
+
+/// Owns one OpenGL name; 0 is none.
+template <class Kind>
+class GlObject {
+  public:
+    GlObject() : name_(Kind::create()) {}
+    ~GlObject() {
+        if (name_ != 0) Kind::destroy(name_);
+    }
+    GlObject(GlObject&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    GlObject& operator=(GlObject&& other) noexcept {
+        std::swap(name_, other.name_);
+        return *this;
+    }
+
+    GLuint name() const { return name_; }
+
+  private:
+    GLuint name_;
+};
+
+struct BufferKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct VertexArrayKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct TextureKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct RenderbufferKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct FramebufferKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+
+using Buffer = GlObject<BufferKind>;
+using VertexArray = GlObject<VertexArrayKind>;
+using Texture = GlObject<TextureKind>;
+using Renderbuffer = GlObject<RenderbufferKind>;
+using Framebuffer = GlObject<FramebufferKind>;
+
+/// A linked pair of shaders from shaders/<name>.vert and .frag, which are part of the program. What the compiler says, be it
+/// only a warning, goes to the context's complaints.
+class ShaderProgram {
+  public:
+    ShaderProgram(GlContext& context, const std::string& name);
+    ~ShaderProgram();
+    ShaderProgram(const ShaderProgram&) = delete;
+    ShaderProgram& operator=(const ShaderProgram&) = delete;
+
+    void use() const;
+    /// The uniform's location; -1, which OpenGL ignores, where the compiler dropped it.
+    GLint uniform(const char* uniform_name) const;
+
+  private:
+    GLuint name_;
+};
+
+}  // namespace mobbscope

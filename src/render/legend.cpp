@@ -1,0 +1,167 @@
+#include <render/label_layout.h>
+#include <render/legend.h>
+#include <render/level_boxes.h>
+#include <render/query_boxes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kMostAgents = 8;  // more would cover the picture; the rest are counted
+
+LegendEntry disk_entry(Rgba color, std::string text) {
+    LegendEntry entry;
+    entry.mark = LegendEntry::Mark::disk;
+    entry.color = color;
+    entry.text = std::move(text);
+    return entry;
+}
+
+LegendEntry line_entry(const OutcomeStyle& style, std::string text) {
+    LegendEntry entry;
+    entry.color = style.color;
+    entry.width = style.width;
+    entry.dash = style.dash;
+    entry.text = std::move(text);
+    return entry;
+}
+
+void add_agents(std::vector<LegendEntry>& entries, std::span<const Subject> subjects) {
+    const std::size_t shown = std::min(subjects.size(), kMostAgents);
+    for (const Subject& subject : subjects.first(shown)) entries.push_back(disk_entry(subject.color, subject.name));
+    if (shown < subjects.size()) {
+        entries.push_back(disk_entry(Rgba(0), "and " + std::to_string(subjects.size() - shown) + " more"));
+    }
+}
+
+/// Levels look alike in all colours, so they are shown in the text's.
+void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> subjects,
+                const LevelRange& levels) {
+    if (levels.leaves) {
+        entries.push_back({LegendEntry::Mark::box, list.palette.quiet_text, with_alpha(list.palette.quiet_text, 0.2f), 1.5f, kSolid,
+                           "leaves"});
+        return;
+    }
+    int last = 0;
+    for (const Subject& subject : subjects) last = std::max(last, last_shown_level(subject.placed.tree(), levels));
+    for (int level = std::min(levels.first, last); level <= last; ++level) {
+        const LevelStyle style = level_style(level, levels.first, last);
+        LegendEntry entry;
+        entry.mark = LegendEntry::Mark::box;
+        entry.color = with_alpha(list.palette.quiet_text, style.edge);
+        entry.fill = with_alpha(list.palette.quiet_text, 2.2f * style.face);
+        entry.width = style.width;
+        entry.text = "level " + std::to_string(level);
+        entries.push_back(entry);
+    }
+}
+
+void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> sides) {
+    for (const Subject& side : sides) {
+        LegendEntry entry;
+        entry.mark = LegendEntry::Mark::box;
+        entry.color = side.color;
+        entry.fill = with_alpha(side.color, 0.3f);
+        entry.width = 2;
+        entry.text = side.name + ", under test";
+        entries.push_back(entry);
+    }
+    const auto present = [&](BoxState state) {
+        return std::any_of(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) { return b.state == state; });
+    };
+    const std::pair<BoxState, const char*> outcomes[] = {{BoxState::separated, "separated in space"},
+                                                         {BoxState::apart_in_time, "apart in time"},
+                                                         {BoxState::overlap, "overlap without a hit so far"},
+                                                         {BoxState::hit, "hit"}};
+    for (const auto& [state, text] : outcomes) {
+        const bool annotated = state == BoxState::separated && present(BoxState::annotation);
+        if (present(state) || annotated) entries.push_back(line_entry(outcome_style(state, list.palette), text));
+    }
+}
+
+/// A free box is fitted with w metres to the second but drawn with another height, so it is not seen as a cuboid.
+bool has_sheared_boxes(const DrawList& list, std::span<const Subject> subjects) {
+    return std::any_of(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& box) {
+        if (!box.pickable) return false;
+        const mobb::PlacedTree& tree = subjects[static_cast<std::size_t>(box.id.participant)].placed;
+        return tree.node(box.id.index).box.kind == mobb::BoxKind::obb3d &&
+               std::abs(list.space.time_height / tree.time_scale() - 1) > 0.01;
+    });
+}
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+struct Layout {
+    float row, mark, padding, gap;
+    explicit Layout(float size)
+        : row(std::round(1.55f * size)), mark(std::round(1.7f * size)), padding(std::round(0.8f * size)), gap(std::round(0.7f * size)) {}
+};
+
+}  // namespace
+
+std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view) {
+    std::vector<LegendEntry> entries;
+    if (view.query) {
+        if (view.boxes) add_query(entries, list, subjects);
+    } else {
+        add_agents(entries, subjects);
+        if (view.boxes && !list.boxes.empty()) add_levels(entries, list, subjects, view.levels);
+    }
+    if (view.time) entries.push_back(line_entry({list.palette.accent, kSolid, 1.3f}, "time cursor"));
+    if (has_sheared_boxes(list, subjects)) {
+        // Without a mark of its own: a remark on all boxes.
+        entries.push_back(line_entry({Rgba(0), kSolid, 1}, "boxes sheared: time drawn " + short_number(list.space.time_height) +
+                                                               " m/s, fitted " +
+                                                               short_number(subjects[0].placed.time_scale()) + " m/s"));
+    }
+    return entries;
+}
+
+glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
+    if (entries.empty()) return glm::vec2(0);
+    const Layout layout(text_size);
+    float widest = 0;
+    for (const LegendEntry& entry : entries) {
+        const bool remark = entry.color.a <= 0 && entry.fill.a <= 0;
+        const float indent = remark ? 0 : layout.mark + layout.gap;
+        widest = std::max(widest, indent + Font::of(FontFace::text).width(entry.text, text_size));
+    }
+    return {std::ceil(2 * layout.padding + widest), 2 * layout.padding + layout.row * static_cast<float>(entries.size()) - 0.3f * text_size};
+}
+
+void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
+    const Layout layout(text_size);
+    const glm::vec2 size = legend_size(list.legend, text_size);
+    list.panels.push_back({{corner, corner + size}, 0.4f * text_size, list.palette.panel, list.palette.panel_border, 1});
+    glm::vec2 at = corner + layout.padding;
+    const float height = line_height(FontFace::text, text_size);
+    for (const LegendEntry& entry : list.legend) {
+        const bool remark = entry.color.a <= 0 && entry.fill.a <= 0;
+        const glm::vec2 middle = at + glm::vec2(0.5f * layout.mark, 0.5f * height);
+        const float r = 0.36f * text_size;
+        if (entry.mark == LegendEntry::Mark::disk) {
+            list.panels.push_back({{middle - r, middle + r}, r, entry.color, Rgba(0), 0});
+        } else if (entry.mark == LegendEntry::Mark::box) {
+            const glm::vec2 half(0.5f * layout.mark - 1, 0.38f * text_size);
+            list.panels.push_back({{middle - half, middle + half}, 1, entry.fill, entry.color, entry.width * text_size / 12});
+        } else if (!remark) {
+            const glm::vec2 half(0.5f * layout.mark, 0);
+            list.overlay_lines.push_back({middle - half, middle + half, entry.color,
+                                          std::max(entry.width, 1.4f) * text_size / 12, 0.6f * entry.dash});
+        }
+        const glm::vec2 text_corner = remark ? at : at + glm::vec2(layout.mark + layout.gap, 0);
+        list.texts.push_back(
+            text_at(entry.text, FontFace::text, text_size, remark ? list.palette.quiet_text : list.palette.text, text_corner));
+        at.y += layout.row;
+    }
+}
+
+}  // namespace mobbscope

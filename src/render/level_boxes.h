@@ -1,0 +1,28 @@
+/// The boxes of a range of levels.
+#pragma once
+
+#include <render/draw_list.h>
+#include <render/subject.h>
+
+#include <vector>
+
+namespace mobbscope {
+
+/// The nodes of `tree` that a range of levels shows: those on its levels and the leaves above the first.
+std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
+
+/// The boxes of those nodes in the subject's colour; where several levels are shown, finer ones are fuller and heavier.
+void add_level_boxes(DrawList& list, const Subject& subject, const LevelRange& levels, float scale);
+
+/// How the boxes of one level look.
+struct LevelStyle {
+    float face = 0;   ///< opacity
+    float edge = 1;   ///< opacity
+    float width = 1;  ///< pixels at scale 1
+};
+LevelStyle level_style(int level, int first, int last);
+
+/// The last level that there is to show in a tree.
+int last_shown_level(const mobb::Tree& tree, const LevelRange& levels);
+
+}  // namespace mobbscope

@@ -1,0 +1,26 @@
+/// Draws panels and text over the picture.
+#pragma once
+
+#include <render/draw_list.h>
+#include <render/gl_objects.h>
+
+namespace mobbscope {
+
+class OverlayPass {
+  public:
+    explicit OverlayPass(GlContext& context);
+
+    void draw_panels(const DrawList& list);
+    void draw_texts(const DrawList& list);
+
+  private:
+    struct Instance;
+    void draw(const std::vector<Instance>& instances, PictureSize size);
+
+    ShaderProgram program_;
+    VertexArray array_;
+    Buffer instances_;
+    Texture atlas_;
+};
+
+}  // namespace mobbscope

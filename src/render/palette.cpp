@@ -1,0 +1,83 @@
+#include <render/palette.h>
+
+#include <array>
+#include <cstdint>
+
+namespace mobbscope {
+
+namespace {
+
+Rgba hex(std::uint32_t rgb, float alpha = 1) {
+    const auto channel = [&](unsigned shift) { return static_cast<float>((rgb >> shift) & 255u) / 255.0f; };
+    return {channel(16), channel(8), channel(0), alpha};
+}
+
+constexpr std::uint32_t kSkyBlue = 0x56B4E9;
+constexpr std::uint32_t kBluishGreen = 0x009E73;
+constexpr std::uint32_t kYellow = 0xF0E442;
+constexpr std::uint32_t kVermillion = 0xD55E00;
+
+// Those of the eight that no outcome has, then tints of them.
+constexpr std::array<std::uint32_t, 8> kAgents{0xE69F00, kSkyBlue, 0xCC79A7, 0x0072B2,
+                                               0xF3CF80, 0xABDAF4, 0xE6BCD3, 0x6BA9D0};
+
+Palette dark_palette() {
+    Palette p;
+    p.background = hex(0x14181D);
+    p.grid = hex(0x2B333C);
+    p.axis = hex(0x7F8994);
+    p.text = hex(0xE7EAEE);
+    p.quiet_text = hex(0x98A2AD);
+    p.panel = hex(0x1A2027, 0.92f);
+    p.panel_border = hex(0x2C343D);
+    p.accent = hex(kSkyBlue);
+    p.apart_in_time = hex(0x9AA3AD);
+    p.separated = hex(0x12B587);  // bluish green, lifted off the dark ground
+    p.overlap = hex(kYellow);
+    p.hit = hex(0xF0701A);  // vermillion, lifted likewise
+    return p;
+}
+
+Palette light_palette() {
+    Palette p;
+    p.background = hex(0xF7F8F9);
+    p.grid = hex(0xD6DBE0);
+    p.axis = hex(0x68727C);
+    p.text = hex(0x1D2329);
+    p.quiet_text = hex(0x5A646E);
+    p.panel = hex(0xFFFFFF, 0.94f);
+    p.panel_border = hex(0xD2D7DC);
+    p.accent = hex(0x0072B2);
+    p.apart_in_time = hex(0x7A838C);
+    p.separated = hex(kBluishGreen);
+    p.overlap = hex(0xB9A900);  // yellow, darkened to be seen on white
+    p.hit = hex(kVermillion);
+    p.dark = false;
+    return p;
+}
+
+}  // namespace
+
+const Palette& palette(Theme theme) {
+    static const Palette dark = dark_palette();
+    static const Palette light = light_palette();
+    return theme == Theme::dark ? dark : light;
+}
+
+Rgba agent_color(const Scene& scene, const Participant& participant, int index) {
+    if (participant.agent >= 0) {
+        const auto& own = scene.agents[static_cast<std::size_t>(participant.agent)].color;
+        if (own) return Rgba(own->r, own->g, own->b, 255) / 255.0f;
+    }
+    return hex(kAgents[static_cast<std::size_t>(index) % kAgents.size()]);
+}
+
+Rgba with_alpha(Rgba color, float alpha) { return {color.r, color.g, color.b, alpha}; }
+
+Rgba mix_colors(Rgba a, Rgba b, float t) { return a + (b - a) * t; }
+
+Rgba readable(Rgba color, const Palette& palette) {
+    return with_alpha(palette.dark ? mix_colors(color, Rgba(1), 0.15f) : mix_colors(color, Rgba(0, 0, 0, 1), 0.38f), 1);
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,44 @@
+/// The colours of pictures: Okabe and Ito's for categories (they stay apart for colour-blind eyes), quiet surfaces around.
+#pragma once
+
+#include <scene/scene.h>
+#include <scene/view_state.h>
+
+#include <glm/vec4.hpp>
+
+namespace mobbscope {
+
+/// Red, green, blue and opacity, 0..1, straight alpha, as stored in the picture (no colour management).
+using Rgba = glm::vec4;
+
+struct Palette {
+    Rgba background;
+    Rgba grid;          ///< lines on the floor
+    Rgba axis;          ///< the time axis and its ticks
+    Rgba text;
+    Rgba quiet_text;    ///< what is read second
+    Rgba panel;         ///< behind legends and labels
+    Rgba panel_border;
+    Rgba accent;        ///< the time cursor
+    Rgba apart_in_time;
+    Rgba separated;
+    Rgba overlap;
+    Rgba hit;
+    bool dark = true;
+};
+
+const Palette& palette(Theme theme);
+
+/// The colour of an agent: its own, or the palette's by index. None of them is an outcome's colour.
+Rgba agent_color(const Scene& scene, const Participant& participant, int index);
+
+/// `color` with another opacity.
+Rgba with_alpha(Rgba color, float alpha);
+
+/// From `a` (0) to `b` (1).
+Rgba mix_colors(Rgba a, Rgba b, float t);
+
+/// `color` made readable as text on the theme's panels.
+Rgba readable(Rgba color, const Palette& palette);
+
+}  // namespace mobbscope

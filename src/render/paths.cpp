@@ -1,0 +1,90 @@
+#include <render/paths.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr float kStepBack = 0.62f;  // towards the background
+
+Rgba disk_color(const DrawList& list, const Subject& subject, const PathFocus& focus, int sample) {
+    if (focus.hit == sample) return list.palette.hit;
+    const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
+    return in_focus ? subject.color : mix_colors(subject.color, list.palette.background, kStepBack);
+}
+
+}  // namespace
+
+void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus) {
+    const mobb::PlacedClip& clip = subject.clip();
+    const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
+    for (int i = 0; i < clip.count(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        DiskInstance instance;
+        instance.base = list.space.point(disk.x, disk.y, clip.time(i));
+        instance.radius = static_cast<float>(disk.r);
+        instance.height = height;
+        instance.color = disk_color(list, subject, focus, i);
+        instance.id = {subject.index, ObjectId::Kind::disk, i};
+        instance.order = {0, 0, (static_cast<std::int64_t>(subject.index) << 32) + i};
+        list.disks.push_back(instance);
+    }
+}
+
+void add_floor_trace(DrawList& list, const Subject& subject, float floor, float width) {
+    const mobb::PlacedClip& clip = subject.clip();
+    // Pieces shorter than a pixel or so would only darken one another.
+    const float shortest = 1.5f / list.lens.pixels_per_metre(glm::vec3(0, 0, floor));
+    const auto on_floor = [&](int i) {
+        const mobb::Disk disk = clip.disk(i);
+        glm::vec3 p = list.space.point(disk.x, disk.y, 0);
+        p.z = floor;
+        return p;
+    };
+    glm::vec3 from = on_floor(0);
+    for (int i = 1; i < clip.count(); ++i) {
+        const glm::vec3 to = on_floor(i);
+        if (i + 1 < clip.count() && std::hypot(to.x - from.x, to.y - from.y) < shortest) continue;
+        LineInstance line;
+        line.from = from;
+        line.to = to;
+        line.color = with_alpha(subject.color, list.palette.dark ? 0.5f : 0.7f);
+        line.width = width;
+        line.order = {0, 1, (static_cast<std::int64_t>(subject.index) << 32) + i};
+        list.lines.push_back(line);
+        from = to;
+    }
+}
+
+void add_ring(DrawList& list, const Subject& subject, int sample, Rgba color, float width) {
+    constexpr int kPieces = 48;
+    const mobb::PlacedClip& clip = subject.clip();
+    const mobb::Disk disk = clip.disk(sample);
+    const double radius = disk.r * 1.04;
+    const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
+    const auto point = [&](int i) {
+        const double angle = 2 * std::numbers::pi * i / kPieces;
+        return list.space.point(disk.x + radius * std::cos(angle), disk.y + radius * std::sin(angle), time);
+    };
+    for (int i = 0; i < kPieces; ++i) {
+        LineInstance line;
+        line.from = point(i);
+        line.to = point(i + 1);
+        line.color = color;
+        line.width = width;
+        line.hidden = 0.7f;
+        line.order = {9, subject.index, (static_cast<std::int64_t>(sample) << 8) + i};
+        list.lines.push_back(line);
+    }
+}
+
+std::optional<int> sample_at(const Subject& subject, double time) {
+    const mobb::PlacedClip& clip = subject.clip();
+    if (time < subject.begin() || time >= subject.end()) return std::nullopt;
+    const int i = mobb::first_ending_after(clip, 0, clip.count(), time);
+    return i < clip.count() ? std::optional(i) : std::nullopt;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,29 @@
+/// Paths: a stack of disks growing in time, and its trace on the floor.
+#pragma once
+
+#include <render/draw_list.h>
+#include <render/subject.h>
+
+#include <optional>
+#include <span>
+
+namespace mobbscope {
+
+/// Which samples of a path matter now; those outside step back.
+struct PathFocus {
+    std::optional<mobb::SampleRange> range;  ///< none: all
+    std::optional<int> hit;                  ///< a sample that collides
+};
+
+void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus);
+
+/// The centres' path at height `floor` (drawn space).
+void add_floor_trace(DrawList& list, const Subject& subject, float floor, float width);
+
+/// The outline of a sample's disk at half its height, a little larger, seen through everything.
+void add_ring(DrawList& list, const Subject& subject, int sample, Rgba color, float width);
+
+/// The sample that holds at a global time, or none.
+std::optional<int> sample_at(const Subject& subject, double time);
+
+}  // namespace mobbscope

@@ -1,0 +1,56 @@
+#include <render/png.h>
+
+#include <import/error.h>
+
+#include <stb_image.h>
+#include <stb_image_write.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+
+namespace mobbscope {
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+    std::string bytes;
+    const auto append = [](void* context, void* data, int size) {
+        static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    };
+    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), image.width * 4)) {
+        throw MachineError(file.string() + ": the picture could not be packed as PNG");
+    }
+    // A rename can be refused late; a folder in the picture's place is better said before.
+    if (std::filesystem::is_directory(file)) throw MachineError(file.string() + ": cannot write: it is a folder");
+    std::filesystem::path temporary = file;
+    temporary += ".part" + std::to_string(getpid());
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    std::error_code error(out ? 0 : (errno ? errno : EIO), std::generic_category());
+    if (!error) std::filesystem::rename(temporary, file, error);
+    if (error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw MachineError(file.string() + ": cannot write: " + error.message());
+    }
+}
+
+Image read_png(const std::filesystem::path& file) {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 4),
+                                                           stbi_image_free);
+    if (!pixels) {
+        throw InputError(file.string(), "", std::string("cannot be read as a PNG picture (") + stbi_failure_reason() + ")");
+    }
+    Image image(width, height);
+    std::memcpy(image.rgba.data(), pixels.get(), image.rgba.size());
+    return image;
+}
+
+}  // namespace mobbscope

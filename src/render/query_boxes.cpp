@@ -1,0 +1,52 @@
+#include <render/query_boxes.h>
+#include <render/world_box.h>
+
+namespace mobbscope {
+
+OutcomeStyle outcome_style(BoxState state, const Palette& palette) {
+    switch (state) {
+        case BoxState::apart_in_time: return {palette.apart_in_time, {4, 4, 4, 4}, 1.0f};
+        case BoxState::separated: return {palette.separated, kSolid, 1.2f};
+        case BoxState::overlap: return {palette.overlap, {10, 4, 2, 4}, 1.2f};
+        case BoxState::hit: return {palette.hit, kSolid, 2.2f};
+        case BoxState::level:
+        case BoxState::under_test:
+        case BoxState::annotation: break;
+    }
+    return {palette.text, kSolid, 2.2f};
+}
+
+namespace {
+
+/// The farther from the pair under test, the fainter.
+float strength(const NodeProgress& node) {
+    if (node.state == BoxState::hit) return 0.55f;
+    if (node.open) return 0.32f;
+    return node.refined ? 0.16f : 0.42f;
+}
+
+}  // namespace
+
+void add_query_boxes(DrawList& list, std::span<const Subject> sides, const QueryProgress& progress, float scale) {
+    for (std::size_t side = 0; side < 2; ++side) {
+        const Subject& subject = sides[side];
+        for (const NodeProgress& node : progress.nodes[side]) {
+            const OutcomeStyle style = outcome_style(node.state, list.palette);
+            BoxInstance box = node_box(subject, node.node, list.space);
+            box.state = node.state;
+            box.edge = with_alpha(style.color, strength(node));
+            box.width = style.width * scale;
+            box.dash = style.dash * scale;
+            list.boxes.push_back(box);
+        }
+        BoxInstance box = node_box(subject, side == 0 ? progress.event.a : progress.event.b, list.space);
+        box.state = BoxState::under_test;
+        box.fill = with_alpha(subject.color, 0.17f);
+        box.edge = subject.color;
+        box.width = 2.2f * scale;
+        box.order.layer = 2;
+        list.boxes.push_back(box);
+    }
+}
+
+}  // namespace mobbscope

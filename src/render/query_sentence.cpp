@@ -1,0 +1,122 @@
+#include <render/query_sentence.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace mobbscope {
+
+namespace {
+
+/// What a box's axis is called: by how long the box is along it.
+std::string axis_name(const Subject& subject, int node, int axis, int axes) {
+    const mobb::Box& box = subject.placed.node(node).box;
+    int longer = 0;
+    for (int i = 0; i < axes; ++i) {
+        longer += box.half[i] > box.half[axis] || (box.half[i] == box.half[axis] && i < axis) ? 1 : 0;
+    }
+    const std::array<const char*, 3> names{"long", axes == 2 ? "short" : "middle", "short"};
+    return subject.name + "'s " + names[static_cast<std::size_t>(longer)] + " axis";
+}
+
+std::string separating_axis(std::span<const Subject> sides, const mobb::Trace::Event& event) {
+    const int axes = event.test == mobb::Test::obb2d ? 2 : 3;
+    if (event.axis < axes) return "along " + axis_name(sides[0], event.a, event.axis, axes);
+    if (event.axis < 2 * axes) return "along " + axis_name(sides[1], event.b, event.axis - axes, axes);
+    const int edge = event.axis - 6;
+    return "across " + axis_name(sides[0], event.a, edge / 3, 3) + " and " + axis_name(sides[1], event.b, edge % 3, 3);
+}
+
+std::string what_next(std::span<const Subject> sides, const mobb::Trace::Event& event) {
+    const bool leaf_a = sides[0].placed.node(event.a).is_leaf();
+    const bool leaf_b = sides[1].placed.node(event.b).is_leaf();
+    return leaf_a && leaf_b ? "on to their samples" : "on to their children";
+}
+
+std::string time_outcome(std::span<const Subject> sides, const mobb::Trace::Event& event) {
+    const mobb::PlacedTree& a = sides[0].placed;
+    const mobb::PlacedTree& b = sides[1].placed;
+    const double shared = std::min(a.end(a.node(event.a)), b.end(b.node(event.b))) -
+                          std::max(a.begin(a.node(event.a)), b.begin(b.node(event.b)));
+    if (event.outcome == mobb::Outcome::disjoint_in_time) {
+        // Neighbours in time only touch; rounding is no gap.
+        return shared > -1e-9 ? "they only touch in time" : "apart in time by " + with_unit(-shared, "s");
+    }
+    return "they share " + with_unit(shared, "s");
+}
+
+std::string sample_outcome(std::span<const Subject> sides, const mobb::Trace::Event& event) {
+    const mobb::PlacedClip& a = sides[0].clip();
+    const mobb::PlacedClip& b = sides[1].clip();
+    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {
+        const mobb::Contact contact = mobb::contact_of(a, event.pairs.back().i, b, event.pairs.back().j);
+        return "samples " + std::to_string(contact.a_sample) + " and " + std::to_string(contact.b_sample) + " hit at " +
+               with_unit(contact.time, "s") + ", " + with_unit(contact.radii - contact.distance, "m") + " deep";
+    }
+    const std::string count = std::to_string(event.pairs.size());
+    if (event.pairs.empty()) return "no pair of samples overlaps in time";
+    double clearance = std::numeric_limits<double>::max();
+    for (const mobb::MeasuredPair& pair : event.pairs) {
+        clearance = std::min(clearance, pair.distance - a.disk(pair.i).r - b.disk(pair.j).r);
+    }
+    return "no hit in " + count + (event.pairs.size() == 1 ? " pair" : " pairs") + " of samples, the nearest " +
+           with_unit(clearance, "m") + " apart";
+}
+
+std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Event& event) {
+    switch (event.test) {
+        case mobb::Test::time: return time_outcome(sides, event);
+        case mobb::Test::samples: return sample_outcome(sides, event);
+        case mobb::Test::obb2d:
+        case mobb::Test::obb3d: break;
+    }
+    if (event.outcome == mobb::Outcome::separated) {
+        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m");
+    }
+    return "the boxes overlap, " + what_next(sides, event);
+}
+
+std::string counted(std::int64_t count, const char* one, const char* many) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+std::string with_unit(double value, const char* unit) {
+    const double size = std::abs(value);
+    const int digits = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
+    // Below a millimetre more decimals are needed to say anything, above 10 fewer.
+    const int decimals = std::clamp(size >= 10 ? 2 : digits < -3 ? 2 - digits : 3, 0, 12);
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f %s", decimals, value, unit);
+    return text;
+}
+
+std::string node_name(const Subject& subject, int node) {
+    const auto nodes = subject.placed.tree().nodes();
+    const int level = nodes[static_cast<std::size_t>(node)].level;
+    // Nodes stand in depth-first order, which within a level is the order of time.
+    const auto place = std::count_if(nodes.begin(), nodes.begin() + node, [&](const mobb::Node& n) { return n.level == level; });
+    return subject.name + ' ' + std::to_string(level) + '.' + std::to_string(place);
+}
+
+std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& trace, int step) {
+    const mobb::Trace::Event event = trace[step];
+    return "step " + std::to_string(step) + " / " + std::to_string(trace.size() - 1) + ": " + node_name(sides[0], event.a) +
+           " against " + node_name(sides[1], event.b) + ": " + outcome_text(sides, event);
+}
+
+std::string answer_sentence(std::span<const Subject> sides, const RecordedQuery& recorded) {
+    const std::string pair = sides[0].name + " and " + sides[1].name;
+    const mobb::TestCounts& tests = recorded.tests;
+    std::string text = recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s")
+                                        : pair + " never collide";
+    text += "; " + counted(tests.time, "time test", "time tests");
+    if (tests.obb2d > 0) text += ", " + counted(tests.obb2d, "2D box test", "2D box tests");
+    if (tests.obb3d > 0) text += ", " + counted(tests.obb3d, "3D box test", "3D box tests");
+    return text + ", " + counted(tests.samples, "pair of samples", "pairs of samples");
+}
+
+}  // namespace mobbscope

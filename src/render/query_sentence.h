@@ -1,0 +1,24 @@
+/// Queries in words.
+#pragma once
+
+#include <mobb/trace.h>
+#include <render/subject.h>
+
+#include <span>
+#include <string>
+
+namespace mobbscope {
+
+/// A node as "<name> <level>.<place in the level>", counted from 0: "A 2.1".
+std::string node_name(const Subject& subject, int node);
+
+/// What a step shows: "step 14 / 61: A 2.1 against B 2.3: separated along B's long axis by 0.183 m".
+std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& trace, int step);
+
+/// The query's answer and what it cost.
+std::string answer_sentence(std::span<const Subject> sides, const RecordedQuery& recorded);
+
+/// "0.183 m", "0.42 s": three digits or millimetres, whichever is more.
+std::string with_unit(double value, const char* unit);
+
+}  // namespace mobbscope

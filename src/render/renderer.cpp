@@ -1,0 +1,130 @@
+#include <render/renderer.h>
+
+#include <render/disk_pass.h>
+#include <render/face_pass.h>
+#include <render/line_pass.h>
+#include <render/overlay_pass.h>
+#include <render/targets.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace mobbscope {
+
+namespace {
+
+/// Of the scene: smooth edges at a quarter of the cost of drawing it larger.
+constexpr int kSamples = 4;
+
+/// OpenGL's first row is the lowest.
+template <class T>
+void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
+    const auto row = static_cast<std::ptrdiff_t>(width) * per_pixel;
+    for (std::ptrdiff_t low = 0, high = height - 1; low < high; ++low, --high) {
+        std::swap_ranges(values.begin() + low * row, values.begin() + (low + 1) * row, values.begin() + high * row);
+    }
+}
+
+}  // namespace
+
+/// The context is the first member, so that it outlives everything made in it.
+struct Renderer::State {
+    explicit State(Backend backend)
+        : context(GlContext::open(backend)), disks(*context), faces(*context), lines(*context), overlay(*context) {
+        context->check("compiling shaders");
+    }
+
+    void begin(PictureSize size) {
+        context->make_current();
+        glViewport(0, 0, size.width, size.height);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glDepthMask(GL_TRUE);
+    }
+
+    void draw_scene(const DrawList& list) {
+        glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
+        const Rgba& ground = list.palette.background;
+        glClearColor(ground.r, ground.g, ground.b, 1);
+        glClearDepth(1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        disks.draw(list);
+        if (FacePass::needed(list)) {
+            targets->share_depth();
+            glBindFramebuffer(GL_FRAMEBUFFER, targets->faces().name());
+            const std::array<GLfloat, 4> nothing_yet{0, 0, 0, 1};
+            const std::array<GLfloat, 4> zero{0, 0, 0, 0};
+            glClearBufferfv(GL_COLOR, 0, nothing_yet.data());
+            glClearBufferfv(GL_COLOR, 1, zero.data());
+            faces.accumulate(list);
+            glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
+            faces.composite(targets->sums(), targets->weights());
+        }
+        lines.draw_scene(list);
+    }
+
+    std::unique_ptr<GlContext> context;
+    DiskPass disks;
+    FacePass faces;
+    LinePass lines;
+    OverlayPass overlay;
+    std::optional<Targets> targets;
+};
+
+Renderer::Renderer(Backend backend) : state_(std::make_unique<State>(backend)) {}
+
+Renderer::~Renderer() { state_->context->make_current(); }
+
+std::string_view Renderer::backend() const { return state_->context->name(); }
+
+Image Renderer::draw(const DrawList& list) {
+    State& s = *state_;
+    s.begin(list.size);
+    if (!s.targets || s.targets->size() != list.size) {
+        s.targets.reset();
+        s.targets.emplace(list.size, kSamples);
+    }
+    s.draw_scene(list);
+    s.targets->resolve();
+    glBindFramebuffer(GL_FRAMEBUFFER, s.targets->result().name());
+    s.overlay.draw_panels(list);
+    s.lines.draw_overlay(list);
+    s.overlay.draw_texts(list);
+
+    Image image(list.size.width, list.size.height);
+    glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+    s.context->check("drawing");
+    flip_rows(image.rgba, image.width, image.height, 4);
+    // The picture is opaque; blending has left traces in alpha.
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+    return image;
+}
+
+IdImage Renderer::draw_ids(const DrawList& list) {
+    State& s = *state_;
+    s.begin(list.size);
+    const IdTarget target(list.size);
+    const std::array<GLuint, 4> nothing{0, 0, 0, 0};
+    const auto write_output = [](GLsizei output) {
+        std::array<GLenum, 3> outputs{GL_NONE, GL_NONE, GL_NONE};
+        outputs[static_cast<std::size_t>(output)] = GL_COLOR_ATTACHMENT0;
+        glDrawBuffers(output + 1, outputs.data());
+    };
+    write_output(0);
+    glClearBufferuiv(GL_COLOR, 0, nothing.data());
+    const GLfloat farthest = 1;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    write_output(1);
+    s.disks.draw(list);
+    write_output(2);
+    s.faces.draw_ids(list);
+
+    IdImage image{list.size.width, list.size.height, {}};
+    image.rg.resize(2 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    glReadPixels(0, 0, image.width, image.height, GL_RG_INTEGER, GL_UNSIGNED_INT, image.rg.data());
+    s.context->check("drawing object ids");
+    flip_rows(image.rg, image.width, image.height, 2);
+    return image;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,28 @@
+/// The paths that a picture is about.
+#pragma once
+
+#include <render/palette.h>
+#include <scene/fitted_scene.h>
+
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// A path that is drawn: who, with which tree, in which colour. Refers to the fitted scene.
+struct Subject {
+    mobb::PlacedTree placed;
+    std::string name;
+    Rgba color;
+    int index = 0;  ///< in DrawList::participants
+
+    const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
+    double begin() const { return clip().time(0); }
+    double end() const { return clip().time(clip().count()); }
+};
+
+/// The scene's participants; with a query in the view, its two sides. Throws std::invalid_argument if the scene has no such
+/// query.
+std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view);
+
+}  // namespace mobbscope

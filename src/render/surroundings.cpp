@@ -1,0 +1,200 @@
+#include <render/surroundings.h>
+#include <render/ticks.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kCells = 6;  // at least so many along the longer side of the floor
+constexpr double kTicks = 5;
+
+/// Half the length of a tick on the axis, pixels at scale 1.
+constexpr float kTick = 4;
+
+struct Edge {
+    glm::dvec2 from, to;
+    glm::dvec2 outward;
+};
+
+std::array<Edge, 4> edges(const Stage& s) {
+    return {Edge{{s.x0, s.y0}, {s.x1, s.y0}, {0, -1}}, Edge{{s.x0, s.y1}, {s.x1, s.y1}, {0, 1}},
+            Edge{{s.x0, s.y0}, {s.x0, s.y1}, {-1, 0}}, Edge{{s.x1, s.y0}, {s.x1, s.y1}, {1, 0}}};
+}
+
+void add_line(DrawList& list, glm::vec3 from, glm::vec3 to, Rgba color, float width, int level) {
+    LineInstance line;
+    line.from = from;
+    line.to = to;
+    line.color = color;
+    line.width = width;
+    line.order = {0, level, static_cast<std::int64_t>(list.lines.size())};
+    list.lines.push_back(line);
+}
+
+}  // namespace
+
+Stage make_stage(glm::dvec3 min, glm::dvec3 max) {
+    Stage stage;
+    const double wide = std::max({max.x - min.x, max.y - min.y, 1e-6});
+    stage.step = nice_step(wide, kCells);
+    const auto below = [&](double v) { return std::floor(v / stage.step - 1e-6) * stage.step; };
+    const auto above = [&](double v) { return std::ceil(v / stage.step + 1e-6) * stage.step; };
+    stage.x0 = below(min.x);
+    stage.y0 = below(min.y);
+    stage.x1 = above(max.x);
+    stage.y1 = above(max.y);
+    stage.t0 = min.z;
+    stage.t1 = max.z;
+    stage.time_step = nice_step(std::max(max.z - min.z, 1e-6), kTicks);
+    return stage;
+}
+
+std::vector<glm::vec3> stage_corners(const Stage& s, const DrawnSpace& space) {
+    std::vector<glm::vec3> out;
+    for (const double t : {s.t0, s.t1}) {
+        for (const double x : {s.x0, s.x1}) {
+            for (const double y : {s.y0, s.y1}) out.push_back(space.point(x, y, t));
+        }
+    }
+    return out;
+}
+
+bool floor_on_edge(const Lens& lens) { return std::abs(lens.back.z) < 0.02f; }
+
+bool time_on_end(const Lens& lens) { return std::abs(lens.back.z) > 0.995f; }
+
+glm::dvec2 axis_corner(const Stage& s, const DrawnSpace& space, const Lens& lens) {
+    glm::dvec2 best{s.x0, s.y0};
+    float leftmost = lens.project(space.point(best.x, best.y, s.t0)).x;
+    for (const glm::dvec2 corner : {glm::dvec2(s.x0, s.y1), glm::dvec2(s.x1, s.y0), glm::dvec2(s.x1, s.y1)}) {
+        const float x = lens.project(space.point(corner.x, corner.y, s.t0)).x;
+        // A clear difference only, so that edge-on corners do not flicker between two of equal place.
+        if (x < leftmost - 0.01f) {
+            leftmost = x;
+            best = corner;
+        }
+    }
+    return best;
+}
+
+void add_floor_grid(DrawList& list, const Stage& s, float scale) {
+    const DrawnSpace& space = list.space;
+    for (const double x : ticks(s.x0, s.x1, s.step)) {
+        add_line(list, space.point(x, s.y0, s.t0), space.point(x, s.y1, s.t0), list.palette.grid, scale, 0);
+    }
+    for (const double y : ticks(s.y0, s.y1, s.step)) {
+        add_line(list, space.point(s.x0, y, s.t0), space.point(s.x1, y, s.t0), list.palette.grid, scale, 0);
+    }
+}
+
+void add_time_axis(DrawList& list, const Stage& s, float scale) {
+    if (time_on_end(list.lens)) return;
+    const DrawnSpace& space = list.space;
+    const glm::dvec2 foot = axis_corner(s, space, list.lens);
+    const auto at = [&](double t) { return space.point(foot.x, foot.y, t); };
+    // Seen edge-on there is no grid behind the scene, so its ticks run all the way across.
+    const bool across = floor_on_edge(list.lens);
+    const glm::dvec2 opposite{foot.x == s.x0 ? s.x1 : s.x0, foot.y == s.y0 ? s.y1 : s.y0};
+    for (const double t : ticks(s.t0, s.t1, s.time_step)) {
+        if (across) add_line(list, at(t), space.point(opposite.x, opposite.y, t), list.palette.grid, scale, 0);
+        const float half = kTick * scale / list.lens.pixels_per_metre(at(t));
+        add_line(list, at(t) - list.lens.right * half, at(t) + list.lens.right * half, list.palette.axis, 1.2f * scale, 1);
+    }
+    if (across) {
+        const bool along_x = std::abs(list.lens.right.x) > std::abs(list.lens.right.y);
+        for (const double v : ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step)) {
+            const glm::dvec2 p = along_x ? glm::dvec2(v, foot.y) : glm::dvec2(foot.x, v);
+            add_line(list, space.point(p.x, p.y, s.t0), space.point(p.x, p.y, s.t1), list.palette.grid, scale, 0);
+        }
+    }
+    add_line(list, at(s.t0), at(s.t1), list.palette.axis, 1.2f * scale, 1);
+}
+
+void add_time_cursor(DrawList& list, const Stage& s, double time, float scale) {
+    const DrawnSpace& space = list.space;
+    const glm::vec3 corners[4] = {space.point(s.x0, s.y0, time), space.point(s.x1, s.y0, time), space.point(s.x1, s.y1, time),
+                                  space.point(s.x0, s.y1, time)};
+    for (int i = 0; i < 4; ++i) {
+        LineInstance line;
+        line.from = corners[i];
+        line.to = corners[(i + 1) % 4];
+        line.color = list.palette.accent;
+        line.width = 1.3f * scale;
+        line.hidden = 0.3f;
+        line.order = {8, 0, i};
+        list.lines.push_back(line);
+    }
+    BoxInstance sheet;
+    sheet.center = 0.5f * (corners[0] + corners[2]);
+    sheet.extents = {0.5f * (corners[1] - corners[0]), 0.5f * (corners[3] - corners[0]), glm::vec3(0)};
+    sheet.state = BoxState::annotation;
+    sheet.fill = with_alpha(list.palette.accent, 0.035f);
+    sheet.edge = Rgba(0);
+    sheet.pickable = false;
+    sheet.order = {8, 0, 0};
+    list.boxes.push_back(sheet);
+}
+
+std::string longest_tick(const Stage& s) {
+    std::string longest;
+    for (const double t : ticks(s.t0, s.t1, s.time_step)) {
+        const std::string text = tick_text(t, s.time_step) + " s";
+        if (text.size() > longest.size()) longest = text;
+    }
+    return longest;
+}
+
+std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, bool floor, bool time_axis, float size) {
+    std::vector<LabelRequest> out;
+    const DrawnSpace& space = list.space;
+    const Lens& lens = list.lens;
+    LabelRequest label;
+    label.face = FontFace::mono;
+    label.size = size;
+    label.color = list.palette.quiet_text;
+    if (time_axis && !time_on_end(lens)) {
+        const glm::dvec2 foot = axis_corner(s, space, lens);
+        for (const double t : ticks(s.t0, s.t1, s.time_step)) {
+            label.text = tick_text(t, s.time_step) + " s";
+            label.anchor = lens.project(space.point(foot.x, foot.y, t));
+            label.directions = {{-1, 0}};
+            label.distance = 0.7f * size;
+            out.push_back(label);
+        }
+    }
+    if (!floor) return out;
+    for (const Edge& edge : edges(s)) {
+        const bool along_x = edge.from.y == edge.to.y;
+        const glm::dvec2 middle = 0.5 * (edge.from + edge.to);
+        const glm::vec3 here = space.point(middle.x, middle.y, s.t0);
+        const glm::vec3 outward(static_cast<float>(edge.outward.x), static_cast<float>(edge.outward.y), 0);
+        // Only edges that face the viewer, and that have some length in the picture. From above, those below and to the left.
+        const bool faces = time_on_end(lens) ? glm::dot(outward, lens.right + lens.up) < -0.3f
+                                             : glm::dot(outward, lens.back) > 0.05f;
+        const glm::vec2 run = lens.project(space.point(edge.to.x, edge.to.y, s.t0)) -
+                              lens.project(space.point(edge.from.x, edge.from.y, s.t0));
+        if (!faces || glm::length(run) < 4 * size) continue;
+        const glm::vec2 away = lens.project(here + outward * (0.05f * static_cast<float>(s.step))) - lens.project(here);
+        glm::vec2 direction = floor_on_edge(lens) || glm::length(away) < 1e-3f ? glm::vec2(0, 1) : glm::normalize(away);
+        const std::vector<double> values = ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double v = values[i];
+            // One label tells which way it is; the others are bare.
+            const bool last = i + 1 == values.size();
+            label.text = last ? std::string(along_x ? "x " : "y ") + tick_text(v, s.step) + " m" : tick_text(v, s.step);
+            label.anchor = lens.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, s.t0));
+            label.directions = {direction};
+            label.distance = 0.6f * size;
+            out.push_back(label);
+        }
+    }
+    return out;
+}
+
+}  // namespace mobbscope

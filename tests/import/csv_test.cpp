@@ -1,0 +1,188 @@
+#include <import/csv.h>
+#include <support/input_error.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+namespace mobbscope {
+namespace {
+
+using testing::input_error;
+using testing::TempFolder;
+
+std::vector<ImportedClip> clips(std::string_view text, const ImportOptions& options = {}) {
+    return csv_clips(parse_csv(text, "f.csv"), "f.csv", options);
+}
+
+const mobb::Clip& only(const std::vector<ImportedClip>& clips) {
+    EXPECT_EQ(clips.size(), 1u);
+    return *clips.at(0).clip;
+}
+
+std::string refusal(std::string_view text, const ImportOptions& options = {}) {
+    return input_error([&] { clips(text, options); });
+}
+
+TEST(Csv, ColumnsAreTakenByName) {
+    const auto read = clips("r,y,t,x\n0.4,2,0,1\n0.5,4,0.5,3\n");
+    const mobb::Clip& clip = only(read);
+    EXPECT_EQ(clip.dt(), 0.5);
+    EXPECT_EQ(clip.samples()[1].x, 3);
+    EXPECT_EQ(clip.samples()[1].y, 4);
+    EXPECT_EQ(clip.samples()[1].r, 0.5);
+    EXPECT_EQ(read[0].name, "f");
+}
+
+TEST(Csv, BlanksBlankLinesQuotesLineEndsAndByteOrderMarkDoNotMatter) {
+    const std::string_view plain = "t,x,y,r\n0,0,0,0.4\n1,0,1,0.4";
+    const std::string_view odd = "\xef\xbb\xbf t , \"x\",\ty,r\r\n\r\n 0 , 0,0,\"0.4\" \r\n  \n1,0,+1,4e-1\r\n\r\n";
+    const auto a = clips(plain);
+    const auto b = clips(odd);
+    ASSERT_EQ(only(a).count(), only(b).count());
+    EXPECT_EQ(only(b).samples()[1].y, 1);
+    EXPECT_EQ(only(b).samples()[1].r, 0.4);
+}
+
+TEST(Csv, TracksAreSplitById) {
+    const std::string_view text =
+        "id,t,x,y,r\n7,0,1,0,0.3\n\"a,\"\"b\",5,2,0,0.3\n7,1,3,0,0.3\n\"a,\"\"b\",7,4,0,0.3\n";
+    const auto both = clips(text);
+    ASSERT_EQ(both.size(), 2u);
+    EXPECT_EQ(both[0].name, "7");
+    EXPECT_EQ(both[1].id, "a,\"b");
+    EXPECT_EQ(both[1].clip->dt(), 2);
+    EXPECT_EQ(both[0].clip->samples()[1].x, 3);
+    ImportOptions one;
+    one.id = "7";
+    EXPECT_EQ(only(clips(text, one)).samples()[0].x, 1);
+    one.id = "8";
+    EXPECT_NE(refusal(text, one).find("no track '8'"), std::string::npos);
+    EXPECT_EQ(csv_field(both[1].id), "\"a,\"\"b\"");
+}
+
+TEST(Csv, RoundedTimesKeepTheRowsAndTheirSpan) {
+    const auto read = clips("t,x,y,r\n0,0,0,0.4\n0.033333,1,0,0.4\n0.066667,2,0,0.4\n0.1,3,0,0.4\n");
+    EXPECT_EQ(only(read).count(), 4);
+    EXPECT_EQ(only(read).dt(), 0.1 / 3);
+    EXPECT_TRUE(read[0].facts.warnings.empty());
+}
+
+TEST(Csv, OtherTimesAreResampledFromTheFirstToTheLast) {
+    const std::string_view text = "t,x,y,r\n10,0,0,0.4\n10.1,1,0,0.4\n10.35,2,0,0.6\n10.4,3,0,0.4\n";
+    const auto read = clips(text);
+    EXPECT_EQ(only(read).count(), 13);
+    EXPECT_EQ(only(read).dt(), 1.0 / 30);
+    EXPECT_EQ(only(read).samples()[3].x, 1);
+    EXPECT_EQ(only(read).samples()[12].x, 3);
+    EXPECT_NEAR(only(read).samples()[6].x, 1 + 0.1 / 0.25, 1e-12);
+    ImportOptions ten;
+    ten.fps = 10;
+    EXPECT_EQ(only(clips(text, ten)).count(), 5);
+}
+
+TEST(Csv, WithoutTimesDtIsNeeded) {
+    EXPECT_EQ(refusal("x,y,r\n0,0,0.4\n"),
+              "f.csv: line 2: there is no column t; name one or give dt (seconds between rows)");
+    ImportOptions options;
+    options.dt = 0.25;
+    EXPECT_EQ(only(clips("x,y,r\n0,0,0.4\n1,0,0.4\n", options)).dt(), 0.25);
+    EXPECT_NE(refusal("t,x,y,r\n0,0,0,0.4\n").find("one row does not tell how long it lasts"), std::string::npos);
+    EXPECT_EQ(only(clips("t,x,y,r\n3,0,0,0.4\n", options)).dt(), 0.25);
+    EXPECT_EQ(clips("t,x,y,r\n0,0,0,0\n1,0,0,0\n", options)[0].facts.warnings.size(), 1u);
+}
+
+TEST(Csv, RadiusMayComeFromOutside) {
+    EXPECT_NE(refusal("t,x,y\n0,0,0\n1,0,0\n").find("no column r"), std::string::npos);
+    ImportOptions options;
+    options.radius = 0.3;
+    EXPECT_EQ(only(clips("t,x,y\n0,0,0\n1,0,0\n", options)).samples()[1].r, 0.3);
+    EXPECT_EQ(only(clips("t,x,y,r\n0,0,0,1\n1,0,0,1\n", options)).samples()[1].r, 0.3);
+}
+
+TEST(Csv, UnitScalesLengthsButNotTheRadiusGivenInMetres) {
+    ImportOptions options;
+    options.unit = "cm";
+    const auto scaled = clips("t,x,y,r\n0,100,-50,40\n1,0,0,0\n", options);
+    EXPECT_EQ(only(scaled).samples()[0].x, 1);
+    EXPECT_EQ(only(scaled).samples()[0].y, -0.5);
+    EXPECT_DOUBLE_EQ(only(scaled).samples()[0].r, 0.4);
+    options.radius = 0.3;
+    EXPECT_EQ(only(clips("t,x,y,r\n0,100,-50,40\n1,0,0,0\n", options)).samples()[0].r, 0.3);
+    options.unit = "2.5";
+    EXPECT_EQ(only(clips("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options)).samples()[0].x, 5);
+    options.unit = "auto";
+    EXPECT_NE(refusal("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options).find("unit 'auto' does not apply to CSV"),
+              std::string::npos);
+}
+
+TEST(Csv, TrimTakesSecondsFromTheFirstRow) {
+    std::string text = "t,x,y,r\n";
+    for (int i = 0; i <= 10; ++i) text += std::to_string(100 + i) + ',' + std::to_string(i) + ",0,0.4\n";
+    ImportOptions options;
+    options.trim = {2, 5};
+    const auto rows = clips(text, options);
+    EXPECT_EQ(only(rows).count(), 4);
+    EXPECT_EQ(only(rows).samples()[0].x, 2);
+    EXPECT_EQ(only(rows).dt(), 1);
+    options.trim = {2.5, 99};
+    EXPECT_EQ(only(clips(text, options)).count(), 8);
+    EXPECT_EQ(only(clips(text, options)).samples()[0].x, 2.5);
+    options.trim = {20, 30};
+    EXPECT_NE(refusal(text, options).find("trim begins at 20 s but the rows last 10 s"), std::string::npos);
+}
+
+TEST(Csv, OptionsOutOfRangeOrForOtherFormatsAreRefused) {
+    const TempFolder folder;
+    const auto file = folder.write("a.csv", "t,x,y,r\n0,0,0,0\n1,0,0,0\n");
+    const auto with = [&](auto set) {
+        ImportOptions options;
+        set(options);
+        return input_error([&] { import_clips(file, options); });
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(with([](auto& o) { o.fps = 0; }).find("fps"), std::string::npos);
+    EXPECT_NE(with([&](auto& o) { o.fps = nan; }).find("fps"), std::string::npos);
+    EXPECT_NE(with([&](auto& o) { o.dt = nan; }).find("dt"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.radius = -1; }).find("radius"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.trim = {3, 2}; }).find("trim"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.unit = "furlong"; }).find("unit"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.up = "z"; }).find("up does not apply"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.root = "Hips"; }).find("root does not apply"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.animation = "0"; }).find("animation does not apply"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.id = "0"; }).find("no column id"), std::string::npos);
+}
+
+TEST(Csv, MessagesNameLineColumnAndRemedy) {
+    EXPECT_EQ(refusal("x,y,t,r\n0,0,0,0.4\n0,abc,1,0.4\n"),
+              "f.csv: line 3, column 2 (y): 'abc' is no finite number; write it like 0.25");
+    EXPECT_EQ(refusal("x,y,t,r\n\n0,0,0,\n"), "f.csv: line 3, column 4 (r): the field is empty; give a number");
+    EXPECT_EQ(refusal("x,y,t,speed\n0,0,0,1\n"),
+              "f.csv: line 1, column 4: the column 'speed' is unknown; the header may name id, t, x, y and r");
+    EXPECT_EQ(refusal("x;y;t;r\n"),
+              "f.csv: line 1: separate fields with commas, not semicolons (and write 0.5, not 0,5)");
+    EXPECT_NE(refusal("x,y,x,r\n").find("stands twice"), std::string::npos);
+    EXPECT_NE(refusal("t,x,r\n").find("no column y"), std::string::npos);
+    EXPECT_NE(refusal("t,x,y,r\n0,0,0,\"0.4\n").find("quote is not closed"), std::string::npos);
+    EXPECT_NE(refusal("t,x,y,r\n0,0,0,\"0.4\"5\n").find("comma must follow"), std::string::npos);
+    EXPECT_NE(refusal("id,t,x,y,r\n,0,0,0,0\n").find("name the track"), std::string::npos);
+}
+
+TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {
+    EXPECT_NE(refusal("t,x,y,r\n0,0,0,0\n1,0,0,0\n1e12,0,0,0\n").find("more than 10000000 samples"), std::string::npos);
+    std::string many_commas = "t,x,y,r\n" + std::string(5'000'000, ',') + "\n";
+    EXPECT_NE(refusal(many_commas).find("more than 4 values"), std::string::npos);
+    // The limit is for the file, not for each of its tracks.
+    std::string tracks = "id,t,x,y,r\n";
+    for (char id = 'a'; id < 'd'; ++id) {
+        for (const char* t : {"0", "1", "150000"}) tracks += std::string(1, id) + ',' + t + ",0,0,0\n";
+    }
+    EXPECT_NE(refusal(tracks).find("track 'c'"), std::string::npos);
+}
+
+TEST(Csv, OtherExtensionsAreRefusedByName) {
+    EXPECT_EQ(input_error([] { import_clips("walk.xyz", {}); }),
+              "walk.xyz: no reader for this kind of file; clips can be .csv, scenes .json");
+}
+
+}  // namespace
+}  // namespace mobbscope

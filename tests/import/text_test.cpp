@@ -1,0 +1,55 @@
+#include <import/text.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace mobbscope {
+namespace {
+
+TEST(Text, NumbersAreWholeFiniteAndDecimal) {
+    EXPECT_EQ(parse_double("0.25"), 0.25);
+    EXPECT_EQ(parse_double("+1e-3"), 1e-3);
+    for (const char* bad : {"", " 1", "1 ", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "1.5m", "+-1", "+"}) {
+        EXPECT_FALSE(parse_double(bad)) << bad;
+    }
+    EXPECT_EQ(parse_int("-7"), -7);
+    EXPECT_FALSE(parse_int("7.0"));
+    EXPECT_FALSE(parse_int("99999999999"));
+}
+
+TEST(Text, SeventeenDigitsGiveTheSameDoubleBack) {
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 100'000; ++i) {
+        const std::uint64_t bits = random();
+        double value = 0;
+        std::memcpy(&value, &bits, sizeof value);
+        if (!std::isfinite(value) || std::abs(value) < 1e-300) continue;
+        ASSERT_EQ(parse_double(format_double(value)), value) << format_double(value);
+    }
+    EXPECT_EQ(format_double(0.1), "0.10000000000000001");
+    EXPECT_EQ(format_double(2), "2");
+    EXPECT_TRUE(std::signbit(*parse_double(format_double(-0.0))));
+}
+
+TEST(Text, RangesHaveTwoNumbers) {
+    EXPECT_EQ(parse_range("0.5:3"), (std::pair{0.5, 3.0}));
+    for (const char* bad : {"", "1", "1:", ":2", "1:2:3", "a:b"}) EXPECT_FALSE(parse_range(bad)) << bad;
+}
+
+TEST(Text, QuotesAreShortAndOnOneLine) {
+    EXPECT_EQ(in_quotes("a\nb"), "'a?b'");
+    EXPECT_LT(in_quotes(std::string(10'000, 'x')).size(), 80u);
+}
+
+TEST(Text, TheNearestNameIsFoundAndOnlyNamedWhenMeant) {
+    const std::vector<std::string> names{"leaf", "levels", "axes"};
+    EXPECT_EQ(nearest("level", names), "levels");
+    EXPECT_EQ(did_you_mean("laef", names), " (did you mean 'leaf'?)");
+    EXPECT_EQ(did_you_mean("quixotic", names), "");
+}
+
+}  // namespace
+}  // namespace mobbscope
