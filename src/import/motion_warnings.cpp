@@ -23,7 +23,7 @@ constexpr double kInPlace = 0.1;        // m: the extent of a path that goes now
 constexpr double kFastest = 12.5;       // m/s: a sprinter's peak
 constexpr double kMinRadius = 0.1;      // m: of the median pose
 constexpr double kMaxRadius = 1.5;
-constexpr double kBelowFloor = 0.3;  // m
+constexpr double kBelowFloor = 0.1;  // m
 constexpr double kMinHeight = 1.1;   // m: of a body whose height gave the unit
 constexpr double kMaxHeight = 2.3;
 
