@@ -1,10 +1,11 @@
 #version 330 core
 in vec3 surface_normal;
-in vec3 surface_color;
+in vec4 surface_color;
 in vec2 local;
 flat in uvec2 object_id;
 
 uniform vec3 light;  // towards the light, unit
+uniform vec3 background;
 
 layout(location = 0) out vec4 color;
 layout(location = 1) out uvec2 id;
@@ -21,6 +22,6 @@ void main() {
     vec3 n = normalize(surface_normal);
     float shade = cap ? 1.0 : 0.54 + 0.36 * (0.5 + 0.5 * dot(n, light));
     float edge = cap ? seam(1.0 - local.x) : seam(local.y);
-    color = vec4(surface_color * shade * (1.0 - 0.38 * edge), 1.0);
+    color = vec4(mix(background, surface_color.rgb * shade * (1.0 - 0.38 * edge), surface_color.a), 1.0);
     id = object_id;
 }

@@ -6,9 +6,10 @@
 
 namespace mobbscope::cli {
 
-void add_convert_command(CLI::App& program, int& status);
-void add_fit_command(CLI::App& program, int& status);
-void add_info_command(CLI::App& program, int& status);
+void add_convert_command(CLI::App& program);
+void add_fit_command(CLI::App& program);
+void add_info_command(CLI::App& program);
 void add_query_command(CLI::App& program, int& status);
+void add_render_command(CLI::App& program);
 
 }  // namespace mobbscope::cli

@@ -71,7 +71,7 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_convert_command(CLI::App& program, int&) {
+void add_convert_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("convert", "Write clips as CSV, or as a scene with its samples inside");
     const auto arguments = std::make_shared<Arguments>();
     add_scene_file(*command, arguments->file);

@@ -123,7 +123,7 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_fit_command(CLI::App& program, int&) {
+void add_fit_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are");
     const auto arguments = std::make_shared<Arguments>();
     add_scene_file(*command, arguments->file);

@@ -147,7 +147,7 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_info_command(CLI::App& program, int&) {
+void add_info_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("info", "What is in each file: clips, joints, units, warnings");
     const auto arguments = std::make_shared<Arguments>();
     command->add_option("FILE", arguments->files, "Scenes, captures or clips")->required();

@@ -53,10 +53,11 @@ int run(int argc, char** argv) {
     std::vector<std::string> files;
     program.add_option("FILE", files, "Scenes, captures or clips to open in the window");
     int status = kDone;
-    add_convert_command(program, status);
-    add_fit_command(program, status);
-    add_info_command(program, status);
+    add_convert_command(program);
+    add_fit_command(program);
+    add_info_command(program);
     add_query_command(program, status);
+    add_render_command(program);
     for (CLI::App* command : program.get_subcommands({})) {
         command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
     }

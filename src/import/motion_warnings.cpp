@@ -59,7 +59,13 @@ class Inspection {
     void jumps() {
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < steps_.size(); ++i) {
-            if (steps_[i] - usual_step(i) > std::max(kJump, kJumpSpeed * clip_.dt())) found.push_back(i);
+            if (steps_[i] - usual_step(i) <= std::max(kJump, kJumpSpeed * clip_.dt())) continue;
+            // A jump in the middle of a sampling step, or one there and back, shows in two steps.
+            if (found.empty() || found.back() + 1 < i) {
+                found.push_back(i);
+            } else if (steps_[i] > steps_[found.back()]) {
+                found.back() = i;
+            }
         }
         if (found.empty()) return;
         const std::size_t largest = *std::max_element(

@@ -91,7 +91,12 @@ class Builder {
         stage_.t1 = bounds.max.z;
         add_caption();
         if (view_.disks) add_paths();
-        list_.legend = view_.legend && view_.labels ? legend_entries(list_, subjects_, view_) : std::vector<LegendEntry>{};
+        if (view_.legend && view_.labels) {
+            list_.legend = legend_entries(list_, subjects_, view_, view_.query ? &progress_ : nullptr);
+            for (LegendEntry& entry : list_.legend) {
+                entry.text = fit_text(entry.text, FontFace::text, small_size(), 0.45f * static_cast<float>(list_.size.width));
+            }
+        }
         aim();
         add_stage();
         add_annotations();
@@ -161,6 +166,10 @@ class Builder {
         }
         const std::vector<glm::vec3> corners = stage_corners(stage_, list_.space);
         out.insert(out.end(), corners.begin(), corners.begin() + (has_time_cursor() ? 8 : 4));
+        if (view_.time_axis) {
+            const glm::dvec2 foot = axis_corner(stage_, right_of(view_.camera));
+            out.push_back(list_.space.point(foot.x, foot.y, stage_.t1));
+        }
         return out;
     }
 
@@ -257,7 +266,22 @@ class Builder {
                 }
             }
         }
+        add_stage_labels_to(out);
         return out;
+    }
+
+    /// Where the labels of floor and axis want to be.
+    void add_stage_labels_to(std::vector<Rect>& busy) const {
+        if (!view_.labels) return;
+        DrawList scratch;
+        scratch.size = list_.size;
+        scratch.lens = list_.lens;
+        scratch.space = list_.space;
+        LabelLayout layout(list_.size);
+        for (const LabelRequest& label : stage_labels(scratch, stage_, view_.floor, view_.time_axis, small_size())) {
+            layout.place(label, scratch);
+        }
+        for (const TextRun& run : scratch.texts) busy.push_back(run.box);
     }
 
     /// Legend and map, together, as one would stack them.
@@ -309,6 +333,9 @@ class Builder {
     }
 
     void add_annotations() {
+        if (view_.disks) {
+            for (const Subject& subject : subjects_) add_thin_path(list_, subject, 1.3f * scale_);
+        }
         if (has_time_cursor()) {
             add_time_cursor(list_, stage_, *view_.time, scale_);
             for (const Subject& subject : subjects_) {
@@ -345,7 +372,7 @@ class Builder {
         label.border = color;
         label.anchor = list_.lens.project(at);
         label.directions = {{1, -0.5f}, {-1, -0.5f}, {1, 0.5f}, {-1, 0.5f}, {0, -1}, {0, 1}};
-        label.distance = 3 * text_size();
+        label.distance = 4.5f * text_size();
         label.pill = true;
         notes_.push_back(std::move(label));
     }
@@ -363,13 +390,18 @@ class Builder {
         }
         for (const LabelRequest& label : notes_) {
             if (layout_.place(label, list_)) {
-                list_.overlay_lines.push_back({label.anchor, list_.panels.back().rect.center(), with_alpha(label.border, 0.8f), scale_, kSolid});
+                const Rect& pill = list_.panels.back().rect;
+                const glm::vec2 nearest = glm::clamp(label.anchor, pill.min, pill.max);
+                list_.overlay_lines.push_back({label.anchor, nearest, with_alpha(label.border, 0.9f), scale_, kSolid});
             }
         }
         for (const LabelRequest& label : stage_labels(list_, stage_, view_.floor, view_.time_axis, small_size())) {
             layout_.place(label, list_);
         }
-        for (const Subject& subject : subjects_) add_name(subject);
+        // A single path is named by the legend.
+        if (subjects_.size() > 1) {
+            for (const Subject& subject : subjects_) add_name(subject);
+        }
     }
 
     void add_name(const Subject& subject) {
@@ -383,6 +415,7 @@ class Builder {
         label.anchor = list_.lens.project(top);
         label.directions = {{0, -1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}};
         const float radius = static_cast<float>(last.r) * list_.lens.pixels_per_metre(top);
+        label.pill = true;
         label.distance = radius * std::max(std::abs(list_.lens.back.z), 0.1f) + 0.4f * text_size();
         layout_.place(label, list_);
     }

@@ -46,8 +46,8 @@ std::string boxes_text(std::span<const Subject> subjects, const LevelRange& leve
     std::string text = levels_text(levels, last) + ", " + std::to_string(count) + (count == 1 ? " box" : " boxes");
     if (levels.leaves || std::min(levels.first, last) == last) {
         char volume[48];
-        std::snprintf(volume, sizeof volume, ", %.3g m\u00B2\u00B7s", total);
-        text += volume;
+        std::snprintf(volume, sizeof volume, total >= 1000 && total < 1e9 ? "%.0f" : "%.3g", total);
+        text += std::string(", ") + volume + " m\u00B2\u00B7s";
     }
     return text;
 }

@@ -104,6 +104,7 @@ void DiskPass::draw(const DrawList& list) {
     program_.use();
     glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(list.lens.clip_from_world));
     glUniform3fv(program_.uniform("light"), 1, glm::value_ptr(towards_light(list.lens)));
+    glUniform3fv(program_.uniform("background"), 1, glm::value_ptr(list.palette.background));
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);

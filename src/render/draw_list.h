@@ -37,7 +37,7 @@ struct DiskInstance {
     glm::vec3 base{0};  ///< centre of the lower face, drawn space
     float radius = 0;
     float height = 0;
-    Rgba color{1};
+    Rgba color{1};  ///< opacity below 1 steps back towards the background; the disk still hides what is behind it
     ObjectId id;
     DrawOrder order;
 };

@@ -11,6 +11,7 @@ namespace mobbscope {
 
 namespace {
 
+constexpr int kMostLevels = 5;
 constexpr std::size_t kMostAgents = 8;  // more would cover the picture; the rest are counted
 
 LegendEntry disk_entry(Rgba color, std::string text) {
@@ -48,19 +49,23 @@ void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::sp
     }
     int last = 0;
     for (const Subject& subject : subjects) last = std::max(last, last_shown_level(subject.placed.tree(), levels));
-    for (int level = std::min(levels.first, last); level <= last; ++level) {
+    const int first = std::min(levels.first, last);
+    // Of many levels the coarsest and the finest tell how those between look.
+    const bool few = last - first < kMostLevels;
+    for (int level = first; level <= last; level += few ? 1 : last - first) {
         const LevelStyle style = level_style(level, levels.first, last);
         LegendEntry entry;
         entry.mark = LegendEntry::Mark::box;
         entry.color = with_alpha(list.palette.quiet_text, style.edge);
         entry.fill = with_alpha(list.palette.quiet_text, 2.2f * style.face);
         entry.width = style.width;
-        entry.text = "level " + std::to_string(level);
+        entry.text = "level " + std::to_string(level) + (few ? "" : level == first ? ", coarsest" : ", finest");
         entries.push_back(entry);
     }
 }
 
-void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> sides) {
+void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> sides,
+               const QueryProgress& progress) {
     for (const Subject& side : sides) {
         LegendEntry entry;
         entry.mark = LegendEntry::Mark::box;
@@ -78,8 +83,8 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
                                                          {BoxState::overlap, "overlap without a hit so far"},
                                                          {BoxState::hit, "hit"}};
     for (const auto& [state, text] : outcomes) {
-        const bool annotated = state == BoxState::separated && present(BoxState::annotation);
-        if (present(state) || annotated) entries.push_back(line_entry(outcome_style(state, list.palette), text));
+        // What the test under way found is shown between its boxes.
+        if (present(state) || box_state(progress.event.outcome) == state) entries.push_back(line_entry(outcome_style(state, list.palette), text));
     }
 }
 
@@ -107,10 +112,11 @@ struct Layout {
 
 }  // namespace
 
-std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view) {
+std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view,
+                                        const QueryProgress* progress) {
     std::vector<LegendEntry> entries;
-    if (view.query) {
-        if (view.boxes) add_query(entries, list, subjects);
+    if (progress) {
+        if (view.boxes) add_query(entries, list, subjects, *progress);
     } else {
         add_agents(entries, subjects);
         if (view.boxes && !list.boxes.empty()) add_levels(entries, list, subjects, view.levels);

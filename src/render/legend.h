@@ -10,8 +10,9 @@
 
 namespace mobbscope {
 
-/// The entries for what the list shows.
-std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view);
+/// The entries for what the list shows. `progress`: of the query in the view, or null.
+std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view,
+                                        const QueryProgress* progress);
 
 /// How large the legend is, pixels.
 glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size);

@@ -108,6 +108,11 @@ Orientation orientation(const Camera& camera) {
     return {camera.yaw_deg, camera.pitch_deg, camera.perspective};
 }
 
+glm::vec3 right_of(const Camera& camera) {
+    const double yaw = radians(orientation(camera).yaw_deg);
+    return glm::vec3(glm::dvec3(-std::sin(yaw), std::cos(yaw), 0));
+}
+
 glm::vec2 Lens::project(glm::vec3 point) const {
     const glm::vec4 clip = clip_from_world * glm::vec4(point, 1);
     return {(clip.x / clip.w * 0.5f + 0.5f) * static_cast<float>(size.width),
@@ -127,7 +132,7 @@ Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const gl
     lens.size = size;
     lens.perspective = o.perspective;
     lens.back = glm::vec3(glm::dvec3(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)));
-    lens.right = glm::vec3(glm::dvec3(-std::sin(yaw), std::cos(yaw), 0));
+    lens.right = right_of(camera);
     lens.up = glm::cross(lens.back, lens.right);
 
     Extent extent;

@@ -46,6 +46,9 @@ struct Orientation {
 };
 Orientation orientation(const Camera& camera);
 
+/// The unit vector that points to the right in the picture.
+glm::vec3 right_of(const Camera& camera);
+
 /// A lens for the camera. Without a target all `points` fit into `frame` as large as can be; `target` (drawn space) goes to the
 /// middle of the frame otherwise. `points` also set what is near and far.
 Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target, const Frame& frame,

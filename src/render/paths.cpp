@@ -1,5 +1,6 @@
 #include <render/paths.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,11 +9,14 @@ namespace mobbscope {
 namespace {
 
 constexpr float kStepBack = 0.62f;  // towards the background
+constexpr float kEarly = 0.24f;     // ... at the beginning of a path, so that later disks stand out
 
-Rgba disk_color(const DrawList& list, const Subject& subject, const PathFocus& focus, int sample) {
-    if (focus.hit == sample) return list.palette.hit;
+Rgba disk_color(const Palette& palette, const Subject& subject, const PathFocus& focus, int sample) {
+    if (focus.hit == sample) return palette.hit;
     const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
-    return in_focus ? subject.color : mix_colors(subject.color, list.palette.background, kStepBack);
+    const float age = 1 - static_cast<float>(sample) / static_cast<float>(subject.clip().count());
+    const float back = kEarly * age;
+    return with_alpha(subject.color, (1 - back) * (in_focus ? 1 : 1 - kStepBack));
 }
 
 }  // namespace
@@ -26,10 +30,28 @@ void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus) {
         instance.base = list.space.point(disk.x, disk.y, clip.time(i));
         instance.radius = static_cast<float>(disk.r);
         instance.height = height;
-        instance.color = disk_color(list, subject, focus, i);
+        instance.color = disk_color(list.palette, subject, focus, i);
         instance.id = {subject.index, ObjectId::Kind::disk, i};
         instance.order = {0, 0, (static_cast<std::int64_t>(subject.index) << 32) + i};
         list.disks.push_back(instance);
+    }
+}
+
+void add_thin_path(DrawList& list, const Subject& subject, float width) {
+    const mobb::PlacedClip& clip = subject.clip();
+    double widest = 0;
+    for (const mobb::Disk& disk : clip.clip().samples()) widest = std::max(widest, disk.r);
+    if (static_cast<float>(widest) * list.lens.pixels_per_metre(glm::vec3(0)) > 0.7f) return;
+    for (int i = 0; i < clip.count(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        const mobb::Disk next = clip.disk(std::min(i + 1, clip.count() - 1));
+        LineInstance line;
+        line.from = list.space.point(disk.x, disk.y, clip.time(i));
+        line.to = list.space.point(next.x, next.y, clip.time(i + 1));
+        line.color = subject.color;
+        line.width = width;
+        line.order = {0, 2, (static_cast<std::int64_t>(subject.index) << 32) + i};
+        list.lines.push_back(line);
     }
 }
 

@@ -17,6 +17,9 @@ struct PathFocus {
 
 void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus);
 
+/// The line of centres, where the disks are too small to be seen.
+void add_thin_path(DrawList& list, const Subject& subject, float width);
+
 /// The centres' path at height `floor` (drawn space).
 void add_floor_trace(DrawList& list, const Subject& subject, float floor, float width);
 

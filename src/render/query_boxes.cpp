@@ -1,6 +1,8 @@
 #include <render/query_boxes.h>
 #include <render/world_box.h>
 
+#include <algorithm>
+
 namespace mobbscope {
 
 OutcomeStyle outcome_style(BoxState state, const Palette& palette) {
@@ -20,8 +22,7 @@ namespace {
 
 /// The farther from the pair under test, the fainter.
 float strength(const NodeProgress& node) {
-    if (node.state == BoxState::hit) return 0.55f;
-    if (node.open) return 0.32f;
+    if (node.open) return node.state == BoxState::hit ? 0.4f : 0.32f;
     return node.refined ? 0.16f : 0.42f;
 }
 
@@ -35,14 +36,15 @@ void add_query_boxes(DrawList& list, std::span<const Subject> sides, const Query
             BoxInstance box = node_box(subject, node.node, list.space);
             box.state = node.state;
             box.edge = with_alpha(style.color, strength(node));
-            box.width = style.width * scale;
+            // Boxes around the one that matters stay in the background.
+            box.width = (node.open ? std::min(style.width, 1.2f) : style.width) * scale;
             box.dash = style.dash * scale;
             list.boxes.push_back(box);
         }
         BoxInstance box = node_box(subject, side == 0 ? progress.event.a : progress.event.b, list.space);
         box.state = BoxState::under_test;
         box.fill = with_alpha(subject.color, 0.17f);
-        box.edge = subject.color;
+        box.edge = readable(subject.color, list.palette);
         box.width = 2.2f * scale;
         box.order.layer = 2;
         list.boxes.push_back(box);

@@ -60,7 +60,7 @@ std::optional<SeparationGap> separation_gap(std::span<const Subject> sides, cons
     const glm::dvec3 middle = across * u.middle() + along * v.middle();
     // A sliver of shared extent would leave rectangles too thin to see.
     const auto half = [](Projection p, Projection x, Projection y) {
-        const double least = 0.15 * std::min(x.max - x.min, y.max - y.min);
+        const double least = 0.3 * std::min(x.max - x.min, y.max - y.min);
         return std::max(0.5 * (p.max - p.min), least);
     };
     SeparationGap gap;

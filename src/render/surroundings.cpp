@@ -27,6 +27,20 @@ std::array<Edge, 4> edges(const Stage& s) {
             Edge{{s.x0, s.y0}, {s.x0, s.y1}, {-1, 0}}, Edge{{s.x1, s.y0}, {s.x1, s.y1}, {1, 0}}};
 }
 
+/// The grid's step or the multiple of it at which labels along an edge of the floor have room. `run`: the edge in pixels.
+double label_step(const std::vector<double>& values, double step, glm::vec2 run, float size) {
+    std::size_t longest = 0;
+    for (const double v : values) longest = std::max(longest, tick_text(v, step).size());
+    const float wide = Font::of(FontFace::mono).width("0", size) * static_cast<float>(longest) + size;
+    const float high = 1.5f * size;
+    const float spaces = static_cast<float>(std::max<std::size_t>(values.size(), 2) - 1);
+    for (const double multiple : {1.0, 2.0, 5.0, 10.0}) {
+        const glm::vec2 between = run / spaces * static_cast<float>(multiple);
+        if (between.x >= wide || between.y >= high) return multiple * step;
+    }
+    return 20 * step;
+}
+
 void add_line(DrawList& list, glm::vec3 from, glm::vec3 to, Rgba color, float width, int level) {
     LineInstance line;
     line.from = from;
@@ -69,18 +83,10 @@ bool floor_on_edge(const Lens& lens) { return std::abs(lens.back.z) < 0.02f; }
 
 bool time_on_end(const Lens& lens) { return std::abs(lens.back.z) > 0.995f; }
 
-glm::dvec2 axis_corner(const Stage& s, const DrawnSpace& space, const Lens& lens) {
-    glm::dvec2 best{s.x0, s.y0};
-    float leftmost = lens.project(space.point(best.x, best.y, s.t0)).x;
-    for (const glm::dvec2 corner : {glm::dvec2(s.x0, s.y1), glm::dvec2(s.x1, s.y0), glm::dvec2(s.x1, s.y1)}) {
-        const float x = lens.project(space.point(corner.x, corner.y, s.t0)).x;
-        // A clear difference only, so that edge-on corners do not flicker between two of equal place.
-        if (x < leftmost - 0.01f) {
-            leftmost = x;
-            best = corner;
-        }
-    }
-    return best;
+glm::dvec2 axis_corner(const Stage& s, glm::vec3 right) {
+    // Where a side of the floor is seen end-on, either of its corners would do; a fixed one is taken.
+    const auto toward_left = [](float along, double low, double high) { return along >= -1e-4f ? low : high; };
+    return {toward_left(right.x, s.x0, s.x1), toward_left(right.y, s.y0, s.y1)};
 }
 
 void add_floor_grid(DrawList& list, const Stage& s, float scale) {
@@ -96,7 +102,7 @@ void add_floor_grid(DrawList& list, const Stage& s, float scale) {
 void add_time_axis(DrawList& list, const Stage& s, float scale) {
     if (time_on_end(list.lens)) return;
     const DrawnSpace& space = list.space;
-    const glm::dvec2 foot = axis_corner(s, space, list.lens);
+    const glm::dvec2 foot = axis_corner(s, list.lens.right);
     const auto at = [&](double t) { return space.point(foot.x, foot.y, t); };
     // Seen edge-on there is no grid behind the scene, so its ticks run all the way across.
     const bool across = floor_on_edge(list.lens);
@@ -159,7 +165,7 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
     label.size = size;
     label.color = list.palette.quiet_text;
     if (time_axis && !time_on_end(lens)) {
-        const glm::dvec2 foot = axis_corner(s, space, lens);
+        const glm::dvec2 foot = axis_corner(s, lens.right);
         for (const double t : ticks(s.t0, s.t1, s.time_step)) {
             label.text = tick_text(t, s.time_step) + " s";
             label.anchor = lens.project(space.point(foot.x, foot.y, t));
@@ -169,6 +175,12 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
         }
     }
     if (!floor) return out;
+    struct Side {
+        Edge edge;
+        glm::vec2 direction;
+    };
+    std::vector<Side> sides;
+    double shown = s.step;
     for (const Edge& edge : edges(s)) {
         const bool along_x = edge.from.y == edge.to.y;
         const glm::dvec2 middle = 0.5 * (edge.from + edge.to);
@@ -181,13 +193,19 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
                               lens.project(space.point(edge.from.x, edge.from.y, s.t0));
         if (!faces || glm::length(run) < 4 * size) continue;
         const glm::vec2 away = lens.project(here + outward * (0.05f * static_cast<float>(s.step))) - lens.project(here);
-        glm::vec2 direction = floor_on_edge(lens) || glm::length(away) < 1e-3f ? glm::vec2(0, 1) : glm::normalize(away);
-        const std::vector<double> values = ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step);
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const double v = values[i];
+        const glm::vec2 direction = floor_on_edge(lens) || glm::length(away) < 1e-3f ? glm::vec2(0, 1) : glm::normalize(away);
+        sides.push_back({edge, direction});
+        // One step for both ways, or the floor would seem to have two scales.
+        shown = std::max(shown, label_step(ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step), s.step, glm::abs(run), size));
+    }
+    for (const auto& [edge, direction] : sides) {
+        const bool along_x = edge.from.y == edge.to.y;
+        std::vector<double> values = ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step);
+        std::erase_if(values, [&](double v) { return std::abs(std::remainder(v, shown)) > 0.01 * s.step; });
+        for (const double v : values) {
             // One label tells which way it is; the others are bare.
-            const bool last = i + 1 == values.size();
-            label.text = last ? std::string(along_x ? "x " : "y ") + tick_text(v, s.step) + " m" : tick_text(v, s.step);
+            const bool last = v == values.back();
+            label.text = last ? std::string(along_x ? "x " : "y ") + tick_text(v, shown) + " m" : tick_text(v, shown);
             label.anchor = lens.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, s.t0));
             label.directions = {direction};
             label.distance = 0.6f * size;

@@ -23,8 +23,8 @@ Stage make_stage(glm::dvec3 min, glm::dvec3 max);
 /// The corners of the floor, and those above them at the end of time.
 std::vector<glm::vec3> stage_corners(const Stage& stage, const DrawnSpace& space);
 
-/// Which corner of the floor the time axis stands on: the one farthest to the left in the picture.
-glm::dvec2 axis_corner(const Stage& stage, const DrawnSpace& space, const Lens& lens);
+/// Which corner of the floor the time axis stands on: the one farthest to the left. `right`: of the picture, in drawn space.
+glm::dvec2 axis_corner(const Stage& stage, glm::vec3 right);
 
 void add_floor_grid(DrawList& list, const Stage& stage, float scale);
 void add_time_axis(DrawList& list, const Stage& stage, float scale);

@@ -18,7 +18,7 @@ struct Camera {
     double yaw_deg = 45;                      ///< free: direction from the target to the eye, counter-clockwise from +x
     double pitch_deg = 25;                    ///< free: above the floor, -90..90
     bool perspective = true;                  ///< top, front and side are orthographic whatever this says
-    double fov_deg = 30;                      ///< vertical, 5..120
+    double fov_deg = 12;                      ///< vertical, 5..120
     /// What is looked at, world metres with time drawn as height; none: the camera frames the scene by itself.
     std::optional<glm::dvec3> target;
     double distance = 0;  ///< metres from the target to the eye (> 0) when there is a target

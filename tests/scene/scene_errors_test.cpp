@@ -1,0 +1,193 @@
+// What is wrong with a scene is said in one line that names the file, the place and the remedy.
+#include <scene/scene.h>
+#include <support/input_error.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+namespace mobbscope {
+namespace {
+
+using testing::input_error;
+using testing::TempFolder;
+
+std::string refusal(const std::string& text) {
+    return input_error([&] { parse_scene(text, "s.json", ""); });
+}
+
+/// A scene of one clip "c" with two agents "A" and "B", with `rest` after it.
+std::string with(const std::string& rest) {
+    return R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,0,1]]}},)"
+           "\n"
+           R"("agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c"}],)"
+           "\n" +
+           rest + "}";
+}
+
+std::string with_clip(const std::string& clip) { return "{\"clips\": {\n\"c\": " + clip + "}}"; }
+
+TEST(SceneErrors, UnknownKeysNameThemselvesTheirLineAndTheNearest) {
+    EXPECT_EQ(refusal(with("\"quieries\": []")),
+              "s.json: line 3, /quieries: unknown key 'quieries'; the nearest known key is 'queries'");
+    EXPECT_NE(
+        refusal(with("\"fit\": {\"tre\": 1}")).find("/fit/tre: unknown key 'tre'; the nearest known key is 'tree'"),
+        std::string::npos);
+    EXPECT_NE(refusal(with("\"view\": {\"camera\": {\"yaw\": 1}}")).find("'yaw_deg'"), std::string::npos);
+    EXPECT_NE(refusal("{\"clips\": {}, \"\": 1}").find("unknown key ''"), std::string::npos);
+}
+
+TEST(SceneErrors, ClipsAreChecked) {
+    const std::pair<const char*, const char*> cases[] = {
+        {R"({"dt": 0, "samples": [[0,0,1]]})", "line 2, /clips/c: dt must be"},
+        {R"({"dt": -1, "samples": [[0,0,1]]})", "dt must be"},
+        {R"({"dt": 1, "samples": []})", "at least one sample"},
+        {R"({"dt": 1, "samples": [[0,0,-1]]})", "/clips/c/samples/0/2: -1 is out of range"},
+        {R"({"dt": 1, "samples": [[0,0,1],[1e10,0,1]]})", "/clips/c/samples/1/0: 10000000000 is out of range"},
+        {R"({"dt": 1, "samples": [[0,0]]})", "/clips/c/samples/0: has 2 elements; give [x, y, r]"},
+        {R"({"dt": 1, "samples": [[0,0,"1"]]})", "expected a number, found a string"},
+        {R"({"dt": 1, "samples": 3})", "expected an array, found a number"},
+        {R"({"dt": 1})", "a clip needs a source, or dt and samples"},
+        {R"({"samples": [[0,0,1]]})", "the key 'dt' is missing"},
+        {R"({"dt": 1, "samples": [[0,0,1]], "fps": 30})", "/clips/c/fps: an import key is for a clip with a source"},
+        {R"({"source": "x.csv", "samples": []})", "a source or samples, not both"},
+        {R"({"source": ""})", "the source is empty"},
+        {R"({"source": "x.csv", "fps": -3})", "fps must be over 0"},
+        {R"({"source": "x.csv", "trim": [1]})", "give [A, B]"},
+        {R"({"source": "x.csv", "origin": "here"})", "give keep, start or start_heading"},
+        {R"({"source": "none.csv"})", "/clips/c/source: none.csv: no such file"},
+        {R"({"source": "s.json"})", "s.json: no reader for this kind of file"},
+        {"[]", "expected an object, found an array"},
+        {"null", "expected an object, found null"},
+    };
+    for (const auto& [clip, message] : cases) {
+        EXPECT_NE(refusal(with_clip(clip)).find(message), std::string::npos)
+            << clip << " gave " << refusal(with_clip(clip));
+    }
+    EXPECT_NE(refusal("{}").find("the key 'clips' is missing"), std::string::npos);
+    EXPECT_NE(refusal("{\"clips\": {}}").find("there is no clip"), std::string::npos);
+    EXPECT_NE(refusal("[]").find("expected an object"), std::string::npos);
+    EXPECT_NE(refusal("{\"clips\": {\"\": {}}}").find("needs a name"), std::string::npos);
+}
+
+TEST(SceneErrors, EverythingElseIsChecked) {
+    const std::pair<const char*, const char*> cases[] = {
+        {R"("mobbscope": 2)", "/mobbscope: the file has version 2; this program reads version 1"},
+        {R"("mobbscope": "1")", "expected a number"},
+        {R"("$schema": 1)", "expected a string"},
+        {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of mobb, umobb, hybrid1, hybrid2"},
+        {R"("fit": {"tree": "brute"})", "is no tree"},
+        {R"("fit": {"leaf": 0})", "/fit/leaf: 0 is out of range"},
+        {R"("fit": {"leaf": 2.5})", "whole number"},
+        {R"("fit": {"leaf": 1e30})", "out of range"},
+        {R"("fit": {"levels": -1})", "out of range"},
+        {R"("fit": {"axes": "mine"})", "names no axes; give one of endpoints"},
+        {R"("fit": {"time_scale": 0})", "out of range"},
+        {R"("queries": [{"a": "A"}])", "/queries/0: the key 'b' is missing"},
+        {R"("queries": [{"a": "A", "b": "BB"}])", "there is no agent 'BB'; the nearest is 'B'"},
+        {R"("queries": [{"a": "A", "b": {"clip": "d"}}])",
+         "/queries/0/b/clip: there is no clip 'd'; the nearest is 'c'"},
+        {R"("queries": [{"a": "A", "b": {"clip": "c", "name": "B"}}])", "unknown key 'name'"},
+        {R"("queries": [{"a": "A", "b": {"clip": "c", "start": 1e13}}])", "out of range"},
+        {R"("queries": [{"a": "A", "b": {"clip": "c", "translate": [1, 2, 3]}}])", "give [x, y]"},
+        {R"("queries": [{"a": "A", "b": 3}])", "expected an object, found a number"},
+        {R"("queries": [{"a": "A", "b": "B", "expect": {}}])", "'collides' is missing"},
+        {R"("queries": [{"a": "A", "b": "B", "expect": {"collides": 1}}])", "expected true or false"},
+        {R"("queries": [{"a": "A", "b": "B", "expect": {"collides": true, "contact": {"time": 0, "a_sample": 3,
+            "b_sample": 0, "distance": 0, "radii": 1}}}])",
+         "/a_sample: 3 is out of range"},
+        {R"("queries": [{"a": "A", "b": "B", "expect": {"collides": false, "contact": {"time": 0, "a_sample": 0,
+            "b_sample": 0, "distance": 0, "radii": 1}}}])",
+         "no contact without a collision"},
+        {R"("view": {"levels": "3:1"})", "/view/levels: '3:1' is no range of levels"},
+        {R"("view": {"step": "soon"})", "is no step"},
+        {R"("view": {"step": -1})", "out of range"},
+        {R"("view": {"query": 1})", "/view/query: the scene has 1 queries"},
+        {R"("view": {"theme": "blue"})", "give dark or light"},
+        {R"("view": {"camera": {"preset": "under"}})", "give iso, top, front, side or free"},
+        {R"("view": {"camera": {"pitch_deg": 91}})", "out of range"},
+        {R"("view": {"camera": {"target": [0, 0, 0]}})", "'distance' is missing"},
+        {R"("view": {"camera": {"distance": 3}})", "needs a target"},
+        {R"("view": {"disks": 1})", "expected true or false"},
+    };
+    for (const auto& [rest, message] : cases) {
+        EXPECT_NE(refusal(with(rest)).find(message), std::string::npos) << rest << " gave " << refusal(with(rest));
+    }
+}
+
+TEST(SceneErrors, AgentsAreChecked) {
+    const auto agents = [](const std::string& list) {
+        return refusal("{\"clips\": {\"walk\": {\"dt\": 1, \"samples\": [[0,0,1]]}}, \"agents\": " + list + "}");
+    };
+    EXPECT_NE(agents(R"([{"clip": "walk"}])").find("/agents/0: the key 'name' is missing"), std::string::npos);
+    EXPECT_NE(agents(R"([{"name": "A", "clip": "wakl"}])").find("there is no clip 'wakl'; the nearest is 'walk'"),
+              std::string::npos);
+    EXPECT_NE(
+        agents(R"([{"name": "A", "clip": "walk"}, {"name": "A", "clip": "walk"}])").find("another agent is named 'A'"),
+        std::string::npos);
+    EXPECT_NE(agents(R"([{"name": "", "clip": "walk"}])").find("needs a name"), std::string::npos);
+    for (const char* color : {"red", "#12345", "#GGGGGG", "#1234567", "E69F00"}) {
+        const std::string list = R"([{"name": "A", "clip": "walk", "color": ")" + std::string(color) + "\"}]";
+        EXPECT_NE(agents(list).find("is no colour"), std::string::npos) << color;
+    }
+    EXPECT_NE(agents("{}").find("expected an array"), std::string::npos);
+}
+
+TEST(SceneErrors, TracesAreChecked) {
+    const auto trace = [](const std::string& events) {
+        return refusal(with("\"queries\": [{\"a\": \"A\", \"b\": \"B\", \"trace\": [" + events + "]}]"));
+    };
+    const std::string first =
+        R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "overlap"})";
+    const std::pair<std::string, const char*> cases[] = {
+        {R"({"step": 1, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "overlap"})",
+         "/trace/0/step"},
+        {R"({"step": 0, "parent": 0, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "overlap"})",
+         "/trace/0/parent"},
+        {first + R"(,{"step": 1, "parent": 0, "depth": 2, "a": 0, "b": 0, "test": "time", "outcome": "overlap"})",
+         "/trace/1/depth"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 5, "b": 0, "test": "time", "outcome": "overlap"})",
+         "/trace/0/a"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "tiem", "outcome": "overlap"})",
+         "is no test"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "maybe"})",
+         "is no outcome"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "hit"})",
+         "cannot end as hit"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "obb2d", "outcome": "separated", "axis": 4,
+            "gap": 1})",
+         "/trace/0/axis"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "obb2d", "outcome": "separated", "axis": 1})",
+         "'gap' is missing"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "obb2d", "outcome": "overlap", "axis": 1})",
+         "only a separation has one"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "overlap", "pairs": [[0,0,0]]})",
+         "only a test of samples"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "samples", "outcome": "hit", "pairs": [[0,3,0]]})",
+         "/pairs/0/1: 3 is out of range"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "samples", "outcome": "hit", "bears": []})",
+         "nearest known key is 'pairs'"},
+    };
+    for (const auto& [events, message] : cases) {
+        EXPECT_NE(trace(events).find(message), std::string::npos) << events << " gave " << trace(events);
+    }
+}
+
+TEST(SceneErrors, AnErrorInsideASourceNamesBothFilesAndBothPlaces) {
+    const TempFolder folder;
+    folder.write("bad.csv", "t,x,y,r\n0,0,0,0\n1,nan,0,0\n");
+    const auto file = folder.write("s.json", "{\"clips\": {\n  \"c\": {\n    \"source\": \"bad.csv\"}}}");
+    EXPECT_EQ(input_error([&] { load_scene(file); }),
+              file.string() + ": line 3, /clips/c/source: " + (folder.path() / "bad.csv").string() +
+                  ": line 3, column 2 (x): 'nan' is no finite number; write it like 0.25");
+}
+
+TEST(SceneErrors, AFileOfManyTracksNeedsAnId) {
+    const TempFolder folder;
+    folder.write("two.csv", "id,t,x,y,r\n1,0,0,0,0\n2,0,0,0,0\n1,1,0,0,0\n2,1,0,0,0\n");
+    const auto file = folder.write("s.json", R"({"clips": {"c": {"source": "two.csv"}}})");
+    EXPECT_NE(input_error([&] { load_scene(file); }).find("has 2 tracks; name one with id, such as '1'"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace mobbscope

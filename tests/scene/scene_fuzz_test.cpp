@@ -1,0 +1,47 @@
+// Damaged scene files give a scene or an InputError, nothing else, and soon.
+#include <scene/fitted_scene.h>
+#include <scene/scene.h>
+#include <support/mutate.h>
+
+#include <gtest/gtest.h>
+
+namespace mobbscope {
+namespace {
+
+constexpr const char* kScene = R"({"$schema": "x", "mobbscope": 1,
+ "clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.5], [2, 0.5, 0.4]]}, "b": {"dt": 1, "samples": [[0, 0, 0.3]]}},
+ "agents": [{"name": "A", "clip": "walk", "translate": [1, 2], "rotate_deg": 30, "start": 0.25, "color": "#E69F00"},
+            {"name": "B", "clip": "b"}],
+ "fit": {"tree": "umobb", "leaf": 1, "levels": 0, "axes": "endpoints", "time_scale": 1.0},
+ "queries": [{"a": "A", "b": {"clip": "b", "translate": [0, 0], "rotate_deg": 0, "start": 0},
+   "expect": {"collides": true, "contact": {"time": 0, "a_sample": 1, "b_sample": 0, "distance": 0.1, "radii": 0.9}},
+   "trace": [{"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "overlap", "axis": null},
+             {"step": 1, "parent": 0, "depth": 1, "a": 1, "b": 0, "test": "obb3d", "outcome": "separated", "axis": 3, "gap": 1},
+             {"step": 2, "parent": 1, "depth": 2, "a": 1, "b": 0, "test": "samples", "outcome": "hit", "pairs": [[0, 0, 0.5]]}]}],
+ "view": {"camera": {"preset": "free", "yaw_deg": 10, "target": [0, 0, 1], "distance": 5}, "levels": "1:3", "step": "40%"}}
+)";
+
+TEST(SceneFuzz, DamagedScenesAreReadOrRefused) {
+    std::mt19937 random(20240608);
+    int read = 0;
+    int refused = 0;
+    for (int round = 0; round < 30'000; ++round) {
+        const std::string text = testing::mutated(kScene, random);
+        try {
+            const Scene scene = parse_scene(text, "fuzz.json", "");
+            // What was let in must be fit for use.
+            const FittedScene fitted(scene, scene.fit);
+            for (const SceneQuery& query : fitted.queries()) record(fitted, query);
+            ASSERT_NO_THROW(parse_scene(to_json(scene), "again.json", "")) << text;
+            ++read;
+        } catch (const InputError& error) {
+            ASSERT_LT(std::string_view(error.what()).size(), 600u) << error.what();
+            ++refused;
+        }
+    }
+    EXPECT_GT(read, 1000);
+    EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace mobbscope

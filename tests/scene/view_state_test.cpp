@@ -1,0 +1,41 @@
+#include <scene/view_state.h>
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace mobbscope {
+namespace {
+
+TEST(ViewState, LevelRangesAreReadAndWritten) {
+    EXPECT_EQ(parse_level_range("2"), (LevelRange{2, 2, false}));
+    EXPECT_EQ(parse_level_range("1:3"), (LevelRange{1, 3, false}));
+    EXPECT_TRUE(parse_level_range("leaves").leaves);
+    for (const char* text : {"2", "1:3", "leaves"}) EXPECT_EQ(to_string(parse_level_range(text)), text);
+    for (const char* bad : {"", "-1", "3:1", "1:", ":1", "1:2:3", "x", "2 ", "1.5", "99999999999", "leave"}) {
+        EXPECT_THROW(parse_level_range(bad), std::invalid_argument) << bad;
+    }
+}
+
+TEST(ViewState, StepsAreReadAndWritten) {
+    EXPECT_EQ(parse_step("12"), (Step{Step::Unit::event, 12}));
+    EXPECT_EQ(parse_step("40%"), (Step{Step::Unit::percent, 40}));
+    EXPECT_EQ(parse_step("end"), (Step{Step::Unit::end, 0}));
+    for (const char* text : {"0", "12", "40%", "33.5%", "end"}) EXPECT_EQ(to_string(parse_step(text)), text);
+    for (const char* bad : {"", "-1", "101%", "-1%", "%", "nan%", "1.5", "last"}) {
+        EXPECT_THROW(parse_step(bad), std::invalid_argument) << bad;
+    }
+}
+
+TEST(ViewState, NamesOfCamerasAndThemesAreTheirOwnInverse) {
+    for (const CameraPreset preset :
+         {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side, CameraPreset::free}) {
+        EXPECT_EQ(camera_preset(std::string(name(preset))), preset);
+    }
+    EXPECT_FALSE(camera_preset("below"));
+    EXPECT_EQ(theme_from_name(name(Theme::light)), Theme::light);
+    EXPECT_FALSE(theme_from_name(""));
+}
+
+}  // namespace
+}  // namespace mobbscope
