@@ -2,6 +2,7 @@
 #include <cli/messages.h>
 #include <cli/options.h>
 #include <import/text.h>
+#include <mobb/predicate.h>
 #include <scene/json_writer.h>
 
 #include <algorithm>
@@ -9,12 +10,13 @@
 #include <iostream>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
 
 namespace {
+
+using Layout = JsonWriter::Layout;
 
 struct Arguments {
     std::vector<std::filesystem::path> files;
@@ -22,54 +24,61 @@ struct Arguments {
     ImportOptions import_options;
 };
 
-/// What the samples of a clip add up to. Metres, metres per second.
-struct ClipFigures {
-    double path_length = 0;
-    double mean_speed = 0;  ///< 0 for one sample
-    double min_radius = 0, mean_radius = 0, max_radius = 0;
+/// What a clip's samples say, in metres and m/s.
+struct PathFigures {
+    double length = 0;
+    double mean_speed = 0;  ///< between the first sample and the last; 0 for one sample
+    double min_radius = 0;
+    double mean_radius = 0;
+    double max_radius = 0;
 };
 
-ClipFigures figures(const mobb::Clip& clip) {
-    const std::span<const mobb::Disk> samples = clip.samples();
-    ClipFigures out;
-    out.min_radius = out.max_radius = samples[0].r;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        out.min_radius = std::min(out.min_radius, samples[i].r);
-        out.max_radius = std::max(out.max_radius, samples[i].r);
-        out.mean_radius += samples[i].r / static_cast<double>(samples.size());
-        if (i > 0) out.path_length += std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y);
+PathFigures figures_of(const mobb::Clip& clip) {
+    PathFigures figures;
+    figures.min_radius = clip.samples().front().r;
+    const mobb::Disk* before = nullptr;
+    for (const mobb::Disk& disk : clip.samples()) {
+        if (before) figures.length += std::sqrt(mobb::squared_distance(*before, disk));
+        figures.min_radius = std::min(figures.min_radius, disk.r);
+        figures.max_radius = std::max(figures.max_radius, disk.r);
+        figures.mean_radius += disk.r / clip.count();
+        before = &disk;
     }
-    if (samples.size() > 1) out.mean_speed = out.path_length / (clip.dt() * static_cast<double>(samples.size() - 1));
-    return out;
+    if (clip.count() > 1) figures.mean_speed = figures.length / ((clip.count() - 1) * clip.dt());
+    return figures;
 }
 
-/// A clip whose samples stand in the scene is its own source.
+/// Of a clip with its samples in the scene, the scene is the file.
 SourceFacts facts_of(const SceneClip& clip) {
     if (clip.source) return clip.facts;
-    SourceFacts facts;
-    facts.format = "json";
-    facts.frames = clip.clip->count();
-    facts.dt = clip.clip->dt();
-    facts.duration = clip.clip->dt() * (clip.clip->count() - 1);
-    return facts;
+    return {"scene", 1, clip.clip->count(), clip.clip->dt(), (clip.clip->count() - 1) * clip.clip->dt(), {}};
 }
 
-void write_optional(JsonWriter& out, const char* key, const std::string& text) {
-    out.key(key);
-    text.empty() ? out.null() : out.value(text);
+/// Where a clip was read from: the source that its scene names, or the file itself.
+std::string file_of(const Scene& scene, const SceneClip& clip) {
+    return clip.source ? (scene.file.parent_path() / *clip.source).string() : scene.file.string();
 }
 
-void write_clip(JsonWriter& out, const std::string& file, const SceneClip& clip) {
-    const SourceFacts facts = facts_of(clip);
-    const ClipFigures of = figures(*clip.clip);
-    out.begin_object();
-    out.member("file", file);
-    out.member("name", clip.name);
-    out.member("format", facts.format);
-    write_optional(out, "animation", facts.animation);
-    write_optional(out, "root", facts.root);
+/// Neither a CSV nor a scene has a skeleton: then these are null.
+void write_skeleton(JsonWriter& out, const SourceFacts& facts) {
+    const auto name = [&out](const char* key, const std::string& text) {
+        out.key(key);
+        text.empty() ? out.null() : out.value(text);
+    };
+    name("animation", facts.animation);
+    name("root", facts.root);
     out.key("joints");
     facts.joints > 0 ? out.value(facts.joints) : out.null();
+}
+
+void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
+    const SourceFacts facts = facts_of(clip);
+    const PathFigures figures = figures_of(*clip.clip);
+    out.begin_object();
+    out.member("file", file_of(scene, clip));
+    out.member("name", clip.name);
+    out.member("format", facts.format);
+    write_skeleton(out, facts);
     out.member("unit", facts.unit);
     out.member("file_frames", facts.frames);
     out.key("file_dt");
@@ -78,69 +87,61 @@ void write_clip(JsonWriter& out, const std::string& file, const SceneClip& clip)
     out.member("samples", clip.clip->count());
     out.member("dt", clip.clip->dt());
     out.member("duration", clip.clip->duration());
-    out.member("path_length", of.path_length);
-    out.member("mean_speed", of.mean_speed);
-    out.member("min_radius", of.min_radius);
-    out.member("mean_radius", of.mean_radius);
-    out.member("max_radius", of.max_radius);
+    out.member("path_length", figures.length);
+    out.member("mean_speed", figures.mean_speed);
+    out.member("min_radius", figures.min_radius);
+    out.member("mean_radius", figures.mean_radius);
+    out.member("max_radius", figures.max_radius);
     out.key("warnings");
-    out.begin_array();
+    out.begin_array(Layout::row);
     for (const std::string& warning : facts.warnings) out.value(warning);
     out.end_array();
     out.end_object();
 }
 
-/// "1 unit = 0.01 m", and how that is known.
-std::string described_unit(const SourceFacts& facts) {
-    const std::string unit = "1 unit = " + brief(facts.unit) + " m";
-    if (!facts.guessed_from_height) return unit;
-    return unit + " (guessed: a body " + brief(std::round(*facts.guessed_from_height * 100) / 100) + " m tall)";
+/// How the unit was found, where it had to be guessed.
+std::string guess_of(const SourceFacts& facts) {
+    if (!facts.guessed_from_height) return "";
+    return " (guessed: a body " + brief(std::round(*facts.guessed_from_height * 100) / 100) + " m tall)";
 }
 
-/// Three decimals are millimetres and milliseconds.
-std::string rounded(double value) { return brief(std::round(value * 1000) / 1000); }
-
-void print_clip(std::ostream& out, const std::string& file, const SceneClip& clip) {
+void print_clip(const Scene& scene, const SceneClip& clip) {
     const SourceFacts facts = facts_of(clip);
-    const ClipFigures of = figures(*clip.clip);
-    const std::string spacing = facts.dt ? " every " + brief(*facts.dt) + " s" : " at uneven times";
-    out << file << ": " << in_quotes(clip.name) << '\n';
-    out << "  source   " << facts.format;
-    if (clip.options.animation) out << ", animation " << in_quotes(facts.animation);
-    out << ", " << counted(facts.frames, "frame", "frames") << (facts.frames > 1 ? spacing : "") << ", "
-        << rounded(facts.duration) << " s; " << described_unit(facts) << '\n';
-    if (!facts.root.empty()) {
-        out << "  root     " << in_quotes(facts.root) << ", " << counted(facts.joints, "joint", "joints") << '\n';
+    const PathFigures figures = figures_of(*clip.clip);
+    std::cout << clip.name << " (" << file_of(scene, clip) << ", " << facts.format << ")\n";
+    if (facts.joints > 0) {
+        std::cout << "  skeleton     " << counted(facts.joints, "joint", "joints") << ", root " << in_quotes(facts.root)
+                  << ", animation " << in_quotes(facts.animation) << '\n';
     }
-    out << "  samples  " << clip.clip->count() << " every " << brief(clip.clip->dt()) << " s, "
-        << rounded(clip.clip->duration()) << " s\n";
-    out << "  path     " << rounded(of.path_length) << " m, mean speed " << rounded(of.mean_speed) << " m/s\n";
-    out << "  radius   " << rounded(of.min_radius) << " to " << rounded(of.max_radius) << " m, mean "
-        << rounded(of.mean_radius) << " m\n";
-    for (const std::string& warning : facts.warnings) out << "  warning  " << warning << '\n';
+    std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
+              << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
+              << brief(facts.unit) << " m per unit" << guess_of(facts) << '\n'
+              << "  taken        " << counted(clip.clip->count(), "sample", "samples") << " of "
+              << brief(clip.clip->dt()) << " s, " << brief(clip.clip->duration()) << " s in all\n"
+              << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
+              << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
+              << brief(figures.mean_radius) << " m\n";
+    for (const std::string& warning : facts.warnings) std::cout << "  warning      " << warning << '\n';
 }
 
 void run(const Arguments& arguments) {
-    // All files are read before anything is said, so that a bad one leaves no partial output.
     std::vector<Scene> scenes;
-    for (const std::filesystem::path& file : arguments.files) {
+    for (const std::filesystem::path& file : arguments.files)
         scenes.push_back(load_scene(file, arguments.import_options));
+    JsonWriter json(std::cout);
+    if (arguments.json) {
+        json.begin_object();
+        json.key("clips");
+        json.begin_array();
     }
-    if (!arguments.json) {
-        for (const Scene& scene : scenes) {
-            for (const SceneClip& clip : scene.clips) print_clip(std::cout, scene.file.string(), clip);
+    for (const Scene& scene : scenes) {
+        for (const SceneClip& clip : scene.clips) {
+            arguments.json ? write_clip(json, scene, clip) : print_clip(scene, clip);
         }
-    } else {
-        JsonWriter out(std::cout);
-        out.begin_object();
-        out.key("clips");
-        out.begin_array();
-        for (const Scene& scene : scenes) {
-            for (const SceneClip& clip : scene.clips) write_clip(out, scene.file.string(), clip);
-        }
-        out.end_array();
-        out.end_object();
-        std::cout << '\n';
+    }
+    if (arguments.json) {
+        json.end_array();
+        json.end_object();
     }
     flush_results();
 }
@@ -148,10 +149,10 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_info_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("info", "What is in each file: clips, joints, units, warnings");
+    CLI::App* command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("FILE", arguments->files, "Scenes, captures or clips")->required();
-    command->add_flag("--json", arguments->json, "As JSON");
+    command->add_option("FILE", arguments->files, "Scenes (.json) and clips (.bvh .gltf .glb .fbx .csv)")->required();
+    command->add_flag("--json", arguments->json, "The same as JSON");
     add_import_options(*command, arguments->import_options);
     command->callback([arguments] { run(*arguments); });
 }

@@ -94,7 +94,8 @@ class Builder {
         if (view_.legend && view_.labels) {
             list_.legend = legend_entries(list_, subjects_, view_, view_.query ? &progress_ : nullptr);
             for (LegendEntry& entry : list_.legend) {
-                entry.text = fit_text(entry.text, FontFace::text, small_size(), 0.45f * static_cast<float>(list_.size.width));
+                entry.text =
+                    fit_text(entry.text, FontFace::text, small_size(), 0.45f * static_cast<float>(list_.size.width));
             }
         }
         aim();
@@ -141,7 +142,8 @@ class Builder {
     }
 
     std::optional<int> hit_sample(int side) const {
-        if (!view_.query || progress_.event.outcome != mobb::Outcome::hit || progress_.event.pairs.empty()) return std::nullopt;
+        if (!view_.query || progress_.event.outcome != mobb::Outcome::hit || progress_.event.pairs.empty())
+            return std::nullopt;
         const mobb::MeasuredPair& pair = progress_.event.pairs.back();
         return side == 0 ? pair.i : pair.j;
     }
@@ -152,7 +154,8 @@ class Builder {
         for (const DiskInstance& disk : list_.disks) {
             for (int i = 0; i < 8; ++i) {
                 const double angle = i * std::numbers::pi / 4;
-                const glm::vec3 rim = disk.base + disk.radius * glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
+                const glm::vec3 rim =
+                    disk.base + disk.radius * glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
                 out.push_back(rim);
                 out.push_back(rim + glm::vec3(0, 0, disk.height));
             }
@@ -215,11 +218,15 @@ class Builder {
         frame.min.y = std::max(frame.min.y, caption_bottom_);
         if (!view_.labels) return frame;
         const Font& mono = Font::of(FontFace::mono);
+        const bool floor_seen_level = std::abs(orientation(view_.camera).pitch_deg) < 2;
         const float line = 1.6f * small_size();
         frame.min.y += 1.8f * text_size();  // names over the paths
         if (view_.floor) {
             frame.max.y -= line;
-            frame.max.x -= 2 * small_size();
+            // Half of what the corner of the floor is labelled with goes beyond it, all of it where that corner is to
+            // the right.
+            frame.max.x -=
+                mono.width("y " + longest_distance(stage_) + " m", small_size()) * (floor_seen_level ? 0.5f : 1.0f);
         }
         if (view_.time_axis) frame.min.x += mono.width(longest_tick(stage_), small_size()) + small_size();
         return frame;
@@ -230,8 +237,8 @@ class Builder {
             caption_bottom_ = pad();
             return;
         }
-        const Caption caption =
-            view_.query ? query_caption(list_.palette, subjects_, recorded_, progress_.step) : scene_caption(list_.palette, fitted_, subjects_, view_);
+        const Caption caption = view_.query ? query_caption(list_.palette, subjects_, recorded_, progress_.step)
+                                            : scene_caption(list_.palette, fitted_, subjects_, view_);
         caption_bottom_ = mobbscope::add_caption(list_, caption, pad(), scale_);
         for (const TextRun& run : list_.texts) layout_.reserve(run.box);
     }
@@ -258,7 +265,8 @@ class Builder {
                     if ((bits >> axis) & 1u) continue;
                     const glm::vec2 from = corners[bits];
                     const glm::vec2 to = corners[bits | (1u << axis)];
-                    const int pieces = std::clamp(static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / (2 * cell)), 1, 64);
+                    const int pieces =
+                        std::clamp(static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / (2 * cell)), 1, 64);
                     for (int i = 0; i <= pieces; ++i) {
                         const glm::vec2 at = glm::mix(from, to, static_cast<float>(i) / static_cast<float>(pieces));
                         out.push_back({at - cell, at + cell});
@@ -322,7 +330,8 @@ class Builder {
             inset_corner_ = corner_for(inset_size(stage_, scale_), {glm::vec2(1, 0), {0, 1}, {1, 1}, {0, 0}});
         }
         if (!list_.legend.empty()) {
-            legend_corner_ = corner_for(legend_size(list_.legend, small_size()), {glm::vec2(0, 1), {1, 1}, {1, 0}, {0, 0}});
+            legend_corner_ =
+                corner_for(legend_size(list_.legend, small_size()), {glm::vec2(0, 1), {1, 1}, {1, 0}, {0, 0}});
         }
     }
 
@@ -344,7 +353,8 @@ class Builder {
         if (has_time_cursor()) {
             add_time_cursor(list_, stage_, *view_.time, scale_);
             for (const Subject& subject : subjects_) {
-                if (const auto sample = sample_at(subject, *view_.time)) add_ring(list_, subject, *sample, list_.palette.text, 2 * scale_);
+                if (const auto sample = sample_at(subject, *view_.time))
+                    add_ring(list_, subject, *sample, list_.palette.text, 2 * scale_);
             }
         }
         if (!view_.query) return;
@@ -355,10 +365,12 @@ class Builder {
         }
         if (const auto gap = time_gap(subjects_, event, list_.space)) {
             add_time_gap(list_, *gap, scale_);
-            note(0.5f * (gap->from + gap->to), gap->seconds > 1e-9 ? with_unit(gap->seconds, "s") : "0 s", list_.palette.apart_in_time);
+            note(0.5f * (gap->from + gap->to), gap->seconds > 1e-9 ? with_unit(gap->seconds, "s") : "0 s",
+                 list_.palette.apart_in_time);
         }
         for (const Subject& subject : subjects_) {
-            if (const auto sample = hit_sample(subject.index)) add_ring(list_, subject, *sample, list_.palette.text, 2 * scale_);
+            if (const auto sample = hit_sample(subject.index))
+                add_ring(list_, subject, *sample, list_.palette.text, 2 * scale_);
         }
         if (const auto sample = hit_sample(0)) {
             const mobb::Disk disk = subjects_[0].clip().disk(*sample);

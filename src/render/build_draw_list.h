@@ -7,8 +7,8 @@
 
 namespace mobbscope {
 
-/// Throws std::invalid_argument, saying what is allowed, if the view names a query or a step that there is not, or the scene has
-/// nothing to draw.
+/// Throws std::invalid_argument, saying what is allowed, if the view names a query or a step that there is not, or the
+/// scene has nothing to draw.
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size);
 
 }  // namespace mobbscope

@@ -18,7 +18,8 @@ namespace {
 std::string tree_title(mobb::TreeKind kind) {
     std::string text(mobb::name(kind));
     if (text.find("mobb") != std::string::npos) {
-        std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+        std::transform(text.begin(), text.end(), text.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     }
     return text;
 }
@@ -54,12 +55,13 @@ std::string boxes_text(std::span<const Subject> subjects, const LevelRange& leve
 
 }  // namespace
 
-Caption scene_caption(const Palette&, const FittedScene& fitted, std::span<const Subject> subjects, const ViewState& view) {
+Caption scene_caption(const Palette&, const FittedScene& fitted, std::span<const Subject> subjects,
+                      const ViewState& view) {
     Caption caption;
     caption.headline = fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string();
     if (view.boxes) {
-        caption.detail = tree_title(fitted.options().tree) + ", leaf " + std::to_string(fitted.options().leaf) + "  \u00B7  " +
-                         boxes_text(subjects, view.levels);
+        caption.detail = tree_title(fitted.options().tree) + ", leaf " + std::to_string(fitted.options().leaf) +
+                         "  \u00B7  " + boxes_text(subjects, view.levels);
     }
     return caption;
 }
@@ -68,7 +70,8 @@ Caption query_caption(const Palette& palette, std::span<const Subject> sides, co
     Caption caption;
     caption.headline = step_sentence(sides, recorded.trace, step);
     caption.detail = tree_title(sides[0].placed.tree().options().tree) + ", leaf " +
-                     std::to_string(sides[0].placed.tree().options().leaf) + "  \u00B7  " + answer_sentence(sides, recorded);
+                     std::to_string(sides[0].placed.tree().options().leaf) + "  \u00B7  " +
+                     answer_sentence(sides, recorded);
     const mobb::Outcome outcome = recorded.trace[step].outcome;
     caption.mark = outcome_style(box_state(outcome), palette).color;
     return caption;
@@ -94,7 +97,8 @@ float add_caption(DrawList& list, const Caption& caption, float margin, float sc
         list.panels.push_back({{middle - r, middle + r}, r, caption.mark, Rgba(0), 0});
     }
     for (const std::string& line : lines) {
-        list.texts.push_back(text_at(fit_text(line, FontFace::text, size, room), FontFace::text, size, list.palette.text, {margin + indent, y}));
+        list.texts.push_back(text_at(fit_text(line, FontFace::text, size, room), FontFace::text, size,
+                                     list.palette.text, {margin + indent, y}));
         y += line_height(FontFace::text, size);
     }
     y += std::round(3 * scale);

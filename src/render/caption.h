@@ -16,7 +16,8 @@ struct Caption {
 };
 
 /// What the scene is and which boxes are shown, with their volume.
-Caption scene_caption(const Palette& palette, const FittedScene& fitted, std::span<const Subject> subjects, const ViewState& view);
+Caption scene_caption(const Palette& palette, const FittedScene& fitted, std::span<const Subject> subjects,
+                      const ViewState& view);
 
 /// What a step of a query shows.
 Caption query_caption(const Palette& palette, std::span<const Subject> sides, const RecordedQuery& recorded, int step);

@@ -118,8 +118,8 @@ void DiskPass::draw(const DrawList& list) {
     } else {
         glDrawElementsInstanced(GL_TRIANGLES, side, GL_UNSIGNED_SHORT, nullptr, count);
         const std::size_t lower_face = sizeof(GLushort) * static_cast<std::size_t>(side + 3 * segments_);
-        glDrawElementsInstanced(GL_TRIANGLES, 3 * segments_, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(lower_face),
-                                count);
+        glDrawElementsInstanced(GL_TRIANGLES, 3 * segments_, GL_UNSIGNED_SHORT,
+                                reinterpret_cast<const void*>(lower_face), count);
     }
     glDisable(GL_CULL_FACE);
 }

@@ -23,8 +23,8 @@ namespace mobbscope {
 using Dash = glm::vec4;
 inline constexpr Dash kSolid{0, 0, 0, 0};
 
-/// Where an instance stands among its like: what is drawn first where two are equally deep. Made from level and index, so the
-/// picture does not depend on the order of the lists.
+/// Where an instance stands among its like: what is drawn first where two are equally deep. Made from level and index,
+/// so the picture does not depend on the order of the lists.
 struct DrawOrder {
     int layer = 0;  ///< 0 the surroundings, then levels or states, last the annotations
     int level = 0;  ///< of the node; the sample's is 0
@@ -47,12 +47,12 @@ enum class BoxState { level, under_test, apart_in_time, separated, overlap, hit,
 
 /// A box as it is drawn: a parallelepiped.
 struct BoxInstance {
-    glm::vec3 center{0};                  ///< drawn space
+    glm::vec3 center{0};                 ///< drawn space
     std::array<glm::vec3, 3> extents{};  ///< half edges
     BoxState state = BoxState::level;
-    Rgba fill{0};       ///< of the faces; opacity 0: edges only
-    Rgba edge{1};       ///< opacity 0: faces only
-    float width = 1;    ///< of the edges, pixels
+    Rgba fill{0};     ///< of the faces; opacity 0: edges only
+    Rgba edge{1};     ///< opacity 0: faces only
+    float width = 1;  ///< of the edges, pixels
     Dash dash = kSolid;
     ObjectId id;
     bool pickable = true;  ///< stands for a node
@@ -64,7 +64,7 @@ struct LineInstance {
     glm::vec3 from{0};
     glm::vec3 to{0};
     Rgba color{1};
-    float width = 1;   ///< pixels
+    float width = 1;  ///< pixels
     Dash dash = kSolid;
     float hidden = 0;  ///< opacity kept behind disks, 0..1
     float cap = 0;     ///< pixels drawn beyond both ends
@@ -77,8 +77,12 @@ struct Rect {
     glm::vec2 max{0};
     glm::vec2 size() const { return max - min; }
     glm::vec2 center() const { return (min + max) * 0.5f; }
-    bool overlaps(const Rect& o) const { return min.x < o.max.x && o.min.x < max.x && min.y < o.max.y && o.min.y < max.y; }
-    bool contains(const Rect& o) const { return min.x <= o.min.x && min.y <= o.min.y && max.x >= o.max.x && max.y >= o.max.y; }
+    bool overlaps(const Rect& o) const {
+        return min.x < o.max.x && o.min.x < max.x && min.y < o.max.y && o.min.y < max.y;
+    }
+    bool contains(const Rect& o) const {
+        return min.x <= o.min.x && min.y <= o.min.y && max.x >= o.max.x && max.y >= o.max.y;
+    }
     Rect grown(float by) const { return {min - by, max + by}; }
 };
 
@@ -104,10 +108,10 @@ struct OverlayLine {
 struct TextRun {
     std::string text;  ///< UTF-8
     FontFace face = FontFace::text;
-    float size = 12;         ///< pixels
-    glm::vec2 baseline{0};   ///< left end, pixels from the upper left corner
+    float size = 12;        ///< pixels
+    glm::vec2 baseline{0};  ///< left end, pixels from the upper left corner
     Rgba color{1};
-    Rect box;                ///< what it covers
+    Rect box;  ///< what it covers
 };
 
 /// A line of the legend: what a colour and line style stand for.
@@ -132,11 +136,11 @@ struct DrawList {
     std::vector<BoxInstance> boxes;
     std::vector<LineInstance> lines;
 
-    std::string headline;                ///< the sentence at the top
+    std::string headline;  ///< the sentence at the top
     std::vector<LegendEntry> legend;
-    std::vector<Panel> panels;           ///< over the scene, in this order
+    std::vector<Panel> panels;               ///< over the scene, in this order
     std::vector<OverlayLine> overlay_lines;  ///< over the panels
-    std::vector<TextRun> texts;          ///< over all
+    std::vector<TextRun> texts;              ///< over all
 };
 
 }  // namespace mobbscope

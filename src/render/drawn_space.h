@@ -5,8 +5,8 @@
 
 namespace mobbscope {
 
-/// Maps (x, y, t), metres and global seconds, to drawn metres near the origin. The subtraction happens in double, so that scenes
-/// at 10 km and 10^5 s keep their detail in float.
+/// Maps (x, y, t), metres and global seconds, to drawn metres near the origin. The subtraction happens in double, so
+/// that scenes at 10 km and 10^5 s keep their detail in float.
 struct DrawnSpace {
     glm::dvec3 origin{0};    ///< x, y in metres, t in seconds
     double time_height = 1;  ///< metres drawn per second, > 0
@@ -14,8 +14,8 @@ struct DrawnSpace {
     glm::vec3 point(double x, double y, double t) const {
         return glm::vec3(glm::dvec3(x - origin.x, y - origin.y, (t - origin.z) * time_height));
     }
-    /// A direction or extent of a box, which is in (x, y, w*t) with w in m/s. A tilted box is sheared by this, as time is drawn
-    /// time_height metres a second and not w.
+    /// A direction or extent of a box, which is in (x, y, w*t) with w in m/s. A tilted box is sheared by this, as time
+    /// is drawn time_height metres a second and not w.
     glm::vec3 extent(glm::dvec3 v, double time_scale) const {
         return glm::vec3(glm::dvec3(v.x, v.y, v.z / time_scale * time_height));
     }

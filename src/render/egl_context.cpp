@@ -17,17 +17,14 @@ class EglContext final : public GlContext {
         const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(get_("eglGetPlatformDisplayEXT"));
         if (!get_display) throw std::runtime_error("it knows no platforms");
         display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-        if (display_ == EGL_NO_DISPLAY || !call<decltype(&eglInitialize)>("eglInitialize")(display_, nullptr, nullptr)) {
+        if (display_ == EGL_NO_DISPLAY ||
+            !call<decltype(&eglInitialize)>("eglInitialize")(display_, nullptr, nullptr)) {
             throw std::runtime_error("it has no surfaceless display");
         }
         if (!call<decltype(&eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API)) throw std::runtime_error("it has no OpenGL");
-        const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                               3,
-                                               EGL_CONTEXT_MINOR_VERSION,
-                                               3,
-                                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                               EGL_NONE};
+        const std::array<EGLint, 7> attributes{
+            EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
         // No config: there is no surface whose pixels it would describe (EGL_KHR_no_config_context).
         context_ = call<decltype(&eglCreateContext)>("eglCreateContext")(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT,
                                                                          attributes.data());

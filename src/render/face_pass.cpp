@@ -39,10 +39,8 @@ void FacePass::draw(const DrawList& list, bool ids) {
     std::vector<Instance> instances;
     for (const BoxInstance* box : in_order(list.boxes)) {
         if (ids ? !box->pickable : !has_faces(*box)) continue;
-        instances.push_back({box->center,
-                             {box->extents[0], box->extents[1], box->extents[2]},
-                             box->fill,
-                             {box->id.r(), box->id.g()}});
+        instances.push_back(
+            {box->center, {box->extents[0], box->extents[1], box->extents[2]}, box->fill, {box->id.r(), box->id.g()}});
     }
     if (instances.empty()) return;
     glBindVertexArray(array_.name());

@@ -35,7 +35,8 @@ void add_floor_inset(DrawList& list, std::span<const Subject> subjects, const St
     list.panels.push_back({{corner, corner + size}, 5 * scale, list.palette.panel, list.palette.panel_border, 1});
     char title[64];
     std::snprintf(title, sizeof title, "floor at %.2f s", time);
-    list.texts.push_back(text_at(title, FontFace::text, kTitle * scale, list.palette.quiet_text, corner + kPadding * scale));
+    list.texts.push_back(
+        text_at(title, FontFace::text, kTitle * scale, list.palette.quiet_text, corner + kPadding * scale));
     const glm::vec2 origin(corner.x + 0.5f * (size.x - map.x), corner.y + size.y - kPadding * scale - map.y);
     const auto at = [&](double x, double y) {
         const glm::dvec2 unit((x - s.x0) / (s.x1 - s.x0), (s.y1 - y) / (s.y1 - s.y0));

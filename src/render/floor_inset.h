@@ -13,7 +13,7 @@ namespace mobbscope {
 glm::vec2 inset_size(const Stage& stage, float scale);
 
 /// Adds the map with its upper left corner at a point.
-void add_floor_inset(DrawList& list, std::span<const Subject> subjects, const Stage& stage, double time, glm::vec2 corner,
-                     float scale);
+void add_floor_inset(DrawList& list, std::span<const Subject> subjects, const Stage& stage, double time,
+                     glm::vec2 corner, float scale);
 
 }  // namespace mobbscope

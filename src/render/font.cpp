@@ -74,8 +74,8 @@ GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
     GlyphBitmap bitmap{x1 - x0, y1 - y0, x0, y0, {}};
     bitmap.coverage.resize(static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height));
     if (!bitmap.coverage.empty()) {
-        stbtt_MakeGlyphBitmapSubpixel(info_.get(), bitmap.coverage.data(), bitmap.width, bitmap.height, bitmap.width, scale, scale,
-                                      shift, 0, index);
+        stbtt_MakeGlyphBitmapSubpixel(info_.get(), bitmap.coverage.data(), bitmap.width, bitmap.height, bitmap.width,
+                                      scale, scale, shift, 0, index);
     }
     return bitmap;
 }
@@ -85,7 +85,11 @@ std::vector<char32_t> code_points(std::string_view utf8) {
     std::vector<char32_t> out;
     for (std::size_t i = 0; i < utf8.size();) {
         const auto lead = static_cast<unsigned char>(utf8[i++]);
-        const int following = lead < 0x80 ? 0 : (lead >> 5) == 6 ? 1 : (lead >> 4) == 14 ? 2 : (lead >> 3) == 30 ? 3 : -1;
+        const int following = lead < 0x80         ? 0
+                              : (lead >> 5) == 6  ? 1
+                              : (lead >> 4) == 14 ? 2
+                              : (lead >> 3) == 30 ? 3
+                                                  : -1;
         char32_t code = following < 0 ? kMalformed : following == 0 ? lead : lead & (0x3Fu >> following);
         for (int k = 0; k < following; ++k) {
             if (i >= utf8.size() || (static_cast<unsigned char>(utf8[i]) >> 6) != 2) {

@@ -1,5 +1,5 @@
-/// OpenGL 3.3 core contexts that need no display, chosen by name. Nothing links libGL: each backend's library is opened when it
-/// is asked for, and glad takes its functions from there.
+/// OpenGL 3.3 core contexts that need no display, chosen by name. Nothing links libGL: each backend's library is opened
+/// when it is asked for, and glad takes its functions from there.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,8 @@ class GlContext {
     /// Makes this the calling thread's context and points glad's functions at it.
     void make_current();
 
-    /// Throws MachineError with all errors that OpenGL reported (KHR_debug) and all warnings of its shader compiler since the
-    /// last call. `doing` says what was under way.
+    /// Throws MachineError with all errors that OpenGL reported (KHR_debug) and all warnings of its shader compiler
+    /// since the last call. `doing` says what was under way.
     void check(std::string_view doing);
 
     /// Notes a complaint for the next check.

@@ -58,8 +58,8 @@ using Texture = GlObject<TextureKind>;
 using Renderbuffer = GlObject<RenderbufferKind>;
 using Framebuffer = GlObject<FramebufferKind>;
 
-/// A linked pair of shaders from shaders/<name>.vert and .frag, which are part of the program. What the compiler says, be it
-/// only a warning, goes to the context's complaints.
+/// A linked pair of shaders from shaders/<name>.vert and .frag, which are part of the program. What the compiler says,
+/// be it only a warning, goes to the context's complaints.
 class ShaderProgram {
   public:
     ShaderProgram(GlContext& context, const std::string& name);

@@ -8,17 +8,17 @@
 namespace mobbscope {
 
 struct DiffOptions {
-    int channel_tolerance = 3;     ///< a pixel differs if one of its channels does by more than this, 0..255
+    int channel_tolerance = 3;      ///< a pixel differs if one of its channels does by more than this, 0..255
     double pixel_fraction = 0.001;  ///< pictures differ if more than this share of their pixels does, 0..1
 };
 
 struct ImageDiff {
     bool same_size = false;
-    std::int64_t pixels = 0;        ///< of the picture
-    std::int64_t differing = 0;     ///< pixels beyond the tolerance
-    int largest = 0;                ///< largest difference of a channel, 0..255
-    bool same = false;              ///< the verdict
-    Image heat;                     ///< grey where equal, black to yellow by difference; empty if the sizes differ
+    std::int64_t pixels = 0;     ///< of the picture
+    std::int64_t differing = 0;  ///< pixels beyond the tolerance
+    int largest = 0;             ///< largest difference of a channel, 0..255
+    bool same = false;           ///< the verdict
+    Image heat;                  ///< grey where equal, black to yellow by difference; empty if the sizes differ
 
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
 };

@@ -7,8 +7,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kEdge = 3;      // pixels kept free along the picture's edge
-constexpr float kBetween = 2;   // ... and between labels
+constexpr float kEdge = 3;     // pixels kept free along the picture's edge
+constexpr float kBetween = 2;  // ... and between labels
 
 /// The rectangle of a size whose edge is `distance` from the anchor in a direction.
 Rect beside(glm::vec2 anchor, glm::vec2 direction, float distance, glm::vec2 size) {

@@ -29,7 +29,8 @@ class LabelLayout {
     void reserve(const Rect& rect) { taken_.push_back(rect); }
     bool is_free(const Rect& rect) const;
 
-    /// Adds the label to the list at the first direction that is free; false if none is. Earlier labels have precedence.
+    /// Adds the label to the list at the first direction that is free; false if none is. Earlier labels have
+    /// precedence.
     bool place(const LabelRequest& request, DrawList& list);
 
   private:

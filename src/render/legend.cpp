@@ -43,8 +43,8 @@ void add_agents(std::vector<LegendEntry>& entries, std::span<const Subject> subj
 void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> subjects,
                 const LevelRange& levels) {
     if (levels.leaves) {
-        entries.push_back({LegendEntry::Mark::box, list.palette.quiet_text, with_alpha(list.palette.quiet_text, 0.2f), 1.5f, kSolid,
-                           "leaves"});
+        entries.push_back({LegendEntry::Mark::box, list.palette.quiet_text, with_alpha(list.palette.quiet_text, 0.2f),
+                           1.5f, kSolid, "leaves"});
         return;
     }
     int last = 0;
@@ -76,7 +76,8 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
         entries.push_back(entry);
     }
     const auto present = [&](BoxState state) {
-        return std::any_of(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) { return b.state == state; });
+        return std::any_of(list.boxes.begin(), list.boxes.end(),
+                           [&](const BoxInstance& b) { return b.state == state; });
     };
     const std::pair<BoxState, const char*> outcomes[] = {{BoxState::separated, "separated in space"},
                                                          {BoxState::apart_in_time, "apart in time"},
@@ -84,7 +85,8 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
                                                          {BoxState::hit, "hit"}};
     for (const auto& [state, text] : outcomes) {
         // What the test under way found is shown between its boxes.
-        if (present(state) || box_state(progress.event.outcome) == state) entries.push_back(line_entry(outcome_style(state, list.palette), text));
+        if (present(state) || box_state(progress.event.outcome) == state)
+            entries.push_back(line_entry(outcome_style(state, list.palette), text));
     }
 }
 
@@ -107,7 +109,10 @@ std::string short_number(double value) {
 struct Layout {
     float row, mark, padding, gap;
     explicit Layout(float size)
-        : row(std::round(1.55f * size)), mark(std::round(1.7f * size)), padding(std::round(0.8f * size)), gap(std::round(0.7f * size)) {}
+        : row(std::round(1.55f * size)),
+          mark(std::round(1.7f * size)),
+          padding(std::round(0.8f * size)),
+          gap(std::round(0.7f * size)) {}
 };
 
 }  // namespace
@@ -126,8 +131,8 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Su
         // Without a mark of their own: a remark on all boxes.
         const OutcomeStyle none{Rgba(0), kSolid, 1};
         entries.push_back(line_entry(none, "boxes look sheared: fitted"));
-        entries.push_back(line_entry(none, "with " + short_number(subjects[0].placed.time_scale()) + " m/s, drawn with " +
-                                               short_number(list.space.time_height) + " m/s"));
+        entries.push_back(line_entry(none, "with " + short_number(subjects[0].placed.time_scale()) +
+                                               " m/s, drawn with " + short_number(list.space.time_height) + " m/s"));
     }
     return entries;
 }
@@ -141,13 +146,15 @@ glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
         const float indent = remark ? 0 : layout.mark + layout.gap;
         widest = std::max(widest, indent + Font::of(FontFace::text).width(entry.text, text_size));
     }
-    return {std::ceil(2 * layout.padding + widest), 2 * layout.padding + layout.row * static_cast<float>(entries.size()) - 0.3f * text_size};
+    return {std::ceil(2 * layout.padding + widest),
+            2 * layout.padding + layout.row * static_cast<float>(entries.size()) - 0.3f * text_size};
 }
 
 void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
     const Layout layout(text_size);
     const glm::vec2 size = legend_size(list.legend, text_size);
-    list.panels.push_back({{corner, corner + size}, 0.4f * text_size, list.palette.panel, list.palette.panel_border, 1});
+    list.panels.push_back(
+        {{corner, corner + size}, 0.4f * text_size, list.palette.panel, list.palette.panel_border, 1});
     glm::vec2 at = corner + layout.padding;
     const float height = line_height(FontFace::text, text_size);
     for (const LegendEntry& entry : list.legend) {
@@ -158,15 +165,16 @@ void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
             list.panels.push_back({{middle - r, middle + r}, r, entry.color, Rgba(0), 0});
         } else if (entry.mark == LegendEntry::Mark::box) {
             const glm::vec2 half(0.5f * layout.mark - 1, 0.38f * text_size);
-            list.panels.push_back({{middle - half, middle + half}, 1, entry.fill, entry.color, entry.width * text_size / 12});
+            list.panels.push_back(
+                {{middle - half, middle + half}, 1, entry.fill, entry.color, entry.width * text_size / 12});
         } else if (!remark) {
             const glm::vec2 half(0.5f * layout.mark, 0);
             list.overlay_lines.push_back({middle - half, middle + half, entry.color,
                                           std::max(entry.width, 1.4f) * text_size / 12, 0.6f * entry.dash});
         }
         const glm::vec2 text_corner = remark ? at : at + glm::vec2(layout.mark + layout.gap, 0);
-        list.texts.push_back(
-            text_at(entry.text, FontFace::text, text_size, remark ? list.palette.quiet_text : list.palette.text, text_corner));
+        list.texts.push_back(text_at(entry.text, FontFace::text, text_size,
+                                     remark ? list.palette.quiet_text : list.palette.text, text_corner));
         at.y += layout.row;
     }
 }

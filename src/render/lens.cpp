@@ -35,8 +35,8 @@ Stand fit_orthographic(const Extent& extent, float aspect) {
     return {{middle.x, middle.y, extent.max.z + 1}, std::max({half.y, half.x / aspect, 1e-6f})};
 }
 
-/// Each point p limits the eye: |p.x - eye.x| <= (eye.z - p.z) * tan. Along x the extremes of p.x +/- p.z*tan decide, likewise
-/// along y; the direction that needs more distance wins and the other is centred.
+/// Each point p limits the eye: |p.x - eye.x| <= (eye.z - p.z) * tan. Along x the extremes of p.x +/- p.z*tan decide,
+/// likewise along y; the direction that needs more distance wins and the other is centred.
 Stand fit_perspective(const Lens& lens, std::span<const glm::vec3> points, float tan_x, float tan_y, float nearest) {
     float right = std::numeric_limits<float>::lowest();
     float left = right;
@@ -82,7 +82,8 @@ glm::mat4 view_matrix(const Lens& lens) {
     return m;
 }
 
-/// Shifts and shrinks clip space so that what filled the picture fills the frame; the rest of the picture shows more around.
+/// Shifts and shrinks clip space so that what filled the picture fills the frame; the rest of the picture shows more
+/// around.
 glm::mat4 into_frame(const Frame& frame, PictureSize size) {
     const glm::vec2 picture(size.width, size.height);
     const glm::vec2 scale = (frame.max - frame.min) / picture;
@@ -99,11 +100,16 @@ glm::mat4 into_frame(const Frame& frame, PictureSize size) {
 
 Orientation orientation(const Camera& camera) {
     switch (camera.preset) {
-        case CameraPreset::iso: return {-52, 24, camera.perspective};
-        case CameraPreset::top: return {-90, 90, false};
-        case CameraPreset::front: return {-90, 0, false};
-        case CameraPreset::side: return {0, 0, false};
-        case CameraPreset::free: break;
+        case CameraPreset::iso:
+            return {-52, 24, camera.perspective};
+        case CameraPreset::top:
+            return {-90, 90, false};
+        case CameraPreset::front:
+            return {-90, 0, false};
+        case CameraPreset::side:
+            return {0, 0, false};
+        case CameraPreset::free:
+            break;
     }
     return {camera.yaw_deg, camera.pitch_deg, camera.perspective};
 }
@@ -131,7 +137,8 @@ Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const gl
     Lens lens;
     lens.size = size;
     lens.perspective = o.perspective;
-    lens.back = glm::vec3(glm::dvec3(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)));
+    lens.back =
+        glm::vec3(glm::dvec3(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)));
     lens.right = right_of(camera);
     lens.up = glm::cross(lens.back, lens.right);
 

@@ -26,7 +26,7 @@ struct Lens {
     glm::vec3 back{0, -1, 0};  ///< from the scene towards the eye
     glm::vec3 eye{0};          ///< where it stands; of no meaning without perspective
     bool perspective = false;
-    float near_depth = 0;      ///< distance of the nearest and farthest of the scene along the line of sight
+    float near_depth = 0;  ///< distance of the nearest and farthest of the scene along the line of sight
     float far_depth = 1;
     PictureSize size;
 
@@ -49,8 +49,8 @@ Orientation orientation(const Camera& camera);
 /// The unit vector that points to the right in the picture.
 glm::vec3 right_of(const Camera& camera);
 
-/// A lens for the camera. Without a target all `points` fit into `frame` as large as can be; `target` (drawn space) goes to the
-/// middle of the frame otherwise. `points` also set what is near and far.
+/// A lens for the camera. Without a target all `points` fit into `frame` as large as can be; `target` (drawn space)
+/// goes to the middle of the frame otherwise. `points` also set what is near and far.
 Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target, const Frame& frame,
                PictureSize size);
 

@@ -37,7 +37,7 @@ void add_level_boxes(DrawList& list, const Subject& subject, const LevelRange& l
         BoxInstance box = node_box(subject, node, list.space);
         box.state = BoxState::level;
         box.fill = with_alpha(subject.color, style.face);
-        box.edge = with_alpha(readable(subject.color, list.palette), style.edge);
+        box.edge = with_alpha(outlining(subject.color, list.palette), style.edge);
         box.width = style.width * scale;
         list.boxes.push_back(box);
     }

@@ -95,7 +95,8 @@ void LinePass::draw_overlay(const DrawList& list) {
     if (list.overlay_lines.empty()) return;
     std::vector<Instance> instances;
     for (const OverlayLine& line : list.overlay_lines) {
-        instances.push_back({glm::vec3(line.from, 0), glm::vec3(line.to, 0), line.color, line.dash, glm::vec3(line.width, 0, 0)});
+        instances.push_back(
+            {glm::vec3(line.from, 0), glm::vec3(line.to, 0), line.color, line.dash, glm::vec3(line.width, 0, 0)});
     }
     glm::mat4 pixels(1);
     pixels[0][0] = 2 / static_cast<float>(list.size.width);

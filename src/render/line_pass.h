@@ -1,4 +1,5 @@
-/// Draws lines of constant width on the screen: the edges of boxes, the floor, the axes, and what is drawn over the picture.
+/// Draws lines of constant width on the screen: the edges of boxes, the floor, the axes, and what is drawn over the
+/// picture.
 #pragma once
 
 #include <render/draw_list.h>
@@ -10,8 +11,8 @@ class LinePass {
   public:
     explicit LinePass(GlContext& context);
 
-    /// The list's lines and the edges of its boxes, into a framebuffer with the disks' depth: what the disks hide first and
-    /// fainter, then the rest.
+    /// The list's lines and the edges of its boxes, into a framebuffer with the disks' depth: what the disks hide first
+    /// and fainter, then the rest.
     void draw_scene(const DrawList& list);
     /// The lines over the picture.
     void draw_overlay(const DrawList& list);

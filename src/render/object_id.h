@@ -8,8 +8,8 @@
 
 namespace mobbscope {
 
-/// Something that can be pointed at. It is stored as two 32-bit numbers: 1 + the participant's index; then the sample's or the
-/// node's index, with the highest bit set for a node. (0, 0) is nothing.
+/// Something that can be pointed at. It is stored as two 32-bit numbers: 1 + the participant's index; then the sample's
+/// or the node's index, with the highest bit set for a node. (0, 0) is nothing.
 struct ObjectId {
     enum class Kind { disk, box };
 
@@ -21,7 +21,8 @@ struct ObjectId {
     std::uint32_t g() const { return static_cast<std::uint32_t>(index) | (kind == Kind::box ? kBoxBit : 0u); }
     static std::optional<ObjectId> decode(std::uint32_t r, std::uint32_t g) {
         if (r == 0) return std::nullopt;
-        return ObjectId{static_cast<int>(r - 1), (g & kBoxBit) ? Kind::box : Kind::disk, static_cast<int>(g & ~kBoxBit)};
+        return ObjectId{static_cast<int>(r - 1), (g & kBoxBit) ? Kind::box : Kind::disk,
+                        static_cast<int>(g & ~kBoxBit)};
     }
 
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
@@ -38,7 +39,8 @@ struct IdImage {
 
     /// What is at pixel (x, y), which must lie in the image.
     std::optional<ObjectId> at(int x, int y) const {
-        const std::size_t i = 2 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        const std::size_t i =
+            2 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
         return ObjectId::decode(rg[i], rg[i + 1]);
     }
 };

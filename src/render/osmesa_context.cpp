@@ -14,8 +14,15 @@ class OsmesaContext final : public GlContext {
   public:
     OsmesaContext() {
         // A compatibility profile would do as well, but core is what the shaders are written for.
-        const std::array<int, 9> attributes{OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                                            OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+        const std::array<int, 9> attributes{OSMESA_FORMAT,
+                                            OSMESA_RGBA,
+                                            OSMESA_PROFILE,
+                                            OSMESA_CORE_PROFILE,
+                                            OSMESA_CONTEXT_MAJOR_VERSION,
+                                            3,
+                                            OSMESA_CONTEXT_MINOR_VERSION,
+                                            3,
+                                            0};
         context_ = create_(attributes.data(), nullptr);
         if (!context_) throw std::runtime_error("it makes no OpenGL 3.3 core context");
     }
@@ -40,8 +47,7 @@ class OsmesaContext final : public GlContext {
     decltype(&OSMesaDestroyContext) destroy_ =
         library_.function<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext");
     decltype(&OSMesaMakeCurrent) make_current_ = library_.function<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
-    decltype(&OSMesaGetProcAddress) get_ =
-        library_.function<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
+    decltype(&OSMesaGetProcAddress) get_ = library_.function<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
     std::array<unsigned char, kSide * kSide * 4> buffer_{};
     OSMesaContext context_ = nullptr;
 };

@@ -76,6 +76,10 @@ Rgba with_alpha(Rgba color, float alpha) { return {color.r, color.g, color.b, al
 
 Rgba mix_colors(Rgba a, Rgba b, float t) { return a + (b - a) * t; }
 
+Rgba outlining(Rgba color, const Palette& palette) {
+    return with_alpha(palette.dark ? mix_colors(color, Rgba(1), 0.15f) : mix_colors(color, Rgba(0, 0, 0, 1), 0.22f), 1);
+}
+
 Rgba readable(Rgba color, const Palette& palette) {
     return with_alpha(palette.dark ? mix_colors(color, Rgba(1), 0.15f) : mix_colors(color, Rgba(0, 0, 0, 1), 0.38f), 1);
 }

@@ -1,4 +1,5 @@
-/// The colours of pictures: Okabe and Ito's for categories (they stay apart for colour-blind eyes), quiet surfaces around.
+/// The colours of pictures: Okabe and Ito's for categories (they stay apart for colour-blind eyes), quiet surfaces
+/// around.
 #pragma once
 
 #include <scene/scene.h>
@@ -13,13 +14,13 @@ using Rgba = glm::vec4;
 
 struct Palette {
     Rgba background;
-    Rgba grid;          ///< lines on the floor
-    Rgba axis;          ///< the time axis and its ticks
+    Rgba grid;  ///< lines on the floor
+    Rgba axis;  ///< the time axis and its ticks
     Rgba text;
-    Rgba quiet_text;    ///< what is read second
-    Rgba panel;         ///< behind legends and labels
+    Rgba quiet_text;  ///< what is read second
+    Rgba panel;       ///< behind legends and labels
     Rgba panel_border;
-    Rgba accent;        ///< the time cursor
+    Rgba accent;  ///< the time cursor
     Rgba apart_in_time;
     Rgba separated;
     Rgba overlap;
@@ -37,6 +38,9 @@ Rgba with_alpha(Rgba color, float alpha);
 
 /// From `a` (0) to `b` (1).
 Rgba mix_colors(Rgba a, Rgba b, float t);
+
+/// `color` as a line that stands out from surfaces of that colour.
+Rgba outlining(Rgba color, const Palette& palette);
 
 /// `color` made readable as text on the theme's panels.
 Rgba readable(Rgba color, const Palette& palette);

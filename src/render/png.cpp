@@ -12,15 +12,36 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 
+namespace {
+
+std::vector<std::uint8_t> without_alpha(const Image& image) {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(image.rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        rgb.insert(rgb.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(i),
+                   image.rgba.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    }
+    return rgb;
+}
+
+}  // namespace
+
 void write_png(const std::filesystem::path& file, const Image& image) {
+    // Opaque pictures, as all of ours are, do without alpha: a quarter less to write.
+    bool opaque = true;
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
+    const std::vector<std::uint8_t> rgb = opaque ? without_alpha(image) : std::vector<std::uint8_t>{};
+    const int channels = opaque ? 3 : 4;
     std::string bytes;
     const auto append = [](void* context, void* data, int size) {
         static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
     };
-    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), image.width * 4)) {
+    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, channels,
+                                opaque ? rgb.data() : image.rgba.data(), image.width * channels)) {
         throw MachineError(file.string() + ": the picture could not be packed as PNG");
     }
     // A rename can be refused late; a folder in the picture's place is better said before.
@@ -46,7 +67,8 @@ Image read_png(const std::filesystem::path& file) {
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 4),
                                                            stbi_image_free);
     if (!pixels) {
-        throw InputError(file.string(), "", std::string("cannot be read as a PNG picture (") + stbi_failure_reason() + ")");
+        throw InputError(file.string(), "",
+                         std::string("cannot be read as a PNG picture (") + stbi_failure_reason() + ")");
     }
     Image image(width, height);
     std::memcpy(image.rgba.data(), pixels.get(), image.rgba.size());

@@ -7,23 +7,31 @@ namespace mobbscope {
 
 OutcomeStyle outcome_style(BoxState state, const Palette& palette) {
     switch (state) {
-        case BoxState::apart_in_time: return {palette.apart_in_time, {4, 4, 4, 4}, 1.0f};
-        case BoxState::separated: return {palette.separated, kSolid, 1.2f};
-        case BoxState::overlap: return {palette.overlap, {10, 4, 2, 4}, 1.2f};
-        case BoxState::hit: return {palette.hit, kSolid, 2.2f};
+        case BoxState::apart_in_time:
+            return {palette.apart_in_time, {4, 4, 4, 4}, 1.0f};
+        case BoxState::separated:
+            return {palette.separated, kSolid, 1.2f};
+        case BoxState::overlap:
+            return {palette.overlap, {10, 4, 2, 4}, 1.2f};
+        case BoxState::hit:
+            return {palette.hit, kSolid, 2.2f};
         case BoxState::level:
         case BoxState::under_test:
-        case BoxState::annotation: break;
+        case BoxState::annotation:
+            break;
     }
     return {palette.text, kSolid, 2.2f};
 }
 
 namespace {
 
-/// The farther from the pair under test, the fainter.
-float strength(const NodeProgress& node) {
+constexpr float kForgotten = 24;  // steps until an earlier pair is as faint as it gets
+
+/// The farther from the pair under test, in the tree or in steps, the fainter.
+float strength(const NodeProgress& node, int step) {
     if (node.open) return node.state == BoxState::hit ? 0.4f : 0.32f;
-    return node.refined ? 0.16f : 0.42f;
+    const float age = std::min(1.0f, static_cast<float>(step - node.event) / kForgotten);
+    return (node.refined ? 0.16f : 0.45f) * (1 - 0.7f * age);
 }
 
 }  // namespace
@@ -35,7 +43,7 @@ void add_query_boxes(DrawList& list, std::span<const Subject> sides, const Query
             const OutcomeStyle style = outcome_style(node.state, list.palette);
             BoxInstance box = node_box(subject, node.node, list.space);
             box.state = node.state;
-            box.edge = with_alpha(style.color, strength(node));
+            box.edge = with_alpha(style.color, strength(node, progress.step));
             // Boxes around the one that matters stay in the background.
             box.width = (node.open ? std::min(style.width, 1.2f) : style.width) * scale;
             box.dash = style.dash * scale;
@@ -44,7 +52,7 @@ void add_query_boxes(DrawList& list, std::span<const Subject> sides, const Query
         BoxInstance box = node_box(subject, side == 0 ? progress.event.a : progress.event.b, list.space);
         box.state = BoxState::under_test;
         box.fill = with_alpha(subject.color, 0.17f);
-        box.edge = readable(subject.color, list.palette);
+        box.edge = outlining(subject.color, list.palette);
         box.width = 2.2f * scale;
         box.order.layer = 2;
         list.boxes.push_back(box);

@@ -9,11 +9,15 @@ namespace mobbscope {
 
 BoxState box_state(mobb::Outcome outcome) {
     switch (outcome) {
-        case mobb::Outcome::disjoint_in_time: return BoxState::apart_in_time;
-        case mobb::Outcome::separated: return BoxState::separated;
-        case mobb::Outcome::hit: return BoxState::hit;
+        case mobb::Outcome::disjoint_in_time:
+            return BoxState::apart_in_time;
+        case mobb::Outcome::separated:
+            return BoxState::separated;
+        case mobb::Outcome::hit:
+            return BoxState::hit;
         case mobb::Outcome::overlap:
-        case mobb::Outcome::no_hit: break;
+        case mobb::Outcome::no_hit:
+            break;
     }
     return BoxState::overlap;
 }
@@ -22,9 +26,12 @@ int event_of(const Step& step, const mobb::Trace& trace) {
     const int last = trace.size() - 1;
     if (last < 0) throw std::invalid_argument("the query made no test: it has no steps");
     switch (step.unit) {
-        case Step::Unit::end: return last;
-        case Step::Unit::percent: return static_cast<int>(std::lround(step.value / 100 * last));
-        case Step::Unit::event: break;
+        case Step::Unit::end:
+            return last;
+        case Step::Unit::percent:
+            return static_cast<int>(std::lround(step.value / 100 * last));
+        case Step::Unit::event:
+            break;
     }
     if (step.value < 0 || step.value > last) {
         throw std::invalid_argument("there is no step " + std::to_string(static_cast<long long>(step.value)) +
@@ -42,7 +49,9 @@ QueryProgress progress_at(const mobb::Trace& trace, int step) {
         const mobb::Trace::Event event = trace[i];
         const std::array<int, 2> nodes{event.a, event.b};
         for (std::size_t side = 0; side < 2; ++side) {
-            known[side][nodes[side]].state = box_state(event.outcome);
+            NodeProgress& node = known[side][nodes[side]];
+            node.event = i;
+            node.state = box_state(event.outcome);
             if (event.parent < 0) continue;
             const mobb::Trace::Event parent = trace[event.parent];
             const int above = side == 0 ? parent.a : parent.b;

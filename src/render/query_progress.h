@@ -19,14 +19,15 @@ int event_of(const Step& step, const mobb::Trace& trace);
 /// What is known of a node that has been tested.
 struct NodeProgress {
     int node = 0;
-    BoxState state = BoxState::overlap;  ///< its latest outcome
+    int event = 0;                       ///< its latest test
+    BoxState state = BoxState::overlap;  ///< ... and how that ended
     bool open = false;                   ///< the pair under test lies below it
     bool refined = false;                ///< children of it have been tested since
 };
 
 struct QueryProgress {
     int step = 0;
-    mobb::Trace::Event event;                         ///< the test under way; refers to the trace
+    mobb::Trace::Event event;                        ///< the test under way; refers to the trace
     std::array<std::vector<NodeProgress>, 2> nodes;  ///< of A and of B, by index, without those of the pair under test
 };
 

@@ -67,10 +67,13 @@ std::string sample_outcome(std::span<const Subject> sides, const mobb::Trace::Ev
 
 std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Event& event) {
     switch (event.test) {
-        case mobb::Test::time: return time_outcome(sides, event);
-        case mobb::Test::samples: return sample_outcome(sides, event);
+        case mobb::Test::time:
+            return time_outcome(sides, event);
+        case mobb::Test::samples:
+            return sample_outcome(sides, event);
         case mobb::Test::obb2d:
-        case mobb::Test::obb3d: break;
+        case mobb::Test::obb3d:
+            break;
     }
     if (event.outcome == mobb::Outcome::separated) {
         return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m");
@@ -98,21 +101,23 @@ std::string node_name(const Subject& subject, int node) {
     const auto nodes = subject.placed.tree().nodes();
     const int level = nodes[static_cast<std::size_t>(node)].level;
     // Nodes stand in depth-first order, which within a level is the order of time.
-    const auto place = std::count_if(nodes.begin(), nodes.begin() + node, [&](const mobb::Node& n) { return n.level == level; });
+    const auto place =
+        std::count_if(nodes.begin(), nodes.begin() + node, [&](const mobb::Node& n) { return n.level == level; });
     return subject.name + ' ' + std::to_string(level) + '.' + std::to_string(place);
 }
 
 std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& trace, int step) {
     const mobb::Trace::Event event = trace[step];
-    return "step " + std::to_string(step) + " / " + std::to_string(trace.size() - 1) + ": " + node_name(sides[0], event.a) +
-           " against " + node_name(sides[1], event.b) + ": " + outcome_text(sides, event);
+    return "step " + std::to_string(step) + " / " + std::to_string(trace.size() - 1) + ": " +
+           node_name(sides[0], event.a) + " against " + node_name(sides[1], event.b) + ": " +
+           outcome_text(sides, event);
 }
 
 std::string answer_sentence(std::span<const Subject> sides, const RecordedQuery& recorded) {
     const std::string pair = sides[0].name + " and " + sides[1].name;
     const mobb::TestCounts& tests = recorded.tests;
-    std::string text = recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s")
-                                        : pair + " never collide";
+    std::string text =
+        recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s") : pair + " never collide";
     text += "; " + counted(tests.time, "time test", "time tests");
     if (tests.obb2d > 0) text += ", " + counted(tests.obb2d, "2D box test", "2D box tests");
     if (tests.obb3d > 0) text += ", " + counted(tests.obb3d, "3D box test", "3D box tests");

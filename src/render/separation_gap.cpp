@@ -92,7 +92,8 @@ glm::vec3 add_separation_gap(DrawList& list, const SeparationGap& gap, double ti
         for (int i = 0; i < 4; ++i) add_line(corners[i], corners[(i + 1) % 4], 1.8f);
         BoxInstance sheet;
         sheet.center = drawn(middle);
-        sheet.extents = {list.space.extent(gap.across, time_scale), list.space.extent(gap.along, time_scale), glm::vec3(0)};
+        sheet.extents = {list.space.extent(gap.across, time_scale), list.space.extent(gap.along, time_scale),
+                         glm::vec3(0)};
         sheet.state = BoxState::annotation;
         sheet.fill = with_alpha(color, 0.10f);
         sheet.edge = Rgba(0);
@@ -104,7 +105,8 @@ glm::vec3 add_separation_gap(DrawList& list, const SeparationGap& gap, double ti
     return 0.5f * (drawn(gap.from) + drawn(gap.to));
 }
 
-std::optional<TimeGap> time_gap(std::span<const Subject> sides, const mobb::Trace::Event& event, const DrawnSpace& space) {
+std::optional<TimeGap> time_gap(std::span<const Subject> sides, const mobb::Trace::Event& event,
+                                const DrawnSpace& space) {
     if (event.outcome != mobb::Outcome::disjoint_in_time) return std::nullopt;
     const mobb::PlacedTree& a = sides[0].placed;
     const mobb::PlacedTree& b = sides[1].placed;
@@ -112,7 +114,8 @@ std::optional<TimeGap> time_gap(std::span<const Subject> sides, const mobb::Trac
     const double end = a_first ? a.end(a.node(event.a)) : b.end(b.node(event.b));
     const double begin = a_first ? b.begin(b.node(event.b)) : a.begin(a.node(event.a));
     const glm::dvec3 middle = 0.5 * (world_box(a, event.a).center + world_box(b, event.b).center);
-    return TimeGap{space.point(middle.x, middle.y, end), space.point(middle.x, middle.y, begin), std::max(0.0, begin - end)};
+    return TimeGap{space.point(middle.x, middle.y, end), space.point(middle.x, middle.y, begin),
+                   std::max(0.0, begin - end)};
 }
 
 void add_time_gap(DrawList& list, const TimeGap& gap, float scale) {

@@ -25,13 +25,15 @@ std::optional<SeparationGap> separation_gap(std::span<const Subject> sides, cons
 /// Draws it; returns where its label goes (drawn space).
 glm::vec3 add_separation_gap(DrawList& list, const SeparationGap& gap, double time_scale, float scale);
 
-/// The time between two nodes that are apart in it: from the end of the earlier to the beginning of the later (drawn space).
+/// The time between two nodes that are apart in it: from the end of the earlier to the beginning of the later (drawn
+/// space).
 struct TimeGap {
     glm::vec3 from{0};
     glm::vec3 to{0};
     double seconds = 0;
 };
-std::optional<TimeGap> time_gap(std::span<const Subject> sides, const mobb::Trace::Event& event, const DrawnSpace& space);
+std::optional<TimeGap> time_gap(std::span<const Subject> sides, const mobb::Trace::Event& event,
+                                const DrawnSpace& space);
 void add_time_gap(DrawList& list, const TimeGap& gap, float scale);
 
 }  // namespace mobbscope

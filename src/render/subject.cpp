@@ -30,8 +30,12 @@ std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view) 
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
     out.push_back(make_subject(fitted, query.a, 0, color_a));
     out.push_back(make_subject(fitted, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
-    // Two sides of one colour would tell nothing.
+    // Two sides of one colour or name could not be told apart.
     if (out[1].color == out[0].color) out[1] = make_subject(fitted, query.b, 1, color_a + 1);
+    if (out[1].name == out[0].name) {
+        out[0].name += " (A)";
+        out[1].name += " (B)";
+    }
     return out;
 }
 

@@ -21,8 +21,8 @@ struct Subject {
     double end() const { return clip().time(clip().count()); }
 };
 
-/// The scene's participants; with a query in the view, its two sides. Throws std::invalid_argument if the scene has no such
-/// query.
+/// The scene's participants; with a query in the view, its two sides. Throws std::invalid_argument if the scene has no
+/// such query.
 std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view);
 
 }  // namespace mobbscope

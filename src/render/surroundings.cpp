@@ -27,7 +27,8 @@ std::array<Edge, 4> edges(const Stage& s) {
             Edge{{s.x0, s.y0}, {s.x0, s.y1}, {-1, 0}}, Edge{{s.x1, s.y0}, {s.x1, s.y1}, {1, 0}}};
 }
 
-/// The grid's step or the multiple of it at which labels along an edge of the floor have room. `run`: the edge in pixels.
+/// The grid's step or the multiple of it at which labels along an edge of the floor have room. `run`: the edge in
+/// pixels.
 double label_step(const std::vector<double>& values, double step, glm::vec2 run, float size) {
     std::size_t longest = 0;
     for (const double v : values) longest = std::max(longest, tick_text(v, step).size());
@@ -110,7 +111,8 @@ void add_time_axis(DrawList& list, const Stage& s, float scale) {
     for (const double t : ticks(s.t0, s.t1, s.time_step)) {
         if (across) add_line(list, at(t), space.point(opposite.x, opposite.y, t), list.palette.grid, scale, 0);
         const float half = kTick * scale / list.lens.pixels_per_metre(at(t));
-        add_line(list, at(t) - list.lens.right * half, at(t) + list.lens.right * half, list.palette.axis, 1.2f * scale, 1);
+        add_line(list, at(t) - list.lens.right * half, at(t) + list.lens.right * half, list.palette.axis, 1.2f * scale,
+                 1);
     }
     if (across) {
         const bool along_x = std::abs(list.lens.right.x) > std::abs(list.lens.right.y);
@@ -124,8 +126,8 @@ void add_time_axis(DrawList& list, const Stage& s, float scale) {
 
 void add_time_cursor(DrawList& list, const Stage& s, double time, float scale) {
     const DrawnSpace& space = list.space;
-    const glm::vec3 corners[4] = {space.point(s.x0, s.y0, time), space.point(s.x1, s.y0, time), space.point(s.x1, s.y1, time),
-                                  space.point(s.x0, s.y1, time)};
+    const glm::vec3 corners[4] = {space.point(s.x0, s.y0, time), space.point(s.x1, s.y0, time),
+                                  space.point(s.x1, s.y1, time), space.point(s.x0, s.y1, time)};
     for (int i = 0; i < 4; ++i) {
         LineInstance line;
         line.from = corners[i];
@@ -151,6 +153,15 @@ std::string longest_tick(const Stage& s) {
     std::string longest;
     for (const double t : ticks(s.t0, s.t1, s.time_step)) {
         const std::string text = tick_text(t, s.time_step) + " s";
+        if (text.size() > longest.size()) longest = text;
+    }
+    return longest;
+}
+
+std::string longest_distance(const Stage& s) {
+    std::string longest;
+    for (const double v : {s.x0, s.x1, s.y0, s.y1}) {
+        const std::string text = tick_text(v, s.step);
         if (text.size() > longest.size()) longest = text;
     }
     return longest;
@@ -186,17 +197,20 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
         const glm::dvec2 middle = 0.5 * (edge.from + edge.to);
         const glm::vec3 here = space.point(middle.x, middle.y, s.t0);
         const glm::vec3 outward(static_cast<float>(edge.outward.x), static_cast<float>(edge.outward.y), 0);
-        // Only edges that face the viewer, and that have some length in the picture. From above, those below and to the left.
-        const bool faces = time_on_end(lens) ? glm::dot(outward, lens.right + lens.up) < -0.3f
-                                             : glm::dot(outward, lens.back) > 0.05f;
+        // Only edges that face the viewer, and that have some length in the picture. From above, those below and to the
+        // left.
+        const bool faces =
+            time_on_end(lens) ? glm::dot(outward, lens.right + lens.up) < -0.3f : glm::dot(outward, lens.back) > 0.05f;
         const glm::vec2 run = lens.project(space.point(edge.to.x, edge.to.y, s.t0)) -
                               lens.project(space.point(edge.from.x, edge.from.y, s.t0));
         if (!faces || glm::length(run) < 4 * size) continue;
         const glm::vec2 away = lens.project(here + outward * (0.05f * static_cast<float>(s.step))) - lens.project(here);
-        const glm::vec2 direction = floor_on_edge(lens) || glm::length(away) < 1e-3f ? glm::vec2(0, 1) : glm::normalize(away);
+        const glm::vec2 direction =
+            floor_on_edge(lens) || glm::length(away) < 1e-3f ? glm::vec2(0, 1) : glm::normalize(away);
         sides.push_back({edge, direction});
         // One step for both ways, or the floor would seem to have two scales.
-        shown = std::max(shown, label_step(ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step), s.step, glm::abs(run), size));
+        shown = std::max(shown, label_step(ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step), s.step,
+                                           glm::abs(run), size));
     }
     for (const auto& [edge, direction] : sides) {
         const bool along_x = edge.from.y == edge.to.y;

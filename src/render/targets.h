@@ -19,8 +19,8 @@ class Targets {
     const Texture& sums() const { return sums_; }
     const Texture& weights() const { return weights_; }
 
-    /// Copies the scene's depth to the faces' framebuffer. The faces are smooth inside and their edges are drawn as lines, so
-    /// they do without multisampling.
+    /// Copies the scene's depth to the faces' framebuffer. The faces are smooth inside and their edges are drawn as
+    /// lines, so they do without multisampling.
     void share_depth() const;
     /// Averages the samples of the scene into the result.
     void resolve() const;

@@ -11,7 +11,8 @@ mobb::Box world_box(const mobb::PlacedTree& tree, int node) {
     };
     for (glm::dvec3& axis : box.axes) axis = turn(axis);
     const mobb::Placement& placement = clip.placement();
-    box.center = turn(box.center) + glm::dvec3(placement.translate.x, placement.translate.y, tree.time_scale() * placement.start);
+    box.center = turn(box.center) +
+                 glm::dvec3(placement.translate.x, placement.translate.y, tree.time_scale() * placement.start);
     return box;
 }
 

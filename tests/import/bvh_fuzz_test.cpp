@@ -1,9 +1,8 @@
 // Damaged BVH files give clips or an InputError, nothing else, and soon.
-#include "bvh_text.h"
-
 #include <import/bvh.h>
 #include <import/error.h>
 #include <import/motion_clips.h>
+#include <support/bvh_text.h>
 #include <support/mutate.h>
 
 #include <gtest/gtest.h>

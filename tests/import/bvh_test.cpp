@@ -1,6 +1,5 @@
-#include "bvh_text.h"
-
 #include <import/bvh.h>
+#include <support/bvh_text.h>
 #include <support/input_error.h>
 
 #include <gtest/gtest.h>

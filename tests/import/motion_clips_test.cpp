@@ -1,8 +1,7 @@
-#include "bvh_text.h"
-
 #include <import/bvh.h>
 #include <import/motion_clips.h>
 #include <import/skeleton.h>
+#include <support/bvh_text.h>
 #include <support/input_error.h>
 
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 
 #include "render/scenes.h"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -37,11 +37,13 @@ TEST(DrawList, ALevelCoversTheWholeClip) {
     const mobb::Tree& tree = fitted.tree(0);
     for (int level = 0; level < tree.depth() + 2; ++level) {
         int samples = 0;
-        for (const int node : shown_nodes(tree, {level, level, false})) samples += tree.nodes()[static_cast<std::size_t>(node)].count;
+        for (const int node : shown_nodes(tree, {level, level, false}))
+            samples += tree.nodes()[static_cast<std::size_t>(node)].count;
         EXPECT_EQ(samples, 60) << "level " << level;
     }
     int samples = 0;
-    for (const int node : shown_nodes(tree, {0, 0, true})) samples += tree.nodes()[static_cast<std::size_t>(node)].count;
+    for (const int node : shown_nodes(tree, {0, 0, true}))
+        samples += tree.nodes()[static_cast<std::size_t>(node)].count;
     EXPECT_EQ(samples, 60);
 }
 
@@ -56,7 +58,9 @@ TEST(DrawList, DrawnBoxesHoldTheirDisks) {
             const glm::mat3 inverse = glm::inverse(glm::mat3(box.extents[0], box.extents[1], box.extents[2]));
             const mobb::Node& node = fitted.tree(0).nodes()[static_cast<std::size_t>(box.id.index)];
             for (const DiskInstance& disk : list.disks) {
-                if (disk.id.participant != box.id.participant || disk.id.index < node.first || disk.id.index >= node.end()) continue;
+                if (disk.id.participant != box.id.participant || disk.id.index < node.first ||
+                    disk.id.index >= node.end())
+                    continue;
                 for (int i = 0; i < 16; ++i) {
                     const float angle = static_cast<float>(i) * 0.3926991f;
                     const glm::vec3 rim = disk.base + disk.radius * glm::vec3(std::cos(angle), std::sin(angle), 0) +
@@ -107,13 +111,15 @@ TEST(DrawList, FarFromTheOriginNothingIsLost) {
         EXPECT_LT(glm::length(a.disks[i].base - b.disks[i].base), 1e-5f);
     }
     ASSERT_EQ(a.boxes.size(), b.boxes.size());
-    for (std::size_t i = 0; i < a.boxes.size(); ++i) EXPECT_LT(glm::length(a.boxes[i].center - b.boxes[i].center), 1e-5f);
+    for (std::size_t i = 0; i < a.boxes.size(); ++i)
+        EXPECT_LT(glm::length(a.boxes[i].center - b.boxes[i].center), 1e-5f);
 }
 
 TEST(DrawList, EverythingIsInThePictureWhateverItsShape) {
     const FittedScene fitted = testing::hit_scene();
     for (const PictureSize size : {kSize, PictureSize{1920, 1080}, PictureSize{400, 600}, PictureSize{1000, 200}}) {
-        for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side}) {
+        for (const CameraPreset preset :
+             {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side}) {
             ViewState view;
             view.camera.preset = preset;
             const DrawList list = build_draw_list(fitted, view, size);
@@ -157,7 +163,8 @@ TEST(DrawList, ATimeCursorMarksTheDisksThatHold) {
     ViewState view;
     view.time = 1.0;
     const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
-    const auto rings = std::count_if(list.lines.begin(), list.lines.end(), [](const LineInstance& l) { return l.order.layer == 9; });
+    const auto rings =
+        std::count_if(list.lines.begin(), list.lines.end(), [](const LineInstance& l) { return l.order.layer == 9; });
     EXPECT_EQ(rings % 2, 0);
     EXPECT_GT(rings, 0);
     view.time = 17;

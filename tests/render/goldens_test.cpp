@@ -64,7 +64,8 @@ TEST_P(GoldenTest, Matches) {
     const ImageDiff result = diff(actual, reference);
     if (result.same) return;
     const std::string kept = keep("actual", actual) + ", " + keep("golden", reference);
-    ASSERT_TRUE(result.same_size) << "different picture: the golden is " << reference.width << "x" << reference.height << "; see " << kept;
+    ASSERT_TRUE(result.same_size) << "different picture: the golden is " << reference.width << "x" << reference.height
+                                  << "; see " << kept;
     FAIL() << "different picture: " << result.differing << " of " << result.pixels << " pixels differ, by up to "
            << result.largest << "/255; see " << kept << ", " << keep("heat", result.heat);
 }

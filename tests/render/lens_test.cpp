@@ -1,7 +1,7 @@
 #include <render/lens.h>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -18,7 +18,8 @@ std::vector<glm::vec3> block(glm::vec3 half) {
 }
 
 TEST(Lens, EverythingFitsIntoTheFrame) {
-    for (const PictureSize size : {PictureSize{640, 360}, PictureSize{360, 640}, PictureSize{1000, 100}, PictureSize{64, 64}}) {
+    for (const PictureSize size :
+         {PictureSize{640, 360}, PictureSize{360, 640}, PictureSize{1000, 100}, PictureSize{64, 64}}) {
         const Frame frame{{10, 20}, {static_cast<float>(size.width) - 5, static_cast<float>(size.height) - 15}};
         for (const CameraPreset preset :
              {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side, CameraPreset::free}) {
@@ -31,7 +32,8 @@ TEST(Lens, EverythingFitsIntoTheFrame) {
                 float tightest = 1e9f;
                 for (const glm::vec3& point : points) {
                     const glm::vec2 at = lens.project(point);
-                    const float room = std::min({at.x - frame.min.x, at.y - frame.min.y, frame.max.x - at.x, frame.max.y - at.y});
+                    const float room =
+                        std::min({at.x - frame.min.x, at.y - frame.min.y, frame.max.x - at.x, frame.max.y - at.y});
                     EXPECT_GE(room, -0.1f);
                     tightest = std::min(tightest, room);
                     const glm::vec4 clip = lens.clip_from_world * glm::vec4(point, 1);

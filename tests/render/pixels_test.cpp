@@ -19,7 +19,8 @@ constexpr PictureSize kSize{320, 240};
 TEST(Picture, AbsurdSizesAreRefused) {
     EXPECT_NO_THROW(check(PictureSize{640, 360}));
     EXPECT_NO_THROW(check(PictureSize{7680, 4320}));
-    for (const PictureSize size : {PictureSize{0, 360}, PictureSize{-640, 360}, PictureSize{100000, 360}, PictureSize{8192, 8192}}) {
+    for (const PictureSize size :
+         {PictureSize{0, 360}, PictureSize{-640, 360}, PictureSize{100000, 360}, PictureSize{8192, 8192}}) {
         EXPECT_THROW(check(size), std::invalid_argument);
     }
 }

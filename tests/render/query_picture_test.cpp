@@ -6,8 +6,8 @@
 
 #include "render/scenes.h"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 
@@ -65,7 +65,8 @@ TEST(QueryProgress, AHitSettlesThePairsAboveIt) {
     const Query query(testing::hit_scene());
     const QueryProgress progress = progress_at(query.recorded.trace, query.recorded.trace.size() - 1);
     ASSERT_EQ(progress.event.outcome, mobb::Outcome::hit);
-    const auto root = std::find_if(progress.nodes[0].begin(), progress.nodes[0].end(), [](const NodeProgress& n) { return n.node == 0; });
+    const auto root = std::find_if(progress.nodes[0].begin(), progress.nodes[0].end(),
+                                   [](const NodeProgress& n) { return n.node == 0; });
     ASSERT_NE(root, progress.nodes[0].end());
     EXPECT_EQ(root->state, BoxState::hit);
     EXPECT_TRUE(root->open);
@@ -106,7 +107,8 @@ TEST(QueryPicture, TheHitDisksAreMarked) {
     for (const DiskInstance& disk : list.disks) {
         if (disk.color != list.palette.hit) continue;
         ++marked;
-        EXPECT_EQ(disk.id.index, disk.id.participant == 0 ? query.recorded.contact->a_sample : query.recorded.contact->b_sample);
+        EXPECT_EQ(disk.id.index,
+                  disk.id.participant == 0 ? query.recorded.contact->a_sample : query.recorded.contact->b_sample);
     }
     EXPECT_EQ(marked, 2);
 }
@@ -136,7 +138,8 @@ TEST(QuerySentence, SaysWhatAStepShows) {
     const int step = query.find(mobb::Test::obb2d, mobb::Outcome::separated);
     ASSERT_GE(step, 0);
     const std::string sentence = step_sentence(query.sides, query.recorded.trace, step);
-    const std::string start = "step " + std::to_string(step) + " / " + std::to_string(query.recorded.trace.size() - 1) + ": A ";
+    const std::string start =
+        "step " + std::to_string(step) + " / " + std::to_string(query.recorded.trace.size() - 1) + ": A ";
     EXPECT_TRUE(sentence.starts_with(start)) << sentence;
     EXPECT_NE(sentence.find(" against B "), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("separated along "), std::string::npos) << sentence;

@@ -1,0 +1,87 @@
+#include "run_program.h"
+
+#include <support/bvh_text.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace mobbscope {
+namespace {
+
+using nlohmann::json;
+using testing::Result;
+using testing::run_program;
+using testing::TempFolder;
+
+TEST(Info, JsonTellsWhatIsInTheFiles) {
+    const TempFolder folder;
+    const std::string csv = folder.write("a.csv", "t,x,y,r\n5,0,0,20\n5.5,300,0,40\n6,300,400,60\n");
+    const std::string scene = folder.write("s.json", R"({"clips": {"c": {"dt": 2, "samples": [[1, 1, 0.5]]}}})");
+    const Result run = run_program({"info", csv, scene, "--json", "--unit", "cm"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json clips = json::parse(run.out)["clips"];
+    ASSERT_EQ(clips.size(), 2u);
+    const json& a = clips[0];
+    std::set<std::string> keys;
+    for (const auto& [key, value] : a.items()) keys.insert(key);
+    EXPECT_EQ(keys,
+              (std::set<std::string>{"file", "name", "format", "animation", "root", "joints", "unit", "file_frames",
+                                     "file_dt", "file_duration", "samples", "dt", "duration", "path_length",
+                                     "mean_speed", "min_radius", "mean_radius", "max_radius", "warnings"}));
+    EXPECT_EQ(a["file"], csv);
+    EXPECT_EQ(a["name"], "a");
+    EXPECT_EQ(a["unit"], 0.01);
+    EXPECT_EQ(a["file_frames"], 3);
+    EXPECT_EQ(a["file_duration"], 1);
+    EXPECT_EQ(a["samples"], 3);
+    EXPECT_EQ(a["duration"], 1.5);
+    EXPECT_DOUBLE_EQ(a["path_length"], 7);
+    EXPECT_DOUBLE_EQ(a["mean_speed"], 7);
+    EXPECT_DOUBLE_EQ(a["min_radius"], 0.2);
+    EXPECT_DOUBLE_EQ(a["mean_radius"], 0.4);
+    EXPECT_DOUBLE_EQ(a["max_radius"], 0.6);
+    EXPECT_EQ(clips[1]["format"], "scene");
+    EXPECT_EQ(clips[1]["mean_speed"], 0);
+}
+
+TEST(Info, JsonTellsTheSkeletonThatWasFoundAndTheUnitThatWasGuessed) {
+    const TempFolder folder;
+    const std::string walk = folder.write("walk.bvh", testing::kWalker);
+    const json a = json::parse(run_program({"info", walk, "--json"}).out)["clips"][0];
+    EXPECT_EQ(a["format"], "bvh");
+    EXPECT_EQ(a["animation"], "#0");
+    EXPECT_EQ(a["root"], "Hips");
+    EXPECT_EQ(a["joints"], 3);
+    EXPECT_EQ(a["unit"], 0.01);
+    EXPECT_EQ(a["file_frames"], 2);
+    EXPECT_EQ(a["file_dt"], 0.1);
+    EXPECT_EQ(a["samples"], 4);
+    EXPECT_NEAR(a["max_radius"], 0.7, 1e-9);
+    const std::string text = run_program({"info", walk}).out;
+    EXPECT_NE(text.find("3 joints, root 'Hips'"), std::string::npos) << text;
+    EXPECT_NE(text.find("0.01 m per unit (guessed: a body 1.7 m tall)"), std::string::npos) << text;
+
+    const Result options = run_program({"info", walk, "--json", "--root", "Left Arm", "--unit", "m", "--up", "z",
+                                        "--fps", "20", "--trim", "0.02:1", "--radius", "3"});
+    ASSERT_EQ(options.status, 0) << options.err;
+    const json b = json::parse(options.out)["clips"][0];
+    EXPECT_EQ(b["root"], "Left Arm");
+    EXPECT_EQ(b["unit"], 1);
+    EXPECT_EQ(b["samples"], 2);
+    EXPECT_EQ(b["max_radius"], 3);
+}
+
+TEST(Info, OneBadFileAmongGoodOnesLeavesNoOutput) {
+    const std::string good = MOBBSCOPE_SOURCE_DIR "/assets/scenes/walk.csv";
+    const Result run = run_program({"info", good, "none.csv"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_TRUE(testing::is_one_line(run.err)) << run.err;
+    EXPECT_NE(run_program({"info", good}).out.find("120 samples"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mobbscope
