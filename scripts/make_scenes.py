@@ -49,7 +49,7 @@ def main():
         ],
         "fit": {"tree": "mobb", "leaf": 10},
         "queries": [{"a": "A", "b": "B", "expect": {"collides": False}}],
-        "view": {"camera": {"preset": "iso"}, "levels": "2"},
+        "view": {"camera": {"preset": "free", "yaw_deg": -30, "pitch_deg": 24}, "levels": "2"},
     })
 
     # Two people who walk into each other at a corner.
@@ -67,7 +67,7 @@ def main():
     write_scene(folder, "circles", {"circles": "circle"}, {
         "agents": [{"name": "walker", "clip": "circles", "color": "#009E73"}],
         "fit": {"tree": "mobb", "leaf": 10},
-        "view": {"camera": {"preset": "iso"}, "levels": "5"},
+        "view": {"camera": {"preset": "iso"}, "levels": "5", "time_height": 0.28},
     })
 
     write_csv(folder, "walk", Path(4.0, turning(20, 0.5, 3.5)))

@@ -76,8 +76,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace mobbscope;
     std::ios::sync_with_stdio(false);
-    // A reader that goes away is an error to report, not a signal to die of.
+    // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         return cli::run(argc, argv);
     } catch (const InputError& error) {

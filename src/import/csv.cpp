@@ -63,6 +63,9 @@ class CsvParser {
             throw InputError(file_, at(1), "is UTF-16 text; save it as UTF-8");
         }
         if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+        if (rest_.find('\n') == std::string_view::npos && rest_.find('\r') != std::string_view::npos) {
+            throw InputError(file_, at(1), "lines end with carriage returns alone; save it with line feeds");
+        }
     }
 
     /// Moves to the next line that is not blank.
@@ -153,6 +156,7 @@ class CsvParser {
     std::string identifier() const {
         const auto column = static_cast<std::size_t>(position_[kId]);
         if (fields_[column].empty()) fail(column, "the field is empty; name the track");
+        if (!is_utf8(fields_[column])) fail(column, "the name is no UTF-8 text; save the file as UTF-8");
         return fields_[column];
     }
 

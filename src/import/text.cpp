@@ -81,6 +81,30 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+bool is_utf8(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto byte = [&](std::size_t k) {
+            return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
+        };
+        const unsigned lead = byte(0);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+        unsigned code = length == 1 ? lead : lead & (0x7fu >> length);
+        for (std::size_t k = 1; k < length; ++k) {
+            if ((byte(k) & 0xc0) != 0x80) return false;
+            code = code << 6 | (byte(k) & 0x3f);
+        }
+        // The least code of each length: a longer form than needed is malformed, as are lone trail bytes and
+        // surrogates.
+        constexpr unsigned kLeast[] = {0, 0x80, 0x800, 0x10000};
+        if ((lead >= 0x80 && lead < 0xc0) || lead > 0xf7 || code < kLeast[length - 1] || code > 0x10ffff ||
+            (code >= 0xd800 && code < 0xe000)) {
+            return false;
+        }
+        i += length;
+    }
+    return true;
+}
+
 std::string in_quotes(std::string_view text) {
     std::string out = "'";
     for (const char c : text.substr(0, kLongestQuote)) {
@@ -95,7 +119,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> nam
     if (names.empty()) return "";
     const std::string& name = nearest(word, names);
     // A word that is wrong in more than half of its letters is another word.
-    const bool meant = distance_to(word, name) <= std::max<std::size_t>(word.size() / 2, 1);
+    const bool meant = distance_to(word, name) <= (word.size() + 1) / 2;
     return meant ? " (did you mean " + in_quotes(name) + "?)" : "";
 }
 

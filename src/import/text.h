@@ -26,6 +26,9 @@ std::string short_double(double value);
 /// Without blanks (space, tab, carriage return) at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// Whether the bytes are well-formed UTF-8 (RFC 3629).
+bool is_utf8(std::string_view text);
+
 /// Text in single quotes for a message: control characters are replaced, long text is cut.
 std::string in_quotes(std::string_view text);
 

@@ -270,7 +270,7 @@ class Builder {
         return out;
     }
 
-    /// Where the labels of floor and axis want to be.
+    /// Where the axis stands, and the labels of floor and axis want to be.
     void add_stage_labels_to(std::vector<Rect>& busy) const {
         if (!view_.labels) return;
         DrawList scratch;
@@ -282,6 +282,11 @@ class Builder {
             layout.place(label, scratch);
         }
         for (const TextRun& run : scratch.texts) busy.push_back(run.box);
+        if (!view_.time_axis || time_on_end(list_.lens)) return;
+        const glm::dvec2 foot = axis_corner(stage_, list_.lens.right);
+        const glm::vec2 low = list_.lens.project(list_.space.point(foot.x, foot.y, stage_.t0));
+        const glm::vec2 high = list_.lens.project(list_.space.point(foot.x, foot.y, stage_.t1));
+        busy.push_back(Rect{glm::min(low, high), glm::max(low, high)}.grown(6 * scale_));
     }
 
     /// Legend and map, together, as one would stack them.

@@ -123,10 +123,11 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Su
     }
     if (view.time) entries.push_back(line_entry({list.palette.accent, kSolid, 1.3f}, "time cursor"));
     if (has_sheared_boxes(list, subjects)) {
-        // Without a mark of its own: a remark on all boxes.
-        entries.push_back(line_entry({Rgba(0), kSolid, 1}, "boxes sheared: time drawn " + short_number(list.space.time_height) +
-                                                               " m/s, fitted " +
-                                                               short_number(subjects[0].placed.time_scale()) + " m/s"));
+        // Without a mark of their own: a remark on all boxes.
+        const OutcomeStyle none{Rgba(0), kSolid, 1};
+        entries.push_back(line_entry(none, "boxes look sheared: fitted"));
+        entries.push_back(line_entry(none, "with " + short_number(subjects[0].placed.time_scale()) + " m/s, drawn with " +
+                                               short_number(list.space.time_height) + " m/s"));
     }
     return entries;
 }

@@ -187,6 +187,12 @@ JsonValue parse_json(std::string_view text, const std::string& file) {
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
         throw InputError(file, "line 1", "is UTF-16 text; save it as UTF-8");
     }
+    // The parser would take a NUL for the end and leave the rest unread.
+    if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
+        throw InputError(file, "line " + std::to_string(line),
+                         "holds a NUL byte; this is no text file, or a damaged one");
+    }
     const char* last_read = text.data();
     ValueBuilder builder(text, file, &last_read);
     nlohmann::json::sax_parse(TrackedIterator(text.data(), &last_read),

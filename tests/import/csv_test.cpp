@@ -165,6 +165,8 @@ TEST(Csv, MessagesNameLineColumnAndRemedy) {
     EXPECT_NE(refusal("t,x,y,r\n0,0,0,\"0.4\n").find("quote is not closed"), std::string::npos);
     EXPECT_NE(refusal("t,x,y,r\n0,0,0,\"0.4\"5\n").find("comma must follow"), std::string::npos);
     EXPECT_NE(refusal("id,t,x,y,r\n,0,0,0,0\n").find("name the track"), std::string::npos);
+    EXPECT_NE(refusal("id,t,x,y,r\ncaf\xe9,0,0,0,0\n").find("no UTF-8 text"), std::string::npos);
+    EXPECT_NE(refusal("t,x,y,r\r0,0,0,0\r").find("carriage returns"), std::string::npos);
 }
 
 TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {

@@ -39,6 +39,15 @@ TEST(Text, RangesHaveTwoNumbers) {
     for (const char* bad : {"", "1", "1:", ":2", "1:2:3", "a:b"}) EXPECT_FALSE(parse_range(bad)) << bad;
 }
 
+TEST(Text, Utf8IsToldFromOtherBytes) {
+    for (const char* good : {"", "abc", "\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x9a\xb6", "\xed\x9f\xbf"})
+        EXPECT_TRUE(is_utf8(good)) << good;
+    for (const char* bad : {"caf\xe9", "\x80", "\xc3", "\xc0\xaf", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+                            "\xff", "\xf8\x88\x80\x80"}) {
+        EXPECT_FALSE(is_utf8(bad)) << bad;
+    }
+}
+
 TEST(Text, QuotesAreShortAndOnOneLine) {
     EXPECT_EQ(in_quotes("a\nb"), "'a?b'");
     EXPECT_LT(in_quotes(std::string(10'000, 'x')).size(), 80u);

@@ -59,6 +59,11 @@ TEST(Json, SyntaxErrorsNameLineAndColumn) {
     EXPECT_NE(refusal(std::string("\xff\xfe{\0", 4)).find("UTF-16"), std::string::npos);
 }
 
+TEST(Json, NothingHidesBehindANulByte) {
+    EXPECT_EQ(refusal(std::string("[1]\n\0[2]", 8)),
+              "f.json: line 2: holds a NUL byte; this is no text file, or a damaged one");
+}
+
 TEST(Json, ALineBreakAfterANumberIsNotItsLine) {
     const std::string file = "f.json";
     const JsonValue value = parse_json("[1\n,2\n]", file);

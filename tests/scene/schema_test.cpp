@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 namespace mobbscope {
 namespace {
@@ -45,7 +47,7 @@ nlohmann::json properties(const std::string& definition) {
     return all[definition]["properties"];
 }
 
-TEST(Schema, EveryKeyOfTheSchemaIsKnownAndNoOther) {
+TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
     for (const std::string definition : {"", "imported", "inline", "agent", "fit", "query", "participant", "expect",
                                          "contact", "event", "view", "camera"}) {
         const nlohmann::json known = properties(definition);
@@ -62,9 +64,45 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownAndNoOther) {
         if (definition == "imported") object["source"] = "none.csv";
         const std::string message =
             testing::input_error([&] { parse_scene(scene_with(definition, object), "s.json", ""); });
-        // The nearest key that the reader names must stand in the schema: so both lists are the same in kind.
         EXPECT_NE(message.find("unknown key 'unheard_of'"), std::string::npos) << definition << ": " << message;
     }
+}
+
+/// Every key of every "properties" below `value`.
+void collect_properties(const nlohmann::json& value, std::set<std::string>& keys) {
+    if (!value.is_structured()) return;
+    if (value.is_object() && value.contains("properties")) {
+        for (const auto& [key, unused] : value["properties"].items()) keys.insert(key);
+    }
+    for (const auto& element : value) collect_properties(element, keys);
+}
+
+void expect_known(const nlohmann::json& value, const std::set<std::string>& keys) {
+    if (!value.is_structured()) return;
+    for (const auto& [key, element] : value.items()) {
+        if (value.is_object()) {
+            EXPECT_TRUE(keys.contains(key)) << key;
+        }
+        expect_known(element, keys);
+    }
+}
+
+TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
+    const testing::TempFolder folder;
+    folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,0\n1,1,0,0,0\n1,5,0,0,0\n");
+    const Scene scene = parse_scene(R"({"clips": {"root": {"dt": 1, "samples": [[0, 0, 1]]},
+        "source": {"source": "a.csv", "id": 1, "fps": 9, "unit": "m", "trim": [0, 3], "origin": "start", "radius": 1, "dt": 1}},
+        "agents": [{"name": "A", "clip": "root", "color": "#000000"}],
+        "queries": [{"a": "A", "b": {"clip": "root"}, "expect": {"collides": true, "contact":
+          {"time": 0, "a_sample": 0, "b_sample": 0, "distance": 0, "radii": 2}}, "trace":
+          [{"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "samples", "outcome": "hit", "pairs": [[0, 0, 0]]}]}],
+        "view": {"camera": {"preset": "free", "yaw_deg": 1, "pitch_deg": 1, "perspective": false, "fov_deg": 50,
+          "target": [0, 0, 0], "distance": 1}, "levels": 1, "query": 0, "step": 0, "time": 0, "time_height": 1, "theme": "light",
+          "disks": false, "boxes": false, "floor": false, "time_axis": false, "labels": false, "legend": false}})",
+                                    "s.json", folder.path());
+    std::set<std::string> keys;
+    collect_properties(schema(), keys);
+    expect_known(nlohmann::json::parse(to_json(scene)), keys);
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+// Exit statuses, streams and messages that hold for every command.
+#include "run_program.h"
+
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace mobbscope {
+namespace {
+
+using testing::is_one_line;
+using testing::Result;
+using testing::run_program;
+using testing::slurp;
+using testing::TempFolder;
+
+const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
+
+TEST(Program, HelpAndVersionAreResults) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                      {"-h"},
+                                                      {"--version"},
+                                                      {"fit", "--help"},
+                                                      {"query", "-h"},
+                                                      {"convert", "--version"}}) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 0) << arguments[0];
+        EXPECT_NE(run.out, "");
+        EXPECT_EQ(run.err, "");
+    }
+    EXPECT_NE(run_program({"query", "--help"}).out.find("--all-contacts"), std::string::npos);
+}
+
+TEST(Program, BadUsageIsOneLineAndStatusTwo) {
+    const std::string scene = kScenes + "crossing.json";
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"querry", scene},
+                                                      {"fit"},
+                                                      {"fit", scene, "more"},
+                                                      {"fit", scene, "--leef", "3"},
+                                                      {"fit", scene, "--leaf", "0"},
+                                                      {"fit", scene, "--leaf", "x"},
+                                                      {"fit", scene, "--leaf", "99999999999999"},
+                                                      {"fit", scene, "--leaf"},
+                                                      {"fit", scene, "--levels", "-1"},
+                                                      {"fit", scene, "--tree", "oak"},
+                                                      {"fit", scene, "--tree", "brute"},
+                                                      {"fit", scene, "--axes", "x"},
+                                                      {"fit", scene, "--time-scale", "nan"},
+                                                      {"fit", scene, "--time-scale", "0"},
+                                                      {"fit", scene, "--fps", "-1"},
+                                                      {"fit", scene, "--trim", "5"},
+                                                      {"fit", scene, "--trim", "5:2"},
+                                                      {"fit", scene, "--dt", "inf"},
+                                                      {"fit", scene, "--unit", "ell"},
+                                                      {"convert", scene},
+                                                      {"convert", scene, "-o", "x.txt"},
+                                                      {"nonsense\nwith a line break"}}) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 2) << arguments.back() << run.err;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+}
+
+TEST(Program, BadInputIsOneLineAndStatusTwoForEveryCommand) {
+    const TempFolder folder;
+    const std::string files[] = {folder.write("syntax.json", "{\"clips\": \n oops}"),
+                                 folder.write("key.json", R"({"clips": {}, "agnets": []})"),
+                                 folder.write("nan.csv", "t,x,y,r\n0,0,0,0\n1,nan,0,0\n"),
+                                 folder.write("empty.json", ""),
+                                 folder.write("walk.bvh", "HIERARCHY"),
+                                 folder.write("line\nbreak.csv", "nothing"),
+                                 folder.path() / "none.json",
+                                 folder.path()};
+    for (const std::string& file : files) {
+        for (const std::vector<std::string>& arguments : {std::vector<std::string>{"fit", file},
+                                                          {"fit", file, "--json"},
+                                                          {"query", file},
+                                                          {"query", file, "--json"},
+                                                          {"convert", file, "-o", folder.path() / "out.csv"},
+                                                          {"render", file, "-o", folder.path() / "out.png"}}) {
+            const Result run = run_program(arguments);
+            EXPECT_EQ(run.status, 2) << arguments[0] << ' ' << file << run.err;
+            EXPECT_TRUE(is_one_line(run.err)) << run.err;
+            EXPECT_EQ(run.out, "");
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.png"));
+}
+
+TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+    const std::string scene = kScenes + "crossing.json";
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                      {"fit", scene},
+                                                      {"fit", scene, "--json"},
+                                                      {"query", scene},
+                                                      {"query", scene, "--json"}}) {
+        const Result run = run_program(arguments, "/dev/full");
+        EXPECT_EQ(run.status, 3) << arguments[0];
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    }
+}
+
+TEST(Program, WithoutACommandThereIsNoWindowYet) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{}, {kScenes + "crossing.json"}}) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 3);
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    }
+    EXPECT_NE(run_program({"fti"}).err.find("did you mean 'fit'?"), std::string::npos);
+}
+
+TEST(Program, WhatDoesNotApplyIsSaidButStopsNothing) {
+    const TempFolder folder;
+    const std::string csv = folder.write("a.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n");
+    const Result run = run_program({"fit", csv, "--fps", "10"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_NE(run.err.find("warning: "), std::string::npos);
+    EXPECT_NE(run.err.find("fps does not apply"), std::string::npos);
+    EXPECT_NE(run.out, "");
+    EXPECT_NE(run_program({"fit", kScenes + "circles.json", "--fps", "10"}).err.find("import options do not apply"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace mobbscope

@@ -1,0 +1,188 @@
+#include "run_program.h"
+
+#include <scene/fitted_scene.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace mobbscope {
+namespace {
+
+using nlohmann::json;
+using testing::is_one_line;
+using testing::Result;
+using testing::run_program;
+using testing::slurp;
+using testing::TempFolder;
+
+const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
+
+json results(const std::vector<std::string>& arguments) {
+    const Result run = run_program(arguments);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return json::parse(run.out)["results"];
+}
+
+std::set<std::string> keys(const json& object) {
+    std::set<std::string> out;
+    for (const auto& [key, value] : object.items()) out.insert(key);
+    return out;
+}
+
+TEST(Query, JsonIsTheAnswer) {
+    const std::string file = kScenes + "collision.json";
+    const json found = results({"query", file, "--json"});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(keys(found[0]), (std::set<std::string>{"query", "a", "b", "collides", "contact", "tests"}));
+    EXPECT_EQ(found[0]["query"], 0);
+    EXPECT_EQ(found[0]["a"], "A");
+    EXPECT_EQ(found[0]["b"], "B");
+    EXPECT_EQ(found[0]["collides"], true);
+    const Scene scene = load_scene(file);
+    const FittedScene fitted(scene, scene.fit);
+    const RecordedQuery recorded = record(fitted, fitted.queries()[0]);
+    EXPECT_EQ(keys(found[0]["contact"]), (std::set<std::string>{"time", "a_sample", "b_sample", "distance", "radii"}));
+    EXPECT_EQ(found[0]["contact"]["time"], recorded.contact->time);
+    EXPECT_EQ(found[0]["contact"]["a_sample"], recorded.contact->a_sample);
+    EXPECT_EQ(found[0]["contact"]["distance"], recorded.contact->distance);
+    EXPECT_EQ(found[0]["tests"], (json{{"time", recorded.tests.time},
+                                       {"obb2d", recorded.tests.obb2d},
+                                       {"obb3d", recorded.tests.obb3d},
+                                       {"moving", 0},
+                                       {"aabb", 0},
+                                       {"samples", recorded.tests.samples}}));
+}
+
+TEST(Query, NoCollisionHasNoContact) {
+    const json found = results({"query", kScenes + "crossing.json", "--json", "--all-contacts"});
+    EXPECT_EQ(found[0]["collides"], false);
+    EXPECT_TRUE(found[0]["contact"].is_null());
+    EXPECT_EQ(found[0]["contacts"], json::array());
+}
+
+TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {
+    const std::string file = kScenes + "collision.json";
+    const json brute = results({"query", file, "--json", "--all-contacts", "--tree", "brute"});
+    EXPECT_EQ(brute[0]["tests"]["time"], 0);
+    EXPECT_GT(brute[0]["tests"]["samples"], 0);
+    ASSERT_FALSE(brute[0]["contacts"].empty());
+    EXPECT_EQ(brute[0]["contacts"][0][0], brute[0]["contact"]["time"]);
+    for (const std::string tree : {"mobb", "umobb", "hybrid1", "hybrid2"}) {
+        const json found = results({"query", file, "--json", "--all-contacts", "--tree", tree, "--leaf", "3"});
+        EXPECT_EQ(found[0]["contact"], brute[0]["contact"]) << tree;
+        EXPECT_EQ(found[0]["contacts"], brute[0]["contacts"]) << tree;
+    }
+}
+
+TEST(Query, TheTraceIsTheRecord) {
+    const std::string file = kScenes + "collision.json";
+    const json found = results({"query", file, "--json", "--trace", "--tree", "umobb"});
+    const Scene scene = load_scene(file);
+    mobb::FitOptions options = scene.fit;
+    options.tree = mobb::TreeKind::umobb;
+    const FittedScene fitted(scene, options);
+    const mobb::Trace trace = record(fitted, fitted.queries()[0]).trace;
+    const json& printed = found[0]["trace"];
+    ASSERT_EQ(static_cast<int>(printed.size()), trace.size());
+    for (int step = 0; step < trace.size(); ++step) {
+        const json& event = printed[static_cast<std::size_t>(step)];
+        EXPECT_EQ(keys(event), (std::set<std::string>{"step", "parent", "depth", "a", "b", "test", "outcome", "axis",
+                                                      "gap", "pairs"}));
+        EXPECT_EQ(event["step"], step);
+        EXPECT_EQ(event["parent"], trace[step].parent);
+        EXPECT_EQ(event["test"], mobb::name(trace[step].test));
+        const bool separated = event["outcome"] == "separated";
+        EXPECT_EQ(event["axis"].is_null(), !separated);
+        EXPECT_EQ(event["gap"].is_null(), !separated);
+        if (separated) {
+            EXPECT_EQ(event["gap"], trace[step].gap);
+        }
+        EXPECT_EQ(event["pairs"].size(), trace[step].pairs.size());
+        if (event["test"] != "samples") {
+            EXPECT_TRUE(event["pairs"].empty());
+        }
+    }
+    EXPECT_EQ(printed.back()["outcome"], "hit");
+}
+
+TEST(Query, TextIsASentence) {
+    const Result run = run_program({"query", kScenes + "collision.json", "--trace", "--all-contacts"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.26667 s: sample 68 of A and sample 62 of B")) << run.out;
+    EXPECT_NE(run.out.find("In contact: 2.26667 to "), std::string::npos);
+    EXPECT_NE(run.out.find("samples: hit"), std::string::npos);
+    EXPECT_NE(run_program({"query", kScenes + "crossing.json"}).out.find("A and B never collide."), std::string::npos);
+}
+
+TEST(Query, WithNothingToAskItIsRefused) {
+    for (const char* file : {"circles.json", "walk.csv"}) {
+        const Result run = run_program({"query", kScenes + file});
+        EXPECT_EQ(run.status, 2) << file;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+}
+
+/// collision.json with another expectation.
+std::string expecting(const TempFolder& folder, const std::string& expectation) {
+    json scene = json::parse(slurp(kScenes + "collision.json"));
+    scene["queries"][0]["expect"] = json::parse(expectation);
+    return folder.write("s.json", scene.dump());
+}
+
+TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
+    const TempFolder folder;
+    const Result denied = run_program({"query", expecting(folder, R"({"collides": false})"), "--json"});
+    EXPECT_EQ(denied.status, 1);
+    EXPECT_EQ(json::parse(denied.out)["results"][0]["collides"], true) << "the answer is told all the same";
+    EXPECT_NE(denied.err.find("query 0: expected no collision, but A and B collide at 2.26667 s"), std::string::npos);
+
+    const json contact = results({"query", kScenes + "collision.json", "--json"})[0]["contact"];
+    json expectation = {{"collides", true}, {"contact", contact}};
+    EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 0);
+    expectation["contact"]["b_sample"] = 61;
+    EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 1);
+    expectation["contact"] = contact;
+    expectation["contact"]["distance"] = contact["distance"].get<double>() + 1e-6;
+    EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 1);
+}
+
+TEST(Query, PlacementsInAQueryAreUsed) {
+    const TempFolder folder;
+    const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]}},
+        "queries": [{"a": {"clip": "c"}, "b": {"clip": "c", "translate": [0, 2]}},
+                    {"a": {"clip": "c"}, "b": {"clip": "c", "translate": [0, 1.9], "start": 1.5}},
+                    {"a": {"clip": "c"}, "b": {"clip": "c", "rotate_deg": 90, "start": 2}}]})");
+    const json found = results({"query", file, "--json"});
+    EXPECT_EQ(found[0]["collides"], false) << "touching is not colliding";
+    EXPECT_EQ(found[1]["collides"], false) << "1 m aside and 1.9 m ahead";
+    EXPECT_EQ(found[2]["collides"], false) << "one ends when the other begins";
+    EXPECT_EQ(found[2]["a"], "c");
+}
+
+TEST(Query, RealPathsGiveTheDirectSearchsAnswer) {
+    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories/xytr";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
+    const TempFolder folder;
+    const std::string file =
+        folder.write("s.json", R"({"clips": {"a": {"source": ")" + (data / "cmu_01_06_30hz.csv").string() +
+                                   R"("}, "b": {"source": ")" + (data / "cmu_03_03_30hz.csv").string() + R"("}},
+        "agents": [{"name": "A", "clip": "a"}, {"name": "B", "clip": "b", "start": 1.7}, {"name": "C", "clip": "b",
+        "translate": [300, 0]}]})");
+    json brute = results({"query", file, "--json", "--tree", "brute"});
+    json tree = results({"query", file, "--json"});
+    ASSERT_EQ(tree.size(), 3u);
+    EXPECT_EQ(tree[1]["collides"], false);
+    for (std::size_t i = 0; i < 3; ++i) {
+        brute[i].erase("tests");
+        tree[i].erase("tests");
+    }
+    EXPECT_EQ(tree, brute);
+}
+
+}  // namespace
+}  // namespace mobbscope

@@ -1,0 +1,22 @@
+/// Runs mobbscope as a user does.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mobbscope::testing {
+
+struct Result {
+    int status = -1;  ///< exit status; 128 + the signal if one ended it
+    std::string out;
+    std::string err;
+};
+
+/// Waits for the program to end. `stdout_to`: a file to write results to instead of collecting them.
+Result run_program(const std::vector<std::string>& arguments, const std::filesystem::path& stdout_to = {});
+
+/// True if `err` is one whole line: what a refusal must be.
+bool is_one_line(const std::string& err);
+
+}  // namespace mobbscope::testing

@@ -1,0 +1,191 @@
+#include <render/build_draw_list.h>
+#include <render/level_boxes.h>
+#include <render/world_box.h>
+
+#include "render/scenes.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mobbscope {
+namespace {
+
+constexpr PictureSize kSize{640, 360};
+
+TEST(DrawList, HasADiskForEverySample) {
+    const FittedScene fitted = testing::hit_scene();
+    const DrawList list = build_draw_list(fitted, {}, kSize);
+    ASSERT_EQ(list.disks.size(), 120u);
+    const mobb::PlacedTree placed = fitted.placed(fitted.participants()[1]);
+    for (int i = 0; i < 60; ++i) {
+        const DiskInstance& disk = list.disks[static_cast<std::size_t>(60 + i)];
+        const mobb::Disk truth = placed.placed_clip().disk(i);
+        EXPECT_NEAR(disk.base.x + list.space.origin.x, truth.x, 1e-5);
+        EXPECT_NEAR(disk.base.y + list.space.origin.y, truth.y, 1e-5);
+        EXPECT_NEAR(disk.base.z / list.space.time_height + list.space.origin.z, placed.placed_clip().time(i), 1e-5);
+        EXPECT_NEAR(disk.height / list.space.time_height, 1 / 30.0, 1e-6);
+        EXPECT_FLOAT_EQ(disk.radius, 0.4f);
+        EXPECT_EQ(disk.id, (ObjectId{1, ObjectId::Kind::disk, i}));
+    }
+}
+
+TEST(DrawList, ALevelCoversTheWholeClip) {
+    const FittedScene fitted = testing::hit_scene();
+    const mobb::Tree& tree = fitted.tree(0);
+    for (int level = 0; level < tree.depth() + 2; ++level) {
+        int samples = 0;
+        for (const int node : shown_nodes(tree, {level, level, false})) samples += tree.nodes()[static_cast<std::size_t>(node)].count;
+        EXPECT_EQ(samples, 60) << "level " << level;
+    }
+    int samples = 0;
+    for (const int node : shown_nodes(tree, {0, 0, true})) samples += tree.nodes()[static_cast<std::size_t>(node)].count;
+    EXPECT_EQ(samples, 60);
+}
+
+/// Every disk's rim, both ends of its hold, lies in the box that bounds it, also once both are drawn.
+TEST(DrawList, DrawnBoxesHoldTheirDisks) {
+    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
+        const FittedScene fitted = testing::hit_scene(kind);
+        ViewState view;
+        view.time_height = 0.37;
+        const DrawList list = build_draw_list(fitted, view, kSize);
+        for (const BoxInstance& box : list.boxes) {
+            const glm::mat3 inverse = glm::inverse(glm::mat3(box.extents[0], box.extents[1], box.extents[2]));
+            const mobb::Node& node = fitted.tree(0).nodes()[static_cast<std::size_t>(box.id.index)];
+            for (const DiskInstance& disk : list.disks) {
+                if (disk.id.participant != box.id.participant || disk.id.index < node.first || disk.id.index >= node.end()) continue;
+                for (int i = 0; i < 16; ++i) {
+                    const float angle = static_cast<float>(i) * 0.3926991f;
+                    const glm::vec3 rim = disk.base + disk.radius * glm::vec3(std::cos(angle), std::sin(angle), 0) +
+                                          glm::vec3(0, 0, i % 2 ? disk.height : 0);
+                    const glm::vec3 unit = glm::abs(inverse * (rim - box.center));
+                    EXPECT_LE(std::max({unit.x, unit.y, unit.z}), 1 + 1e-4f);
+                }
+            }
+        }
+    }
+}
+
+TEST(DrawList, AFreeBoxIsShearedByTheDrawnTime) {
+    const FittedScene fitted = testing::hit_scene(mobb::TreeKind::umobb);
+    ViewState view;
+    view.time_height = 3;
+    const DrawList list = build_draw_list(fitted, view, kSize);
+    const mobb::Box world = world_box(fitted.placed(fitted.participants()[0]), list.boxes[0].id.index);
+    const glm::vec3 tip = list.boxes[0].center + list.boxes[0].extents[0];
+    const glm::dvec3 truth = world.center + world.half.x * world.axes[0];
+    EXPECT_NEAR(tip.x + list.space.origin.x, truth.x, 1e-4);
+    EXPECT_NEAR(tip.z, 3 * truth.z, 1e-3);
+    const bool told = std::any_of(list.legend.begin(), list.legend.end(), [](const LegendEntry& entry) {
+        return entry.text.find("sheared") != std::string::npos;
+    });
+    EXPECT_TRUE(told);
+}
+
+TEST(DrawList, ASceneIsAboutAsTallAsWide) {
+    const DrawList list = build_draw_list(testing::hit_scene(), {}, kSize);
+    float height = 0;
+    float width = 0;
+    for (const DiskInstance& disk : list.disks) {
+        height = std::max(height, disk.base.z + disk.height);
+        width = std::max(width, 2 * (std::abs(disk.base.x) + disk.radius));
+    }
+    EXPECT_NEAR(height / width, 1, 0.1);
+}
+
+/// The same scene far away gives the same numbers to draw, but for the labels.
+TEST(DrawList, FarFromTheOriginNothingIsLost) {
+    const FittedScene near(testing::scene_of({{}, {{1, -1}, 90, 0.25}}), {});
+    const FittedScene far(testing::scene_of({{{10000, -8000}, 0, 1e5}, {{10001, -8001}, 90, 100000.25}}), {});
+    const DrawList a = build_draw_list(near, {}, kSize);
+    const DrawList b = build_draw_list(far, {}, kSize);
+    ASSERT_EQ(a.disks.size(), b.disks.size());
+    for (std::size_t i = 0; i < a.disks.size(); ++i) {
+        EXPECT_LT(glm::length(a.disks[i].base - b.disks[i].base), 1e-5f);
+    }
+    ASSERT_EQ(a.boxes.size(), b.boxes.size());
+    for (std::size_t i = 0; i < a.boxes.size(); ++i) EXPECT_LT(glm::length(a.boxes[i].center - b.boxes[i].center), 1e-5f);
+}
+
+TEST(DrawList, EverythingIsInThePictureWhateverItsShape) {
+    const FittedScene fitted = testing::hit_scene();
+    for (const PictureSize size : {kSize, PictureSize{1920, 1080}, PictureSize{400, 600}, PictureSize{1000, 200}}) {
+        for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side}) {
+            ViewState view;
+            view.camera.preset = preset;
+            const DrawList list = build_draw_list(fitted, view, size);
+            const Rect picture{{0, 0}, glm::vec2(size.width, size.height)};
+            for (const DiskInstance& disk : list.disks) {
+                const glm::vec2 at = list.lens.project(disk.base);
+                EXPECT_TRUE(picture.contains({at, at}));
+            }
+            for (std::size_t i = 0; i < list.texts.size(); ++i) {
+                EXPECT_TRUE(picture.contains(list.texts[i].box)) << list.texts[i].text;
+                for (std::size_t j = 0; j < i; ++j) {
+                    EXPECT_FALSE(list.texts[i].box.overlaps(list.texts[j].box.grown(-1)))
+                        << list.texts[i].text << " over " << list.texts[j].text;
+                }
+            }
+        }
+    }
+}
+
+TEST(DrawList, LegendExplainsEveryAgentAndLevel) {
+    ViewState view;
+    view.levels = {1, 3, false};
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    std::vector<std::string> texts;
+    for (const LegendEntry& entry : list.legend) texts.push_back(entry.text);
+    EXPECT_EQ(texts, (std::vector<std::string>{"A", "B", "level 1", "level 2", "level 3"}));
+}
+
+TEST(DrawList, WhatIsSwitchedOffIsNotThere) {
+    ViewState view;
+    view.disks = view.boxes = view.floor = view.time_axis = view.labels = view.legend = false;
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    EXPECT_TRUE(list.disks.empty());
+    EXPECT_TRUE(list.boxes.empty());
+    EXPECT_TRUE(list.lines.empty());
+    EXPECT_TRUE(list.texts.empty());
+    EXPECT_TRUE(list.panels.empty());
+}
+
+TEST(DrawList, ATimeCursorMarksTheDisksThatHold) {
+    ViewState view;
+    view.time = 1.0;
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    const auto rings = std::count_if(list.lines.begin(), list.lines.end(), [](const LineInstance& l) { return l.order.layer == 9; });
+    EXPECT_EQ(rings % 2, 0);
+    EXPECT_GT(rings, 0);
+    view.time = 17;
+    EXPECT_NO_THROW(build_draw_list(testing::hit_scene(), view, kSize));
+}
+
+TEST(DrawList, AQueryOrStepThatThereIsNotIsRefused) {
+    ViewState view;
+    view.query = 1;
+    EXPECT_THROW(build_draw_list(testing::hit_scene(), view, kSize), std::invalid_argument);
+    view.query = 0;
+    view.step = {Step::Unit::event, 100000};
+    EXPECT_THROW(build_draw_list(testing::hit_scene(), view, kSize), std::invalid_argument);
+}
+
+TEST(DrawList, OddScenesAreDrawn) {
+    for (const mobb::Disk disk : {mobb::Disk{0, 0, 0}, mobb::Disk{1e8, -1e8, 1e-3}, mobb::Disk{0, 0, 1e7}}) {
+        for (const int count : {1, 5}) {
+            Scene scene;
+            const std::vector<mobb::Disk> still(static_cast<std::size_t>(count), disk);
+            scene.clips.push_back({"still", std::nullopt, {}, std::make_shared<const mobb::Clip>(1e-3, still)});
+            const DrawList list = build_draw_list(FittedScene(scene, {}), {}, kSize);
+            EXPECT_EQ(list.disks.size(), static_cast<std::size_t>(count));
+            const glm::vec2 at = list.lens.project(list.disks[0].base);
+            EXPECT_TRUE(at.x >= 0 && at.x <= 640 && at.y >= 0 && at.y <= 360) << at.x << ' ' << at.y;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope

@@ -1,0 +1,81 @@
+#include <render/lens.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+std::vector<glm::vec3> block(glm::vec3 half) {
+    std::vector<glm::vec3> points;
+    for (unsigned i = 0; i < 8; ++i) {
+        points.push_back({i & 1u ? half.x : -half.x, i & 2u ? half.y : -half.y, i & 4u ? half.z : -half.z});
+    }
+    return points;
+}
+
+TEST(Lens, EverythingFitsIntoTheFrame) {
+    for (const PictureSize size : {PictureSize{640, 360}, PictureSize{360, 640}, PictureSize{1000, 100}, PictureSize{64, 64}}) {
+        const Frame frame{{10, 20}, {static_cast<float>(size.width) - 5, static_cast<float>(size.height) - 15}};
+        for (const CameraPreset preset :
+             {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side, CameraPreset::free}) {
+            for (const glm::vec3 half : {glm::vec3(1, 1, 1), glm::vec3(20, 0.1f, 3), glm::vec3(0.01f, 5, 5)}) {
+                Camera camera;
+                camera.preset = preset;
+                camera.pitch_deg = -35;
+                const std::vector<glm::vec3> points = block(half);
+                const Lens lens = make_lens(camera, points, nullptr, frame, size);
+                float tightest = 1e9f;
+                for (const glm::vec3& point : points) {
+                    const glm::vec2 at = lens.project(point);
+                    const float room = std::min({at.x - frame.min.x, at.y - frame.min.y, frame.max.x - at.x, frame.max.y - at.y});
+                    EXPECT_GE(room, -0.1f);
+                    tightest = std::min(tightest, room);
+                    const glm::vec4 clip = lens.clip_from_world * glm::vec4(point, 1);
+                    EXPECT_LE(std::abs(clip.z), clip.w);
+                }
+                EXPECT_LT(tightest, 1) << "the scene could be larger";
+            }
+        }
+    }
+}
+
+TEST(Lens, PresetsLookTheRightWay) {
+    const std::vector<glm::vec3> points = block(glm::vec3(1));
+    const Frame frame{{0, 0}, {200, 200}};
+    const auto at = [&](CameraPreset preset, glm::vec3 p) {
+        Camera camera;
+        camera.preset = preset;
+        return make_lens(camera, points, nullptr, frame, {200, 200}).project(p);
+    };
+    EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).x, 200, 0.1);
+    EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).y, 0, 0.1);
+    EXPECT_NEAR(at(CameraPreset::front, {1, 0, 1}).x, 200, 0.1);
+    EXPECT_NEAR(at(CameraPreset::front, {1, 0, 1}).y, 0, 0.1);
+    EXPECT_NEAR(at(CameraPreset::side, {0, 1, 1}).x, 200, 0.1);
+    EXPECT_NEAR(at(CameraPreset::side, {0, 1, 1}).y, 0, 0.1);
+}
+
+TEST(Lens, ATargetGoesToTheMiddle) {
+    Camera camera;
+    camera.preset = CameraPreset::free;
+    camera.distance = 7;
+    const glm::vec3 target(0.3f, 0.2f, 0.5f);
+    const Lens lens = make_lens(camera, block(glm::vec3(1)), &target, {{0, 0}, {300, 200}}, {300, 200});
+    EXPECT_NEAR(lens.project(target).x, 150, 0.01);
+    EXPECT_NEAR(lens.project(target).y, 100, 0.01);
+    EXPECT_NEAR(lens.depth(target), 7, 1e-4);
+}
+
+TEST(Lens, APointHasNoExtentAndStillIsSeen) {
+    const std::vector<glm::vec3> point{glm::vec3(0)};
+    const Lens lens = make_lens({}, point, nullptr, {{0, 0}, {100, 100}}, {100, 100});
+    EXPECT_NEAR(lens.project(point[0]).x, 50, 0.5);
+    EXPECT_NEAR(lens.project(point[0]).y, 50, 0.5);
+}
+
+}  // namespace
+}  // namespace mobbscope

@@ -1,0 +1,121 @@
+#include <render/build_draw_list.h>
+#include <render/image_diff.h>
+#include <render/render.h>
+
+#include "render/backends.h"
+#include "render/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <stdexcept>
+
+namespace mobbscope {
+namespace {
+
+constexpr PictureSize kSize{320, 240};
+
+TEST(Picture, AbsurdSizesAreRefused) {
+    EXPECT_NO_THROW(check(PictureSize{640, 360}));
+    EXPECT_NO_THROW(check(PictureSize{7680, 4320}));
+    for (const PictureSize size : {PictureSize{0, 360}, PictureSize{-640, 360}, PictureSize{100000, 360}, PictureSize{8192, 8192}}) {
+        EXPECT_THROW(check(size), std::invalid_argument);
+    }
+}
+
+class PictureTest : public testing::OnEachBackend {};
+
+TEST_P(PictureTest, TheSameTwice) {
+    const FittedScene fitted = testing::hit_scene();
+    const Image once = render(fitted, {}, kSize, renderer());
+    Renderer other(GetParam());
+    EXPECT_EQ(once.rgba, render(fitted, {}, kSize, other).rgba);
+    EXPECT_EQ(once.rgba, render(fitted, {}, kSize, renderer()).rgba);
+}
+
+TEST_P(PictureTest, SizesFollowOneAnother) {
+    const FittedScene fitted = testing::hit_scene();
+    const Image small = render(fitted, {}, kSize, renderer());
+    const Image large = render(fitted, {}, {400, 300}, renderer());
+    EXPECT_EQ(large.width, 400);
+    EXPECT_EQ(large.height, 300);
+    EXPECT_EQ(small.rgba, render(fitted, {}, kSize, renderer()).rgba);
+}
+
+/// Nested boxes, coplanar faces, equal disks: nothing may depend on the order in which they come.
+TEST_P(PictureTest, ShufflingChangesNothing) {
+    const FittedScene fitted(testing::scene_of({{}, {}, {{0.2, 0}, 0, 0}, {{1, -1}, 90, 0}}), {});
+    ViewState view;
+    view.levels = {0, 5, false};
+    DrawList list = build_draw_list(fitted, view, kSize);
+    const Image ordered = renderer().draw(list);
+    std::mt19937 random(7);
+    for (int round = 0; round < 3; ++round) {
+        std::shuffle(list.disks.begin(), list.disks.end(), random);
+        std::shuffle(list.boxes.begin(), list.boxes.end(), random);
+        std::shuffle(list.lines.begin(), list.lines.end(), random);
+        const ImageDiff result = diff(renderer().draw(list), ordered, {1, 0});
+        EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
+    }
+}
+
+TEST_P(PictureTest, FarFromTheOriginItLooksTheSame) {
+    const FittedScene near(testing::scene_of({{}, {{1, -1}, 90, 0.25}}), {});
+    const FittedScene far(testing::scene_of({{{10000, -8000}, 0, 1e5}, {{10001, -8001}, 90, 100000.25}}), {});
+    ViewState view;
+    view.labels = false;
+    const ImageDiff result = diff(render(far, view, kSize, renderer()), render(near, view, kSize, renderer()));
+    EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
+}
+
+TEST_P(PictureTest, DisksHideWhatIsBehindThem) {
+    const FittedScene fitted = testing::hit_scene();
+    ViewState view;
+    view.camera.preset = CameraPreset::top;
+    view.boxes = view.labels = view.floor = view.time_axis = false;
+    const DrawList list = build_draw_list(fitted, view, kSize);
+    const Image image = renderer().draw(list);
+    // The uppermost disk of B, the later half of its path, shows B's colour; the corner shows the background.
+    const glm::vec2 at = list.lens.project(list.disks.back().base);
+    const std::uint8_t* pixel = image.at(static_cast<int>(at.x), static_cast<int>(at.y));
+    EXPECT_GT(pixel[2], pixel[0] + 60);
+    EXPECT_NEAR(image.at(0, 0)[0], 0x14, 1);
+    EXPECT_NEAR(image.at(0, 0)[2], 0x1D, 1);
+}
+
+TEST_P(PictureTest, ManyDisksAndBoxes) {
+    std::vector<mobb::Placement> placements;
+    for (int i = 0; i < 5; ++i) placements.push_back({{0.3 * i, 0.5 * i}, 30.0 * i, 0.1 * i});
+    mobb::FitOptions options;
+    options.leaf = 1;
+    const FittedScene fitted(testing::scene_of(placements, 1260), options);
+    ViewState view;
+    view.levels = {0, 20, false};
+    const DrawList list = build_draw_list(fitted, view, kSize);
+    EXPECT_EQ(list.disks.size(), 6300u);
+    EXPECT_GT(list.boxes.size(), 10000u);
+    EXPECT_NO_THROW(renderer().draw(list));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PictureTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+
+TEST(Picture, BackendsAgree) {
+    std::unique_ptr<Renderer> osmesa, egl;
+    try {
+        osmesa = std::make_unique<Renderer>(Backend::osmesa);
+        egl = std::make_unique<Renderer>(Backend::egl);
+    } catch (const MachineError& error) {
+        GTEST_SKIP() << error.what();
+    }
+    ViewState view;
+    view.query = 0;
+    view.step = {Step::Unit::percent, 60};
+    const FittedScene fitted = testing::hit_scene(mobb::TreeKind::umobb);
+    const ImageDiff result = diff(render(fitted, view, kSize, *osmesa), render(fitted, view, kSize, *egl));
+    EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
+    EXPECT_EQ(render_ids(fitted, view, kSize, *osmesa).rg, render_ids(fitted, view, kSize, *egl).rg);
+}
+
+}  // namespace
+}  // namespace mobbscope

@@ -1,0 +1,170 @@
+#include <render/build_draw_list.h>
+#include <render/query_boxes.h>
+#include <render/query_progress.h>
+#include <render/query_sentence.h>
+#include <render/separation_gap.h>
+
+#include "render/scenes.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace mobbscope {
+namespace {
+
+constexpr PictureSize kSize{640, 360};
+
+struct Query {
+    explicit Query(FittedScene scene) : fitted(std::move(scene)), recorded(record(fitted, fitted.queries()[0])) {
+        view.query = 0;
+        sides = subjects(fitted, view);
+    }
+    DrawList at(int step) {
+        view.step = {Step::Unit::event, static_cast<double>(step)};
+        return build_draw_list(fitted, view, kSize);
+    }
+    int find(mobb::Test test, mobb::Outcome outcome) const {
+        for (int i = 0; i < recorded.trace.size(); ++i) {
+            if (recorded.trace[i].test == test && recorded.trace[i].outcome == outcome) return i;
+        }
+        return -1;
+    }
+
+    FittedScene fitted;
+    RecordedQuery recorded;
+    ViewState view;
+    std::vector<Subject> sides;
+};
+
+TEST(QueryProgress, StepsAreEventsPercentagesOrTheEnd) {
+    const Query query(testing::hit_scene());
+    const int last = query.recorded.trace.size() - 1;
+    EXPECT_EQ(event_of({Step::Unit::end, 0}, query.recorded.trace), last);
+    EXPECT_EQ(event_of({Step::Unit::percent, 100}, query.recorded.trace), last);
+    EXPECT_EQ(event_of({Step::Unit::percent, 0}, query.recorded.trace), 0);
+    EXPECT_EQ(event_of({Step::Unit::event, 3}, query.recorded.trace), 3);
+    EXPECT_THROW(event_of({Step::Unit::event, last + 1.0}, query.recorded.trace), std::invalid_argument);
+}
+
+TEST(QueryProgress, OnlyTestedNodesAreKnown) {
+    const Query query(testing::hit_scene());
+    for (int step = 0; step < query.recorded.trace.size(); ++step) {
+        const QueryProgress progress = progress_at(query.recorded.trace, step);
+        for (const NodeProgress& node : progress.nodes[0]) {
+            EXPECT_NE(node.node, progress.event.a);
+            bool tested = false;
+            for (int i = 0; i <= step; ++i) tested = tested || query.recorded.trace[i].a == node.node;
+            EXPECT_TRUE(tested);
+        }
+    }
+}
+
+TEST(QueryProgress, AHitSettlesThePairsAboveIt) {
+    const Query query(testing::hit_scene());
+    const QueryProgress progress = progress_at(query.recorded.trace, query.recorded.trace.size() - 1);
+    ASSERT_EQ(progress.event.outcome, mobb::Outcome::hit);
+    const auto root = std::find_if(progress.nodes[0].begin(), progress.nodes[0].end(), [](const NodeProgress& n) { return n.node == 0; });
+    ASSERT_NE(root, progress.nodes[0].end());
+    EXPECT_EQ(root->state, BoxState::hit);
+    EXPECT_TRUE(root->open);
+}
+
+TEST(QueryPicture, ThePairUnderTestIsFilled) {
+    Query query(testing::hit_scene());
+    for (int step = 0; step < query.recorded.trace.size(); ++step) {
+        const DrawList list = query.at(step);
+        const mobb::Trace::Event event = query.recorded.trace[step];
+        int filled = 0;
+        for (const BoxInstance& box : list.boxes) {
+            if (box.state != BoxState::under_test) continue;
+            ++filled;
+            EXPECT_EQ(box.id.index, box.id.participant == 0 ? event.a : event.b);
+            EXPECT_GT(box.fill.a, 0);
+        }
+        EXPECT_EQ(filled, 2);
+    }
+}
+
+TEST(QueryPicture, OutcomesDifferInMoreThanColour) {
+    const Palette& colors = palette(Theme::dark);
+    const OutcomeStyle apart = outcome_style(BoxState::apart_in_time, colors);
+    const OutcomeStyle separated = outcome_style(BoxState::separated, colors);
+    const OutcomeStyle overlap = outcome_style(BoxState::overlap, colors);
+    const OutcomeStyle hit = outcome_style(BoxState::hit, colors);
+    EXPECT_NE(apart.dash, separated.dash);
+    EXPECT_NE(apart.dash, overlap.dash);
+    EXPECT_NE(overlap.dash, separated.dash);
+    EXPECT_TRUE(hit.dash != separated.dash || hit.width > separated.width + 0.5f);
+}
+
+TEST(QueryPicture, TheHitDisksAreMarked) {
+    Query query(testing::hit_scene());
+    const DrawList list = query.at(query.recorded.trace.size() - 1);
+    int marked = 0;
+    for (const DiskInstance& disk : list.disks) {
+        if (disk.color != list.palette.hit) continue;
+        ++marked;
+        EXPECT_EQ(disk.id.index, disk.id.participant == 0 ? query.recorded.contact->a_sample : query.recorded.contact->b_sample);
+    }
+    EXPECT_EQ(marked, 2);
+}
+
+TEST(QueryPicture, TheGapIsAsWideAsTheTraceSays) {
+    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
+        for (const bool hits : {true, false}) {
+            const Query query(hits ? testing::hit_scene(kind) : testing::miss_scene(kind));
+            int separated = 0;
+            for (int step = 0; step < query.recorded.trace.size(); ++step) {
+                const mobb::Trace::Event event = query.recorded.trace[step];
+                const auto gap = separation_gap(query.sides, event);
+                EXPECT_EQ(gap.has_value(), event.outcome == mobb::Outcome::separated);
+                if (!gap) continue;
+                ++separated;
+                EXPECT_NEAR(glm::length(gap->to - gap->from), event.gap, 1e-9);
+                EXPECT_NEAR(glm::dot(gap->to - gap->from, gap->across), 0, 1e-9);
+                EXPECT_NEAR(glm::dot(gap->to - gap->from, gap->along), 0, 1e-9);
+            }
+            EXPECT_GT(separated, 0);
+        }
+    }
+}
+
+TEST(QuerySentence, SaysWhatAStepShows) {
+    const Query query(testing::miss_scene());
+    const int step = query.find(mobb::Test::obb2d, mobb::Outcome::separated);
+    ASSERT_GE(step, 0);
+    const std::string sentence = step_sentence(query.sides, query.recorded.trace, step);
+    const std::string start = "step " + std::to_string(step) + " / " + std::to_string(query.recorded.trace.size() - 1) + ": A ";
+    EXPECT_TRUE(sentence.starts_with(start)) << sentence;
+    EXPECT_NE(sentence.find(" against B "), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("separated along "), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(with_unit(query.recorded.trace[step].gap, "m")), std::string::npos) << sentence;
+    EXPECT_EQ(query.recorded.contact, std::nullopt);
+    EXPECT_TRUE(answer_sentence(query.sides, query.recorded).starts_with("A and B never collide; "));
+}
+
+TEST(QuerySentence, SaysWhenAndHowDeepAHitIs) {
+    const Query query(testing::hit_scene());
+    const std::string sentence = step_sentence(query.sides, query.recorded.trace, query.recorded.trace.size() - 1);
+    EXPECT_NE(sentence.find("hit at " + with_unit(query.recorded.contact->time, "s")), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("deep"), std::string::npos) << sentence;
+}
+
+TEST(QuerySentence, NodesAreNamedByLevelAndPlace) {
+    const Query query(testing::miss_scene());
+    EXPECT_EQ(node_name(query.sides[0], 0), "A 0.0");
+    const auto nodes = query.fitted.tree(0).nodes();
+    EXPECT_EQ(node_name(query.sides[1], nodes[0].children[1]), "B 1.1");
+}
+
+TEST(QuerySentence, NumbersKeepTheirMeaning) {
+    EXPECT_EQ(with_unit(0.1834, "m"), "0.183 m");
+    EXPECT_EQ(with_unit(12.3456, "s"), "12.35 s");
+    EXPECT_EQ(with_unit(0.0000123456, "m"), "0.0000123 m");
+    EXPECT_EQ(with_unit(0, "m"), "0.000 m");
+}
+
+}  // namespace
+}  // namespace mobbscope
