@@ -111,7 +111,7 @@ void print_clip(const Scene& scene, const SceneClip& clip) {
     std::cout << clip.name << " (" << file_of(scene, clip) << ", " << facts.format << ")\n";
     if (facts.joints > 0) {
         std::cout << "  skeleton     " << counted(facts.joints, "joint", "joints") << ", root " << in_quotes(facts.root)
-                  << ", animation " << in_quotes(facts.animation) << '\n';
+                  << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
     }
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "

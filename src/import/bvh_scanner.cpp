@@ -73,7 +73,7 @@ double BvhScanner::number() {
     const char* const begin = at_ + (*at_ == '+' && at_ + 1 != end_ && at_[1] != '-' ? 1 : 0);
     double value = 0;
     const auto [after, error] = std::from_chars(begin, end_, value);
-    const bool is_whole = after == end_ || is_blank(*after) || is_line_end(*after);
+    const bool is_whole = after == end_ || is_blank(*after) || is_line_end(*after) || *after == '}';
     if (error == std::errc::invalid_argument || !is_whole || !std::isfinite(value)) fail_number();
     if (error == std::errc::result_out_of_range) value = tiny_or_huge(between(begin, after));
     if (std::abs(value) > kMaxBvhValue) fail(in_quotes(next_word()) + " is beyond 1e9; the file is damaged");

@@ -22,6 +22,9 @@ constexpr double kBodyHeight = 1.7;  // metres: the contract's, for the unit "au
 constexpr std::array<double, 5> kBodyUnits{1, 0.01, 0.001, 0.0254, 0.0564444};
 // More samples of a body than that are a wrong time, and would take minutes to pose.
 constexpr std::size_t kMaxMotionSamples = 1'000'000;
+// Joints times frames or samples. A file of real captures has no room for more; one of names and zeros would take
+// hours.
+constexpr std::size_t kMaxJointPoses = 100'000'000;
 constexpr std::size_t kMaxSkeletonPositions = 8'000'000;  // 96 MB; longer clips go without a skeleton
 
 /// The unit that makes a body of that height, in file units, most nearly 1.7 m tall.
@@ -109,6 +112,11 @@ class MotionImport {
         const MotionTimes& times = motion_.times();
         const SampleGrid grid = sample_grid(times.first, times.last, options_.trim,
                                             1 / options_.fps.value_or(kDefaultFps), kMaxMotionSamples);
+        const std::size_t frames = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
+        if (std::max(grid.count, frames) > kMaxJointPoses / motion_.joints().size()) {
+            throw std::invalid_argument("has " + std::to_string(motion_.joints().size()) +
+                                        " joints, too many for so many frames; check the file, or lower fps");
+        }
         const int root = options_.root ? root_by_name(motion_.joints(), *options_.root) : default_root(grounded_);
 
         ImportedClip out;

@@ -224,6 +224,15 @@ TEST(MotionClips, WhatDoesNotApplyOrDoesNotExistIsRefused) {
               "some/walk.bvh: its times make more than 1000000 samples; check them, or lower fps");
 }
 
+TEST(MotionClips, NamesAndZerosDoNotTakeHours) {
+    std::string text = "HIERARCHY\nROOT r\n{OFFSET 0 0 0\nCHANNELS 1 Xposition\n";
+    for (int i = 0; i < 2000; ++i) text += "JOINT j\n{OFFSET 0 0 0}\n";
+    text += "}\nMOTION\nFrames: 60000\nFrame Time: 0.001\n";
+    for (int i = 0; i < 60'000; ++i) text += "0\n";
+    EXPECT_EQ(input_error([&] { clip_of(text); }),
+              "some/walk.bvh: has 2001 joints, too many for so many frames; check the file, or lower fps");
+}
+
 TEST(MotionClips, WarningsNameTheSamples) {
     EXPECT_TRUE(clip_of(walk(even_steps(60, 4))).facts.warnings.empty());
 
