@@ -50,6 +50,10 @@ struct BufferFiles {
 BufferFiles read_buffer_files(const std::vector<GltfBufferFile>& files, const std::filesystem::path& gltf) {
     BufferFiles out;
     for (const GltfBufferFile& file : files) {
+        if (file.path.empty()) {
+            out.bytes[std::to_string(file.buffer)] = std::string(file.byte_length, '\0');
+            continue;
+        }
         const std::string place = "buffer " + std::to_string(file.buffer);
         std::string bytes;
         try {
@@ -68,8 +72,7 @@ BufferFiles read_buffer_files(const std::vector<GltfBufferFile>& files, const st
     return out;
 }
 
-tinygltf::Model load_model(const std::filesystem::path& file) {
-    const std::string bytes = read_file(file);
+tinygltf::Model load_model(std::string_view bytes, const std::filesystem::path& file) {
     const GltfParts parts = split_gltf(bytes, lower_extension(file) == ".glb", file.string());
     const GltfText text = checked_gltf_text(parts, file.string());
     BufferFiles buffer_files = read_buffer_files(text.buffer_files, file);
@@ -298,10 +301,12 @@ class SceneBuilder {
 
 }  // namespace
 
-std::unique_ptr<MotionFile> read_gltf(const std::filesystem::path& file) {
-    const tinygltf::Model model = load_model(file);
+std::unique_ptr<MotionFile> parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
+    const tinygltf::Model model = load_model(bytes, file);
     const std::string name = file.string();
     return node_motion_file(SceneBuilder(model, name).build());
 }
+
+std::unique_ptr<MotionFile> read_gltf(const std::filesystem::path& file) { return parse_gltf(read_file(file), file); }
 
 }  // namespace mobbscope

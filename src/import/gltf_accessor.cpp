@@ -1,5 +1,6 @@
 #include <import/error.h>
 #include <import/gltf_accessor.h>
+#include <import/gltf_json.h>
 #include <import/text.h>
 #include <tiny_gltf.h>
 
@@ -20,7 +21,7 @@ constexpr std::size_t kFreeNumbers = 2'000'000;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// In bytes; 0 for what is no component type of glTF 2.0.
+/// In bytes.
 std::size_t component_size(int type) {
     switch (type) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -29,11 +30,8 @@ std::size_t component_size(int type) {
         case TINYGLTF_COMPONENT_TYPE_SHORT:
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
             return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return 4;
         default:
-            return 0;
+            return 4;
     }
 }
 
@@ -106,9 +104,6 @@ Numbers GltfAccessors::read(int index, GltfShape shape) {
     }
     if (const auto known = read_.find(index); known != read_.end()) return known->second;
 
-    if (component_size(accessor.componentType) == 0) {
-        fail(index, "componentType " + std::to_string(accessor.componentType) + " is none of glTF 2.0");
-    }
     if (accessor.count == 0) fail(index, "has no element; take its animation out or give it keys");
     if (accessor.bufferView < 0 && accessor.count > kMostZeros) {
         fail(index, "has no bufferView for " + std::to_string(accessor.count) + " elements; export the file again");
@@ -140,6 +135,9 @@ GltfAccessors::Elements GltfAccessors::elements(int index, const std::string& wh
     const tinygltf::BufferView& buffer_view = model_.bufferViews[at(view)];
     const std::vector<unsigned char>& bytes = model_.buffers[at(buffer_view.buffer)].data;
     const std::string where = what + "bufferView " + std::to_string(view);
+    if (model_.buffers[at(buffer_view.buffer)].name == kNowhere) {
+        fail(index, where + ": buffer " + std::to_string(buffer_view.buffer) + " has no data; export the file with it");
+    }
     if (buffer_view.byteLength == 0) fail(index, where + " is empty; export the file again");
     if (buffer_view.byteOffset > bytes.size() || buffer_view.byteLength > bytes.size() - buffer_view.byteOffset) {
         fail(index, where + " reaches beyond the " + std::to_string(bytes.size()) + " bytes of buffer " +

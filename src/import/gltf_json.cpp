@@ -90,11 +90,13 @@ std::string line_and_column(std::string_view text, std::size_t offset) {
     return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::size_t>(column, 1));
 }
 
-Json parse(std::string_view text, const std::string& file) {
+Json parse(const GltfParts& parts, const std::string& file) {
     try {
-        return Json::parse(text);
+        return Json::parse(parts.json);
     } catch (const Json::parse_error& error) {
-        throw InputError(file, line_and_column(text, error.byte), "is not valid JSON; the file is damaged or no glTF");
+        const std::string chunk = parts.is_glb ? "JSON chunk, " : "";
+        throw InputError(file, chunk + line_and_column(parts.json, error.byte),
+                         "is not valid JSON; the file is damaged or no glTF");
     } catch (const Json::exception&) {
         throw InputError(file, "JSON", "holds a number beyond the range of a double; correct it");
     }
@@ -236,7 +238,7 @@ class Checker {
     void check_index(std::uint64_t index, std::size_t size, std::string_view what, const Where& at) const {
         if (index >= size) {
             fail(at, "refers to " + std::string(what) + "/" + std::to_string(index) + ", but there are " +
-                         std::to_string(size));
+                         std::to_string(size) + "; export the file again");
         }
     }
 
@@ -311,8 +313,10 @@ class Checker {
         keep_string(from, to, "uri", at, false);
         const std::size_t index = buffers_++;
         if (!to.contains("uri")) {
-            if (!parts_.is_glb || index != 0 || !parts_.binary) {
-                fail(at, "has no uri; only buffer 0 of a GLB with a binary chunk may lack it");
+            if (!parts_.is_glb || index != 0 || !parts_.binary || parts_.binary->empty()) {
+                buffer_files_.push_back({index, "", 1});
+                to = {{"name", kNowhere}, {"uri", std::to_string(index)}, {"byteLength", 1}};
+                return;
             }
             if (length > parts_.binary->size()) {
                 fail(Where(at, "byteLength"), "is " + std::to_string(length) + ", but the binary chunk holds " +
@@ -322,7 +326,15 @@ class Checker {
             return;
         }
         const auto& uri = to["uri"].get_ref<const std::string&>();
-        if (uri.starts_with("data:")) return;
+        if (uri.starts_with("data:")) {
+            const std::size_t comma = uri.find(',');
+            if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64")) {
+                fail(Where(at, "uri"), "must be a data URI in base64; export the file again");
+            }
+            // tinygltf knows few media types; what is inside does not depend on them.
+            to["uri"] = "data:application/octet-stream;base64" + uri.substr(comma);
+            return;
+        }
         std::string path = percent_decoded(uri);
         if (!is_below(path)) {
             fail(Where(at, "uri"), in_quotes(uri) + " must name a file beside this one or in a folder below it");
@@ -342,11 +354,20 @@ class Checker {
     }
 
     void keep_accessor(const Json& from, Json& to, const Where& at) const {
+        constexpr std::array<std::string_view, 7> kTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
         keep_index(from, to, "bufferView", at, "bufferViews", false);
         keep_integer(from, to, "byteOffset", at, kMaxInteger, false);
         keep_integer(from, to, "componentType", at, kMaxInteger, true);
         keep_integer(from, to, "count", at, kMaxInteger, true);
         keep_string(from, to, "type", at, true);
+        const auto& type = to["type"].get_ref<const std::string&>();
+        if (std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end()) {
+            fail(Where(at, "type"), in_quotes(type) + " is no type of glTF 2.0; export the file again");
+        }
+        const auto component = to["componentType"].get<int>();
+        if (component < 5120 || component > 5126 || component == 5124) {
+            fail(Where(at, "componentType"), std::to_string(component) + " is none of glTF 2.0; export the file again");
+        }
         keep_string(from, to, "name", at, false);
         if (const Json* normalized = find(from, "normalized")) {
             if (!normalized->is_boolean()) fail(Where(at, "normalized"), "must be true or false");
@@ -426,7 +447,7 @@ class Checker {
 
 GltfText checked_gltf_text(const GltfParts& parts, const std::string& file) {
     check_shape(parts.json, file);
-    return Checker(parse(parts.json, file), parts, file).text();
+    return Checker(parse(parts, file), parts, file).text();
 }
 
 }  // namespace mobbscope

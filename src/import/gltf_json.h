@@ -6,16 +6,21 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
 
-/// A buffer that lies in a file of its own.
+/// A buffer that lies in a file of its own, or nowhere: the specification allows that, and meshes that an extension
+/// compresses come so.
 struct GltfBufferFile {
     std::size_t buffer = 0;       ///< index in the glTF file
-    std::string path;             ///< relative to the glTF file, decoded; never leads out of its folder
+    std::string path;             ///< relative to the glTF file, decoded; never leads out of its folder. "": nowhere
     std::size_t byte_length = 0;  ///< how much of it is used; at least 1
 };
+
+/// The name of a buffer that lies nowhere. It holds one byte, as tinygltf refuses to have none.
+inline constexpr std::string_view kNowhere = "nowhere";
 
 /// What is left of the text: nodes, skins, animations and what they refer to.
 struct GltfText {
