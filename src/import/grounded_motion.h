@@ -32,17 +32,4 @@ class GroundedMotion {
     UpAxis up_;
 };
 
-/// For each joint, whether it is `root` or below it.
-std::vector<bool> subtree(std::span<const Joint> joints, int root);
-
-/// The default root of the contract: the topmost joint; if it never moves over the ground and has exactly one child
-/// joint, that child, and so on.
-int default_root(const GroundedMotion& motion);
-
-/// The joint with a name, the first of several. Throws std::invalid_argument, naming the nearest.
-int root_by_name(std::span<const Joint> joints, const std::string& name);
-
-/// The median over the survey of the vertical extent of a joint's subtree, file units.
-double median_height(const GroundedMotion& motion, int root);
-
 }  // namespace mobbscope

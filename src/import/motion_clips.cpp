@@ -1,7 +1,9 @@
+#include <import/disk_sampler.h>
 #include <import/error.h>
 #include <import/grounded_motion.h>
 #include <import/motion_clips.h>
 #include <import/motion_warnings.h>
+#include <import/root_joint.h>
 #include <import/sampling.h>
 #include <import/skeleton.h>
 #include <import/text.h>
@@ -33,71 +35,6 @@ double body_unit(double height) {
         return std::abs(a * height - kBodyHeight) < std::abs(b * height - kBodyHeight);
     });
 }
-
-/// A disk in file units, with the pose that it bounds.
-struct PosedDisk {
-    mobb::Disk disk;
-    std::vector<glm::dvec3> positions;
-};
-
-/// Takes samples of one motion about one root. Between stored frames BVH interpolates disks, the others the pose.
-class DiskSampler {
-  public:
-    DiskSampler(const GroundedMotion& motion, int root)
-        : motion_(motion), root_(static_cast<std::size_t>(root)), inside_(subtree(motion.joints(), root)) {}
-
-    void sample(double t, PosedDisk& out) {
-        const MotionTimes& times = motion_.times();
-        if (!times.frames_only) return take(t, out);
-        const double frame = std::clamp((t - times.first) / *times.dt, 0.0, times.frames - 1.0);
-        const double before = std::floor(frame + kFrameTolerance);
-        const double share = frame - before;
-        const PosedDisk& a = stored(static_cast<std::size_t>(before));
-        if (share <= kFrameTolerance) {
-            out = a;
-            return;
-        }
-        const PosedDisk& b = stored(static_cast<std::size_t>(before) + 1);
-        out.disk = mix(a.disk, b.disk, share);
-        out.positions.resize(a.positions.size());
-        for (std::size_t i = 0; i < out.positions.size(); ++i) {
-            out.positions[i] = a.positions[i] + share * (b.positions[i] - a.positions[i]);
-        }
-    }
-
-  private:
-    void take(double t, PosedDisk& out) const {
-        motion_.pose(t, out.positions);
-        const glm::dvec3 centre = out.positions[root_];
-        double radius = 0;
-        for (std::size_t i = 0; i < out.positions.size(); ++i) {
-            if (!inside_[i]) continue;
-            const glm::dvec3 arm = out.positions[i] - centre;
-            radius = std::max(radius, std::hypot(arm.x, arm.y));
-        }
-        out.disk = {centre.x, centre.y, radius};
-    }
-
-    /// A stored frame. The last two are kept: samples go forward, and lie between two frames.
-    const PosedDisk& stored(std::size_t frame) {
-        Slot& slot = slots_[frame % slots_.size()];
-        if (slot.frame != frame) {
-            take(motion_.times().first + static_cast<double>(frame) * *motion_.times().dt, slot.posed);
-            slot.frame = frame;
-        }
-        return slot.posed;
-    }
-
-    struct Slot {
-        std::optional<std::size_t> frame;
-        PosedDisk posed;
-    };
-
-    const GroundedMotion& motion_;
-    std::size_t root_;
-    std::vector<bool> inside_;
-    std::array<Slot, 2> slots_;
-};
 
 /// One animation to one clip; messages are for import of one file.
 class MotionImport {

@@ -112,6 +112,21 @@ TEST(MotionData, TheUnitOfBvhIsGuessed) {
     }
 }
 
+TEST(MotionData, TurnsGoTheWayThatTheirNamesSay) {
+    const auto folder = kData / "bvh/short";
+    SKIP_WITHOUT(folder);
+    // From the heading of the first 0.4 s to that of the last: a mirrored ground plane would turn the other way.
+    const auto turn = [&](const std::string& name) {
+        const auto samples = import_clips(folder / ("bn2_walk-turn-" + name + ".bvh"), {}).at(0).clip->samples();
+        const mobb::Disk &a = samples[0], &b = samples[12], &c = samples[samples.size() - 13], &d = samples.back();
+        const glm::dvec2 before(b.x - a.x, b.y - a.y);
+        const glm::dvec2 after(d.x - c.x, d.y - c.y);
+        return before.x * after.y - before.y * after.x;
+    };
+    for (const char* left : {"left_active_003", "left_exhausted_003", "left_youthful_003"}) EXPECT_GT(turn(left), 0);
+    for (const char* right : {"right_active_006", "right_normal_003"}) EXPECT_LT(turn(right), 0);
+}
+
 TEST(MotionData, WarningsAreGivenWhereTheDataIsOddAndNowhereElse) {
     const auto table = kData / "expected.csv";
     SKIP_WITHOUT(table);
