@@ -131,6 +131,7 @@ TEST(Query, WithNothingToAskItIsRefused) {
 std::string expecting(const TempFolder& folder, const std::string& expectation) {
     json scene = json::parse(slurp(kScenes + "collision.json"));
     scene["queries"][0]["expect"] = json::parse(expectation);
+    for (json& clip : scene["clips"]) clip["source"] = kScenes + clip["source"].get<std::string>();
     return folder.write("s.json", scene.dump());
 }
 
