@@ -117,7 +117,8 @@ TEST(MotionData, TurnsGoTheWayThatTheirNamesSay) {
     SKIP_WITHOUT(folder);
     // From the heading of the first 0.4 s to that of the last: a mirrored ground plane would turn the other way.
     const auto turn = [&](const std::string& name) {
-        const auto samples = import_clips(folder / ("bn2_walk-turn-" + name + ".bvh"), {}).at(0).clip->samples();
+        const mobb::ClipPtr clip = import_clips(folder / ("bn2_walk-turn-" + name + ".bvh"), {}).at(0).clip;
+        const auto samples = clip->samples();
         const mobb::Disk &a = samples[0], &b = samples[12], &c = samples[samples.size() - 13], &d = samples.back();
         const glm::dvec2 before(b.x - a.x, b.y - a.y);
         const glm::dvec2 after(d.x - c.x, d.y - c.y);
