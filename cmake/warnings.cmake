@@ -3,7 +3,3 @@ add_library(mobbscope_warnings INTERFACE)
 target_compile_options(mobbscope_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${MOBBSCOPE_WERROR}>:-Werror>)
-if(MOBBSCOPE_SANITIZE)
-  add_compile_options(-fsanitize=${MOBBSCOPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  add_link_options(-fsanitize=${MOBBSCOPE_SANITIZE})
-endif()

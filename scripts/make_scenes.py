@@ -65,7 +65,7 @@ def main():
 
     # The paper's Fig. 8: a long walk in circles.
     write_scene(folder, "circles", {"circles": "circle"}, {
-        "agents": [{"name": "walker", "clip": "circles", "color": "#009E73"}],
+        "agents": [{"name": "walker", "clip": "circles", "color": "#CC79A7"}],
         "fit": {"tree": "mobb", "leaf": 10},
         "view": {"camera": {"preset": "iso"}, "levels": "5", "time_height": 0.28},
     })

@@ -1,4 +1,5 @@
 #include <cli/commands.h>
+#include <cli/messages.h>
 #include <cli/options.h>
 #include <import/error.h>
 #include <import/text.h>
@@ -40,7 +41,8 @@ PictureSize parse_size(const std::string& text) {
     const std::optional<int> width = parse_int(std::string_view(text).substr(0, x));
     const std::optional<int> height =
         x == std::string::npos ? std::nullopt : parse_int(std::string_view(text).substr(x + 1));
-    if (!width || !height) throw std::invalid_argument(in_quotes(text) + " is no size: give WIDTHxHEIGHT in pixels (1280x720)");
+    if (!width || !height)
+        throw std::invalid_argument(in_quotes(text) + " is no size: give WIDTHxHEIGHT in pixels (1280x720)");
     const PictureSize size{*width, *height};
     check(size);
     return size;
@@ -75,7 +77,8 @@ auto number_within(double low, double high) {
     return [low, high](const std::string& text) {
         const std::optional<double> value = parse_double(text);
         if (!value || !(*value >= low && *value <= high)) {
-            throw std::invalid_argument(in_quotes(text) + " is no number from " + format_double(low) + " to " + format_double(high));
+            throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " +
+                                        brief(high));
         }
         return *value;
     };
@@ -124,10 +127,12 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
     const auto parse_view = [](const std::string& text) {
         return required(camera_preset(text), text, "iso, top, front, side, free");
     };
-    add_parsed(command, "--view", arguments.view, parse_view, "Camera: iso, top, front, side, or free (--yaw, --pitch)", "NAME");
+    add_parsed(command, "--view", arguments.view, parse_view, "Camera: iso, top, front, side, or free (--yaw, --pitch)",
+               "NAME");
     add_parsed(command, "--yaw", arguments.yaw, number_within(-3600, 3600),
                "Free camera: degrees from +x to the eye, counter-clockwise", "DEG");
-    add_parsed(command, "--pitch", arguments.pitch, number_within(-90, 90), "Free camera: degrees above the floor", "DEG");
+    add_parsed(command, "--pitch", arguments.pitch, number_within(-90, 90), "Free camera: degrees above the floor",
+               "DEG");
     add_parsed(command, "--fov", arguments.fov, number_within(5, 120), "Vertical field of view in degrees", "DEG");
     command.add_flag("--ortho", arguments.orthographic, "Without perspective");
     add_parsed(command, "--level", arguments.levels, parse_level_range, "Levels shown: N, A:B or leaves", "LEVELS");
@@ -135,12 +140,13 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
         command, "--query", arguments.query,
         [](const std::string& text) {
             const std::optional<int> index = parse_int(text);
-            if (!index || *index < 0) throw std::invalid_argument(in_quotes(text) + " is no query: give its number, from 0");
+            if (!index || *index < 0)
+                throw std::invalid_argument(in_quotes(text) + " is no query: give its number, from 0");
             return *index;
         },
         "Show a query instead of levels: its number, from 0", "K");
-    add_parsed(command, "--step", arguments.step, parse_step, "Step of the query: an event number, a percentage (40%) or end",
-               "STEP");
+    add_parsed(command, "--step", arguments.step, parse_step,
+               "Step of the query: an event number, a percentage (40%) or end", "STEP");
     add_parsed(command, "--time", arguments.time, number_within(-mobb::kMaxTime, mobb::kMaxTime),
                "Time cursor, global seconds", "T");
     add_parsed(command, "--time-height", arguments.time_height, number_within(1e-6, 1e6),
@@ -151,7 +157,8 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
         "OpenGL without a display: auto, osmesa or egl", "NAME");
     add_parsed(
         command, "--theme", arguments.theme,
-        [](const std::string& text) { return required(theme_from_name(text), text, "dark, light"); }, "dark or light", "NAME");
+        [](const std::string& text) { return required(theme_from_name(text), text, "dark, light"); }, "dark or light",
+        "NAME");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace mobb {
 
@@ -14,6 +15,9 @@ enum class BoxKind : std::uint8_t {
     obb2d,  ///< an oriented rectangle extruded in time: a MOBB node (paper, Section 3)
     obb3d,  ///< a free oriented box: a UMOBB node (paper, Section 4)
 };
+
+/// As in files: "obb2d", "obb3d".
+std::string_view name(BoxKind kind);
 
 /// An oriented box. Every box is complete in three dimensions; an obb2d has (0, 0, 1) as its third axis, so that it can
 /// be tested against an obb3d. Lengths are metres; time is mixed in by the tree's time scale w (m/s).

@@ -1,10 +1,12 @@
 #include <mobb/clip.h>
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mobb {
 
@@ -17,8 +19,8 @@ bool within(double value, double limit) { return std::isfinite(value) && std::ab
 Clip::Clip(double dt, std::vector<Disk> samples) : dt_(dt), samples_(std::move(samples)), reach_(0) {
     if (!std::isfinite(dt) || dt <= 0) throw std::invalid_argument("dt must be a finite number above 0 s");
     if (samples_.empty()) throw std::invalid_argument("a clip needs at least one sample");
-    if (samples_.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() / 4)) {
-        throw std::invalid_argument("a clip holds at most 536870911 samples");
+    if (samples_.size() > kMaxSamples) {
+        throw std::invalid_argument("a clip holds at most 500000000 samples");
     }
     if (duration() > kMaxTime) throw std::invalid_argument("the clip lasts longer than 1e12 s");
     for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -39,6 +41,7 @@ bool is_valid(const Placement& placement) {
 }
 
 Rotation Rotation::from_degrees(double degrees) {
+    assert(within(degrees, 1e9));
     // Quarter turns first, so that 90, 180 and 270 degrees are exact and the rest is small.
     const double quarters = std::nearbyint(degrees / 90);
     const double rest = (degrees - quarters * 90) * (std::numbers::pi / 180);

@@ -3,6 +3,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <cassert>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,11 +22,15 @@ struct Disk {
 inline constexpr double kMaxLength = 1e9;
 inline constexpr double kMaxTime = 1e12;
 
+/// Sample and node indices are int; a tree has fewer than twice as many nodes as samples.
+inline constexpr std::size_t kMaxSamples = 500'000'000;
+
 /// N >= 1 disks at uniform spacing dt > 0 seconds; disk i holds over [i*dt, (i+1)*dt). Immutable: share it freely.
 class Clip {
   public:
     /// Throws std::invalid_argument, naming the sample, if dt is not finite and positive, there is no sample, a number
-    /// is not finite or beyond kMaxLength, a radius is negative, or the clip lasts longer than kMaxTime.
+    /// is not finite or beyond kMaxLength, a radius is negative, the clip lasts longer than kMaxTime, or there are more
+    /// samples than kMaxSamples.
     Clip(double dt, std::vector<Disk> samples);
 
     double dt() const { return dt_; }
@@ -60,6 +66,7 @@ struct Rotation {
     double c = 1;
     double s = 0;
 
+    /// `degrees` must be finite and within 1e9.
     static Rotation from_degrees(double degrees);
     glm::dvec2 operator()(glm::dvec2 v) const { return {c * v.x - s * v.y, s * v.x + c * v.y}; }
     Rotation inverse() const { return {c, -s}; }
@@ -68,7 +75,7 @@ struct Rotation {
 };
 
 /// A clip seen through a placement: samples in world metres and global seconds. It refers to the clip, which must
-/// outlive it.
+/// outlive it and stay where it is. Requires is_valid(placement).
 class PlacedClip {
   public:
     PlacedClip(const Clip& clip, const Placement& placement)
@@ -76,7 +83,10 @@ class PlacedClip {
           dt_(clip.dt()),
           clip_(&clip),
           placement_(placement),
-          rotation_(Rotation::from_degrees(placement.rotate_deg)) {}
+          rotation_(Rotation::from_degrees(placement.rotate_deg)) {
+        assert(is_valid(placement));
+    }
+    PlacedClip(const Clip&&, const Placement&) = delete;
 
     const Clip& clip() const { return *clip_; }
     int count() const { return clip_->count(); }

@@ -1,12 +1,15 @@
 #include <mobb/fit.h>
+#include <mobb/principal_axes.h>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace mobb {
 
@@ -89,29 +92,14 @@ Box box_along(const Clip& clip, SampleRange range, const Axes3& axes, double w) 
 /// Of the two opposite directions, the one with the positive first component that is not zero.
 glm::dvec2 positive(glm::dvec2 u) { return u.x < 0 || (u.x == 0 && u.y < 0) ? -u : u; }
 
-/// Principal axis of the centres; +x where they have none.
-glm::dvec2 principal_axis(std::span<const Disk> disks) {
-    // Offsets from the first centre: a standing figure gives exact zeros, wherever it stands.
-    double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-    for (const Disk& d : disks) {
-        const double x = d.x - disks[0].x;
-        const double y = d.y - disks[0].y;
-        sx += x, sy += y;
-        sxx += x * x, sxy += x * y, syy += y * y;
-    }
-    const double n = static_cast<double>(disks.size());
-    const double cxx = sxx - sx * sx / n;
-    const double cxy = sxy - sx * sy / n;
-    const double cyy = syy - sy * sy / n;
-    const double angle = 0.5 * std::atan2(2 * cxy, cxx - cyy);
-    return positive({std::cos(angle), std::sin(angle)});
+glm::dvec2 travel(std::span<const Disk> disks) {
+    return {disks.back().x - disks.front().x, disks.back().y - disks.front().y};
 }
 
 /// From the first centre to the last; where they coincide (standing still, a closed loop) the principal axis.
 glm::dvec2 travel_axis(std::span<const Disk> disks) {
-    const glm::dvec2 travel{disks.back().x - disks.front().x, disks.back().y - disks.front().y};
-    const double length = glm::length(travel);
-    return length > kStandingStill ? travel / length : principal_axis(disks);
+    const double length = glm::length(travel(disks));
+    return length > kStandingStill ? travel(disks) / length : principal_axis(disks);
 }
 
 /// The direction of the smallest rectangle around the disks, over 1,800 angles in a quarter turn and the two other
@@ -183,64 +171,22 @@ Axes3 frame_around(glm::dvec3 a0) {
     return {a0, a1, glm::cross(a0, a1)};
 }
 
-glm::dvec3 space_time_travel(const Clip& clip, SampleRange range, double w) {
-    const std::span<const Disk> d = disks(clip, range);
-    return glm::normalize(
-        glm::dvec3{d.back().x - d.front().x, d.back().y - d.front().y, w * (range.count - 1) * clip.dt()});
+Axes3 travel_axes(const Clip& clip, SampleRange range, double w) {
+    return frame_around(glm::normalize(glm::dvec3{travel(disks(clip, range)), w * (range.count - 1) * clip.dt()}));
 }
 
-/// Turns two columns of a frame into each other.
+/// Principal axes of the centres in (x, y, w*t).
+Axes3 covariance_axes(const Clip& clip, SampleRange range, double w) {
+    const PrincipalAxes principal = principal_axes(disks(clip, range), w * clip.dt());
+    // A straight walk has no second direction: take the floor's.
+    return principal.is_line && !is_along_time(principal.axes[0]) ? frame_around(principal.axes[0]) : principal.axes;
+}
+
+/// Turns two axes of a frame into each other.
 void turn(glm::dvec3& a, glm::dvec3& b, double c, double s) {
     const glm::dvec3 turned = c * a + s * b;
     b = c * b - s * a;
     a = turned;
-}
-
-/// Principal axes of the centres in (x, y, w*t), longest first, by Jacobi's method on their 3x3 covariance.
-Axes3 principal_axes(const Clip& clip, SampleRange range, double w) {
-    const std::span<const Disk> d = disks(clip, range);
-    glm::dvec3 sum{0};
-    double m[3][3] = {};
-    int i = 0;
-    for (const Disk& disk : d) {
-        const glm::dvec3 p{disk.x - d[0].x, disk.y - d[0].y, w * clip.dt() * i++};
-        sum += p;
-        for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c) m[r][c] += p[r] * p[c];
-    }
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) m[r][c] -= sum[r] * sum[c] / range.count;
-
-    Axes3 v{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0}, glm::dvec3{0, 0, 1}};
-    for (int sweep = 0; sweep < 32; ++sweep) {
-        const double off = std::abs(m[0][1]) + std::abs(m[0][2]) + std::abs(m[1][2]);
-        if (off <= 1e-15 * (std::abs(m[0][0]) + std::abs(m[1][1]) + std::abs(m[2][2]))) break;
-        for (int p = 0; p < 2; ++p) {
-            for (int q = p + 1; q < 3; ++q) {
-                if (m[p][q] == 0) continue;
-                const double angle = 0.5 * std::atan2(2 * m[p][q], m[p][p] - m[q][q]);
-                const double c = std::cos(angle);
-                const double s = std::sin(angle);
-                for (int k = 0; k < 3; ++k) {
-                    const double mp = m[k][p], mq = m[k][q];
-                    m[k][p] = c * mp + s * mq;
-                    m[k][q] = c * mq - s * mp;
-                }
-                for (int k = 0; k < 3; ++k) {
-                    const double mp = m[p][k], mq = m[q][k];
-                    m[p][k] = c * mp + s * mq;
-                    m[q][k] = c * mq - s * mp;
-                }
-                turn(v[static_cast<std::size_t>(p)], v[static_cast<std::size_t>(q)], c, s);
-            }
-        }
-    }
-    std::array<std::size_t, 3> order{0, 1, 2};
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return m[a][a] > m[b][b]; });
-    const glm::dvec3 a0 = v[order[0]] * (v[order[0]].z < 0 ? -1.0 : 1.0);
-    // A straight walk has no second direction: take the floor's.
-    if (m[order[1]][order[1]] <= 1e-12 * m[order[0]][order[0]] && !is_along_time(a0)) return frame_around(a0);
-    return {a0, v[order[1]], glm::cross(a0, v[order[1]])};
 }
 
 /// The box along axes of which one may turn out to be time's.
@@ -255,11 +201,12 @@ Box box_along_or_upright(const Clip& clip, SampleRange range, const Axes3& axes,
 
 /// Turns the box about its own axes by ever smaller steps for as long as its volume shrinks.
 Box shrink_by_turning(const Clip& clip, SampleRange range, Box best, double w) {
-    constexpr double kFirstStep = 0.2;   // radians
-    constexpr double kLastStep = 0.002;  // below this the volume no longer changes by a per mille
+    constexpr double kFirstStep = 0.2;  // radians
+    constexpr int kHalvings = 7;        // down to 0.003: finer steps change the volume by less than a per mille
     constexpr int kMostTurnsPerStep = 32;
     double least = volume(best, w);
-    for (double step = kFirstStep; step > kLastStep; step /= 2) {
+    for (int halving = 0; halving < kHalvings; ++halving) {
+        const double step = std::ldexp(kFirstStep, -halving);
         const double c = std::cos(step);
         const double s = std::sin(step);
         bool improved = true;
@@ -283,31 +230,29 @@ Box shrink_by_turning(const Clip& clip, SampleRange range, Box best, double w) {
 }
 
 Box smallest_box(const Clip& clip, SampleRange range, double w) {
-    Box best = box_along(clip, range, frame_around(space_time_travel(clip, range, w)), w);
-    const auto consider = [&](const Box& box) {
+    Box best = fit_obb3d(clip, range, Axes::endpoints, w);
+    for (const Box& box : {fit_obb3d(clip, range, Axes::covariance, w), fit_obb2d(clip, range, Axes::minarea, w)}) {
         if (volume(box, w) < volume(best, w)) best = box;
-    };
-    consider(box_along_or_upright(clip, range, principal_axes(clip, range, w), w));
-    consider(fit_obb2d(clip, range, Axes::minarea, w));
+    }
     return shrink_by_turning(clip, range, best, w);
 }
 
 }  // namespace
 
 Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
+    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
     return rectangle_over_time(clip, range, axis_2d(disks(clip, range), axes), time_scale);
 }
 
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
-    const std::span<const Disk> d = disks(clip, range);
-    const double travel = std::hypot(d.back().x - d.front().x, d.back().y - d.front().y);
-    if (range.count == 1 || travel <= kStandingStill) return fit_obb2d(clip, range, axes, time_scale);
+    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
+    const bool along_time = range.count == 1 || glm::length(travel(disks(clip, range))) <= kStandingStill;
+    if (along_time) return fit_obb2d(clip, range, axes, time_scale);
     switch (axes) {
         case Axes::endpoints:
-            return box_along_or_upright(clip, range, frame_around(space_time_travel(clip, range, time_scale)),
-                                        time_scale);
+            return box_along_or_upright(clip, range, travel_axes(clip, range, time_scale), time_scale);
         case Axes::covariance:
-            return box_along_or_upright(clip, range, principal_axes(clip, range, time_scale), time_scale);
+            return box_along_or_upright(clip, range, covariance_axes(clip, range, time_scale), time_scale);
         case Axes::minarea:
             return smallest_box(clip, range, time_scale);
     }

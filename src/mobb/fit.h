@@ -5,6 +5,9 @@
 #include <mobb/clip.h>
 
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
 
 namespace mobb {
 
@@ -14,6 +17,11 @@ enum class Axes : std::uint8_t {
     covariance,  ///< principal axes of the centres (for 3D boxes, of (x, y, w*t))
     minarea,  ///< smallest rectangle over 1,800 angles; 3D: the smallest volume found. Never larger than the other two
 };
+
+/// As in files and on the command line: "endpoints", "covariance", "minarea".
+std::string_view name(Axes axes);
+std::optional<Axes> axes_from_name(std::string_view name);
+std::span<const std::string_view> axes_names();
 
 /// Consecutive samples [first, first + count) of a clip; count >= 1.
 struct SampleRange {
@@ -25,12 +33,13 @@ struct SampleRange {
 /// First and last centre nearer than this (metres) give no direction of travel.
 inline constexpr double kStandingStill = 1e-6;
 
-/// The tight oriented rectangle around the disks, extruded over their time. The time axis is scaled by w (m/s).
+/// The tight oriented rectangle around the disks, extruded over their time. The range must lie in the clip and hold a
+/// sample; the time axis is scaled by w > 0 (m/s).
 Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale);
 
-/// The tight free box around the cylinders. Where its first axis would be along time (one sample, or first and last
-/// centre within kStandingStill) the result is an obb2d: this is where the 2D tests in the paper's UMOBB rows come
-/// from.
+/// The tight free box around the cylinders, under the same conditions. Where its first axis would be along time (one
+/// sample, or first and last centre within kStandingStill) the result is an obb2d: this is where the 2D tests in the
+/// paper's UMOBB rows come from.
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale);
 
 }  // namespace mobb

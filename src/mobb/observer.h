@@ -5,6 +5,7 @@
 #include <mobb/box.h>
 #include <mobb/separation.h>
 
+#include <concepts>
 #include <cstdint>
 
 namespace mobb {
@@ -36,12 +37,32 @@ struct ObserverBase {
     void sample_test(bool /*hit*/) {}  ///< after the pairs of two leaves
 };
 
+/// NoObserver, or a type with the hooks of ObserverBase.
+template <class T>
+concept TraversalObserver = !T::watches || requires(T & observer, const Separation& separation) {
+    observer.enter(0, 0);
+    observer.leave();
+    observer.time_test(true);
+    observer.box_test(BoxKind::obb2d, separation);
+    observer.sample_pair(0, 0, 0.0);
+    observer.sample_test(true);
+};
+
 /// Counts tests.
 struct Statistics : ObserverBase {
     TestCounts tests;
 
     void time_test(bool) { ++tests.time; }
-    void box_test(BoxKind test, const Separation&) { ++(test == BoxKind::obb2d ? tests.obb2d : tests.obb3d); }
+    void box_test(BoxKind test, const Separation&) {
+        switch (test) {
+            case BoxKind::obb2d:
+                ++tests.obb2d;
+                break;
+            case BoxKind::obb3d:
+                ++tests.obb3d;
+                break;
+        }
+    }
     void sample_pair(int, int, double) { ++tests.samples; }
 };
 

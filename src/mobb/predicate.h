@@ -1,10 +1,17 @@
 /// The one place that decides a hit (paper, Eq. 1). Every leaf and the direct search use these functions, in double and
-/// without fused multiply-add, so all of them agree bit for bit.
+/// without fused multiply-add, so all of them agree bit for bit. The mobb::mobb target brings -ffp-contract=off for
+/// that; whoever compiles these headers without it must give it too.
 #pragma once
 
 #include <mobb/clip.h>
 
 #include <algorithm>
+#include <cfloat>
+
+#if defined(__FAST_MATH__)
+#error "mobb promises the same answer everywhere: do not build with -ffast-math"
+#endif
+static_assert(FLT_EVAL_METHOD == 0, "doubles must be evaluated as doubles");
 
 namespace mobb {
 

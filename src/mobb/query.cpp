@@ -1,5 +1,8 @@
 #include <mobb/query.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace mobb {
 
 namespace {

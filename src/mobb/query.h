@@ -2,9 +2,10 @@
 #pragma once
 
 #include <mobb/observer.h>
+#include <mobb/placed_tree.h>
 #include <mobb/traversal.h>
-#include <mobb/tree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -39,7 +40,7 @@ inline Contact contact_of(const PlacedClip& a, int i, const PlacedClip& b, int j
 
 /// The earliest contact of two trees, or none. The answer does not depend on the trees' kinds, only on the clips; it is
 /// that of direct_search bit for bit. Trees of different time scales may be asked; their 3D boxes then prune nothing.
-template <NodeSource A, NodeSource B, class Observer>
+template <NodeSource A, NodeSource B, TraversalObserver Observer>
 std::optional<Contact> query(const A& a, const B& b, Observer& observer) {
     std::optional<Contact> contact;
     auto on_hit = [&](int i, int j) {
@@ -56,7 +57,7 @@ std::vector<Interval> contact_intervals(const PlacedTree& a, const PlacedTree& b
 
 /// The answer without a tree: every pair of samples that overlap in time is measured, in order of time, up to the first
 /// hit.
-template <class Observer>
+template <TraversalObserver Observer>
 std::optional<Contact> direct_search(const PlacedClip& a, const PlacedClip& b, Observer& observer) {
     std::optional<Contact> contact;
     auto on_hit = [&](int i, int j) {
@@ -64,9 +65,9 @@ std::optional<Contact> direct_search(const PlacedClip& a, const PlacedClip& b, O
         return true;
     };
     if constexpr (Observer::watches) observer.enter(0, 0);
-    [[maybe_unused]] const bool hit = visit_sample_pairs(a, 0, a.count(), b, 0, b.count(), observer, on_hit);
+    [[maybe_unused]] const PairVisit visit = visit_sample_pairs(a, 0, a.count(), b, 0, b.count(), observer, on_hit);
     if constexpr (Observer::watches) {
-        observer.sample_test(hit);
+        observer.sample_test(visit.hit);
         observer.leave();
     }
     return contact;

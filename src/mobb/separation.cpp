@@ -9,8 +9,12 @@ namespace mobb {
 
 namespace {
 
-/// Roundings between a sample and a gap, counted generously: fitting, two placements, the rotation, the projections.
+/// Fitting, two placements, the rotation between them and the projections round some forty times, each by at most one
+/// epsilon of the lengths involved. The rest is margin: it costs nothing that can be seen.
 constexpr double kSlackFactor = 256 * std::numeric_limits<double>::epsilon();
+
+/// Metres. Squares of lengths below 1e-154 underflow in the hit predicate, which then sees disks closer than they are.
+constexpr double kLeastSlack = 1e-150;
 
 /// Edge-edge axes shorter than this are skipped.
 constexpr double kShortestEdgeAxis = 1e-3;
@@ -27,8 +31,8 @@ RelativeFrame::RelativeFrame(const PlacedClip& a, const PlacedClip& b, double ti
         manhattan(a.placement().translate) + manhattan(b.placement().translate) + a.clip().reach() + b.clip().reach();
     const double times =
         std::abs(a.placement().start) + std::abs(b.placement().start) + a.clip().duration() + b.clip().duration();
-    slack2d_ = kSlackFactor * lengths;
-    slack3d_ = kSlackFactor * (lengths + time_scale * times);
+    slack2d_ = kLeastSlack + kSlackFactor * lengths;
+    slack3d_ = kLeastSlack + kSlackFactor * (lengths + time_scale * times);
 }
 
 Separation separate_obb2d(const Box& a, const Box& b, const RelativeFrame& frame) {

@@ -1,26 +1,27 @@
 #include <mobb/trace.h>
 
-#include <mobb/name_table.h>
-
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 
 namespace mobb {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kTestNames{"time", "obb2d", "obb3d", "samples"};
-constexpr std::array<std::string_view, 5> kOutcomeNames{"disjoint_in_time", "separated", "overlap", "hit", "no_hit"};
+TestKind test_kind(BoxKind kind) {
+    switch (kind) {
+        case BoxKind::obb2d:
+            return TestKind::obb2d;
+        case BoxKind::obb3d:
+            return TestKind::obb3d;
+    }
+    return TestKind::obb3d;
+}
 
 }  // namespace
 
-std::string_view name(Test test) { return kTestNames[static_cast<std::size_t>(test)]; }
-std::string_view name(Outcome outcome) { return kOutcomeNames[static_cast<std::size_t>(outcome)]; }
-std::optional<Test> test_from_name(std::string_view name) { return from_name<Test>(kTestNames, name); }
-std::optional<Outcome> outcome_from_name(std::string_view name) { return from_name<Outcome>(kOutcomeNames, name); }
-
-Trace::Event Trace::operator[](int step) const {
+Trace::Event Trace::operator[](int step) const& {
+    assert(step >= 0 && step < size());
     const auto i = static_cast<std::size_t>(step);
     const std::size_t pairs_begin = i == 0 ? 0 : pairs_end_[i - 1];
     return {parent_[i], depth_[i], a_[i],
@@ -43,9 +44,9 @@ void Trace::push(const Event& event) {
 
 TestCounts Trace::counts() const {
     TestCounts counts;
-    counts.time = std::ranges::count(test_, Test::time);
-    counts.obb2d = std::ranges::count(test_, Test::obb2d);
-    counts.obb3d = std::ranges::count(test_, Test::obb3d);
+    counts.time = std::ranges::count(test_, TestKind::time);
+    counts.obb2d = std::ranges::count(test_, TestKind::obb2d);
+    counts.obb3d = std::ranges::count(test_, TestKind::obb3d);
     counts.samples = static_cast<std::int64_t>(pool_.size());
     return counts;
 }
@@ -56,12 +57,11 @@ void TraceRecorder::enter(int a, int b) {
 }
 
 void TraceRecorder::time_test(bool overlap) {
-    push(Test::time, overlap ? Outcome::overlap : Outcome::disjoint_in_time);
+    push(TestKind::time, overlap ? Outcome::overlap : Outcome::disjoint_in_time);
 }
 
 void TraceRecorder::box_test(BoxKind test, const Separation& separation) {
-    push(test == BoxKind::obb2d ? Test::obb2d : Test::obb3d,
-         separation.separated() ? Outcome::separated : Outcome::overlap, separation);
+    push(test_kind(test), separation.separated() ? Outcome::separated : Outcome::overlap, separation);
 }
 
 void TraceRecorder::sample_pair(int i, int j, double squared_distance) {
@@ -69,15 +69,15 @@ void TraceRecorder::sample_pair(int i, int j, double squared_distance) {
 }
 
 void TraceRecorder::sample_test(bool hit) {
-    push(Test::samples, hit ? Outcome::hit : Outcome::no_hit);
+    push(TestKind::samples, hit ? Outcome::hit : Outcome::no_hit);
     pairs_.clear();
 }
 
-void TraceRecorder::push(Test test, Outcome outcome, const Separation& separation) {
+void TraceRecorder::push(TestKind test, Outcome outcome, const Separation& separation) {
     OpenPair& open = open_.back();
     trace_.push({open.parent, static_cast<int>(open_.size()) - 1, open.a, open.b, test, outcome, separation.axis,
                  separation.gap,
-                 test == Test::samples ? std::span<const MeasuredPair>(pairs_) : std::span<const MeasuredPair>()});
+                 test == TestKind::samples ? std::span<const MeasuredPair>(pairs_) : std::span<const MeasuredPair>()});
     open.last = trace_.size() - 1;
 }
 

@@ -13,12 +13,12 @@
 
 namespace mobb {
 
-enum class Test : std::uint8_t { time, obb2d, obb3d, samples };
+enum class TestKind : std::uint8_t { time, obb2d, obb3d, samples };
 enum class Outcome : std::uint8_t { disjoint_in_time, separated, overlap, hit, no_hit };
 
-std::string_view name(Test test);
+std::string_view name(TestKind test);
 std::string_view name(Outcome outcome);
-std::optional<Test> test_from_name(std::string_view name);
+std::optional<TestKind> test_from_name(std::string_view name);
 std::optional<Outcome> outcome_from_name(std::string_view name);
 
 /// A pair of samples whose distance was measured.
@@ -36,7 +36,7 @@ class Trace {
         int depth = 0;    ///< in node pairs; 0 at the root
         int a = 0;        ///< node indices
         int b = 0;
-        Test test = Test::time;
+        TestKind test = TestKind::time;
         Outcome outcome = Outcome::overlap;
         int axis = -1;                          ///< of a separation (see Separation); else -1
         double gap = 0;                         ///< of a separation, metres; else 0
@@ -45,8 +45,9 @@ class Trace {
 
     int size() const { return static_cast<int>(test_.size()); }
     bool empty() const { return test_.empty(); }
-    /// 0 <= step < size().
-    Event operator[](int step) const;
+    /// 0 <= step < size(). The event's pairs lie in the trace: they are valid until the next push.
+    Event operator[](int step) const&;
+    Event operator[](int step) const&& = delete;
     /// The event's `pairs` are copied into the pool. A parent must be an earlier event or -1.
     void push(const Event& event);
     /// What the statistics observer would have counted over the same query.
@@ -54,7 +55,7 @@ class Trace {
 
   private:
     std::vector<int> parent_, depth_, a_, b_, axis_;
-    std::vector<Test> test_;
+    std::vector<TestKind> test_;
     std::vector<Outcome> outcome_;
     std::vector<double> gap_;
     std::vector<std::size_t> pairs_end_;  ///< end of event i's pairs in the pool; they begin where those of i-1 end
@@ -74,13 +75,14 @@ class TraceRecorder {
     void sample_test(bool hit);
 
     const Trace& trace() const { return trace_; }
-    Trace take() { return std::move(trace_); }
+    /// Hands the trace over and starts a new one; without it, a second query is recorded behind the first.
+    Trace take() { return std::exchange(trace_, {}); }
 
   private:
     struct OpenPair {
         int a, b, parent, last;
     };
-    void push(Test test, Outcome outcome, const Separation& separation = {});
+    void push(TestKind test, Outcome outcome, const Separation& separation = {});
 
     Trace trace_;
     std::vector<OpenPair> open_;

@@ -5,6 +5,7 @@
 #include <mobb/predicate.h>
 #include <mobb/separation.h>
 
+#include <algorithm>
 #include <concepts>
 
 namespace mobb {
@@ -36,38 +37,52 @@ inline int first_ending_after(const PlacedClip& clip, int first, int last, doubl
     return first;
 }
 
+/// What became of the pairs of two ranges of samples.
+struct PairVisit {
+    bool hit = false;      ///< some pair collides
+    bool stopped = false;  ///< on_hit asked to stop
+};
+
 /// Visits, in order of time, every pair (i, j) of samples from [first_a, end_a) x [first_b, end_b) whose hold intervals
-/// overlap, measures their distance, and calls on_hit(i, j) on those that collide. Stops and returns true once on_hit
-/// does.
-template <class Observer, class OnHit>
-bool visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b, int end_b,
-                        [[maybe_unused]] Observer& observer, OnHit& on_hit) {
+/// overlap, measures their distance, and calls on_hit(i, j) on those that collide, until it returns true.
+template <TraversalObserver Observer, class OnHit>
+PairVisit visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b, int end_b,
+                             [[maybe_unused]] Observer& observer, OnHit& on_hit) {
+    PairVisit visit;
     const double begin = std::max(a.time(first_a), b.time(first_b));
     int i = first_ending_after(a, first_a, end_a, begin);
     int j = first_ending_after(b, first_b, end_b, begin);
-    while (i < end_a && j < end_b) {
-        const double end_i = a.time(i + 1);
-        const double end_j = b.time(j + 1);
-        if (overlap_in_time(a.time(i), end_i, b.time(j), end_j)) {
-            const Disk disk_a = a.disk(i);
-            const Disk disk_b = b.disk(j);
+    if (i == end_a || j == end_b) return visit;
+    // Each sample is placed once, however many partners it has.
+    Disk disk_a = a.disk(i), disk_b = b.disk(j);
+    double begin_a = a.time(i), until_a = a.time(i + 1);
+    double begin_b = b.time(j), until_b = b.time(j + 1);
+    for (;;) {
+        if (overlap_in_time(begin_a, until_a, begin_b, until_b)) {
             if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
-            if (collide(disk_a, disk_b) && on_hit(i, j)) {
-                return true;
+            if (collide(disk_a, disk_b)) {
+                visit.hit = true;
+                visit.stopped = on_hit(i, j);
+                if (visit.stopped) return visit;
             }
         }
-        if (end_i < end_j) {
-            ++i;
+        if (until_a < until_b) {
+            if (++i == end_a) return visit;
+            disk_a = a.disk(i);
+            begin_a = until_a;
+            until_a = a.time(i + 1);
         } else {
-            ++j;
+            if (++j == end_b) return visit;
+            disk_b = b.disk(j);
+            begin_b = until_b;
+            until_b = b.time(j + 1);
         }
     }
-    return false;
 }
 
 /// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says
 /// whether to stop.
-template <NodeSource A, NodeSource B, class Observer, class OnHit>
+template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit>
 class Traversal {
   public:
     Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
@@ -82,6 +97,8 @@ class Traversal {
     bool run() { return visit(0, 0); }
 
   private:
+    enum class Side { a, b };
+
     bool visit(int ia, int ib) {
         const auto& na = a_.node(ia);
         const auto& nb = b_.node(ib);
@@ -89,9 +106,9 @@ class Traversal {
         bool stop = false;
         if (may_meet_in_time(na, nb) && may_meet_in_space(na.box, nb.box)) {
             if (na.is_leaf()) {
-                stop = nb.is_leaf() ? test_samples(na, nb) : walk_b(ia, nb);
+                stop = nb.is_leaf() ? test_samples(na, nb) : walk<Side::b>(ia, nb);
             } else if (nb.is_leaf()) {
-                stop = walk_a(na, ib);
+                stop = walk<Side::a>(ib, na);
             } else {
                 // In this order the traversal runs forward in time: one of the two mixed pairs is always apart in time.
                 stop = visit(na.children[0], nb.children[0]) || visit(na.children[0], nb.children[1]) ||
@@ -102,26 +119,24 @@ class Traversal {
         return stop;
     }
 
-    /// A's leaf against the children of an inner node of B (Fig. 4): in time only, as a box test gains nothing there.
-    bool walk_b(int ia, const auto& inner) {
-        const auto& leaf = a_.node(ia);
+    /// A leaf against the children of the other side's inner node (Fig. 4): in time only, as a box test gains nothing
+    /// there.
+    template <Side inner_side>
+    bool walk(int leaf, const auto& inner) {
         for (const int child : inner.children) {
-            const auto& nb = b_.node(child);
-            if constexpr (Observer::watches) observer_.enter(ia, child);
-            const bool stop = may_meet_in_time(leaf, nb) && (nb.is_leaf() ? test_samples(leaf, nb) : walk_b(ia, nb));
-            if constexpr (Observer::watches) observer_.leave();
-            if (stop) return true;
-        }
-        return false;
-    }
-
-    /// The mirror image of walk_b.
-    bool walk_a(const auto& inner, int ib) {
-        const auto& leaf = b_.node(ib);
-        for (const int child : inner.children) {
-            const auto& na = a_.node(child);
-            if constexpr (Observer::watches) observer_.enter(child, ib);
-            const bool stop = may_meet_in_time(na, leaf) && (na.is_leaf() ? test_samples(na, leaf) : walk_a(na, ib));
+            const int ia = inner_side == Side::a ? child : leaf;
+            const int ib = inner_side == Side::a ? leaf : child;
+            const auto& na = a_.node(ia);
+            const auto& nb = b_.node(ib);
+            if constexpr (Observer::watches) observer_.enter(ia, ib);
+            bool stop = false;
+            if (may_meet_in_time(na, nb)) {
+                if constexpr (inner_side == Side::a) {
+                    stop = na.is_leaf() ? test_samples(na, nb) : walk<Side::a>(leaf, na);
+                } else {
+                    stop = nb.is_leaf() ? test_samples(na, nb) : walk<Side::b>(leaf, nb);
+                }
+            }
             if constexpr (Observer::watches) observer_.leave();
             if (stop) return true;
         }
@@ -148,10 +163,10 @@ class Traversal {
     }
 
     bool test_samples(const auto& na, const auto& nb) {
-        const bool hit = visit_sample_pairs(a_.placed_clip(), na.first, na.end(), b_.placed_clip(), nb.first, nb.end(),
-                                            observer_, on_hit_);
-        if constexpr (Observer::watches) observer_.sample_test(hit);
-        return hit;
+        const PairVisit pairs = visit_sample_pairs(a_.placed_clip(), na.first, na.end(), b_.placed_clip(), nb.first,
+                                                   nb.end(), observer_, on_hit_);
+        if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
+        return pairs.stopped;
     }
 
     const A& a_;

@@ -1,19 +1,13 @@
 #include <mobb/tree.h>
 
-#include <mobb/name_table.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace mobb {
 
 namespace {
-
-constexpr std::array<std::string_view, 4> kTreeKindNames{"mobb", "umobb", "hybrid1", "hybrid2"};
-constexpr std::array<std::string_view, 3> kAxesNames{"endpoints", "covariance", "minarea"};
 
 bool is_free_box(TreeKind kind, int level) {
     switch (kind) {
@@ -31,15 +25,9 @@ bool is_free_box(TreeKind kind, int level) {
 
 }  // namespace
 
-std::string_view name(TreeKind kind) { return kTreeKindNames[static_cast<std::size_t>(kind)]; }
-std::string_view name(Axes axes) { return kAxesNames[static_cast<std::size_t>(axes)]; }
-std::string_view name(BoxKind kind) { return kind == BoxKind::obb2d ? "obb2d" : "obb3d"; }
-std::optional<TreeKind> tree_kind(std::string_view name) { return from_name<TreeKind>(kTreeKindNames, name); }
-std::optional<Axes> axes_from_name(std::string_view name) { return from_name<Axes>(kAxesNames, name); }
-std::span<const std::string_view> tree_kind_names() { return kTreeKindNames; }
-std::span<const std::string_view> axes_names() { return kAxesNames; }
-
 void check(const FitOptions& options) {
+    if (options.tree > TreeKind::hybrid2) throw std::invalid_argument("tree is no TreeKind");
+    if (options.axes > Axes::minarea) throw std::invalid_argument("axes is no Axes");
     if (options.leaf < 1) throw std::invalid_argument("leaf must be at least 1");
     if (options.levels < 0) throw std::invalid_argument("levels must be 0 (all) or more");
     const double w = options.time_scale;
@@ -49,6 +37,7 @@ void check(const FitOptions& options) {
 }
 
 Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), options_(options) {
+    if (!clip_) throw std::invalid_argument("a tree needs a clip");
     check(options_);
     build({0, clip_->count()}, -1, 0);
 }
@@ -74,30 +63,6 @@ int Tree::build(SampleRange range, int parent, int level) {
         nodes_[static_cast<std::size_t>(index)].children[1] = second_child;
     }
     return index;
-}
-
-double cylinder_volume(const Clip& clip) {
-    double sum = 0;
-    for (const Disk& d : clip.samples()) sum += d.r * d.r;
-    return std::numbers::pi * sum * clip.dt();
-}
-
-std::vector<LevelFigures> level_figures(const Tree& tree) {
-    std::vector<LevelFigures> levels(static_cast<std::size_t>(tree.depth()));
-    for (const Node& node : tree.nodes()) {
-        const double v = volume(node.box, tree.time_scale());
-        const int last = node.is_leaf() ? tree.depth() - 1 : node.level;
-        for (int level = node.level; level <= last; ++level) {
-            levels[static_cast<std::size_t>(level)].nodes += 1;
-            levels[static_cast<std::size_t>(level)].volume += v;
-        }
-    }
-    const double cylinders = cylinder_volume(tree.clip());
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        levels[i].level = static_cast<int>(i);
-        if (levels[i].volume > 0) levels[i].tightness = cylinders / levels[i].volume;
-    }
-    return levels;
 }
 
 }  // namespace mobb

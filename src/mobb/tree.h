@@ -33,14 +33,13 @@ struct FitOptions {
 /// Largest time_scale taken (m/s); the smallest is its inverse.
 inline constexpr double kMaxTimeScale = 1e6;
 
-/// Names as they stand in files and on the command line: "mobb", "endpoints", "obb2d", ...
+/// As in files and on the command line: "mobb", "umobb", "hybrid1", "hybrid2".
 std::string_view name(TreeKind kind);
-std::string_view name(Axes axes);
-std::string_view name(BoxKind kind);
-std::optional<TreeKind> tree_kind(std::string_view name);
-std::optional<Axes> axes_from_name(std::string_view name);
+std::optional<TreeKind> tree_kind_from_name(std::string_view name);
 std::span<const std::string_view> tree_kind_names();
-std::span<const std::string_view> axes_names();
+
+/// Throws std::invalid_argument, naming the option, if one is out of range.
+void check(const FitOptions& options);
 
 struct Node {
     Box box;  ///< in the clip's own frame
@@ -57,7 +56,7 @@ struct Node {
 /// A flat array of nodes in depth-first order, the root first. Immutable; safe to query from any number of threads.
 class Tree {
   public:
-    /// Throws std::invalid_argument if an option is out of range.
+    /// Throws std::invalid_argument if there is no clip or an option is out of range.
     Tree(ClipPtr clip, const FitOptions& options);
 
     const Clip& clip() const { return *clip_; }
@@ -78,43 +77,6 @@ class Tree {
     FitOptions options_;
     std::vector<Node> nodes_;
     int depth_ = 0;
-};
-
-/// Throws std::invalid_argument, naming the option, if one is out of range.
-void check(const FitOptions& options);
-
-/// How well one level bounds its clip. The figures cover the level's nodes and the leaves above it: always the whole
-/// clip.
-struct LevelFigures {
-    int level = 0;
-    int nodes = 0;
-    double volume = 0;  ///< of the boxes, m^2*s
-    std::optional<double>
-        tightness;  ///< volume of the cylinders / volume of the boxes; none where the boxes have no volume
-};
-std::vector<LevelFigures> level_figures(const Tree& tree);
-
-/// Sum over the samples of pi*r^2*dt, m^2*s.
-double cylinder_volume(const Clip& clip);
-
-/// A tree seen through a placement: a node source of the traversal. It refers to the tree, which must outlive it.
-class PlacedTree {
-  public:
-    PlacedTree(const Tree& tree, const Placement& placement)
-        : nodes_(tree.nodes().data()), placed_(tree.clip(), placement), tree_(&tree) {}
-
-    const Tree& tree() const { return *tree_; }
-    const Node& node(int i) const { return nodes_[i]; }
-    double time_scale() const { return tree_->time_scale(); }
-    const PlacedClip& placed_clip() const { return placed_; }
-    /// Global time, as the samples that bound the node have it: so a node is never apart from what its samples meet.
-    double begin(const Node& node) const { return placed_.time(node.first); }
-    double end(const Node& node) const { return placed_.time(node.end()); }
-
-  private:
-    const Node* nodes_;
-    PlacedClip placed_;
-    const Tree* tree_;
 };
 
 }  // namespace mobb

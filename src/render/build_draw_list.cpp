@@ -99,6 +99,7 @@ class Builder {
             }
         }
         aim();
+        refine_small_boxes(list_);
         add_stage();
         add_annotations();
         add_overlay();

@@ -28,6 +28,19 @@ LevelStyle level_style(int level, int first, int last) {
     return {0.025f + 0.075f * t, 0.45f + 0.5f * t, 0.9f + 0.9f * t};
 }
 
+void refine_small_boxes(DrawList& list) {
+    constexpr float kSmall = 26;  // pixels between opposite corners, at least
+    for (BoxInstance& box : list.boxes) {
+        if (box.state != BoxState::level) continue;
+        float height = 0;
+        for (const glm::vec3& extent : box.extents) height += 2 * std::abs(extent.z);
+        const float pixels = height * list.lens.pixels_per_metre(box.center);
+        const float part = std::clamp(pixels / kSmall, 0.0f, 1.0f);
+        box.width *= 0.5f + 0.5f * part;
+        box.edge.a *= 0.45f + 0.55f * part;
+    }
+}
+
 void add_level_boxes(DrawList& list, const Subject& subject, const LevelRange& levels, float scale) {
     const mobb::Tree& tree = subject.placed.tree();
     const int last = last_shown_level(tree, levels);

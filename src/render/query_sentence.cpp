@@ -22,7 +22,7 @@ std::string axis_name(const Subject& subject, int node, int axis, int axes) {
 }
 
 std::string separating_axis(std::span<const Subject> sides, const mobb::Trace::Event& event) {
-    const int axes = event.test == mobb::Test::obb2d ? 2 : 3;
+    const int axes = event.test == mobb::TestKind::obb2d ? 2 : 3;
     if (event.axis < axes) return "along " + axis_name(sides[0], event.a, event.axis, axes);
     if (event.axis < 2 * axes) return "along " + axis_name(sides[1], event.b, event.axis - axes, axes);
     const int edge = event.axis - 6;
@@ -67,12 +67,12 @@ std::string sample_outcome(std::span<const Subject> sides, const mobb::Trace::Ev
 
 std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Event& event) {
     switch (event.test) {
-        case mobb::Test::time:
+        case mobb::TestKind::time:
             return time_outcome(sides, event);
-        case mobb::Test::samples:
+        case mobb::TestKind::samples:
             return sample_outcome(sides, event);
-        case mobb::Test::obb2d:
-        case mobb::Test::obb3d:
+        case mobb::TestKind::obb2d:
+        case mobb::TestKind::obb3d:
             break;
     }
     if (event.outcome == mobb::Outcome::separated) {

@@ -27,7 +27,7 @@ Projection project(const mobb::Box& box, glm::dvec3 axis) {
 /// The axis that an event names, unit (see mobb::Separation).
 glm::dvec3 axis_of(const mobb::Box& a, const mobb::Box& b, const mobb::Trace::Event& event) {
     const auto i = static_cast<std::size_t>(event.axis);
-    if (event.test == mobb::Test::obb2d) return i < 2 ? a.axes[i] : b.axes[i - 2];
+    if (event.test == mobb::TestKind::obb2d) return i < 2 ? a.axes[i] : b.axes[i - 2];
     if (i < 3) return a.axes[i];
     if (i < 6) return b.axes[i - 3];
     return glm::normalize(glm::cross(a.axes[(i - 6) / 3], b.axes[(i - 6) % 3]));

@@ -24,7 +24,7 @@ std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view) 
     const int count = static_cast<int>(fitted.queries().size());
     if (*view.query < 0 || *view.query >= count) {
         throw std::invalid_argument("there is no query " + std::to_string(*view.query) + ": the scene has " +
-                                    (count == 0 ? "none" : "0 to " + std::to_string(count - 1)));
+                                    (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
     }
     const SceneQuery& query = fitted.queries()[static_cast<std::size_t>(*view.query)];
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;

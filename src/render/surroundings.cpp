@@ -64,6 +64,7 @@ Stage make_stage(glm::dvec3 min, glm::dvec3 max) {
     stage.y0 = below(min.y);
     stage.x1 = above(max.x);
     stage.y1 = above(max.y);
+    stage.lowest = min.z;
     stage.t0 = min.z;
     stage.t1 = max.z;
     stage.time_step = nice_step(std::max(max.z - min.z, 1e-6), kTicks);
@@ -85,9 +86,14 @@ bool floor_on_edge(const Lens& lens) { return std::abs(lens.back.z) < 0.02f; }
 bool time_on_end(const Lens& lens) { return std::abs(lens.back.z) > 0.995f; }
 
 glm::dvec2 axis_corner(const Stage& s, glm::vec3 right) {
-    // Where a side of the floor is seen end-on, either of its corners would do; a fixed one is taken.
-    const auto toward_left = [](float along, double low, double high) { return along >= -1e-4f ? low : high; };
-    return {toward_left(right.x, s.x0, s.x1), toward_left(right.y, s.y0, s.y1)};
+    // A side seen end-on has both its corners equally far to the left; the farther from the viewer is taken, so that
+    // what is drawn across from the axis lies behind the scene.
+    const glm::vec2 back(right.y, -right.x);
+    const auto choose = [](float along, float towards_viewer, double low, double high) {
+        if (std::abs(along) > 1e-4f) return along > 0 ? low : high;
+        return towards_viewer > 0 ? low : high;
+    };
+    return {choose(right.x, back.x, s.x0, s.x1), choose(right.y, back.y, s.y0, s.y1)};
 }
 
 void add_floor_grid(DrawList& list, const Stage& s, float scale) {
@@ -107,7 +113,9 @@ void add_time_axis(DrawList& list, const Stage& s, float scale) {
     const auto at = [&](double t) { return space.point(foot.x, foot.y, t); };
     // Seen edge-on there is no grid behind the scene, so its ticks run all the way across.
     const bool across = floor_on_edge(list.lens);
-    const glm::dvec2 opposite{foot.x == s.x0 ? s.x1 : s.x0, foot.y == s.y0 ? s.y1 : s.y0};
+    const bool along_x = std::abs(list.lens.right.x) > std::abs(list.lens.right.y);
+    const glm::dvec2 opposite =
+        along_x ? glm::dvec2(foot.x == s.x0 ? s.x1 : s.x0, foot.y) : glm::dvec2(foot.x, foot.y == s.y0 ? s.y1 : s.y0);
     for (const double t : ticks(s.t0, s.t1, s.time_step)) {
         if (across) add_line(list, at(t), space.point(opposite.x, opposite.y, t), list.palette.grid, scale, 0);
         const float half = kTick * scale / list.lens.pixels_per_metre(at(t));
@@ -115,7 +123,6 @@ void add_time_axis(DrawList& list, const Stage& s, float scale) {
                  1);
     }
     if (across) {
-        const bool along_x = std::abs(list.lens.right.x) > std::abs(list.lens.right.y);
         for (const double v : ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step)) {
             const glm::dvec2 p = along_x ? glm::dvec2(v, foot.y) : glm::dvec2(foot.x, v);
             add_line(list, space.point(p.x, p.y, s.t0), space.point(p.x, p.y, s.t1), list.palette.grid, scale, 0);
@@ -220,7 +227,9 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
             // One label tells which way it is; the others are bare.
             const bool last = v == values.back();
             label.text = last ? std::string(along_x ? "x " : "y ") + tick_text(v, shown) + " m" : tick_text(v, shown);
-            label.anchor = lens.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, s.t0));
+            // Boxes may reach below a floor that is seen edge-on; its labels stand below them.
+            const double height = floor_on_edge(lens) ? s.lowest : s.t0;
+            label.anchor = lens.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, height));
             label.directions = {direction};
             label.distance = 0.6f * size;
             out.push_back(label);

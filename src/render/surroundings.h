@@ -12,9 +12,10 @@ namespace mobbscope {
 /// What the floor covers, world metres and global seconds.
 struct Stage {
     double x0 = 0, x1 = 1, y0 = 0, y1 = 1;
-    double step = 1;  ///< metres between the lines of the grid
-    double t0 = 0, t1 = 1;
-    double time_step = 1;  ///< seconds between the ticks
+    double step = 1;        ///< metres between the lines of the grid
+    double t0 = 0, t1 = 1;  ///< of the paths; the floor lies at t0
+    double lowest = 0;      ///< boxes may begin before, at this time
+    double time_step = 1;   ///< seconds between the ticks
 };
 
 /// A floor of whole grid cells around [min, max] (x, y, t).

@@ -32,8 +32,9 @@ class Random {
 
 enum class Motion { standing, straight, wander, loop, circles, jitter, jumps, count };
 
-/// 1 to `most` samples; most clips are short, some are long.
-inline ClipPtr random_clip(Random& random, int most = 2000) {
+/// 1 to `most` samples; most clips are short, some are long, and one in ten lies far from its own origin. dt > 0 is
+/// taken if given.
+inline ClipPtr random_clip(Random& random, int most = 2000, double given_dt = 0) {
     int n = 1;
     switch (random.integer(0, 4)) {
         case 0:
@@ -52,13 +53,16 @@ inline ClipPtr random_clip(Random& random, int most = 2000) {
     }
     n = std::min(n, most);
     constexpr double kSpacings[] = {1.0 / 30, 1.0 / 60, 1.0 / 25, 0.1, 0.0333333, 1.0};
-    const double dt = random.chance(0.7) ? kSpacings[random.integer(0, 5)] : random.real(0.005, 0.3);
+    const double dt = given_dt > 0         ? given_dt
+                      : random.chance(0.7) ? kSpacings[random.integer(0, 5)]
+                                           : random.real(0.005, 0.3);
     const auto motion = static_cast<Motion>(random.integer(0, static_cast<int>(Motion::count) - 1));
     const double speed = random.real(0.1, 5);
     const double radius = random.chance(0.1) ? 0 : random.real(0.05, 0.6);
     const double sway = random.chance(0.5) ? random.real(0, 0.15) : 0;
 
-    double x = random.real(-2, 2), y = random.real(-2, 2), heading = random.real(-4, 4);
+    const double far_away = random.chance(0.1) ? 1e5 : 0;
+    double x = random.real(-2, 2) + far_away, y = random.real(-2, 2) - far_away, heading = random.real(-4, 4);
     std::vector<Disk> samples;
     for (int i = 0; i < n; ++i) {
         const double phase = static_cast<double>(i) / n;
@@ -94,12 +98,19 @@ inline ClipPtr random_clip(Random& random, int most = 2000) {
     return std::make_shared<const Clip>(dt, std::move(samples));
 }
 
+/// A second clip for a pair: now and then with the first one's dt, so that their frames can be aligned.
+inline ClipPtr random_partner(Random& random, const Clip& clip, int most = 2000) {
+    return random_clip(random, most, random.chance(0.4) ? clip.dt() : 0);
+}
+
 inline FitOptions random_fit(Random& random) {
     FitOptions fit;
     fit.tree = static_cast<TreeKind>(random.integer(0, 3));
     fit.leaf = random.chance(0.5) ? 10 : random.integer(1, 50);
     fit.levels = random.chance(0.6) ? 0 : random.integer(1, 6);
     fit.axes = static_cast<Axes>(random.integer(0, 2));
+    // From 1e-3 to 1e3 m/s, evenly in orders of magnitude; mostly the paper's.
+    if (random.chance(0.3)) fit.time_scale = std::pow(10, random.real(-3, 3));
     return fit;
 }
 

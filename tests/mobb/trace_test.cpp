@@ -102,7 +102,7 @@ class Replay {
 
     bool time(int ia, int ib, int depth, int parent) {
         const Trace::Event event = next(ia, ib, depth, parent);
-        EXPECT_EQ(event.test, mobb::Test::time);
+        EXPECT_EQ(event.test, mobb::TestKind::time);
         const auto interval = [](const PlacedTree& tree, const Node& node) {
             const double dt = tree.tree().clip().dt(), start = tree.placed_clip().placement().start;
             return Interval{start + node.first * dt, start + node.end() * dt};
@@ -119,7 +119,7 @@ class Replay {
         const Box& box_a = a_.node(ia).box;
         const Box& box_b = b_.node(ib).box;
         const bool flat = box_a.kind == BoxKind::obb2d && box_b.kind == BoxKind::obb2d;
-        EXPECT_EQ(event.test, flat ? mobb::Test::obb2d : mobb::Test::obb3d);
+        EXPECT_EQ(event.test, flat ? mobb::TestKind::obb2d : mobb::TestKind::obb3d);
         const double w = a_.time_scale();
         const WorldBox a = world_box(box_a, a_.placed_clip().placement(), w);
         const WorldBox b = world_box(box_b, b_.placed_clip().placement(), w);
@@ -154,7 +154,7 @@ class Replay {
 
     bool samples(int ia, int ib, int depth, int parent) {
         const Trace::Event event = next(ia, ib, depth, parent);
-        EXPECT_EQ(event.test, mobb::Test::samples);
+        EXPECT_EQ(event.test, mobb::TestKind::samples);
         const Node& na = a_.node(ia);
         const Node& nb = b_.node(ib);
         const PlacedClip& a = a_.placed_clip();
@@ -194,9 +194,9 @@ TEST(Trace, EveryEventReEvaluatedGivesTheSame) {
     Random random(20);
     std::int64_t events = 0, separations_3d = 0, edge_axes = 0;
     for (int round = 0; round < 1500; ++round) {
-        const ClipPtr a = test::random_clip(random, 400), b = test::random_clip(random, 400);
+        const ClipPtr a = test::random_clip(random, 400), b = test::random_partner(random, *a, 400);
         FitOptions fit_a = test::random_fit(random), fit_b = test::random_fit(random);
-        fit_a.time_scale = fit_b.time_scale = random.chance(0.5) ? 1 : random.real(0.2, 5);
+        fit_b.time_scale = fit_a.time_scale;
         const Tree tree_a(a, fit_a), tree_b(b, fit_b);
         for (int k = 0; k < 5; ++k) {
             Placement place_a, place_b;
@@ -212,7 +212,8 @@ TEST(Trace, EveryEventReEvaluatedGivesTheSame) {
             ASSERT_EQ(trace.counts(), statistics.tests);
             events += trace.size();
             for (int step = 0; step < trace.size(); ++step) {
-                separations_3d += trace[step].test == mobb::Test::obb3d && trace[step].outcome == Outcome::separated;
+                separations_3d +=
+                    trace[step].test == mobb::TestKind::obb3d && trace[step].outcome == Outcome::separated;
                 edge_axes += trace[step].axis >= 6;
             }
             if (HasFailure()) FAIL() << "round " << round << ", " << name(fit_a.tree) << " / " << name(fit_b.tree);
@@ -221,6 +222,33 @@ TEST(Trace, EveryEventReEvaluatedGivesTheSame) {
     EXPECT_GT(events, 50000);
     EXPECT_GT(separations_3d, 2000);
     EXPECT_GT(edge_axes, 20);
+}
+
+TEST(Trace, AHitIsAHitWhoeverListens) {
+    // A traversal that goes on after a hit still records it as one.
+    const auto clip = std::make_shared<const Clip>(0.1, std::vector<Disk>(4, Disk{0, 0, 1}));
+    const Tree tree(clip, {.leaf = 2});
+    const PlacedTree a(tree, {}), b(tree, {});
+    TraceRecorder recorder;
+    int hits = 0;
+    auto go_on = [&](int, int) { return ++hits, false; };
+    EXPECT_FALSE(Traversal(a, b, recorder, go_on).run());
+    EXPECT_EQ(hits, 4);
+    const Trace trace = recorder.take();
+    EXPECT_TRUE(recorder.trace().empty());
+    int recorded = 0;
+    for (int step = 0; step < trace.size(); ++step) recorded += trace[step].outcome == Outcome::hit;
+    EXPECT_EQ(recorded, 2) << "one for each pair of leaves";
+}
+
+TEST(Trace, FreeBoxesOfDifferentScalesAreNotTested) {
+    std::vector<Disk> walk;
+    for (int i = 0; i < 40; ++i) walk.push_back({0.1 * i, 0.001 * i * i, 0.3});
+    const auto clip = std::make_shared<const Clip>(0.1, walk);
+    const Tree tree_a(clip, {.tree = TreeKind::umobb}), tree_b(clip, {.tree = TreeKind::umobb, .time_scale = 2});
+    Statistics statistics;
+    EXPECT_TRUE(query(PlacedTree(tree_a, {}), PlacedTree(tree_b, {.translate = {0.5, 0}}), statistics));
+    EXPECT_EQ(statistics.tests.obb3d, 0);
 }
 
 TEST(Trace, OfTheDirectSearchIsOneEvent) {
@@ -238,16 +266,16 @@ TEST(Trace, OfTheDirectSearchIsOneEvent) {
 TEST(Trace, PushKeepsThePairsOfEachEventApart) {
     Trace trace;
     const MeasuredPair pairs[] = {{1, 2, 0.5}, {3, 4, 0.25}};
-    trace.push({.test = mobb::Test::samples, .outcome = Outcome::no_hit, .pairs = std::span(pairs).first(1)});
+    trace.push({.test = mobb::TestKind::samples, .outcome = Outcome::no_hit, .pairs = std::span(pairs).first(1)});
     trace.push({.parent = 0,
                 .depth = 1,
                 .a = 5,
                 .b = 6,
-                .test = mobb::Test::obb3d,
+                .test = mobb::TestKind::obb3d,
                 .outcome = Outcome::separated,
                 .axis = 7,
                 .gap = 2});
-    trace.push({.test = mobb::Test::samples, .outcome = Outcome::hit, .pairs = pairs});
+    trace.push({.test = mobb::TestKind::samples, .outcome = Outcome::hit, .pairs = pairs});
     ASSERT_EQ(trace.size(), 3);
     EXPECT_EQ(trace[0].pairs.size(), 1u);
     EXPECT_TRUE(trace[1].pairs.empty());

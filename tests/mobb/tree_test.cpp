@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <mobb/level_figures.h>
 #include <mobb/random_motion.h>
 #include <mobb/tree.h>
 
@@ -61,6 +62,9 @@ TEST(Tree, KindsSayWhichBoxesStandWhere) {
 
 TEST(Tree, RefusesOptionsOutOfRange) {
     const auto clip = std::make_shared<const Clip>(1, std::vector<Disk>{{0, 0, 1}});
+    EXPECT_THROW(Tree(nullptr, {}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {.tree = static_cast<TreeKind>(9)}), std::invalid_argument);
+    EXPECT_THROW(Tree(clip, {.axes = static_cast<Axes>(9)}), std::invalid_argument);
     EXPECT_THROW(Tree(clip, {.leaf = 0}), std::invalid_argument);
     EXPECT_THROW(Tree(clip, {.levels = -1}), std::invalid_argument);
     EXPECT_THROW(Tree(clip, {.time_scale = 0}), std::invalid_argument);
@@ -98,9 +102,9 @@ TEST(Tree, VolumeOfFreeBoxesIsInSquareMetreSeconds) {
 }
 
 TEST(Names, RoundTrip) {
-    for (const std::string_view n : tree_kind_names()) EXPECT_EQ(name(*tree_kind(n)), n);
+    for (const std::string_view n : tree_kind_names()) EXPECT_EQ(name(*tree_kind_from_name(n)), n);
     for (const std::string_view n : axes_names()) EXPECT_EQ(name(*axes_from_name(n)), n);
-    EXPECT_FALSE(tree_kind("MOBB").has_value());
+    EXPECT_FALSE(tree_kind_from_name("MOBB").has_value());
 }
 
 }  // namespace

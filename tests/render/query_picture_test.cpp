@@ -25,7 +25,7 @@ struct Query {
         view.step = {Step::Unit::event, static_cast<double>(step)};
         return build_draw_list(fitted, view, kSize);
     }
-    int find(mobb::Test test, mobb::Outcome outcome) const {
+    int find(mobb::TestKind test, mobb::Outcome outcome) const {
         for (int i = 0; i < recorded.trace.size(); ++i) {
             if (recorded.trace[i].test == test && recorded.trace[i].outcome == outcome) return i;
         }
@@ -135,7 +135,7 @@ TEST(QueryPicture, TheGapIsAsWideAsTheTraceSays) {
 
 TEST(QuerySentence, SaysWhatAStepShows) {
     const Query query(testing::miss_scene());
-    const int step = query.find(mobb::Test::obb2d, mobb::Outcome::separated);
+    const int step = query.find(mobb::TestKind::obb2d, mobb::Outcome::separated);
     ASSERT_GE(step, 0);
     const std::string sentence = step_sentence(query.sides, query.recorded.trace, step);
     const std::string start =

@@ -1,0 +1,44 @@
+// The names of every enumerator, as they stand in files.
+#include <mobb/trace.h>
+#include <mobb/tree.h>
+
+#include <algorithm>
+#include <array>
+
+namespace mobb {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kBoxKindNames{"obb2d", "obb3d"};
+constexpr std::array<std::string_view, 3> kAxesNames{"endpoints", "covariance", "minarea"};
+constexpr std::array<std::string_view, 4> kTreeKindNames{"mobb", "umobb", "hybrid1", "hybrid2"};
+constexpr std::array<std::string_view, 4> kTestKindNames{"time", "obb2d", "obb3d", "samples"};
+constexpr std::array<std::string_view, 5> kOutcomeNames{"disjoint_in_time", "separated", "overlap", "hit", "no_hit"};
+
+/// `names` lists the names of the enumerators 0, 1, 2, ...
+template <class Enum>
+std::optional<Enum> from_name(std::span<const std::string_view> names, std::string_view name) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<Enum>(found - names.begin());
+}
+
+}  // namespace
+
+std::string_view name(BoxKind kind) { return kBoxKindNames[static_cast<std::size_t>(kind)]; }
+
+std::string_view name(Axes axes) { return kAxesNames[static_cast<std::size_t>(axes)]; }
+std::optional<Axes> axes_from_name(std::string_view name) { return from_name<Axes>(kAxesNames, name); }
+std::span<const std::string_view> axes_names() { return kAxesNames; }
+
+std::string_view name(TreeKind kind) { return kTreeKindNames[static_cast<std::size_t>(kind)]; }
+std::optional<TreeKind> tree_kind_from_name(std::string_view name) { return from_name<TreeKind>(kTreeKindNames, name); }
+std::span<const std::string_view> tree_kind_names() { return kTreeKindNames; }
+
+std::string_view name(TestKind test) { return kTestKindNames[static_cast<std::size_t>(test)]; }
+std::optional<TestKind> test_from_name(std::string_view name) { return from_name<TestKind>(kTestKindNames, name); }
+
+std::string_view name(Outcome outcome) { return kOutcomeNames[static_cast<std::size_t>(outcome)]; }
+std::optional<Outcome> outcome_from_name(std::string_view name) { return from_name<Outcome>(kOutcomeNames, name); }
+
+}  // namespace mobb

@@ -1,0 +1,30 @@
+/// Trees where their clips are placed.
+#pragma once
+
+#include <mobb/tree.h>
+
+namespace mobb {
+
+/// A tree seen through a placement: a node source of the traversal. It refers to the tree, which must outlive it and
+/// stay where it is. Requires is_valid(placement).
+class PlacedTree {
+  public:
+    PlacedTree(const Tree& tree, const Placement& placement)
+        : nodes_(tree.nodes().data()), placed_(tree.clip(), placement), tree_(&tree) {}
+    PlacedTree(const Tree&&, const Placement&) = delete;
+
+    const Tree& tree() const { return *tree_; }
+    const Node& node(int i) const { return nodes_[i]; }
+    double time_scale() const { return tree_->time_scale(); }
+    const PlacedClip& placed_clip() const { return placed_; }
+    /// Global time, as the samples that bound the node have it: so a node is never apart from what its samples meet.
+    double begin(const Node& node) const { return placed_.time(node.first); }
+    double end(const Node& node) const { return placed_.time(node.end()); }
+
+  private:
+    const Node* nodes_;
+    PlacedClip placed_;
+    const Tree* tree_;
+};
+
+}  // namespace mobb
