@@ -62,6 +62,18 @@ std::string file_of(const Scene& scene, const SceneClip& clip) {
     return clip.source ? (scene.file.parent_path() / *clip.source).string() : scene.file.string();
 }
 
+/// Neither a CSV nor a scene has a skeleton: then these are null.
+void write_skeleton(JsonWriter& out, const SourceFacts& facts) {
+    const auto name = [&out](const char* key, const std::string& text) {
+        out.key(key);
+        text.empty() ? out.null() : out.value(text);
+    };
+    name("animation", facts.animation);
+    name("root", facts.root);
+    out.key("joints");
+    facts.joints > 0 ? out.value(facts.joints) : out.null();
+}
+
 void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     const SourceFacts facts = facts_of(clip);
     const PathFigures figures = figures_of(*clip.clip);
@@ -69,11 +81,7 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("file", file_of(scene, clip));
     out.member("name", clip.name);
     out.member("format", facts.format);
-    // Neither a CSV nor a scene has a skeleton.
-    for (const char* key : {"animation", "root", "joints"}) {
-        out.key(key);
-        out.null();
-    }
+    write_skeleton(out, facts);
     out.member("unit", facts.unit);
     out.member("file_frames", facts.frames);
     out.key("file_dt");
@@ -94,13 +102,23 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.end_object();
 }
 
+/// How the unit was found, where it had to be guessed.
+std::string guess_of(const SourceFacts& facts) {
+    if (!facts.guessed_from_height) return "";
+    return " (guessed: a body " + brief(std::round(*facts.guessed_from_height * 100) / 100) + " m tall)";
+}
+
 void print_clip(const Scene& scene, const SceneClip& clip) {
     const SourceFacts facts = facts_of(clip);
     const PathFigures figures = figures_of(*clip.clip);
-    std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n"
-              << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
+    std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n";
+    if (facts.joints > 0) {
+        std::cout << "  skeleton     " << counted(facts.joints, "joint", "joints") << ", root " << in_quotes(facts.root)
+                  << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
+    }
+    std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
-              << brief(facts.unit) << " m per unit\n"
+              << brief(facts.unit) << " m per unit" << guess_of(facts) << '\n'
               << "  taken        " << counted(clip.clip->count(), "sample", "samples") << " of "
               << brief(clip.clip->dt()) << " s, " << brief(clip.clip->duration()) << " s in all\n"
               << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
@@ -136,7 +154,7 @@ void run(const Arguments& arguments) {
 void add_info_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("FILE", arguments->files, "Scenes (.json) and clips (.csv)")->required();
+    command->add_option("FILE", arguments->files, "Scenes (.json) and clips (.bvh .gltf .glb .fbx .csv)")->required();
     command->add_flag("--json", arguments->json, "The same as JSON");
     add_import_options(*command, arguments->import_options);
     command->callback([arguments] { run(*arguments); });

@@ -141,7 +141,7 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
 }
 
 void add_scene_file(CLI::App& command, std::filesystem::path& file) {
-    command.add_option("FILE", file, "A scene (.json) or a clip (.csv)")->required();
+    command.add_option("FILE", file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)")->required();
 }
 
 Scene load(const std::filesystem::path& file, const ImportOptions& options) {

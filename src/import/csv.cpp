@@ -201,10 +201,7 @@ class CsvParser {
 /// Metres per file unit. A CSV has no skeleton whose height would tell, so "auto" says nothing.
 double unit_scale(const ImportOptions& options) {
     const std::string unit = options.unit.value_or("m");
-    if (unit == "m") return 1;
-    if (unit == "cm") return 0.01;
-    if (unit == "in") return 0.0254;
-    const std::optional<double> scale = parse_double(unit);
+    const std::optional<double> scale = metres_per_unit(unit);
     if (!scale)
         throw std::invalid_argument("unit " + in_quotes(unit) +
                                     " does not apply to CSV; give m, cm, in or metres per file unit");
@@ -279,20 +276,8 @@ class ClipMaker {
     }
 
     std::vector<mobb::Disk> sampled(const std::vector<TimedDisk>& rows, double step) const {
-        const double length = rows.back().t - rows.front().t;
-        const auto [from, to] = options_.trim.value_or(std::pair{0.0, length});
-        if (from > length) {
-            throw std::invalid_argument("trim begins at " + short_double(from) + " s but the rows last " +
-                                        short_double(length) + " s");
-        }
-        const double begin = rows.front().t + from;
-        const double end = rows.front().t + std::min(to, length);
-        const double count = sample_count(begin, end, step);
-        if (count > static_cast<double>(kMaxSamples - std::min(count_, kMaxSamples))) {
-            throw std::invalid_argument("its times make more than " + std::to_string(kMaxSamples) +
-                                        " samples; check the unit of t or lower fps");
-        }
-        return sample(rows, begin, step, static_cast<std::size_t>(count));
+        const std::size_t most = kMaxSamples - std::min(count_, kMaxSamples);
+        return sample(rows, sample_grid(rows.front().t, rows.back().t, options_.trim, step, most));
     }
 
     const CsvTable& table_;

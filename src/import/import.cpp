@@ -2,6 +2,8 @@
 #include <import/error.h>
 #include <import/file.h>
 #include <import/import.h>
+#include <import/motion.h>
+#include <import/motion_clips.h>
 #include <import/text.h>
 
 #include <array>
@@ -22,9 +24,8 @@ void require(bool in_range, const std::string& message) {
 }
 
 bool is_unit(const std::string& text) {
-    if (text == "m" || text == "cm" || text == "in" || text == "auto") return true;
-    const std::optional<double> scale = parse_double(text);
-    return scale && *scale > 0 && *scale <= kMaxUnit;
+    const std::optional<double> scale = metres_per_unit(text);
+    return text == "auto" || (scale && *scale > 0 && *scale <= kMaxUnit);
 }
 
 }  // namespace
@@ -44,6 +45,13 @@ void check(const ImportOptions& options) {
             "dt must be over 0 and at most " + short_double(mobb::kMaxTime) + " seconds");
 }
 
+std::optional<double> metres_per_unit(const std::string& unit) {
+    if (unit == "m") return 1;
+    if (unit == "cm") return 0.01;
+    if (unit == "in") return 0.0254;
+    return parse_double(unit);
+}
+
 std::string_view name(Origin origin) {
     for (const auto& [text, value] : kOrigins) {
         if (value == origin) return text;
@@ -60,6 +68,7 @@ std::optional<Origin> origin_from_name(std::string_view name) {
 
 struct Importer::ParsedFiles {
     std::map<std::filesystem::path, CsvTable> tables;
+    std::map<std::filesystem::path, std::unique_ptr<MotionFile>> motions;
 };
 
 Importer::Importer() : parsed_(std::make_unique<ParsedFiles>()) {}
@@ -72,14 +81,21 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
         throw InputError(file.string(), "", error.what());
     }
     // The one place that knows which reader takes which extension.
-    if (lower_extension(file) == ".csv") {
+    const std::string extension = lower_extension(file);
+    if (extension == ".csv") {
         auto table = parsed_->tables.find(file);
         if (table == parsed_->tables.end()) {
             table = parsed_->tables.emplace(file, parse_csv(read_file(file), file.string())).first;
         }
         return csv_clips(table->second, file, options);
     }
-    throw InputError(file.string(), "", "no reader for this kind of file; clips can be .csv, scenes .json");
+    if (is_motion_extension(extension)) {
+        std::unique_ptr<MotionFile>& motion = parsed_->motions[file];
+        if (!motion) motion = read_motion(file);
+        return motion_clips(*motion, file, options);
+    }
+    throw InputError(file.string(), "",
+                     "no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, scenes .json");
 }
 
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {

@@ -34,19 +34,30 @@ struct ImportOptions {
 /// Throws std::invalid_argument, naming the option, if one is out of range whatever the file.
 void check(const ImportOptions& options);
 
+/// Metres per file unit of a checked ImportOptions::unit; nothing for "auto".
+std::optional<double> metres_per_unit(const std::string& unit);
+
 /// Names as they stand in files: "keep", "start", "start_heading".
 std::string_view name(Origin origin);
 std::optional<Origin> origin_from_name(std::string_view name);
 
 /// What the file said, before sampling.
 struct SourceFacts {
-    std::string format;  ///< "csv"
+    std::string format;  ///< "csv", "bvh", "gltf", "fbx"
     double unit = 1;     ///< metres per file unit
     int frames = 0;
     std::optional<double> dt;           ///< seconds between frames, where they are uniform
     double duration = 0;                ///< last key - first key, seconds
-    std::vector<std::string> warnings;  ///< what was passed over, one sentence each
+    std::vector<std::string> warnings;  ///< what was passed over or looks wrong, one sentence each
+
+    // Of files with skeletons:
+    std::string animation{};                      ///< its name; "#<index>" if it has none
+    std::string root{};                           ///< the joint in the centre of the disks
+    int joints = 0;                               ///< in the root's subtree, itself included, End Sites not
+    std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
 };
+
+struct Skeleton;
 
 /// A clip and where it came from.
 struct ImportedClip {
@@ -54,6 +65,8 @@ struct ImportedClip {
     std::string id;    ///< CSV with many tracks: the track; else empty
     mobb::ClipPtr clip;
     SourceFacts facts;
+    std::string animation{};                     ///< of a file with several: ImportOptions::animation for this one
+    std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
 };
 
 /// Reads clips from files, each file once however many of its clips are asked for.
@@ -62,8 +75,9 @@ class Importer {
     Importer();
     ~Importer();
 
-    /// Every clip in a file, by its extension (.csv so far), in the file's order: of a CSV with many tracks each of
-    /// them, unless options.id names one. Throws InputError.
+    /// Every clip in a file, by its extension (.csv .bvh .gltf .glb .fbx), in the file's order: of a CSV with many
+    /// tracks each of them, unless options.id names one; likewise of several animations and options.animation. Throws
+    /// InputError.
     std::vector<ImportedClip> clips(const std::filesystem::path& file, const ImportOptions& options);
 
   private:

@@ -1,17 +1,15 @@
 #include <import/sampling.h>
+#include <import/text.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace mobbscope {
 
 namespace {
 
 constexpr double kHeadingDistance = 0.1;  // metres: the contract's least distance that gives a heading
-
-mobb::Disk mix(const mobb::Disk& a, const mobb::Disk& b, double share) {
-    return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.r, b.r, share)};
-}
 
 }  // namespace
 
@@ -25,15 +23,35 @@ std::optional<std::size_t> first_out_of_step(std::span<const TimedDisk> frames) 
 }
 
 double sample_count(double begin, double end, double step) {
-    return std::max(std::floor((end - begin) / step + kFrameTolerance), 0.0) + 1;
+    return std::max(std::floor((end - begin) / step + kEndTolerance), 0.0) + 1;
 }
 
-std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, double begin, double step, std::size_t count) {
+SampleGrid sample_grid(double first, double last, const std::optional<std::pair<double, double>>& trim, double step,
+                       std::size_t most) {
+    const double length = last - first;
+    const auto [from, to] = trim.value_or(std::pair{0.0, length});
+    if (from > length) {
+        throw std::invalid_argument("trim begins at " + short_double(from) + " s but the file lasts " +
+                                    short_double(length) + " s");
+    }
+    const double count = sample_count(from, std::min(to, length), step);
+    if (count > static_cast<double>(most)) {
+        throw std::invalid_argument("its times make more than " + std::to_string(most) +
+                                    " samples; check them, or lower fps");
+    }
+    return {first + from, step, static_cast<std::size_t>(count)};
+}
+
+mobb::Disk mix(const mobb::Disk& a, const mobb::Disk& b, double share) {
+    return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.r, b.r, share)};
+}
+
+std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, const SampleGrid& grid) {
     std::vector<mobb::Disk> out;
-    out.reserve(count);
+    out.reserve(grid.count);
     std::size_t next = 0;  // the first frame not before the time
-    for (std::size_t k = 0; k < count; ++k) {
-        const double t = begin + static_cast<double>(k) * step;
+    for (std::size_t k = 0; k < grid.count; ++k) {
+        const double t = grid.time(k);
         while (next < frames.size() && frames[next].t < t) ++next;
         if (next == 0) {
             out.push_back(frames.front().disk);
@@ -43,7 +61,7 @@ std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, double begin, 
             const TimedDisk& a = frames[next - 1];
             const TimedDisk& b = frames[next];
             // In a long gap a share of it would be many samples.
-            const double near = kFrameTolerance * std::min(b.t - a.t, step);
+            const double near = kFrameTolerance * std::min(b.t - a.t, grid.step);
             if (t - a.t <= near) {
                 out.push_back(a.disk);
             } else if (b.t - t <= near) {
@@ -56,24 +74,25 @@ std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, double begin, 
     return out;
 }
 
-void put_at_origin(std::vector<mobb::Disk>& samples, Origin origin) {
-    if (origin == Origin::keep) return;
+mobb::Rotation put_at_origin(std::vector<mobb::Disk>& samples, Origin origin) {
+    if (origin == Origin::keep) return {};
     const mobb::Disk start = samples.front();
     for (mobb::Disk& disk : samples) {
         disk.x -= start.x;
         disk.y -= start.y;
     }
-    if (origin == Origin::start) return;
+    if (origin == Origin::start) return {};
     for (const mobb::Disk& ahead : samples) {
         const double distance = std::hypot(ahead.x, ahead.y);
         if (distance < kHeadingDistance) continue;
-        const double c = ahead.x / distance;
-        const double s = ahead.y / distance;
+        const mobb::Rotation turn{ahead.x / distance, -ahead.y / distance};
         for (mobb::Disk& disk : samples) {
-            disk = {c * disk.x + s * disk.y, c * disk.y - s * disk.x, disk.r};
+            const glm::dvec2 turned = turn({disk.x, disk.y});
+            disk = {turned.x, turned.y, disk.r};
         }
-        return;
+        return turn;
     }
+    return {};
 }
 
 }  // namespace mobbscope

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -19,6 +20,10 @@ struct TimedDisk {
 
 /// A time within so many frames of a stored frame is that frame: rounded times in files lose nothing.
 inline constexpr double kFrameTolerance = 0.02;
+
+/// A sampling time so many samples after the last key is still at it. Less than kFrameTolerance: a last key that comes
+/// that much earlier was meant to.
+inline constexpr double kEndTolerance = 0.001;
 
 /// The most samples that a file may become.
 inline constexpr std::size_t kMaxSamples = 10'000'000;
@@ -34,12 +39,30 @@ inline bool is_uniform(std::span<const TimedDisk> frames) { return !first_out_of
 /// result is a double, as absurd inputs give absurd counts.
 double sample_count(double begin, double end, double step);
 
-/// Disks at begin + k*step, k in [0, count); between stored frames x, y and r are interpolated, beyond them they stay.
-/// A frame, to be within kFrameTolerance of, is as long as the gap between the stored ones or as `step`, the shorter.
-/// The frames' times increase.
-std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, double begin, double step, std::size_t count);
+/// Sampling times begin + k*step in seconds, k in [0, count).
+struct SampleGrid {
+    double begin = 0;
+    double step = 1;
+    std::size_t count = 1;
 
-/// Moves and turns the path as `origin` says. A path that stays within 0.1 m of its start keeps its heading.
-void put_at_origin(std::vector<mobb::Disk>& samples, Origin origin);
+    double time(std::size_t k) const { return begin + static_cast<double>(k) * step; }
+};
+
+/// The times at which a file with keys from `first` to `last` is sampled, or the part of it that `trim` takes. Throws
+/// std::invalid_argument if trim begins after the end, or for more than `most` samples.
+SampleGrid sample_grid(double first, double last, const std::optional<std::pair<double, double>>& trim, double step,
+                       std::size_t most);
+
+/// Disks at the times of the grid; between stored frames x, y and r are interpolated, beyond them they stay. A frame, to be
+/// within kFrameTolerance of, is as long as the gap between the stored ones or as the grid's step, the shorter. The frames'
+/// times increase.
+std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, const SampleGrid& grid);
+
+/// Between two disks: x, y and r are interpolated.
+mobb::Disk mix(const mobb::Disk& a, const mobb::Disk& b, double share);
+
+/// Moves and turns the path as `origin` says. A path that stays within 0.1 m of its start keeps its heading. Gives how
+/// it was turned.
+mobb::Rotation put_at_origin(std::vector<mobb::Disk>& samples, Origin origin);
 
 }  // namespace mobbscope

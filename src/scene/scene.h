@@ -26,10 +26,11 @@ struct Color {
 
 struct SceneClip {
     std::string name;
-    std::optional<std::string> source;  ///< relative to the scene file; none: the samples stand in the scene
-    ImportOptions options;              ///< of the source; empty for inline samples
-    mobb::ClipPtr clip;                 ///< never null in a loaded scene
-    SourceFacts facts{};                ///< of the source
+    std::optional<std::string> source;           ///< relative to the scene file; none: the samples stand in the scene
+    ImportOptions options;                       ///< of the source; empty for inline samples
+    mobb::ClipPtr clip;                          ///< never null in a loaded scene
+    SourceFacts facts{};                         ///< of the source
+    std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton.h
 };
 
 /// One side of a query: a clip and where it is placed.

@@ -247,17 +247,22 @@ class SceneReader {
         try {
             std::vector<ImportedClip> imported =
                 importer_.clips(folder_ / *clip.source, merged(clip.options, overrides));
-            if (imported.size() > 1) {
-                throw InputError((folder_ / *clip.source).string(), "",
-                                 "has " + std::to_string(imported.size()) + " tracks; name one with id, such as " +
-                                     in_quotes(imported.front().id));
-            }
+            if (imported.size() > 1) refuse_several(*clip.source, imported);
             clip.clip = imported.front().clip;
             clip.facts = std::move(imported.front().facts);
+            clip.skeleton = std::move(imported.front().skeleton);
             append(clip.facts.warnings, warnings);
         } catch (const InputError& error) {
             source.fail(error.what());
         }
+    }
+
+    [[noreturn]] void refuse_several(const std::string& source, const std::vector<ImportedClip>& imported) const {
+        const bool tracks = !imported.front().id.empty();
+        throw InputError((folder_ / source).string(), "",
+                         "has " + std::to_string(imported.size()) +
+                             (tracks ? " tracks; name one with id" : " animations; name one with animation") +
+                             ", such as " + in_quotes(tracks ? imported.front().id : imported.front().animation));
     }
 
     Agent read_agent(const JsonPlace& place) {
@@ -361,10 +366,15 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
     std::vector<std::string> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
     for (ImportedClip& imported : import_clips(file, options)) {
-        SceneClip clip{imported.name, file.filename().string(), options, std::move(imported.clip),
-                       std::move(imported.facts)};
+        SceneClip clip{imported.name,
+                       file.filename().string(),
+                       options,
+                       std::move(imported.clip),
+                       std::move(imported.facts),
+                       std::move(imported.skeleton)};
         append(clip.facts.warnings, warnings);
         if (!imported.id.empty()) clip.options.id = imported.id;
+        if (!imported.animation.empty()) clip.options.animation = imported.animation;
         scene.clips.push_back(std::move(clip));
     }
     return scene;

@@ -1,5 +1,6 @@
 #include "run_program.h"
 
+#include <support/bvh_text.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -62,6 +63,33 @@ TEST(Info, NamesDoNotSteerTheTerminal) {
         const std::string out = run_program({command, scene}).out;
         EXPECT_TRUE(out.starts_with("a?[2Jb?1m")) << command << out;
     }
+}
+
+TEST(Info, JsonTellsTheSkeletonThatWasFoundAndTheUnitThatWasGuessed) {
+    const TempFolder folder;
+    const std::string walk = folder.write("walk.bvh", testing::kWalker);
+    const json a = json::parse(run_program({"info", walk, "--json"}).out)["clips"][0];
+    EXPECT_EQ(a["format"], "bvh");
+    EXPECT_EQ(a["animation"], "#0");
+    EXPECT_EQ(a["root"], "Hips");
+    EXPECT_EQ(a["joints"], 3);
+    EXPECT_EQ(a["unit"], 0.01);
+    EXPECT_EQ(a["file_frames"], 2);
+    EXPECT_EQ(a["file_dt"], 0.1);
+    EXPECT_EQ(a["samples"], 4);
+    EXPECT_NEAR(a["max_radius"], 0.7, 1e-9);
+    const std::string text = run_program({"info", walk}).out;
+    EXPECT_NE(text.find("3 joints, root 'Hips'"), std::string::npos) << text;
+    EXPECT_NE(text.find("0.01 m per unit (guessed: a body 1.7 m tall)"), std::string::npos) << text;
+
+    const Result options = run_program({"info", walk, "--json", "--root", "Left Arm", "--unit", "m", "--up", "z",
+                                        "--fps", "20", "--trim", "0.02:1", "--radius", "3"});
+    ASSERT_EQ(options.status, 0) << options.err;
+    const json b = json::parse(options.out)["clips"][0];
+    EXPECT_EQ(b["root"], "Left Arm");
+    EXPECT_EQ(b["unit"], 1);
+    EXPECT_EQ(b["samples"], 2);
+    EXPECT_EQ(b["max_radius"], 3);
 }
 
 TEST(Info, OneBadFileAmongGoodOnesLeavesNoOutput) {

@@ -193,8 +193,9 @@ TEST(Program, WhatDoesNotApplyIsSaidButStopsNothing) {
         EXPECT_NE(other.err.find(std::string(option) + " does not apply to .csv files"), std::string::npos)
             << other.err;
     }
-    EXPECT_NE(run_program({"fit", kScenes + "circles.json", "--fps", "10"}).err.find("import options do not apply"),
-              std::string::npos);
+    const std::string scene =
+        folder.write("a.json", R"({"mobbscope": 1, "clips": {"a": {"dt": 1, "samples": [[0, 0, 0.3], [1, 0, 0.3]]}}})");
+    EXPECT_NE(run_program({"fit", scene, "--fps", "10"}).err.find("import options do not apply"), std::string::npos);
 }
 
 }  // namespace

@@ -169,8 +169,8 @@ TEST(Query, ACrowdsPairsAreAskedInOrder) {
 TEST(Query, TextIsASentence) {
     const Result run = run_program({"query", kScenes + "collision.json", "--trace", "--all-contacts"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.26667 s: sample 68 of A and sample 62 of B")) << run.out;
-    EXPECT_NE(run.out.find("In contact: 2.26667 to "), std::string::npos);
+    EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.43333 s: sample 73 of A and sample 67 of B")) << run.out;
+    EXPECT_NE(run.out.find("In contact: 2.43333 to "), std::string::npos);
     EXPECT_NE(run.out.find("samples: hit"), std::string::npos);
     EXPECT_NE(run_program({"query", kScenes + "crossing.json"}).out.find("A and B never collide."), std::string::npos);
 }
@@ -188,6 +188,7 @@ TEST(Query, WithNothingToAskItIsRefused) {
 std::string expecting(const TempFolder& folder, const std::string& expectation) {
     json scene = json::parse(slurp(kScenes + "collision.json"));
     scene["queries"][0]["expect"] = json::parse(expectation);
+    for (json& clip : scene["clips"]) clip["source"] = kScenes + clip["source"].get<std::string>();
     return folder.write("s.json", scene.dump());
 }
 
@@ -196,12 +197,12 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
     const Result denied = run_program({"query", expecting(folder, R"({"collides": false})"), "--json"});
     EXPECT_EQ(denied.status, 1);
     EXPECT_EQ(json::parse(denied.out)["results"][0]["collides"], true) << "the answer is told all the same";
-    EXPECT_NE(denied.err.find("query 0: expected no collision, but A and B collide at 2.26667 s"), std::string::npos);
+    EXPECT_NE(denied.err.find("query 0: expected no collision, but A and B collide at 2.43333 s"), std::string::npos);
 
     const json contact = results({"query", kScenes + "collision.json", "--json"})[0]["contact"];
     json expectation = {{"collides", true}, {"contact", contact}};
     EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 0);
-    expectation["contact"]["b_sample"] = 61;
+    expectation["contact"]["b_sample"] = 66;
     EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 1);
     expectation["contact"] = contact;
     expectation["contact"]["distance"] = contact["distance"].get<double>() + 1e-6;

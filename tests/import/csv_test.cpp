@@ -145,7 +145,7 @@ TEST(Csv, TrimTakesSecondsFromTheFirstRow) {
     EXPECT_EQ(only(clips(text, options)).count(), 8);
     EXPECT_EQ(only(clips(text, options)).samples()[0].x, 2.5);
     options.trim = {20, 30};
-    EXPECT_NE(refusal(text, options).find("trim begins at 20 s but the rows last 10 s"), std::string::npos);
+    EXPECT_NE(refusal(text, options).find("trim begins at 20 s but the file lasts 10 s"), std::string::npos);
 }
 
 TEST(Csv, OptionsOutOfRangeOrForOtherFormatsAreRefused) {
@@ -200,7 +200,7 @@ TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {
 
 TEST(Csv, OtherExtensionsAreRefusedByName) {
     EXPECT_EQ(input_error([] { import_clips("walk.xyz", {}); }),
-              "walk.xyz: no reader for this kind of file; clips can be .csv, scenes .json");
+              "walk.xyz: no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, scenes .json");
 }
 
 }  // namespace

@@ -29,27 +29,27 @@ TEST(Sampling, TheLastKeyIsSampledThoughTimesAreRounded) {
 
 TEST(Sampling, BetweenFramesIsLinearAndNearOneIsThatFrame) {
     const auto rows = frames({0, 1, 3});
-    const auto disks = sample(rows, 0.5, 1.5, 2);
+    const auto disks = sample(rows, {0.5, 1.5, 2});
     EXPECT_DOUBLE_EQ(disks[0].x, 5);
     EXPECT_DOUBLE_EQ(disks[0].r, 0.8);
     EXPECT_DOUBLE_EQ(disks[1].y, -2);
-    EXPECT_EQ(sample(rows, 1.019, 1, 1)[0].x, sample(rows, 1, 1, 1)[0].x);
-    EXPECT_NE(sample(rows, 1.05, 1, 1)[0].x, rows[1].disk.x);
+    EXPECT_EQ(sample(rows, {1.019, 1, 1})[0].x, sample(rows, {1, 1, 1})[0].x);
+    EXPECT_NE(sample(rows, {1.05, 1, 1})[0].x, rows[1].disk.x);
 }
 
 TEST(Sampling, NearAFrameIsMeasuredInFramesNotInTheGap) {
     const auto rows = frames({0, 10, 10.1});
     // 9.9 s is 3 samples before the frame at 10 s, though only a hundredth of the gap.
-    EXPECT_DOUBLE_EQ(sample(rows, 9.9, 1.0 / 30, 1)[0].x, 99);
-    EXPECT_DOUBLE_EQ(sample(rows, 0.1, 1.0 / 30, 1)[0].x, 1);
-    EXPECT_EQ(sample(rows, 9.9995, 1.0 / 30, 1)[0].x, rows[1].disk.x);
+    EXPECT_DOUBLE_EQ(sample(rows, {9.9, 1.0 / 30, 1})[0].x, 99);
+    EXPECT_DOUBLE_EQ(sample(rows, {0.1, 1.0 / 30, 1})[0].x, 1);
+    EXPECT_EQ(sample(rows, {9.9995, 1.0 / 30, 1})[0].x, rows[1].disk.x);
     // With long steps the stored gap is the frame.
-    EXPECT_DOUBLE_EQ(sample(rows, 10.01, 5, 1)[0].x, 100.1);
+    EXPECT_DOUBLE_EQ(sample(rows, {10.01, 5, 1})[0].x, 100.1);
 }
 
 TEST(Sampling, BeyondTheFramesTheEndsStay) {
     const auto rows = frames({0, 1});
-    const auto disks = sample(rows, -1, 3, 2);
+    const auto disks = sample(rows, {-1, 3, 2});
     EXPECT_EQ(disks[0].x, 0);
     EXPECT_EQ(disks[1].x, 10);
 }

@@ -1,0 +1,74 @@
+/// Motion as files hold it: joints that move in time. Where the readers of BVH, glTF and FBX meet skeleton_disks.h.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+struct Joint {
+    std::string name;
+    int parent = -1;        ///< index into the joints, less than its own; -1: none above it
+    bool end_site = false;  ///< BVH: the tip of a bone. It widens the disk, but is no joint that could be the root
+};
+
+/// When a motion is defined, in seconds as in the file.
+struct MotionTimes {
+    double first = 0;          ///< of the earliest key; BVH: 0
+    double last = 0;           ///< of the last key, >= first
+    int frames = 1;            ///< stored frames: BVH rows, distinct key times of glTF and FBX
+    std::optional<double> dt;  ///< seconds between stored frames, where they are uniform
+    /// True (BVH): poses exist at first + i*dt alone, and disks between them are interpolated; dt is then given, > 0.
+    /// False (glTF, FBX): any time has its pose.
+    bool frames_only = false;
+};
+
+/// One animation of one skeleton. Const calls are safe from any number of threads.
+class Motion {
+  public:
+    virtual ~Motion() = default;
+
+    /// At least one, parents before their children. Every one counts towards the disk (glTF with a skin: the joints of
+    /// skin 0 alone, each below its nearest ancestor among them; without: all nodes below the topmost animated one).
+    virtual std::span<const Joint> joints() const = 0;
+    /// The topmost joint of the contract, where the search for the root begins.
+    virtual int topmost() const = 0;
+    /// True if the search for the root, which goes down from joints that stand still, ends at this joint at the latest.
+    virtual bool is_pivot(int /*joint*/) const { return false; }
+    virtual const MotionTimes& times() const = 0;
+    /// Where all joints are at a time in file seconds, in file units and axes, with everything above them applied.
+    /// Times outside the keys are clamped; with frames_only the nearest stored frame is taken. `positions` has room for
+    /// all joints. What comes out may be absurd or not finite: the caller checks.
+    virtual void pose(double seconds, std::span<glm::dvec3> positions) const = 0;
+    /// What was passed over, one sentence each.
+    virtual std::vector<std::string> warnings() const { return {}; }
+};
+
+/// A file of one or more animations, checked as a whole when it was read.
+class MotionFile {
+  public:
+    virtual ~MotionFile() = default;
+
+    virtual std::string format() const = 0;  ///< "bvh", "gltf", "fbx"
+    /// Metres per file unit as the format or the header says; none: to be guessed from the body's height.
+    virtual std::optional<double> unit() const = 0;
+    /// At least one name; an unnamed one is "#<index>".
+    virtual std::vector<std::string> animations() const = 0;
+    /// The animation with that index, prepared only now: a file may hold many. It keeps alive what it needs, so it may
+    /// outlive the file. Throws InputError.
+    virtual std::shared_ptr<const Motion> motion(std::size_t animation) const = 0;
+};
+
+/// True for an extension in lower case (".bvh") that read_motion takes.
+bool is_motion_extension(const std::string& extension);
+
+/// Reads a motion file by its extension. Throws InputError.
+std::unique_ptr<MotionFile> read_motion(const std::filesystem::path& file);
+
+}  // namespace mobbscope

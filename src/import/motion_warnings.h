@@ -1,0 +1,14 @@
+/// What looks wrong about a clip made from a skeleton: published motion files hold much that was never a motion.
+#pragma once
+
+#include <import/import.h>
+#include <mobb/clip.h>
+
+namespace mobbscope {
+
+/// Adds to facts.warnings, one sentence each with sample numbers: a first sample in the T-pose, jumps, paths that stay
+/// in place, bodies below the floor, sizes and speeds that no person has. `begin`: seconds from the first key to the
+/// first sample; `skeleton` may be null.
+void add_motion_warnings(const mobb::Clip& clip, double begin, const Skeleton* skeleton, SourceFacts& facts);
+
+}  // namespace mobbscope

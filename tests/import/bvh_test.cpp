@@ -1,0 +1,182 @@
+#include <import/bvh.h>
+#include <support/bvh_text.h>
+#include <support/input_error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mobbscope {
+namespace {
+
+using testing::input_error;
+using testing::kWalker;
+using testing::replaced;
+
+const std::string kFile = "walk.bvh";
+
+/// Where the joints of a text's only animation are at a stored frame.
+std::vector<glm::dvec3> pose(const std::string& text, int frame) {
+    const auto motion = bvh_motion(parse_bvh(text, kFile))->motion(0);
+    std::vector<glm::dvec3> positions(motion->joints().size());
+    motion->pose(frame * *motion->times().dt, positions);
+    return positions;
+}
+
+void expect_near(const glm::dvec3& p, double x, double y, double z) {
+    EXPECT_NEAR(p.x, x, 1e-9);
+    EXPECT_NEAR(p.y, y, 1e-9);
+    EXPECT_NEAR(p.z, z, 1e-9);
+}
+
+std::string refusal(const std::string& text) {
+    return input_error([&] { parse_bvh(text, kFile); });
+}
+
+TEST(Bvh, HierarchyAndRows) {
+    const BvhData data = parse_bvh(kWalker, kFile);
+    ASSERT_EQ(data.joints.size(), 4u);
+    EXPECT_EQ(data.joints[1].name, "Left Arm");
+    EXPECT_EQ(data.joints[1].parent, 0);
+    EXPECT_TRUE(data.joints[2].end_site);
+    EXPECT_EQ(data.joints[2].parent, 1);
+    EXPECT_EQ(data.joints[3].parent, 0);
+    EXPECT_EQ(data.row_length, 12u);
+    EXPECT_EQ(data.frames(), 2u);
+    EXPECT_EQ(data.frame_time, 0.1);
+}
+
+TEST(Bvh, PosesFollowOffsetsAndRotations) {
+    expect_near(pose(kWalker, 0)[2], 0, 170, 100);
+    // A quarter turn about Y takes Z to X.
+    expect_near(pose(kWalker, 1)[1], 60, 170, 30);
+    expect_near(pose(kWalker, 1)[2], 80, 170, 30);
+    expect_near(pose(kWalker, 1)[3], 10, 0, 30);
+}
+
+TEST(Bvh, RotationsApplyInTheOrderOfTheChannels) {
+    const std::string turned = replaced(kWalker, "0 95 30 0 0 0 0", "0 95 30 90 0 90 0");
+    // Z first: Rz * Ry takes (0, 75, 50) to Rz (50, 75, 0) = (-75, 50, 0).
+    expect_near(pose(turned, 0)[1], -75, 145, 30);
+    // Y first: Ry * Rz takes it to Ry (-75, 0, 50) = (50, 0, 75).
+    const std::string other = replaced(turned, "Zrotation Xrotation Yrotation", "Yrotation Xrotation Zrotation");
+    expect_near(pose(other, 0)[1], 50, 95, 105);
+}
+
+TEST(Bvh, PositionChannelsReplaceTheirCoordinateOfTheOffset) {
+    std::string text = replaced(kWalker, "OFFSET 0 0 0", "OFFSET 1000 2000 3000");
+    expect_near(pose(text, 0)[0], 0, 95, 30);
+    text = replaced(text, "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation",
+                    "CHANNELS 6 Zrotation Xposition Xrotation Yrotation Yposition Xrotation");
+    // Row 0 is now: 0 about Z, x = 95, 30 about X, 0 about Y, y = 0, 0 about X; z stays that of the OFFSET.
+    expect_near(pose(text, 0)[0], 95, 0, 3000);
+}
+
+TEST(Bvh, AnyJointMayHavePositionChannels) {
+    std::string text = replaced(kWalker, "CHANNELS 3 Zrotation", "CHANNELS 4 Xposition Zrotation");
+    text = replaced(text, "0 95 30 0 0 0 0 0 0", "0 95 30 0 0 0 -7 0 0 0");
+    text = replaced(text, "10 95 30 0 0 90 0 0 0", "10 95 30 0 0 90 -7 0 0 0");
+    expect_near(pose(text, 0)[1], -7, 170, 80);
+}
+
+TEST(Bvh, LayoutDoesNotMatter) {
+    const auto expected = parse_bvh(kWalker, kFile);
+    std::string crlf, cr;
+    for (const char c : kWalker) {
+        if (c == '\n') crlf += '\r';
+        crlf += c;
+        cr += c == '\n' ? '\r' : c;
+    }
+    std::string flat = kWalker;
+    std::replace(flat.begin(), flat.begin() + static_cast<std::ptrdiff_t>(flat.find("MOTION")), ' ', '\t');
+    flat = replaced(flat, "Left\tArm", "Left Arm");
+    std::string lower = kWalker;
+    for (const char* word : {"HIERARCHY", "ROOT", "OFFSET", "CHANNELS", "JOINT", "End Site", "MOTION", "Frames"}) {
+        std::string small = word;
+        for (char& c : small) c = static_cast<char>(std::tolower(c));
+        lower = replaced(lower, word, small);
+    }
+    for (const std::string& text :
+         {crlf, cr, flat, lower, "\xef\xbb\xbf" + kWalker, kWalker.substr(0, kWalker.size() - 1), kWalker + "\n \n\t\n",
+          replaced(kWalker, "Left Arm\n  {", "Left Arm {"), replaced(kWalker, "ROOT Hips\n", "ROOT Hips\n\n\n"),
+          replaced(kWalker, "10 95 30", "+1e1 9.5E+1 30."), replaced(kWalker, "0 95 30", "1e-400 95 3e1"),
+          replaced(kWalker, "Frame Time: 0.1", "Frame  Time :\t.1"), replaced(kWalker, "Frames: 2", "Frames:2")}) {
+        const BvhData data = parse_bvh(text, kFile);
+        EXPECT_EQ(data.values, expected.values) << text;
+        EXPECT_EQ(data.joints.size(), expected.joints.size());
+        EXPECT_EQ(data.joints[1].name, "Left Arm");
+        EXPECT_EQ(data.frame_time, 0.1);
+    }
+}
+
+TEST(Bvh, SeveralRootsStandSideBySide) {
+    std::string text = replaced(kWalker, "MOTION", "ROOT Dog\n{\nOFFSET 5 6 7\nCHANNELS 1 Yposition\n}\nMOTION");
+    text = replaced(text, "0 0 0\n10", "0 0 0 1\n10");
+    text = text.substr(0, text.size() - 1) + " 2\n";
+    EXPECT_EQ(parse_bvh(text, kFile).joints[4].parent, -1);
+    expect_near(pose(text, 1)[4], 5, 2, 7);
+}
+
+TEST(Bvh, DeepHierarchiesNeedNoStack) {
+    constexpr int kDepth = 90'000;
+    std::string text = "HIERARCHY\n";
+    for (int i = 0; i < kDepth; ++i)
+        text += i == 0 ? "ROOT r\n{OFFSET 0 1 0\nCHANNELS 1 Xposition\n" : "JOINT j\n{OFFSET 0 1 0\n";
+    for (int i = 0; i < kDepth; ++i) text += "}\n";
+    expect_near(pose(text + "MOTION\nFrames: 1\nFrame Time: 1\n5\n", 0).back(), 5, kDepth, 0);
+}
+
+TEST(Bvh, MessagesNameLineAndRemedy) {
+    const auto expect = [](const std::string& text, const std::string& message) {
+        EXPECT_EQ(refusal(text), "walk.bvh: " + message);
+    };
+    const auto with = [](const std::string& what, const std::string& instead) {
+        return replaced(kWalker, what, instead);
+    };
+    expect("", "line 1: the file is empty; a BVH begins with HIERARCHY");
+    expect("\xff\xfeH", "line 1: is UTF-16 text; save it as UTF-8");
+    expect("glTF", "line 1: a BVH begins with HIERARCHY, but there is 'glTF'; is this another kind of file?");
+    expect("HIERARCHY\nMOTION", "line 2: there is no ROOT before MOTION");
+    expect("HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n}\nMOTION\n",
+           "line 6: no joint has a channel, so nothing moves; give CHANNELS to one");
+    expect(with("MOTION", "}\nMOTION"), "line 21: this } closes nothing; remove it");
+    expect(
+        with("}\nMOTION", "MOTION"),
+        "line 20: in 'Hips' of line 2, OFFSET, CHANNELS, JOINT, End Site or } must stand here, but there is 'MOTION'");
+    expect(with("  OFFSET 0 0 0\n", ""), "line 19: 'Hips' of line 2 has no OFFSET; give it one");
+    expect(with("OFFSET 0 -95 0", "OFFSET 0 -95"), "line 17: OFFSET needs three numbers, but has 2");
+    expect(with("OFFSET 0 -95 0", "OFFSET 0 -95 0 0"), "line 17: OFFSET takes three numbers; there is '0'");
+    expect(with("Hips", ""), "line 2: ROOT needs a name on its line");
+    expect(with("CHANNELS 6", "CHANNELS 7"), "line 5: CHANNELS needs their number, 0 to 6, but there is '7'");
+    expect(with("CHANNELS 6", "CHANNELS 5"), "line 5: CHANNELS says 5, but names more; there is 'Yrotation'");
+    expect(with("CHANNELS 3", "CHANNELS 4"), "line 9: CHANNELS says 4, but names only 3");
+    expect(with("Zposition", "Xposition"), "line 5: 'Xposition' stands twice in CHANNELS; remove one");
+    expect(with("Zposition", "Zscale"),
+           "line 5: 'Zscale' is no channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
+    expect(with("Frames: 2", "Frames: two"), "line 22: Frames needs a whole number from 1 up, but has 'two'");
+    expect(with("Frames: 2", "Frames: 3") + std::string(30, ' '),
+           "line 22: Frames says 3, but 2 rows follow; correct the number, or fetch the file again if it was cut off");
+    expect(with("Frames: 2", "Frames: 1"),
+           "line 22: Frames says 1, but 2 rows follow; correct the number, or fetch the file again if it was cut off");
+    expect(
+        with("Frames: 2", "Frames: 2147483647"),
+        "line 22: Frames says 2147483647, but what follows has no room for more than 2 rows of 12 values; correct the "
+        "number, or fetch the file again if it was cut off");
+    expect(with("Frame Time: 0.1", "Frame Time: 0"),
+           "line 23: Frame Time needs seconds, over 0 and at most 60, such as 0.033333, but has '0'");
+    expect(with("Frame Time: 0.1\n", ""),
+           "line 23: 'Frame Time: <number>' must stand here, but there is '0 95 30 0 0 0 0 0 0 0 0 0'");
+    expect(with("0 95 30", "0 nan 30"), "line 24: 'nan' is no finite number; write it like 12.5");
+    expect(with("0 95 30", "0 1e300 30"), "line 24: '1e300' is beyond 1e9; the file is damaged");
+    expect(with("0 95 30", "0 1e999 30"), "line 24: '1e999' is beyond 1e9; the file is damaged");
+    expect(with("0 95 30", "0 9,5 30"),
+           "line 24: '9,5' is no finite number; write decimals with a point and separate numbers with blanks");
+    expect(with("0 95 30", "0 30"), "line 24: the row has 11 values, but there are 12 channels; correct the row");
+    expect(with("0 95 30", "0 0 95 30"), "line 24: the row has 13 values, but there are 12 channels; correct the row");
+    expect(kWalker.substr(0, kWalker.size() - 5),
+           "line 25: the row has 10 values, but there are 12 channels; the file is cut off");
+}
+
+}  // namespace
+}  // namespace mobbscope

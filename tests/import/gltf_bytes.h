@@ -1,0 +1,90 @@
+/// Small glTF files for tests: floats and bytes in one buffer, the rest as JSON.
+#pragma once
+
+#include <import/gltf_container.h>
+
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::testing {
+
+/// Collects accessors, then nodes and channels, and makes a GLB of them.
+class GltfBytes {
+  public:
+    /// Appends numbers of one type to the buffer; the index of an accessor over them.
+    template <typename T>
+    int add(const std::string& type, int component, const std::vector<T>& values, const std::string& more = "") {
+        const int view = add_view(values);
+        const std::size_t width = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4;
+        return add_accessor(
+            "\"bufferView\":" + std::to_string(view) + ",\"componentType\":" + std::to_string(component) +
+            ",\"count\":" + std::to_string(values.size() / width) + ",\"type\":\"" + type + "\"" + more);
+    }
+    int add_floats(const std::string& type, const std::vector<float>& values) { return add(type, 5126, values); }
+
+    /// The index of a bufferView over the values, `more` as further members of it.
+    template <typename T>
+    int add_view(const std::vector<T>& values, const std::string& more = "") {
+        binary_.append((4 - binary_.size() % 4) % 4, '\0');
+        views_ +=
+            (views_.empty() ? "" : ",") + ("{\"buffer\":0,\"byteOffset\":" + std::to_string(binary_.size()) +
+                                           ",\"byteLength\":" + std::to_string(values.size() * sizeof(T)) + more + "}");
+        binary_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+        return view_count_++;
+    }
+    int add_accessor(const std::string& members) {
+        accessors_ += (accessors_.empty() ? "{" : ",{") + members + "}";
+        return accessor_count_++;
+    }
+
+    /// A channel of the animation that is begun last; `node` "" leaves the target without one.
+    GltfBytes& channel(const std::string& node, const std::string& path, int input, int output,
+                       const std::string& interpolation = "LINEAR") {
+        channels_ += (channels_.empty() ? "" : ",") +
+                     ("{\"sampler\":" + std::to_string(channel_count_++) + ",\"target\":{" +
+                      (node.empty() ? "" : "\"node\":" + node + ",") + "\"path\":\"" + path + "\"}}");
+        samplers_ += (samplers_.empty() ? "" : ",") +
+                     ("{\"input\":" + std::to_string(input) + ",\"output\":" + std::to_string(output) +
+                      ",\"interpolation\":\"" + interpolation + "\"}");
+        return *this;
+    }
+    /// Ends the animation that the channels so far belong to.
+    GltfBytes& animation(const std::string& name = "") {
+        animations_ +=
+            (animations_.empty() ? "" : ",") + ("{" + (name.empty() ? "" : "\"name\":\"" + name + "\",") +
+                                                "\"channels\":[" + channels_ + "],\"samplers\":[" + samplers_ + "]}");
+        channels_.clear();
+        samplers_.clear();
+        channel_count_ = 0;
+        return *this;
+    }
+
+    /// `rest` are further members of the root, each with a comma in front.
+    std::string json(const std::string& nodes, const std::string& rest = "", const std::string& uri = "") const {
+        return R"({"asset":{"version":"2.0"},"nodes":)" + nodes + ",\"accessors\":[" + accessors_ +
+               "],\"bufferViews\":[" + views_ + "],\"buffers\":[{\"byteLength\":" + std::to_string(binary_.size()) +
+               (uri.empty() ? "" : ",\"uri\":\"" + uri + "\"") + "}]" +
+               (animations_.empty() ? "" : ",\"animations\":[" + animations_ + "]") + rest + "}";
+    }
+    std::string glb(const std::string& nodes, const std::string& rest = "") const {
+        return join_glb(json(nodes, rest), binary_);
+    }
+    const std::string& binary() const { return binary_; }
+
+  private:
+    std::string binary_;
+    std::string views_;
+    std::string accessors_;
+    std::string channels_;
+    std::string samplers_;
+    std::string animations_;
+    int view_count_ = 0;
+    int accessor_count_ = 0;
+    int channel_count_ = 0;
+};
+
+}  // namespace mobbscope::testing
