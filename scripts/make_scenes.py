@@ -11,6 +11,7 @@ import math
 import pathlib
 import sys
 
+sys.dont_write_bytecode = True  # no __pycache__ beside the scripts
 from make_walkers import RATE, Path, turning
 
 
