@@ -53,9 +53,9 @@ struct SampleGrid {
 SampleGrid sample_grid(double first, double last, const std::optional<std::pair<double, double>>& trim, double step,
                        std::size_t most);
 
-/// Disks at the times of the grid; between stored frames x, y and r are interpolated, beyond them they stay. A frame, to be
-/// within kFrameTolerance of, is as long as the gap between the stored ones or as the grid's step, the shorter. The frames'
-/// times increase.
+/// Disks at the times of the grid; between stored frames x, y and r are interpolated, beyond them they stay. A frame,
+/// to be within kFrameTolerance of, is as long as the gap between the stored ones or as the grid's step, the shorter.
+/// The frames' times increase.
 std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, const SampleGrid& grid);
 
 /// Between two disks: x, y and r are interpolated.
