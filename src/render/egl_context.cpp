@@ -4,8 +4,9 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include <array>
+#include <initializer_list>
 #include <stdexcept>
+#include <vector>
 
 namespace mobbscope {
 
@@ -22,12 +23,9 @@ class EglContext final : public GlContext {
             throw std::runtime_error("it has no surfaceless display");
         }
         if (!call<decltype(&eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API)) throw std::runtime_error("it has no OpenGL");
-        const std::array<EGLint, 7> attributes{
-            EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-        // No config: there is no surface whose pixels it would describe (EGL_KHR_no_config_context).
-        context_ = call<decltype(&eglCreateContext)>("eglCreateContext")(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT,
-                                                                         attributes.data());
+        // Only debug contexts must report errors; before EGL 1.5 there is no such attribute.
+        context_ = create({EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+        if (context_ == EGL_NO_CONTEXT) context_ = create({});
         if (context_ == EGL_NO_CONTEXT) throw std::runtime_error("it makes no OpenGL 3.3 core context");
     }
     ~EglContext() override {
@@ -39,12 +37,18 @@ class EglContext final : public GlContext {
     std::string_view name() const override { return "egl"; }
 
   private:
-    void bind() override {
-        if (!make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
-            throw std::runtime_error("its context cannot be made current");
-        }
+    EGLContext create(std::initializer_list<EGLint> more) const {
+        std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       3,
+                                       EGL_CONTEXT_MINOR_VERSION,       3,
+                                       EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+        attributes.insert(attributes.end(), more);
+        attributes.push_back(EGL_NONE);
+        // No config: there is no surface whose pixels it would describe (EGL_KHR_no_config_context).
+        return call<decltype(&eglCreateContext)>("eglCreateContext")(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT,
+                                                                     attributes.data());
     }
-    Function function(const char* name) const override { return get_(name); }
+    bool bind() noexcept override { return make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_); }
+    Function function(const char* name) const noexcept override { return get_(name); }
 
     template <class F>
     F call(const char* name) const {

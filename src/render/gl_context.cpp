@@ -11,6 +11,9 @@ namespace mobbscope {
 
 namespace {
 
+/// The context that glad's functions, which are global, were taken from.
+const GlContext* loaded = nullptr;
+
 void GLAD_API_PTR on_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum /*severity*/, GLsizei /*length*/,
                              const GLchar* message, const void* context) {
     if (type != GL_DEBUG_TYPE_ERROR) return;
@@ -47,26 +50,36 @@ std::unique_ptr<GlContext> GlContext::open(Backend backend) {
     throw MachineError("no OpenGL 3.3 context without a display (" + reasons + ")");
 }
 
-void GlContext::make_current() {
-    bind();
-    // glad's functions are global, so they follow whichever context is current.
+GlContext::~GlContext() {
+    if (loaded == this) loaded = nullptr;
+}
+
+bool GlContext::try_make_current() noexcept {
+    if (!bind()) return false;
+    if (loaded == this) return true;
     const auto load = [](void* context, const char* name) -> GLADapiproc {
         return static_cast<GlContext*>(context)->function(name);
     };
-    if (!gladLoadGLUserPtr(load, this) || !GLAD_GL_VERSION_3_3) {
-        throw std::runtime_error("its functions are older than OpenGL 3.3");
-    }
+    loaded = nullptr;
+    if (!gladLoadGLUserPtr(load, this) || !GLAD_GL_VERSION_3_3) return false;
+    loaded = this;
     if (GLAD_GL_KHR_debug) {
         glEnable(GL_DEBUG_OUTPUT);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
         glDebugMessageCallback(on_message, this);
     }
+    return true;
+}
+
+void GlContext::make_current() {
+    if (!try_make_current()) throw MachineError("its OpenGL 3.3 context cannot be made current");
 }
 
 void GlContext::check(std::string_view doing) {
-    // Without KHR_debug the plain error flag still tells that something went wrong.
+    // The callback tells more than the flag, but it may be missing or switched off.
+    const bool told = !complaints_.empty();
     for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
-        if (!GLAD_GL_KHR_debug) complain("OpenGL error " + std::to_string(error));
+        if (!told) complain("OpenGL error " + std::to_string(error));
     }
     if (complaints_.empty()) return;
     std::string text;

@@ -25,32 +25,38 @@ class GlContext {
     /// Opens a context. Throws MachineError saying which libraries were tried and why each failed.
     static std::unique_ptr<GlContext> open(Backend backend);
 
-    virtual ~GlContext() = default;
+    virtual ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
     /// The backend's name, "osmesa" or "egl".
     virtual std::string_view name() const = 0;
 
-    /// Makes this the calling thread's context and points glad's functions at it.
+    /// Makes this the calling thread's context and points glad's functions at it. False if that cannot be done.
+    bool try_make_current() noexcept;
+    /// The same; throws MachineError if it cannot be done.
     void make_current();
 
-    /// Throws MachineError with all errors that OpenGL reported (KHR_debug) and all warnings of its shader compiler
-    /// since the last call. `doing` says what was under way.
+    /// Throws MachineError with all errors of OpenGL since the last call. `doing` says what was under way.
     void check(std::string_view doing);
 
-    /// Notes a complaint for the next check.
+    /// Notes an error for the next check.
     void complain(std::string message) { complaints_.push_back(std::move(message)); }
+
+    /// What the shader compiler says of shaders that it takes: no user can do anything about it, tests fail on it.
+    void warn(std::string message) { warnings_.push_back(std::move(message)); }
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
   protected:
     GlContext() = default;
 
     using Function = void (*)();
-    virtual void bind() = 0;
-    virtual Function function(const char* name) const = 0;
+    virtual bool bind() noexcept = 0;
+    virtual Function function(const char* name) const noexcept = 0;
 
   private:
     std::vector<std::string> complaints_;
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace mobbscope

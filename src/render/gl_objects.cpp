@@ -1,6 +1,8 @@
 #include <render/gl_objects.h>
 
-#include <array>
+#include <import/error.h>
+
+#include <algorithm>
 
 namespace render_assets {
 std::string_view embedded(std::string_view name);
@@ -43,40 +45,59 @@ GLuint FramebufferKind::create() {
 }
 void FramebufferKind::destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
 
+GLuint ProgramKind::create() { return glCreateProgram(); }
+void ProgramKind::destroy(GLuint name) { glDeleteProgram(name); }
+
 namespace {
 
-GLuint compile(GlContext& context, GLenum stage, const std::string& file) {
-    const std::string_view text = render_assets::embedded(file);
-    const GLuint shader = glCreateShader(stage);
+/// What the compiler says of a shader, or the linker of a program, is an error if it failed and else a warning.
+void judge(GlContext& context, const std::string& what, bool done, std::string log) {
+    while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) log.pop_back();
+    if (!done) throw MachineError(std::string(context.name()) + ", compiling shaders: " + what + ": " + log);
+    if (!log.empty()) context.warn(what + ": " + log);
+}
+
+void compile(GlContext& context, GLuint shader, const std::string& file, std::string_view text) {
     const GLchar* source = text.data();
-    const GLint length = static_cast<GLint>(text.size());
-    glShaderSource(shader, 1, &source, &length);
+    const GLint size = static_cast<GLint>(text.size());
+    glShaderSource(shader, 1, &source, &size);
     glCompileShader(shader);
-    std::array<GLchar, 2048> log{};
+    GLint done = GL_FALSE;
+    GLint length = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    if (log[0] != '\0') context.complain(file + ": " + log.data());
-    return shader;
+    judge(context, file, done == GL_TRUE, log);
 }
 
 }  // namespace
 
-ShaderProgram::ShaderProgram(GlContext& context, const std::string& name) : name_(glCreateProgram()) {
-    const GLuint vertex = compile(context, GL_VERTEX_SHADER, name + ".vert");
-    const GLuint fragment = compile(context, GL_FRAGMENT_SHADER, name + ".frag");
-    glAttachShader(name_, vertex);
-    glAttachShader(name_, fragment);
-    glLinkProgram(name_);
-    glDeleteShader(vertex);
-    glDeleteShader(fragment);
-    std::array<GLchar, 2048> log{};
-    glGetProgramInfoLog(name_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    if (log[0] != '\0') context.complain(name + ": " + log.data());
+ShaderProgram::ShaderProgram(GlContext& context, const std::string& name)
+    : ShaderProgram(context, name, render_assets::embedded(name + ".vert"), render_assets::embedded(name + ".frag")) {}
+
+ShaderProgram::ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex,
+                             std::string_view fragment) {
+    const GlObject<ShaderKind<GL_VERTEX_SHADER>> vertex_shader;
+    const GlObject<ShaderKind<GL_FRAGMENT_SHADER>> fragment_shader;
+    compile(context, vertex_shader.name(), name + ".vert", vertex);
+    compile(context, fragment_shader.name(), name + ".frag", fragment);
+    glAttachShader(program_.name(), vertex_shader.name());
+    glAttachShader(program_.name(), fragment_shader.name());
+    glLinkProgram(program_.name());
+    GLint done = GL_FALSE;
+    GLint length = 0;
+    glGetProgramiv(program_.name(), GL_LINK_STATUS, &done);
+    glGetProgramiv(program_.name(), GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetProgramInfoLog(program_.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+    judge(context, name, done == GL_TRUE, log);
 }
 
-ShaderProgram::~ShaderProgram() { glDeleteProgram(name_); }
+void ShaderProgram::use() const { glUseProgram(program_.name()); }
 
-void ShaderProgram::use() const { glUseProgram(name_); }
-
-GLint ShaderProgram::uniform(const char* uniform_name) const { return glGetUniformLocation(name_, uniform_name); }
+GLint ShaderProgram::uniform(const char* uniform_name) const {
+    return glGetUniformLocation(program_.name(), uniform_name);
+}
 
 }  // namespace mobbscope

@@ -52,27 +52,36 @@ struct FramebufferKind {
     static void destroy(GLuint name);
 };
 
+template <GLenum stage>
+struct ShaderKind {
+    static GLuint create() { return glCreateShader(stage); }
+    static void destroy(GLuint name) { glDeleteShader(name); }
+};
+struct ProgramKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+
 using Buffer = GlObject<BufferKind>;
 using VertexArray = GlObject<VertexArrayKind>;
 using Texture = GlObject<TextureKind>;
 using Renderbuffer = GlObject<RenderbufferKind>;
 using Framebuffer = GlObject<FramebufferKind>;
 
-/// A linked pair of shaders from shaders/<name>.vert and .frag, which are part of the program. What the compiler says,
-/// be it only a warning, goes to the context's complaints.
+/// A linked pair of shaders. What the compiler remarks goes to the context's warnings.
 class ShaderProgram {
   public:
+    /// From shaders/<name>.vert and .frag, which are part of the program. Throws MachineError with what the compiler
+    /// says if it does not take them.
     ShaderProgram(GlContext& context, const std::string& name);
-    ~ShaderProgram();
-    ShaderProgram(const ShaderProgram&) = delete;
-    ShaderProgram& operator=(const ShaderProgram&) = delete;
+    ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex, std::string_view fragment);
 
     void use() const;
     /// The uniform's location; -1, which OpenGL ignores, where the compiler dropped it.
     GLint uniform(const char* uniform_name) const;
 
   private:
-    GLuint name_;
+    GlObject<ProgramKind> program_;
 };
 
 }  // namespace mobbscope

@@ -31,13 +31,11 @@ class OsmesaContext final : public GlContext {
     std::string_view name() const override { return "osmesa"; }
 
   private:
-    void bind() override {
+    bool bind() noexcept override {
         // The buffer is never drawn to, as pictures go into our own framebuffer.
-        if (!make_current_(context_, buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
-            throw std::runtime_error("its context cannot be made current");
-        }
+        return make_current_(context_, buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide);
     }
-    Function function(const char* name) const override { return get_(name); }
+    Function function(const char* name) const noexcept override { return get_(name); }
 
     static constexpr int kSide = 8;
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 namespace mobbscope {
 
@@ -73,9 +74,16 @@ struct Renderer::State {
 
 Renderer::Renderer(Backend backend) : state_(std::make_unique<State>(backend)) {}
 
-Renderer::~Renderer() { state_->context->make_current(); }
+Renderer::~Renderer() {
+    if (state_->context->try_make_current()) return;
+    // The names would be deleted in whichever context is current; the context takes its objects along instead.
+    const std::unique_ptr<GlContext> context = std::move(state_->context);
+    static_cast<void>(state_.release());
+}
 
 std::string_view Renderer::backend() const { return state_->context->name(); }
+
+const std::vector<std::string>& Renderer::warnings() const { return state_->context->warnings(); }
 
 Image Renderer::draw(const DrawList& list) {
     State& s = *state_;

@@ -7,7 +7,9 @@
 #include <render/object_id.h>
 
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
@@ -25,6 +27,9 @@ class Renderer {
 
     /// The backend in use, "osmesa" or "egl".
     std::string_view backend() const;
+
+    /// What the shader compiler remarked.
+    const std::vector<std::string>& warnings() const;
 
     /// Draws and reads back. Throws MachineError if OpenGL reports an error.
     Image draw(const DrawList& list);

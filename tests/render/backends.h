@@ -6,29 +6,48 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 #include <string>
 
 namespace mobbscope::testing {
 
-/// Runs once for each backend; skips with the reason where the machine lacks it.
+inline std::string name_of(Backend backend) {
+    return backend == Backend::osmesa ? "osmesa" : backend == Backend::egl ? "egl" : "auto";
+}
+
+/// Whether MOBBSCOPE_REQUIRE_GL, such as "osmesa,egl", says that the machine has this backend. Any that it names is one
+/// that `auto` finds.
+inline bool required(Backend backend) {
+    const char* value = std::getenv("MOBBSCOPE_REQUIRE_GL");
+    if (!value) return false;
+    if (backend == Backend::automatic) return *value != '\0';
+    return ("," + std::string(value) + ",").find("," + name_of(backend) + ",") != std::string::npos;
+}
+
+/// Null where the machine lacks the backend; then the test is skipped with the reason, or failed if it is required.
+inline std::unique_ptr<Renderer> open_or_skip(Backend backend) {
+    try {
+        return std::make_unique<Renderer>(backend);
+    } catch (const MachineError& error) {
+        [&] {
+            if (required(backend)) FAIL() << "required by MOBBSCOPE_REQUIRE_GL: " << error.what();
+            GTEST_SKIP() << error.what();
+        }();
+        return nullptr;
+    }
+}
+
+/// Runs once for each backend; see open_or_skip.
 class OnEachBackend : public ::testing::TestWithParam<Backend> {
   protected:
-    void SetUp() override {
-        try {
-            renderer_ = std::make_unique<Renderer>(GetParam());
-        } catch (const MachineError& error) {
-            GTEST_SKIP() << error.what();
-        }
-    }
+    void SetUp() override { renderer_ = open_or_skip(GetParam()); }
     Renderer& renderer() { return *renderer_; }
 
   private:
     std::unique_ptr<Renderer> renderer_;
 };
 
-inline std::string backend_name(const ::testing::TestParamInfo<Backend>& info) {
-    return info.param == Backend::osmesa ? "osmesa" : "egl";
-}
+inline std::string backend_name(const ::testing::TestParamInfo<Backend>& info) { return name_of(info.param); }
 
 }  // namespace mobbscope::testing

@@ -30,12 +30,8 @@ class GoldenTest : public ::testing::TestWithParam<std::tuple<const char*, Backe
 
 TEST_P(GoldenTest, Matches) {
     const auto [name, backend] = GetParam();
-    std::unique_ptr<Renderer> renderer;
-    try {
-        renderer = std::make_unique<Renderer>(backend);
-    } catch (const MachineError& error) {
-        GTEST_SKIP() << error.what();
-    }
+    const std::unique_ptr<Renderer> renderer = testing::open_or_skip(backend);
+    if (!renderer) return;
     // One backend makes the goldens, so that the other is held against it.
     if (updating() && backend != Backend::osmesa) GTEST_SKIP() << "goldens are made with osmesa";
 
@@ -74,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(All, GoldenTest,
                          ::testing::Combine(::testing::Values("disk_stack", "mobb_level", "umobb_level", "query_step"),
                                             ::testing::Values(Backend::osmesa, Backend::egl)),
                          [](const auto& tested) {
-                             return std::string(std::get<0>(tested.param)) +
-                                    (std::get<1>(tested.param) == Backend::osmesa ? "_osmesa" : "_egl");
+                             return std::string(std::get<0>(tested.param)) + "_" +
+                                    testing::name_of(std::get<1>(tested.param));
                          });
 
 }  // namespace
