@@ -12,6 +12,44 @@ std::string_view embedded(std::string_view name);
 
 namespace mobbscope {
 
+namespace {
+
+/// The glyph of what a font has no glyph for.
+constexpr int kMissing = 0;
+
+constexpr char32_t kEllipsis = 0x2026;
+
+/// A frame of one pixel. Fonts bring one of their own, but so heavy that a row of them looks like a censor's bar.
+GlyphBitmap hollow_box(float advance, float size) {
+    const int side = std::max(1, static_cast<int>(advance * 0.14f));
+    const int width = std::max(3, static_cast<int>(advance) - 2 * side);
+    const int height = std::max(3, static_cast<int>(size * 0.7f));
+    GlyphBitmap box{width, height, side, -height, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const bool edge = x == 0 || y == 0 || x == width - 1 || y == height - 1;
+            box.coverage.push_back(edge ? 255 : 0);
+        }
+    }
+    return box;
+}
+
+/// The code point that begins at `at`, which moves behind it.
+char32_t read_code_point(std::string_view utf8, std::size_t& at) {
+    constexpr char32_t kMalformed = 0xFFFD;
+    const auto lead = static_cast<unsigned char>(utf8[at++]);
+    const int following = lead < 0x80 ? 0 : (lead >> 5) == 6 ? 1 : (lead >> 4) == 14 ? 2 : (lead >> 3) == 30 ? 3 : -1;
+    if (following < 0) return kMalformed;
+    char32_t code = following == 0 ? lead : lead & (0x3Fu >> following);
+    for (int k = 0; k < following; ++k) {
+        if (at >= utf8.size() || (static_cast<unsigned char>(utf8[at]) >> 6) != 2) return kMalformed;
+        code = (code << 6) | (static_cast<unsigned char>(utf8[at++]) & 0x3Fu);
+    }
+    return code;
+}
+
+}  // namespace
+
 Font::Font(std::string_view data) {
     const auto info = std::make_shared<stbtt_fontinfo>();
     const auto* bytes = reinterpret_cast<const unsigned char*>(data.data());
@@ -27,7 +65,12 @@ const Font& Font::of(FontFace face) {
     return face == FontFace::text ? text : mono;
 }
 
-int Font::glyph(char32_t code) const { return stbtt_FindGlyphIndex(info_.get(), static_cast<int>(code)); }
+int Font::glyph(char32_t code) const {
+    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    return stbtt_FindGlyphIndex(info_.get(), control ? ' ' : static_cast<int>(code));
+}
+
+bool Font::has(char32_t code) const { return glyph(code) != kMissing; }
 
 float Font::advance(char32_t code, char32_t next, float size) const {
     int advance = 0;
@@ -66,6 +109,7 @@ float Font::descent(float size) const {
 GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
     const float scale = stbtt_ScaleForMappingEmToPixels(info_.get(), size);
     const int index = glyph(code);
+    if (index == kMissing) return hollow_box(advance(code, 0, size), size);
     int x0 = 0;
     int y0 = 0;
     int x1 = 0;
@@ -81,55 +125,52 @@ GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
 }
 
 std::vector<char32_t> code_points(std::string_view utf8) {
-    constexpr char32_t kMalformed = 0xFFFD;
     std::vector<char32_t> out;
-    for (std::size_t i = 0; i < utf8.size();) {
-        const auto lead = static_cast<unsigned char>(utf8[i++]);
-        const int following = lead < 0x80         ? 0
-                              : (lead >> 5) == 6  ? 1
-                              : (lead >> 4) == 14 ? 2
-                              : (lead >> 3) == 30 ? 3
-                                                  : -1;
-        char32_t code = following < 0 ? kMalformed : following == 0 ? lead : lead & (0x3Fu >> following);
-        for (int k = 0; k < following; ++k) {
-            if (i >= utf8.size() || (static_cast<unsigned char>(utf8[i]) >> 6) != 2) {
-                code = kMalformed;
-                break;
-            }
-            code = (code << 6) | (static_cast<unsigned char>(utf8[i++]) & 0x3Fu);
-        }
-        out.push_back(code);
-    }
+    for (std::size_t at = 0; at < utf8.size();) out.push_back(read_code_point(utf8, at));
     return out;
 }
 
 std::string fit_text(const std::string& text, FontFace face, float size, float width) {
+    if (text.empty()) return text;
     const Font& font = Font::of(face);
-    if (font.width(text, size) <= width) return text;
-    std::string kept = text;
-    const auto is_continuation = [](char c) { return (static_cast<unsigned char>(c) >> 6) == 2; };
-    while (!kept.empty()) {
-        while (is_continuation(kept.back()) && kept.size() > 1) kept.pop_back();
-        kept.pop_back();
-        if (font.width(kept + "\u2026", size) <= width) break;
+    const float ellipsis = font.advance(kEllipsis, 0, size);
+    std::size_t at = 0;
+    std::size_t kept = 0;  // bytes after which there is room for the ellipsis
+    float pen = 0;
+    char32_t code = read_code_point(text, at);
+    for (;;) {
+        const std::size_t end = at;
+        const bool last = end == text.size();
+        const char32_t next = last ? 0 : read_code_point(text, at);
+        if (pen + font.advance(code, kEllipsis, size) + ellipsis <= width) kept = end;
+        pen += font.advance(code, next, size);
+        if (pen > width) return text.substr(0, kept) + "\u2026";
+        if (last) return text;
+        code = next;
     }
-    return kept + "\u2026";
 }
 
 std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width) {
     const Font& font = Font::of(face);
+    const float space = font.advance(' ', 0, size);
     std::vector<std::string> lines;
     std::string line;
+    float line_width = 0;
     std::size_t begin = 0;
     while (begin < text.size()) {
         const std::size_t end = std::min(text.find(' ', begin), text.size());
         const std::string word = text.substr(begin, end - begin);
-        const std::string longer = line.empty() ? word : line + " " + word;
-        if (!line.empty() && font.width(longer, size) > width) {
+        const float word_width = font.width(word, size);
+        if (line.empty()) {
+            line = word;
+            line_width = word_width;
+        } else if (line_width + space + word_width > width) {
             lines.push_back(line);
             line = word;
+            line_width = word_width;
         } else {
-            line = longer;
+            line += ' ' + word;
+            line_width += space + word_width;
         }
         begin = end + 1;
     }

@@ -35,6 +35,9 @@ class Font {
     float descent(float size) const;  ///< below the baseline, pixels, >= 0
     /// Pixels to advance after a code point, including kerning with `next` (0: none).
     float advance(char32_t code, char32_t next, float size) const;
+    /// Whether there is a glyph for a code point; a hollow box stands for what there is none for. Control characters
+    /// are spaces.
+    bool has(char32_t code) const;
     /// The glyph with its pen `shift` (0..1) of a pixel to the right.
     GlyphBitmap rasterise(char32_t code, float size, float shift) const;
 
@@ -51,7 +54,7 @@ std::vector<char32_t> code_points(std::string_view utf8);
 /// `text`, or its beginning and an ellipsis, so that it is at most `width` pixels wide.
 std::string fit_text(const std::string& text, FontFace face, float size, float width);
 
-/// Lines of at most `width` pixels, broken at spaces.
+/// Lines of at most `width` pixels, broken at spaces; a longer word has a line of its own.
 std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width);
 
 }  // namespace mobbscope

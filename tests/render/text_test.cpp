@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -35,6 +38,63 @@ TEST(Font, TextIsWrappedAtSpaces) {
         joined += (joined.empty() ? "" : " ") + line;
     }
     EXPECT_EQ(joined, "one two three four five six");
+}
+
+/// Quadratic work would take minutes.
+TEST(Font, AHundredThousandCharactersTakeNoTime) {
+    const auto begin = std::chrono::steady_clock::now();
+    std::string words;
+    for (int i = 0; i < 20000; ++i) words += "word ";
+    const std::string one_word(100000, 'm');
+    for (const std::string& text : {words, one_word}) {
+        EXPECT_LT(fit_text(text, FontFace::text, 12, 60).size(), 20u);
+        EXPECT_GE(wrap_text(text, FontFace::text, 12, 1e4f).size(), 1u);
+        EXPECT_EQ(fit_text(text, FontFace::text, 12, 1e9f), text);
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+TEST(Font, TheCutIsAsLateAsCanBe) {
+    const Font& font = Font::of(FontFace::text);
+    const std::string text = "AVAVAV Stra\u00DFe To\u20ACo";
+    for (float width = 0; width < 130; width += 0.5f) {
+        const std::string cut = fit_text(text, FontFace::text, 12, width);
+        if (cut == text) {
+            EXPECT_LE(font.width(text, 12), width);
+            continue;
+        }
+        ASSERT_TRUE(cut.ends_with("\u2026"));
+        std::string longer = cut.substr(0, cut.size() - 3);
+        do longer += text[longer.size()];
+        while (longer.size() < text.size() && (static_cast<unsigned char>(text[longer.size()]) >> 6) == 2);
+        EXPECT_TRUE(font.width(longer + "\u2026", 12) > width) << cut << " at " << width;
+    }
+}
+
+TEST(Font, ControlCharactersAreSpaces) {
+    for (const FontFace face : {FontFace::text, FontFace::mono}) {
+        const Font& font = Font::of(face);
+        for (const char32_t code : {U'\n', U'\t', U'\x7F', U'\x85'}) {
+            EXPECT_TRUE(font.has(code));
+            EXPECT_EQ(font.advance(code, 0, 12), font.advance(' ', 0, 12));
+            EXPECT_TRUE(font.rasterise(code, 12, 0).coverage.empty());
+        }
+    }
+}
+
+TEST(Font, AMissingGlyphIsAHollowBox) {
+    const Font& font = Font::of(FontFace::text);
+    ASSERT_FALSE(font.has(0x6F22));
+    EXPECT_TRUE(font.has('A'));
+    const GlyphBitmap box = font.rasterise(0x6F22, 16, 0.25f);
+    EXPECT_LE(static_cast<float>(box.left + box.width), font.advance(0x6F22, 0, 16));
+    ASSERT_EQ(box.coverage.size(), static_cast<std::size_t>(box.width * box.height));
+    for (int y = 0; y < box.height; ++y) {
+        for (int x = 0; x < box.width; ++x) {
+            const bool edge = x == 0 || y == 0 || x == box.width - 1 || y == box.height - 1;
+            EXPECT_EQ(box.coverage[static_cast<std::size_t>(y * box.width + x)] > 0, edge) << x << ' ' << y;
+        }
+    }
 }
 
 TEST(GlyphAtlas, EveryGlyphLiesInItAndHasInk) {
