@@ -2,15 +2,22 @@
 #include <cli/messages.h>
 #include <cli/options.h>
 #include <import/error.h>
+#include <import/file.h>
 #include <import/text.h>
 #include <render/build_draw_list.h>
 #include <render/png.h>
 #include <render/render.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace mobbscope::cli {
@@ -77,8 +84,7 @@ auto number_within(double low, double high) {
     return [low, high](const std::string& text) {
         const std::optional<double> value = parse_double(text);
         if (!value || !(*value >= low && *value <= high)) {
-            throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " +
-                                        brief(high));
+            throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " + brief(high));
         }
         return *value;
     };
@@ -91,12 +97,20 @@ ViewState over(ViewState view, const Arguments& arguments) {
         // A preset frames the scene; a target was meant for the camera that it replaces.
         view.camera.target.reset();
     }
-    if (arguments.yaw || arguments.pitch) view.camera.preset = CameraPreset::free;
-    if (arguments.yaw) view.camera.yaw_deg = *arguments.yaw;
-    if (arguments.pitch) view.camera.pitch_deg = *arguments.pitch;
+    if (arguments.yaw || arguments.pitch) {
+        // The angle that is not given stays what is seen now.
+        const Orientation present = orientation(view.camera);
+        view.camera.preset = CameraPreset::free;
+        view.camera.yaw_deg = arguments.yaw.value_or(present.yaw_deg);
+        view.camera.pitch_deg = arguments.pitch.value_or(present.pitch_deg);
+        view.camera.perspective = present.perspective;
+    }
     if (arguments.fov) view.camera.fov_deg = *arguments.fov;
     if (arguments.orthographic) view.camera.perspective = false;
-    if (arguments.levels) view.levels = *arguments.levels;
+    if (arguments.levels) {
+        view.levels = *arguments.levels;
+        view.query.reset();
+    }
     if (arguments.query) view.query = *arguments.query;
     if (arguments.step) view.step = *arguments.step;
     if (arguments.time) view.time = *arguments.time;
@@ -105,9 +119,92 @@ ViewState over(ViewState view, const Arguments& arguments) {
     return view;
 }
 
+/// Throws InputError if the options given cannot all be had.
+void check_together(const Arguments& arguments) {
+    const auto contradict = [](const std::string& a, const std::string& b, const std::string& why) {
+        throw InputError(a + " and " + b + " contradict each other: " + why);
+    };
+    if (arguments.query && arguments.levels) {
+        contradict("--query", "--level", "a picture shows a query or levels; leave one out");
+    }
+    const CameraPreset preset = arguments.view.value_or(CameraPreset::free);
+    const std::string view = "--view " + std::string(name(preset));
+    const std::string angle = arguments.yaw ? "--yaw" : "--pitch";
+    if (preset != CameraPreset::free && (arguments.yaw || arguments.pitch)) {
+        contradict(view, angle, "a named view has angles of its own; leave one out, or give --view free");
+    }
+    if (!arguments.fov) return;
+    const std::string parallel = "there is no field of view without perspective; leave one out";
+    if (arguments.orthographic) contradict("--ortho", "--fov", parallel);
+    Camera camera;
+    camera.preset = preset;
+    if (!orientation(camera).perspective) contradict(view, "--fov", parallel);
+}
+
+/// Throws InputError if the picture's name is none, before anything is read.
+void check_output_name(const std::filesystem::path& output) {
+    check_file_name(output);
+    if (lower_extension(output) != ".png") {
+        throw InputError(output.string(), "", "pictures are written as .png; rename the output");
+    }
+}
+
+/// Throws InputError if the picture would replace the scene or a file that its clips come from.
+void check_keeps_sources(const std::filesystem::path& output, const Scene& scene) {
+    const auto check_keeps = [&](const std::filesystem::path& source) {
+        std::error_code ignored;
+        if (!std::filesystem::equivalent(output, source, ignored)) return;
+        throw InputError(
+            output.string(), "",
+            "the picture would replace " + in_quotes(source.string()) + ", which it is made from; give another output");
+    };
+    check_keeps(scene.file);
+    for (const SceneClip& clip : scene.clips) {
+        if (clip.source) check_keeps(scene.file.parent_path() / *clip.source);
+    }
+}
+
+/// Throws MachineError if the picture has nowhere to go: better said before it is drawn.
+void check_writable(const std::filesystem::path& output) {
+    const auto refuse = [&](const std::string& why) {
+        throw MachineError(output.string() + ": cannot be written: " + why);
+    };
+    std::error_code error;
+    if (std::filesystem::is_directory(output, error)) refuse("is a folder");
+    const std::filesystem::path target = std::filesystem::weakly_canonical(output, error);
+    const std::filesystem::path folder = (error ? std::filesystem::absolute(output) : target).parent_path();
+    if (!std::filesystem::is_directory(folder, error)) refuse("there is no folder " + in_quotes(folder.string()));
+    const bool there = std::filesystem::exists(target, error);
+    if (there && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) refuse("it is write-protected");
+    // What is no regular file is written in place.
+    if (there && !std::filesystem::is_regular_file(target, error)) return;
+    if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+        refuse("its folder " + in_quotes(folder.string()) + " is write-protected");
+    }
+}
+
+/// Names may hold characters that the fonts of pictures lack.
+void warn_of_missing_glyphs(const DrawList& list) {
+    std::set<char32_t> missing;
+    for (const TextRun& run : list.texts) {
+        for (const char32_t code : code_points(run.text)) {
+            if (!Font::of(run.face).has(code)) missing.insert(code);
+        }
+    }
+    if (missing.empty()) return;
+    warn("the fonts of pictures lack " + counted(static_cast<long long>(missing.size()), "character", "characters") +
+         " of this scene's names; boxes stand for them");
+}
+
 void run(const Arguments& arguments) {
+    check_output_name(arguments.output);
+    check_together(arguments);
     Scene scene = load(arguments.file, arguments.import_options);
+    check_keeps_sources(arguments.output, scene);
     const ViewState view = over(scene.view, arguments);
+    if (arguments.fov && !orientation(view.camera).perspective) {
+        throw InputError("--fov: this scene is seen without perspective; give a --view with it, such as iso");
+    }
     if (arguments.step && !view.query) throw InputError("--step: say with --query which query it is a step of");
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
@@ -118,6 +215,8 @@ void run(const Arguments& arguments) {
             throw InputError(arguments.file.string(), "", error.what());
         }
     }();
+    check_writable(arguments.output);
+    warn_of_missing_glyphs(list);
     Renderer renderer(arguments.backend);
     write_png(arguments.output, renderer.draw(list));
 }

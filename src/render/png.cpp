@@ -1,17 +1,17 @@
 #include <render/png.h>
 
 #include <import/error.h>
+#include <import/file.h>
 
 #include <stb_image.h>
 #include <stb_image_write.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace mobbscope {
@@ -44,20 +44,16 @@ void write_png(const std::filesystem::path& file, const Image& image) {
                                 opaque ? rgb.data() : image.rgba.data(), image.width * channels)) {
         throw MachineError(file.string() + ": the picture could not be packed as PNG");
     }
-    // A rename can be refused late; a folder in the picture's place is better said before.
-    if (std::filesystem::is_directory(file)) throw MachineError(file.string() + ": cannot write: it is a folder");
-    std::filesystem::path temporary = file;
-    temporary += ".part" + std::to_string(getpid());
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+    const bool stream = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+                        !std::filesystem::is_directory(status);
+    if (!stream) return write_file(file, bytes);
+    // A pipe or a device takes the bytes; it must not be replaced by a file.
+    std::ofstream out(file, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
-    std::error_code error(out ? 0 : (errno ? errno : EIO), std::generic_category());
-    if (!error) std::filesystem::rename(temporary, file, error);
-    if (error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw MachineError(file.string() + ": cannot write: " + error.message());
-    }
+    if (!out) throw MachineError(file.string() + ": cannot be written: " + std::generic_category().message(errno));
 }
 
 Image read_png(const std::filesystem::path& file) {

@@ -7,8 +7,8 @@
 
 namespace mobbscope {
 
-/// Writes to a temporary file beside `file` and renames it, so that a picture is there whole or not at all. Throws
-/// MachineError if that cannot be done.
+/// Whole or not at all, as write_file does; a pipe or a device that is there gets the bytes. Throws MachineError if
+/// that cannot be done.
 void write_png(const std::filesystem::path& file, const Image& image);
 
 /// Throws InputError if the file is missing or no PNG.

@@ -1,0 +1,196 @@
+#include "run_program.h"
+
+#include <render/png.h>
+#include <support/temp_folder.h>
+
+#include "render/backends.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+using testing::is_one_line;
+using testing::Result;
+using testing::run_program;
+using testing::slurp;
+using testing::TempFolder;
+
+const std::string kCrossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
+const std::string kSize = "320x240";
+
+/// The arguments of a small picture of a scene, and more.
+std::vector<std::string> arguments(const std::string& scene, const std::string& out,
+                                   const std::vector<std::string>& more = {}) {
+    std::vector<std::string> all{"render", scene, "-o", out, "--size", kSize};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+void expect_refused(const Result& run, int status, const std::string& why) {
+    EXPECT_EQ(run.status, status) << run.err;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+}
+
+/// Draws, which needs a context.
+class RenderTest : public ::testing::Test {
+  protected:
+    void SetUp() override { testing::open_or_skip(Backend::automatic); }
+
+    const TempFolder folder;
+    const std::string out = folder.path() / "out.png";
+
+    Image picture(const std::string& scene, const std::vector<std::string>& more) {
+        const Result run = run_program(arguments(scene, out, more));
+        EXPECT_EQ(run.status, 0) << run.err;
+        return run.status == 0 ? read_png(out) : Image();
+    }
+};
+
+TEST_F(RenderTest, WritesAPictureAndSaysNothing) {
+    const Result run = run_program(arguments(kCrossing, out));
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.out + run.err, "");
+    EXPECT_EQ(read_png(out).width, 320);
+    const std::string capitals = folder.path() / "OUT.PNG";
+    EXPECT_EQ(run_program(arguments(kCrossing, capitals)).status, 0);
+    EXPECT_EQ(read_png(capitals).height, 240);
+}
+
+TEST(Render, NothingThatItReadsIsReplaced) {
+    const TempFolder folder;
+    const std::string clip = folder.write("clip.csv", "t,x,y,r\n0,0,0,0.4\n0.5,1,0,0.4\n");
+    const std::string text = R"({"clips": {"c": {"source": "clip.csv"}}})";
+    const std::string scene = folder.write("scene.json", text);
+    std::filesystem::create_symlink("scene.json", folder.path() / "to_scene.png");
+    std::filesystem::create_symlink("clip.csv", folder.path() / "to_clip.png");
+    std::filesystem::create_hard_link(scene, folder.path() / "same.png");
+    for (const char* out : {"to_scene.png", "to_clip.png", "same.png"}) {
+        expect_refused(run_program(arguments(scene, folder.path() / out)), 2, "would replace");
+    }
+    // A clip is a scene of its own.
+    expect_refused(run_program(arguments(clip, folder.path() / "to_clip.png")), 2, "would replace");
+    EXPECT_EQ(slurp(scene), text);
+    EXPECT_TRUE(slurp(clip).starts_with("t,x,y,r"));
+}
+
+TEST(Render, OnlyPngIsWritten) {
+    const TempFolder folder;
+    const std::string scene = folder.path() / "scene.json";
+    std::filesystem::copy_file(kCrossing, scene);
+    for (const std::string& out :
+         {scene, std::string(folder.path() / "a.jpg"), std::string(folder.path() / "a"), std::string("/dev/null")}) {
+        expect_refused(run_program(arguments(scene, out)), 2, ".png");
+    }
+    expect_refused(run_program(arguments(scene, "")), 2, "");
+    EXPECT_EQ(slurp(scene), slurp(kCrossing));
+    const std::filesystem::directory_iterator files(folder.path());
+    EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
+/// The machine is not asked for OpenGL when the picture has nowhere to go.
+TEST(Render, WhatCannotBeWrittenIsSaidFirst) {
+    const TempFolder folder;
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const auto refusal = [&](const std::filesystem::path& out) { return run_program(arguments(kCrossing, out)); };
+    expect_refused(refusal(folder.path() / "a.png"), 3, "no OpenGL 3.3");
+    expect_refused(refusal(folder.path() / "none" / "a.png"), 3, "there is no folder");
+    std::filesystem::create_directory(folder.path() / "folder.png");
+    expect_refused(refusal(folder.path() / "folder.png"), 3, "is a folder");
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+}
+
+TEST_F(RenderTest, ANameThatIsTooLongIsRefused) {
+    expect_refused(run_program(arguments(kCrossing, folder.path() / (std::string(300, 'a') + ".png"))), 3,
+                   "cannot be written");
+}
+
+TEST_F(RenderTest, PipesLinksAndDevicesStay) {
+    const std::string target = folder.write("target.png", "old");
+    const auto link = folder.path() / "link.png";
+    const auto null = folder.path() / "null.png";
+    const auto pipe = folder.path() / "pipe.png";
+    std::filesystem::create_symlink("target.png", link);
+    std::filesystem::create_symlink("/dev/null", null);
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_EQ(run_program(arguments(kCrossing, link)).status, 0);
+    EXPECT_EQ(run_program(arguments(kCrossing, null)).status, 0);
+    // Open for reading and writing: nobody waits for the other side, and a picture this small fits into the pipe.
+    std::fstream both(pipe, std::ios::in | std::ios::out | std::ios::binary);
+    const Result piped = run_program({"render", kCrossing, "-o", pipe, "--size", "64x64"});
+    ASSERT_EQ(piped.status, 0) << piped.err;
+    std::string head(8, '\0');
+    both.read(head.data(), 8);
+    EXPECT_EQ(head, "\x89PNG\r\n\x1a\n");
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_TRUE(std::filesystem::is_symlink(null));
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    EXPECT_EQ(read_png(target).width, 320);
+}
+
+TEST(Render, OptionsThatContradictEachOtherAreNamed) {
+    const TempFolder folder;
+    const std::string out = folder.path() / "out.png";
+    const struct {
+        std::vector<std::string> options;
+        std::string pair;
+    } cases[] = {
+        {{"--view", "top", "--yaw", "30"}, "--view top and --yaw"},
+        {{"--view", "iso", "--pitch", "30"}, "--view iso and --pitch"},
+        {{"--view", "front", "--fov", "30"}, "--view front and --fov"},
+        {{"--ortho", "--fov", "30"}, "--ortho and --fov"},
+        {{"--query", "0", "--level", "2"}, "--query and --level"},
+    };
+    for (const auto& [options, pair] : cases) {
+        expect_refused(run_program(arguments(kCrossing, out, options)), 2, pair);
+    }
+    const std::string top = folder.write("top.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]}},
+                                     "view": {"camera": {"preset": "top"}}})");
+    expect_refused(run_program(arguments(top, out, {"--fov", "30"})), 2, "--fov");
+    expect_refused(run_program(arguments(kCrossing, out, {"--level", "2", "--step", "3"})), 2, "--query");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(RenderTest, TheAngleThatIsNotGivenStays) {
+    const std::string scene =
+        folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,1,1],[3,1,1]]}}})");
+    // The isometric view is free's -52 and 24 degrees.
+    const Image iso = picture(scene, {"--view", "iso"});
+    EXPECT_EQ(picture(scene, {"--yaw", "-52"}).rgba, iso.rgba);
+    EXPECT_EQ(picture(scene, {"--pitch", "24"}).rgba, iso.rgba);
+    EXPECT_NE(picture(scene, {"--pitch", "60"}).rgba, iso.rgba);
+}
+
+TEST_F(RenderTest, ALevelReplacesTheQueryOfTheScene) {
+    const std::string clip = R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,0,1],[3,0,1]]}},
+        "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [1, 1]}])";
+    // One name for both, as the caption tells it.
+    const std::string scene = folder.write("s.json", clip + "}");
+    const Image plain = picture(scene, {});
+    const Image plain_level = picture(scene, {"--level", "1"});
+    folder.write("s.json", clip + R"(, "view": {"query": 0}})");
+    EXPECT_EQ(picture(scene, {"--level", "1"}).rgba, plain_level.rgba);
+    EXPECT_NE(picture(scene, {}).rgba, plain.rgba);
+}
+
+TEST_F(RenderTest, CharactersWithoutGlyphsAreToldOnce) {
+    const std::string scene = folder.write("s.json",
+                                           "{\"clips\": {\"\u6F22\u5B57\u6F22\": {\"dt\": 1, \"samples\": "
+                                           "[[0,0,1],[1,0,1]]}}}");
+    const Result run = run_program(arguments(scene, out));
+    EXPECT_EQ(run.status, 0);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find("2 characters"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace mobbscope
