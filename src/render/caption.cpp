@@ -1,3 +1,4 @@
+#include <render/annotations.h>
 #include <render/caption.h>
 #include <render/label_layout.h>
 #include <render/level_boxes.h>
@@ -13,6 +14,27 @@
 namespace mobbscope {
 
 namespace {
+
+constexpr std::size_t kMostDetails = 2;
+constexpr const char* kBetween = "  \u00B7  ";
+
+struct Sizes {
+    float headline, detail, indent, between;
+    explicit Sizes(float scale)
+        : headline(std::round(16 * scale)),
+          detail(std::round(12 * scale)),
+          indent(std::round(1.1f * headline)),
+          between(std::round(3 * scale)) {}
+};
+
+/// The rest of too many lines is cut off visibly rather than run down the picture; so are words too long for a line.
+void cut(std::vector<std::string>& lines, std::size_t most, float text_size, float room) {
+    if (most > 0) {
+        for (std::size_t i = most; i < lines.size(); ++i) lines[most - 1] += ' ' + lines[i];
+    }
+    lines.resize(std::min(lines.size(), most));
+    for (std::string& line : lines) line = fit_text(line, FontFace::text, text_size, room);
+}
 
 /// "mobb" as "MOBB", "hybrid1" as it stands.
 std::string tree_title(mobb::TreeKind kind) {
@@ -55,59 +77,82 @@ std::string boxes_text(std::span<const Subject> subjects, const LevelRange& leve
 
 }  // namespace
 
-Caption scene_caption(const Palette&, const FittedScene& fitted, std::span<const Subject> subjects,
-                      const ViewState& view) {
+Caption scene_caption(const FittedScene& fitted, std::span<const Subject> subjects, const ViewState& view) {
     Caption caption;
-    caption.headline = fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string();
+    caption.headlines = {fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string()};
     if (view.boxes) {
         caption.detail = tree_title(fitted.options().tree) + ", leaf " + std::to_string(fitted.options().leaf) +
-                         "  \u00B7  " + boxes_text(subjects, view.levels);
+                         kBetween + boxes_text(subjects, view.levels);
+    }
+    if (!names_fit(subjects.size())) {
+        const std::string left_out = std::to_string(subjects.size()) + " agents, unnamed here";
+        caption.detail += (caption.detail.empty() ? "" : kBetween) + left_out;
     }
     return caption;
 }
 
 Caption query_caption(const Palette& palette, std::span<const Subject> sides, const RecordedQuery& recorded, int step) {
     Caption caption;
-    caption.headline = step_sentence(sides, recorded.trace, step);
+    caption.headlines = step_sentences(sides, recorded.trace, step);
     caption.detail = tree_title(sides[0].placed.tree().options().tree) + ", leaf " +
-                     std::to_string(sides[0].placed.tree().options().leaf) + "  \u00B7  " +
+                     std::to_string(sides[0].placed.tree().options().leaf) + kBetween +
                      answer_sentence(sides, recorded);
     const mobb::Outcome outcome = recorded.trace[step].outcome;
     caption.mark = outcome_style(box_state(outcome), palette).color;
     return caption;
 }
 
-float add_caption(DrawList& list, const Caption& caption, float margin, float scale) {
-    const float size = std::round(16 * scale);
-    const float detail_size = std::round(12 * scale);
-    const bool marked = caption.mark.a > 0;
-    const float indent = marked ? std::round(1.1f * size) : 0.0f;
-    const float room = static_cast<float>(list.size.width) - 2 * margin - indent;
-    list.headline = caption.headline;
-    std::vector<std::string> lines = wrap_text(caption.headline, FontFace::text, size, room);
-    if (lines.size() > 2) {
-        // The rest is cut off visibly rather than run down the picture.
-        for (std::size_t i = 2; i < lines.size(); ++i) lines[1] += ' ' + lines[i];
-        lines.resize(2);
+void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%.10g s lies outside %.4g..%.4g s", time, begin, end);
+    caption.detail = caption.detail.empty() ? text : std::string(text) + kBetween + caption.detail;
+}
+
+CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {
+    const Sizes sizes(scale);
+    room -= caption.mark.a > 0 ? sizes.indent : 0;
+    CaptionLines out;
+    for (const std::string& headline : caption.headlines) {
+        out.headline = wrap_text(headline, FontFace::text, sizes.headline, room);
+        if (out.headline.size() <= most_headlines) break;
     }
-    float y = margin;
+    cut(out.headline, most_headlines, sizes.headline, room);
+    out.detail = wrap_text(caption.detail, FontFace::text, sizes.detail, room);
+    cut(out.detail, kMostDetails, sizes.detail, room);
+    return out;
+}
+
+glm::vec2 caption_size(const CaptionLines& lines, bool marked, float scale) {
+    const Sizes sizes(scale);
+    glm::vec2 size(0);
+    const auto add = [&](const std::string& line, float text_size) {
+        size.x = std::max(size.x, Font::of(FontFace::text).width(line, text_size) + (marked ? sizes.indent : 0));
+        size.y += line_height(FontFace::text, text_size);
+    };
+    for (const std::string& line : lines.headline) add(line, sizes.headline);
+    if (!lines.detail.empty()) size.y += sizes.between;
+    for (const std::string& line : lines.detail) add(line, sizes.detail);
+    return size;
+}
+
+float add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, float margin, float scale) {
+    const Sizes sizes(scale);
+    list.headline = caption.headlines.front();
+    const bool marked = caption.mark.a > 0 && !lines.headline.empty();
     if (marked) {
-        const float r = 0.3f * size;
-        const glm::vec2 middle(margin + r, y + 0.56f * line_height(FontFace::text, size));
+        const float r = 0.3f * sizes.headline;
+        const glm::vec2 middle(margin + r, margin + 0.56f * line_height(FontFace::text, sizes.headline));
         list.panels.push_back({{middle - r, middle + r}, r, caption.mark, Rgba(0), 0});
     }
-    for (const std::string& line : lines) {
-        list.texts.push_back(text_at(fit_text(line, FontFace::text, size, room), FontFace::text, size,
-                                     list.palette.text, {margin + indent, y}));
-        y += line_height(FontFace::text, size);
-    }
-    y += std::round(3 * scale);
-    for (const std::string& line : wrap_text(caption.detail, FontFace::text, detail_size, room)) {
-        list.texts.push_back(text_at(fit_text(line, FontFace::text, detail_size, room), FontFace::text, detail_size,
-                                     list.palette.quiet_text, {margin + indent, y}));
-        y += line_height(FontFace::text, detail_size);
-    }
-    return y;
+    glm::vec2 at(margin + (marked ? sizes.indent : 0), margin);
+    const auto add = [&](const std::string& line, float text_size, Rgba color) {
+        list.texts.push_back(text_at(line, FontFace::text, text_size, color, at));
+        at.y += line_height(FontFace::text, text_size);
+    };
+    for (const std::string& line : lines.headline) add(line, sizes.headline, list.palette.text);
+    if (!lines.detail.empty()) at.y += sizes.between;
+    for (const std::string& line : lines.detail) add(line, sizes.detail, list.palette.quiet_text);
+    return at.y;
 }
 
 }  // namespace mobbscope

@@ -6,23 +6,38 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 
 struct Caption {
-    std::string headline;  ///< the sentence that answers what is seen
-    std::string detail;    ///< read second
-    Rgba mark{0};          ///< colour of the dot before the headline; opacity 0: none
+    std::vector<std::string> headlines;  ///< the sentence that answers what is seen, in fewer and fewer words
+    std::string detail;                  ///< read second
+    Rgba mark{0};                        ///< colour of the dot before the headline; opacity 0: none
 };
 
 /// What the scene is and which boxes are shown, with their volume.
-Caption scene_caption(const Palette& palette, const FittedScene& fitted, std::span<const Subject> subjects,
-                      const ViewState& view);
+Caption scene_caption(const FittedScene& fitted, std::span<const Subject> subjects, const ViewState& view);
 
 /// What a step of a query shows.
 Caption query_caption(const Palette& palette, std::span<const Subject> sides, const RecordedQuery& recorded, int step);
 
-/// Adds it along the top edge, at most two lines of headline; returns where it ends, pixels from the top.
-float add_caption(DrawList& list, const Caption& caption, float margin, float scale);
+/// Says in the detail that a time cursor is not drawn, as it lies outside what the paths take.
+void mention_cursor_outside(Caption& caption, double time, double begin, double end);
+
+/// A caption cut to a picture: the first headline of at most so many lines, and the detail below it.
+struct CaptionLines {
+    std::vector<std::string> headline;
+    std::vector<std::string> detail;
+};
+
+/// `room`: pixels across, with the dot. A last headline that is too long is cut off visibly.
+CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines);
+
+/// What it covers, pixels.
+glm::vec2 caption_size(const CaptionLines& lines, bool marked, float scale);
+
+/// Adds it along the top edge; returns where it ends, pixels from the top.
+float add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, float margin, float scale);
 
 }  // namespace mobbscope

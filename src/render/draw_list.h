@@ -116,7 +116,7 @@ struct TextRun {
 
 /// A line of the legend: what a colour and line style stand for.
 struct LegendEntry {
-    enum class Mark { disk, box, line };
+    enum class Mark { disk, ring, double_ring, box, line, remark };
     Mark mark = Mark::line;
     Rgba color{1};
     Rgba fill{0};
@@ -140,6 +140,7 @@ struct DrawList {
     std::vector<LegendEntry> legend;
     std::vector<Panel> panels;               ///< over the scene, in this order
     std::vector<OverlayLine> overlay_lines;  ///< over the panels
+    std::vector<Panel> marks;                ///< over the lines
     std::vector<TextRun> texts;              ///< over all
 };
 

@@ -65,7 +65,7 @@ void add_floor_inset(DrawList& list, std::span<const Subject> subjects, const St
         const mobb::Disk disk = subject.clip().disk(*sample);
         const glm::vec2 middle = at(disk.x, disk.y);
         const float r = std::max(static_cast<float>(disk.r) * pixels, 2.5f * scale);
-        list.panels.push_back({{middle - r, middle + r}, r, with_alpha(subject.color, 0.9f), list.palette.text, scale});
+        list.marks.push_back({{middle - r, middle + r}, r, with_alpha(subject.color, 0.9f), list.palette.text, scale});
     }
 }
 

@@ -44,10 +44,11 @@ TextRun text_at(const std::string& text, FontFace face, float size, Rgba color, 
 LabelLayout::LabelLayout(PictureSize size)
     : picture_{glm::vec2(kEdge), glm::vec2(static_cast<float>(size.width), static_cast<float>(size.height)) - kEdge} {}
 
-bool LabelLayout::is_free(const Rect& rect) const {
-    const Rect room = rect.grown(kBetween);
+bool LabelLayout::is_free(const Rect& rect, float room) const {
+    const glm::vec2 around(std::max(room, kBetween), kBetween);
+    const Rect needed{rect.min - around, rect.max + around};
     return picture_.contains(rect) &&
-           std::none_of(taken_.begin(), taken_.end(), [&](const Rect& other) { return other.overlaps(room); });
+           std::none_of(taken_.begin(), taken_.end(), [&](const Rect& other) { return other.overlaps(needed); });
 }
 
 bool LabelLayout::place(const LabelRequest& request, DrawList& list) {
@@ -57,7 +58,7 @@ bool LabelLayout::place(const LabelRequest& request, DrawList& list) {
     const glm::vec2 size = text_size + glm::vec2(2 * padding, padding);
     for (const glm::vec2& direction : request.directions) {
         const Rect rect = beside(request.anchor, direction, request.distance, size);
-        if (!is_free(rect)) continue;
+        if (!is_free(rect, request.room)) continue;
         taken_.push_back(rect);
         if (request.pill) list.panels.push_back({rect, 0.3f * request.size, list.palette.panel, request.border, 1});
         const glm::vec2 corner = rect.min + glm::vec2(padding, std::floor(0.5f * padding));

@@ -1,6 +1,7 @@
 #include <render/label_layout.h>
 #include <render/legend.h>
 #include <render/level_boxes.h>
+#include <render/paths.h>
 #include <render/query_boxes.h>
 
 #include <algorithm>
@@ -14,13 +15,15 @@ namespace {
 constexpr int kMostLevels = 5;
 constexpr std::size_t kMostAgents = 8;  // more would cover the picture; the rest are counted
 
-LegendEntry disk_entry(Rgba color, std::string text) {
+LegendEntry entry_of(LegendEntry::Mark mark, Rgba color, std::string text) {
     LegendEntry entry;
-    entry.mark = LegendEntry::Mark::disk;
+    entry.mark = mark;
     entry.color = color;
     entry.text = std::move(text);
     return entry;
 }
+
+LegendEntry remark(std::string text) { return entry_of(LegendEntry::Mark::remark, Rgba(0), std::move(text)); }
 
 LegendEntry line_entry(const OutcomeStyle& style, std::string text) {
     LegendEntry entry;
@@ -33,9 +36,12 @@ LegendEntry line_entry(const OutcomeStyle& style, std::string text) {
 
 void add_agents(std::vector<LegendEntry>& entries, std::span<const Subject> subjects) {
     const std::size_t shown = std::min(subjects.size(), kMostAgents);
-    for (const Subject& subject : subjects.first(shown)) entries.push_back(disk_entry(subject.color, subject.name));
+    for (const Subject& subject : subjects.first(shown)) {
+        entries.push_back(entry_of(LegendEntry::Mark::disk, subject.color, subject.label));
+    }
     if (shown < subjects.size()) {
-        entries.push_back(disk_entry(Rgba(0), "and " + std::to_string(subjects.size() - shown) + " more"));
+        entries.push_back(
+            entry_of(LegendEntry::Mark::disk, Rgba(0), "and " + std::to_string(subjects.size() - shown) + " more"));
     }
 }
 
@@ -65,14 +71,14 @@ void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::sp
 }
 
 void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> sides,
-               const QueryProgress& progress) {
+               const QueryProgress& progress, std::vector<LegendEntry>& remarks) {
     for (const Subject& side : sides) {
         LegendEntry entry;
         entry.mark = LegendEntry::Mark::box;
         entry.color = side.color;
         entry.fill = with_alpha(side.color, 0.3f);
         entry.width = 2;
-        entry.text = side.name + ", under test";
+        entry.text = side.label + ", under test";
         entries.push_back(entry);
     }
     const auto present = [&](BoxState state) {
@@ -88,6 +94,8 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
         if (present(state) || box_state(progress.event.outcome) == state)
             entries.push_back(line_entry(outcome_style(state, list.palette), text));
     }
+    const bool earlier = !progress.nodes[0].empty() || !progress.nodes[1].empty();
+    if (earlier) remarks.push_back(remark("fine boxes: the latest test of a node"));
 }
 
 /// A free box is fitted with w metres to the second but drawn with another height, so it is not seen as a cuboid.
@@ -118,22 +126,30 @@ struct Layout {
 }  // namespace
 
 std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view,
-                                        const QueryProgress* progress) {
+                                        const Emphasis& emphasis, const QueryProgress* progress) {
     std::vector<LegendEntry> entries;
+    std::vector<LegendEntry> remarks;
     if (progress) {
-        if (view.boxes) add_query(entries, list, subjects, *progress);
+        if (view.boxes) add_query(entries, list, subjects, *progress, remarks);
+        if (!view.boxes && view.disks) add_agents(entries, subjects);
+        using Mark = LegendEntry::Mark;
+        if (emphasis.dims) {
+            const Rgba dim = mix_colors(list.palette.panel, list.palette.quiet_text, kOutOfFocus);
+            entries.push_back(entry_of(Mark::disk, with_alpha(dim, 1), "dim: outside the nodes under test"));
+        }
+        if (emphasis.hits) entries.push_back(entry_of(Mark::double_ring, list.palette.hit, "samples that hit"));
     } else {
         add_agents(entries, subjects);
         if (view.boxes && !list.boxes.empty()) add_levels(entries, list, subjects, view.levels);
     }
-    if (view.time) entries.push_back(line_entry({list.palette.accent, kSolid, 1.3f}, "time cursor"));
+    if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, kSolid, 1.3f}, "time cursor"));
+    if (emphasis.cuts()) entries.push_back(entry_of(LegendEntry::Mark::ring, list.palette.text, "sample at that time"));
     if (has_sheared_boxes(list, subjects)) {
-        // Without a mark of their own: a remark on all boxes.
-        const OutcomeStyle none{Rgba(0), kSolid, 1};
-        entries.push_back(line_entry(none, "boxes look sheared: fitted"));
-        entries.push_back(line_entry(none, "with " + short_number(subjects[0].placed.time_scale()) +
-                                               " m/s, drawn with " + short_number(list.space.time_height) + " m/s"));
+        remarks.push_back(remark("boxes look sheared: fitted"));
+        remarks.push_back(remark("with " + short_number(subjects[0].placed.time_scale()) + " m/s, drawn with " +
+                                 short_number(list.space.time_height) + " m/s"));
     }
+    entries.insert(entries.end(), remarks.begin(), remarks.end());
     return entries;
 }
 
@@ -142,7 +158,7 @@ glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
     const Layout layout(text_size);
     float widest = 0;
     for (const LegendEntry& entry : entries) {
-        const bool remark = entry.color.a <= 0 && entry.fill.a <= 0;
+        const bool remark = entry.mark == LegendEntry::Mark::remark;
         const float indent = remark ? 0 : layout.mark + layout.gap;
         widest = std::max(widest, indent + Font::of(FontFace::text).width(entry.text, text_size));
     }
@@ -158,11 +174,18 @@ void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
     glm::vec2 at = corner + layout.padding;
     const float height = line_height(FontFace::text, text_size);
     for (const LegendEntry& entry : list.legend) {
-        const bool remark = entry.color.a <= 0 && entry.fill.a <= 0;
+        const bool remark = entry.mark == LegendEntry::Mark::remark;
         const glm::vec2 middle = at + glm::vec2(0.5f * layout.mark, 0.5f * height);
         const float r = 0.36f * text_size;
         if (entry.mark == LegendEntry::Mark::disk) {
             list.panels.push_back({{middle - r, middle + r}, r, entry.color, Rgba(0), 0});
+        } else if (entry.mark == LegendEntry::Mark::ring || entry.mark == LegendEntry::Mark::double_ring) {
+            const bool twice = entry.mark == LegendEntry::Mark::double_ring;
+            const float unit = text_size / 11;
+            list.panels.push_back({{middle - r, middle + r}, r, Rgba(0), entry.color, (twice ? 2.2f : 1.4f) * unit});
+            const float around = r + 2.4f * unit;
+            if (twice)
+                list.panels.push_back({{middle - around, middle + around}, around, Rgba(0), entry.color, 0.9f * unit});
         } else if (entry.mark == LegendEntry::Mark::box) {
             const glm::vec2 half(0.5f * layout.mark - 1, 0.38f * text_size);
             list.panels.push_back(
@@ -170,7 +193,8 @@ void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
         } else if (!remark) {
             const glm::vec2 half(0.5f * layout.mark, 0);
             list.overlay_lines.push_back({middle - half, middle + half, entry.color,
-                                          std::max(entry.width, 1.4f) * text_size / 12, 0.6f * entry.dash});
+                                          std::max(entry.width, 1.4f) * text_size / 12,
+                                          0.6f * entry.dash * text_size / 11.0f});
         }
         const glm::vec2 text_corner = remark ? at : at + glm::vec2(layout.mark + layout.gap, 0);
         list.texts.push_back(text_at(entry.text, FontFace::text, text_size,

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <render/draw_list.h>
+#include <render/emphasis.h>
 #include <render/query_progress.h>
 #include <render/subject.h>
 
-#include <optional>
 #include <span>
 
 namespace mobbscope {
 
-/// The entries for what the list shows. `progress`: of the query in the view, or null.
+/// The entries for what the list shows. `progress`: of the query in the view, or null. Remarks come last.
 std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view,
-                                        const QueryProgress* progress);
+                                        const Emphasis& emphasis, const QueryProgress* progress);
 
 /// How large the legend is, pixels.
 glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size);

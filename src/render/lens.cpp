@@ -119,15 +119,21 @@ glm::vec3 right_of(const Camera& camera) {
     return glm::vec3(glm::dvec3(-std::sin(yaw), std::cos(yaw), 0));
 }
 
-glm::vec2 Lens::project(glm::vec3 point) const {
+std::optional<glm::vec2> Lens::project(glm::vec3 point) const {
     const glm::vec4 clip = clip_from_world * glm::vec4(point, 1);
-    return {(clip.x / clip.w * 0.5f + 0.5f) * static_cast<float>(size.width),
-            (0.5f - clip.y / clip.w * 0.5f) * static_cast<float>(size.height)};
+    // The near plane itself is still drawn; rounding must not lose what lies on it.
+    if (perspective && clip.w < near_depth * (1 - 1e-4f)) return std::nullopt;
+    return glm::vec2{(clip.x / clip.w * 0.5f + 0.5f) * static_cast<float>(size.width),
+                     (0.5f - clip.y / clip.w * 0.5f) * static_cast<float>(size.height)};
 }
 
 float Lens::depth(glm::vec3 point) const { return glm::dot(eye - point, back); }
 
-float Lens::pixels_per_metre(glm::vec3 point) const { return glm::length(project(point + right) - project(point)); }
+float Lens::pixels_per_metre(glm::vec3 point) const {
+    const auto here = project(point);
+    const auto beside = project(point + right);
+    return here && beside ? glm::length(*beside - *here) : 0;
+}
 
 Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target, const Frame& frame,
                PictureSize size) {

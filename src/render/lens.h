@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <optional>
 #include <span>
 
 namespace mobbscope {
@@ -30,11 +31,12 @@ struct Lens {
     float far_depth = 1;
     PictureSize size;
 
-    /// The pixel (from the upper left corner, fractional) where a point is seen.
-    glm::vec2 project(glm::vec3 point) const;
+    /// The pixel (from the upper left corner, fractional) where a point is seen; none for one behind the eye, which the
+    /// division would mirror, or nearer to it than anything is drawn.
+    std::optional<glm::vec2> project(glm::vec3 point) const;
     /// Distance along the line of sight.
     float depth(glm::vec3 point) const;
-    /// Pixels that a metre across the line of sight takes at a point.
+    /// Pixels that a metre across the line of sight takes at a point; 0 where none can be seen.
     float pixels_per_metre(glm::vec3 point) const;
 };
 

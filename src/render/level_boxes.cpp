@@ -1,9 +1,87 @@
+#include <render/box_corners.h>
 #include <render/level_boxes.h>
 #include <render/world_box.h>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 namespace mobbscope {
+
+namespace {
+
+/// How much of the picture the edges of boxes cover, in coarse cells.
+class InkMap {
+  public:
+    InkMap(PictureSize size, float cell)
+        : cell_(cell),
+          columns_(static_cast<int>(std::ceil(static_cast<float>(size.width) / cell))),
+          rows_(static_cast<int>(std::ceil(static_cast<float>(size.height) / cell))),
+          ink_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0f) {}
+
+    void add(const BoxInstance& box, const Lens& lens) {
+        each_place(box, lens,
+                   [&](float& cell, float length) { cell += length * box.width * box.edge.a / (cell_ * cell_); });
+    }
+
+    /// The mean along the box's edges: 1 where edges could cover everything.
+    float around(const BoxInstance& box, const Lens& lens) {
+        float sum = 0;
+        float run = 0;
+        each_place(box, lens, [&](float& cell, float length) {
+            sum += cell * length;
+            run += length;
+        });
+        return run > 0 ? sum / run : 0;
+    }
+
+  private:
+    /// Calls `visit` with the cell and the length of each piece of an edge inside the picture.
+    template <class Visit>
+    void each_place(const BoxInstance& box, const Lens& lens, Visit visit) {
+        const auto corners = box_corners(box);
+        for (const auto& [a, b] : kBoxEdges) {
+            const auto from = lens.project(corners[a]);
+            const auto to = lens.project(corners[b]);
+            if (!from || !to) continue;
+            const float length = glm::length(*to - *from);
+            const int pieces = std::clamp(static_cast<int>(length / cell_) + 1, 1, 512);
+            for (int i = 0; i < pieces; ++i) {
+                const glm::vec2 at = glm::mix(*from, *to, (static_cast<float>(i) + 0.5f) / static_cast<float>(pieces));
+                const glm::vec2 place = glm::floor(at / cell_);
+                if (!(place.x >= 0 && place.y >= 0 && place.x < static_cast<float>(columns_) &&
+                      place.y < static_cast<float>(rows_)))
+                    continue;
+                visit(ink_[static_cast<std::size_t>(place.y) * static_cast<std::size_t>(columns_) +
+                           static_cast<std::size_t>(place.x)],
+                      length / static_cast<float>(pieces));
+            }
+        }
+    }
+
+    float cell_;
+    int columns_;
+    int rows_;
+    std::vector<float> ink_;
+};
+
+/// The longest way between two corners in the picture, pixels.
+float diagonal(const BoxInstance& box, const Lens& lens) {
+    const auto corners = box_corners(box);
+    float longest = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+        const auto from = lens.project(corners[i]);
+        const auto to = lens.project(corners[7 - i]);
+        // Partly behind the eye, a box is as large as can be.
+        if (!from || !to) return static_cast<float>(lens.size.width + lens.size.height);
+        longest = std::max(longest, glm::length(*to - *from));
+    }
+    return longest;
+}
+
+}  // namespace
 
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels) {
     std::vector<int> out;
@@ -28,16 +106,24 @@ LevelStyle level_style(int level, int first, int last) {
     return {0.025f + 0.075f * t, 0.45f + 0.5f * t, 0.9f + 0.9f * t};
 }
 
-void refine_small_boxes(DrawList& list) {
-    constexpr float kSmall = 26;  // pixels between opposite corners, at least
+void refine_crowded_boxes(DrawList& list, float scale) {
+    const float small = 26 * scale;  // pixels between opposite corners, at least
+    InkMap ink(list.size, 12 * scale);
+    std::vector<BoxInstance*> boxes;
     for (BoxInstance& box : list.boxes) {
         if (box.state != BoxState::level) continue;
-        float height = 0;
-        for (const glm::vec3& extent : box.extents) height += 2 * std::abs(extent.z);
-        const float pixels = height * list.lens.pixels_per_metre(box.center);
-        const float part = std::clamp(pixels / kSmall, 0.0f, 1.0f);
+        const float part = std::clamp(diagonal(box, list.lens) / small, 0.0f, 1.0f);
         box.width *= 0.5f + 0.5f * part;
         box.edge.a *= 0.45f + 0.55f * part;
+        ink.add(box, list.lens);
+        boxes.push_back(&box);
+    }
+    constexpr float kMost = 0.45f;  // of the ground may be covered by edges
+    for (BoxInstance* box : boxes) {
+        const float part = std::min(1.0f, kMost / std::max(ink.around(*box, list.lens), 1e-6f));
+        box->edge.a *= part;
+        // Faces add up faster than edges: each lies over all that are behind it.
+        box->fill.a *= part * part;
     }
 }
 

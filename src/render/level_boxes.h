@@ -14,8 +14,9 @@ std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
 /// The boxes of those nodes in the subject's colour; where several levels are shown, finer ones are fuller and heavier.
 void add_level_boxes(DrawList& list, const Subject& subject, const LevelRange& levels, float scale);
 
-/// Makes the edges of boxes that are small in the picture finer, as many of them would bury what is inside.
-void refine_small_boxes(DrawList& list);
+/// Makes boxes of levels finer where they are small in the picture, and fainter where many lie over one another, as
+/// they would bury what is inside. Needs the lens. `scale`: of line widths.
+void refine_crowded_boxes(DrawList& list, float scale);
 
 /// How the boxes of one level look.
 struct LevelStyle {

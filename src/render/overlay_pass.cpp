@@ -38,16 +38,19 @@ void OverlayPass::draw(const std::vector<Instance>& instances, PictureSize size)
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
 }
 
-void OverlayPass::draw_panels(const DrawList& list) {
+void OverlayPass::draw(const std::vector<Panel>& panels, PictureSize size) {
     std::vector<Instance> instances;
-    for (const Panel& panel : list.panels) {
+    for (const Panel& panel : panels) {
         instances.push_back(
             {panel.rect, panel.fill, panel.border, glm::vec2(panel.radius, panel.border_width), glm::vec2(-1)});
     }
-    draw(instances, list.size);
+    draw(instances, size);
 }
 
+void OverlayPass::draw_panels(const DrawList& list) { draw(list.panels, list.size); }
+
 void OverlayPass::draw_texts(const DrawList& list) {
+    draw(list.marks, list.size);
     if (list.texts.empty()) return;
     const GlyphAtlas atlas = make_atlas(list.texts);
     glActiveTexture(GL_TEXTURE0);

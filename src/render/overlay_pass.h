@@ -11,11 +11,13 @@ class OverlayPass {
     explicit OverlayPass(GlContext& context);
 
     void draw_panels(const DrawList& list);
+    /// What lies over the lines: marks, then texts.
     void draw_texts(const DrawList& list);
 
   private:
     struct Instance;
     void draw(const std::vector<Instance>& instances, PictureSize size);
+    void draw(const std::vector<Panel>& panels, PictureSize size);
 
     ShaderProgram program_;
     VertexArray array_;

@@ -1,11 +1,16 @@
 #include <render/palette.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace mobbscope {
 
 namespace {
+
+constexpr float kFaintestOnDark = 1.35f;
+constexpr float kFaintestOnLight = 1.5f;
 
 Rgba hex(std::uint32_t rgb, float alpha = 1) {
     const auto channel = [&](unsigned shift) { return static_cast<float>((rgb >> shift) & 255u) / 255.0f; };
@@ -75,6 +80,28 @@ Rgba agent_color(const Scene& scene, const Participant& participant, int index) 
 Rgba with_alpha(Rgba color, float alpha) { return {color.r, color.g, color.b, alpha}; }
 
 Rgba mix_colors(Rgba a, Rgba b, float t) { return a + (b - a) * t; }
+
+float contrast(Rgba a, Rgba b) {
+    const auto lightness = [](Rgba c) {
+        const auto linear = [](float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); };
+        return 0.2126f * linear(c.r) + 0.7152f * linear(c.g) + 0.0722f * linear(c.b) + 0.05f;
+    };
+    const float la = lightness(a);
+    const float lb = lightness(b);
+    return std::max(la, lb) / std::min(la, lb);
+}
+
+Rgba faded(Rgba color, float strength, const Palette& palette) {
+    // What is thin looks fainter than its colour, the more so on a light ground.
+    const float wanted = palette.dark ? kFaintestOnDark : kFaintestOnLight;
+    float low = 0;
+    float high = 1;
+    for (int i = 0; i < 12; ++i) {
+        const float middle = 0.5f * (low + high);
+        (contrast(mix_colors(palette.background, color, middle), palette.background) < wanted ? low : high) = middle;
+    }
+    return with_alpha(color, std::max(high, strength));
+}
 
 Rgba outlining(Rgba color, const Palette& palette) {
     return with_alpha(palette.dark ? mix_colors(color, Rgba(1), 0.15f) : mix_colors(color, Rgba(0, 0, 0, 1), 0.22f), 1);

@@ -39,6 +39,12 @@ Rgba with_alpha(Rgba color, float alpha);
 /// From `a` (0) to `b` (1).
 Rgba mix_colors(Rgba a, Rgba b, float t);
 
+/// How far apart in lightness two opaque colours are: 1 (not at all) to 21, as WCAG counts it.
+float contrast(Rgba a, Rgba b);
+
+/// `color` with an opacity, or with the least at which it is still seen on the theme's ground.
+Rgba faded(Rgba color, float strength, const Palette& palette);
+
 /// `color` as a line that stands out from surfaces of that colour.
 Rgba outlining(Rgba color, const Palette& palette);
 

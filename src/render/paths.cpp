@@ -8,15 +8,14 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kStepBack = 0.62f;  // towards the background
-constexpr float kEarly = 0.24f;     // ... at the beginning of a path, so that later disks stand out
+constexpr float kEarly = 0.24f;  // towards the background at the beginning of a path, so that later disks stand out
 
 Rgba disk_color(const Palette& palette, const Subject& subject, const PathFocus& focus, int sample) {
     if (focus.hit == sample) return palette.hit;
     const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
     const float age = 1 - static_cast<float>(sample) / static_cast<float>(subject.clip().count());
     const float back = kEarly * age;
-    return with_alpha(subject.color, (1 - back) * (in_focus ? 1 : 1 - kStepBack));
+    return with_alpha(subject.color, (1 - back) * (in_focus ? 1 : kOutOfFocus));
 }
 
 }  // namespace
@@ -41,7 +40,9 @@ void add_thin_path(DrawList& list, const Subject& subject, float width) {
     const mobb::PlacedClip& clip = subject.clip();
     double widest = 0;
     for (const mobb::Disk& disk : clip.clip().samples()) widest = std::max(widest, disk.r);
-    if (static_cast<float>(widest) * list.lens.pixels_per_metre(glm::vec3(0)) > 0.7f) return;
+    const float pixels = list.lens.pixels_per_metre(glm::vec3(0));
+    // 0: the scene's middle lies behind the eye, which therefore is near.
+    if (pixels <= 0 || static_cast<float>(widest) * pixels > 0.7f) return;
     for (int i = 0; i < clip.count(); ++i) {
         const mobb::Disk disk = clip.disk(i);
         const mobb::Disk next = clip.disk(std::min(i + 1, clip.count() - 1));
@@ -58,7 +59,8 @@ void add_thin_path(DrawList& list, const Subject& subject, float width) {
 void add_floor_trace(DrawList& list, const Subject& subject, float floor, float width) {
     const mobb::PlacedClip& clip = subject.clip();
     // Pieces shorter than a pixel or so would only darken one another.
-    const float shortest = 1.5f / list.lens.pixels_per_metre(glm::vec3(0, 0, floor));
+    const float pixels = list.lens.pixels_per_metre(glm::vec3(0, 0, floor));
+    const float shortest = pixels > 0 ? 1.5f / pixels : 0;
     const auto on_floor = [&](int i) {
         const mobb::Disk disk = clip.disk(i);
         glm::vec3 p = list.space.point(disk.x, disk.y, 0);
@@ -80,11 +82,20 @@ void add_floor_trace(DrawList& list, const Subject& subject, float floor, float 
     }
 }
 
-void add_ring(DrawList& list, const Subject& subject, int sample, Rgba color, float width) {
+namespace {
+
+struct RingLine {
+    Rgba color;
+    float width;
+    float radius;  ///< in those of the disk
+    int order;     ///< later ones lie above
+};
+
+void add_ring(DrawList& list, const Subject& subject, int sample, const RingLine& ring) {
     constexpr int kPieces = 48;
     const mobb::PlacedClip& clip = subject.clip();
     const mobb::Disk disk = clip.disk(sample);
-    const double radius = disk.r * 1.04;
+    const double radius = disk.r * static_cast<double>(ring.radius);
     const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
     const auto point = [&](int i) {
         const double angle = 2 * std::numbers::pi * i / kPieces;
@@ -94,12 +105,26 @@ void add_ring(DrawList& list, const Subject& subject, int sample, Rgba color, fl
         LineInstance line;
         line.from = point(i);
         line.to = point(i + 1);
-        line.color = color;
-        line.width = width;
-        line.hidden = 0.7f;
-        line.order = {9, subject.index, (static_cast<std::int64_t>(sample) << 8) + i};
+        line.color = ring.color;
+        line.width = ring.width;
+        line.cap = 0.3f * ring.width;
+        line.hidden = 1;
+        line.order = {10, ring.order, (static_cast<std::int64_t>(subject.index) << 40) + (sample * kPieces + i)};
         list.lines.push_back(line);
     }
+}
+
+}  // namespace
+
+void add_cursor_ring(DrawList& list, const Subject& subject, int sample, float scale) {
+    add_ring(list, subject, sample, {list.palette.text, 1.6f * scale, 1.04f, 0});
+}
+
+void add_hit_ring(DrawList& list, const Subject& subject, int sample, float scale) {
+    // The ground's colour around it keeps it apart from disks of a like colour.
+    add_ring(list, subject, sample, {list.palette.background, 5.4f * scale, 1.04f, 1});
+    add_ring(list, subject, sample, {list.palette.hit, 3.2f * scale, 1.04f, 2});
+    add_ring(list, subject, sample, {list.palette.hit, 1.4f * scale, 1.4f, 2});
 }
 
 std::optional<int> sample_at(const Subject& subject, double time) {

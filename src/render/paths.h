@@ -9,6 +9,9 @@
 
 namespace mobbscope {
 
+/// How much of its colour a disk outside the nodes under test keeps.
+inline constexpr float kOutOfFocus = 0.38f;
+
 /// Which samples of a path matter now; those outside step back.
 struct PathFocus {
     std::optional<mobb::SampleRange> range;  ///< none: all
@@ -23,8 +26,10 @@ void add_thin_path(DrawList& list, const Subject& subject, float width);
 /// The centres' path at height `floor` (drawn space).
 void add_floor_trace(DrawList& list, const Subject& subject, float floor, float width);
 
-/// The outline of a sample's disk at half its height, a little larger, seen through everything.
-void add_ring(DrawList& list, const Subject& subject, int sample, Rgba color, float width);
+/// The outline of a sample's disk at half its height, seen through everything: one line for what the time cursor
+/// meets, a heavy and a fine one in the colour of hits for what collides.
+void add_cursor_ring(DrawList& list, const Subject& subject, int sample, float scale);
+void add_hit_ring(DrawList& list, const Subject& subject, int sample, float scale);
 
 /// The sample that holds at a global time, or none.
 std::optional<int> sample_at(const Subject& subject, double time);

@@ -43,7 +43,7 @@ void add_query_boxes(DrawList& list, std::span<const Subject> sides, const Query
             const OutcomeStyle style = outcome_style(node.state, list.palette);
             BoxInstance box = node_box(subject, node.node, list.space);
             box.state = node.state;
-            box.edge = with_alpha(style.color, strength(node, progress.step));
+            box.edge = faded(style.color, strength(node, progress.step), list.palette);
             // Boxes around the one that matters stay in the background.
             box.width = (node.open ? std::min(style.width, 1.2f) : style.width) * scale;
             box.dash = style.dash * scale;

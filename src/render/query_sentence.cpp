@@ -18,7 +18,7 @@ std::string axis_name(const Subject& subject, int node, int axis, int axes) {
         longer += box.half[i] > box.half[axis] || (box.half[i] == box.half[axis] && i < axis) ? 1 : 0;
     }
     const std::array<const char*, 3> names{"long", axes == 2 ? "short" : "middle", "short"};
-    return subject.name + "'s " + names[static_cast<std::size_t>(longer)] + " axis";
+    return subject.label + "'s " + names[static_cast<std::size_t>(longer)] + " axis";
 }
 
 std::string separating_axis(std::span<const Subject> sides, const mobb::Trace::Event& event) {
@@ -103,7 +103,7 @@ std::string node_name(const Subject& subject, int node) {
     // Nodes stand in depth-first order, which within a level is the order of time.
     const auto place =
         std::count_if(nodes.begin(), nodes.begin() + node, [&](const mobb::Node& n) { return n.level == level; });
-    return subject.name + ' ' + std::to_string(level) + '.' + std::to_string(place);
+    return subject.label + ' ' + std::to_string(level) + '.' + std::to_string(place);
 }
 
 std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& trace, int step) {
@@ -113,8 +113,26 @@ std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& tra
            outcome_text(sides, event);
 }
 
+std::vector<std::string> step_sentences(std::span<const Subject> sides, const mobb::Trace& trace, int step) {
+    std::vector<std::string> out{step_sentence(sides, trace, step)};
+    std::vector<Subject> terse(sides.begin(), sides.end());
+    for (Subject& side : terse) side.label = shortened(side.label, 10);
+    // Too short to tell them apart, the colours and the legend still do.
+    if (terse[0].label == terse[1].label) {
+        terse[0].label = "A";
+        terse[1].label = "B";
+    }
+    out.push_back(step_sentence(terse, trace, step));
+    const std::string number = "step " + std::to_string(step) + ": ";
+    terse[0].label = "A";
+    terse[1].label = "B";
+    out.push_back(number + outcome_text(terse, trace[step]));
+    out.push_back(outcome_text(terse, trace[step]));
+    return out;
+}
+
 std::string answer_sentence(std::span<const Subject> sides, const RecordedQuery& recorded) {
-    const std::string pair = sides[0].name + " and " + sides[1].name;
+    const std::string pair = sides[0].label + " and " + sides[1].label;
     const mobb::TestCounts& tests = recorded.tests;
     std::string text =
         recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s") : pair + " never collide";

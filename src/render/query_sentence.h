@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 
@@ -14,6 +15,9 @@ std::string node_name(const Subject& subject, int node);
 
 /// What a step shows: "step 14 / 61: A 2.1 against B 2.3: separated along B's long axis by 0.183 m".
 std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& trace, int step);
+
+/// The same in fewer and fewer words, for pictures with less room; all tell the whole outcome. Never empty.
+std::vector<std::string> step_sentences(std::span<const Subject> sides, const mobb::Trace& trace, int step);
 
 /// The query's answer and what it cost.
 std::string answer_sentence(std::span<const Subject> sides, const RecordedQuery& recorded);

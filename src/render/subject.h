@@ -13,6 +13,7 @@ namespace mobbscope {
 struct Subject {
     mobb::PlacedTree placed;
     std::string name;
+    std::string label;  ///< the name as pictures say it: short enough to leave room for what is said of it
     Rgba color;
     int index = 0;  ///< in DrawList::participants
 
@@ -20,6 +21,9 @@ struct Subject {
     double begin() const { return clip().time(0); }
     double end() const { return clip().time(clip().count()); }
 };
+
+/// A name of at most `most` characters (>= 5): its beginning, an ellipsis and its end.
+std::string shortened(const std::string& name, int most);
 
 /// The scene's participants; with a query in the view, its two sides. Throws std::invalid_argument if the scene has no
 /// such query.

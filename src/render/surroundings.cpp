@@ -118,7 +118,9 @@ void add_time_axis(DrawList& list, const Stage& s, float scale) {
         along_x ? glm::dvec2(foot.x == s.x0 ? s.x1 : s.x0, foot.y) : glm::dvec2(foot.x, foot.y == s.y0 ? s.y1 : s.y0);
     for (const double t : ticks(s.t0, s.t1, s.time_step)) {
         if (across) add_line(list, at(t), space.point(opposite.x, opposite.y, t), list.palette.grid, scale, 0);
-        const float half = kTick * scale / list.lens.pixels_per_metre(at(t));
+        const float pixels = list.lens.pixels_per_metre(at(t));
+        if (pixels <= 0) continue;
+        const float half = kTick * scale / pixels;
         add_line(list, at(t) - list.lens.right * half, at(t) + list.lens.right * half, list.palette.axis, 1.2f * scale,
                  1);
     }
@@ -185,17 +187,22 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
     if (time_axis && !time_on_end(lens)) {
         const glm::dvec2 foot = axis_corner(s, lens.right);
         for (const double t : ticks(s.t0, s.t1, s.time_step)) {
+            const auto anchor = lens.project(space.point(foot.x, foot.y, t));
+            if (!anchor) continue;
             label.text = tick_text(t, s.time_step) + " s";
-            label.anchor = lens.project(space.point(foot.x, foot.y, t));
+            label.anchor = *anchor;
             label.directions = {{-1, 0}};
             label.distance = 0.7f * size;
             out.push_back(label);
         }
     }
     if (!floor) return out;
+    // Figures that touch read as one.
+    label.room = 0.5f * size;
     struct Side {
         Edge edge;
         glm::vec2 direction;
+        std::vector<double> values;  ///< that are seen
     };
     std::vector<Side> sides;
     double shown = s.step;
@@ -208,20 +215,25 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
         // left.
         const bool faces =
             time_on_end(lens) ? glm::dot(outward, lens.right + lens.up) < -0.3f : glm::dot(outward, lens.back) > 0.05f;
-        const glm::vec2 run = lens.project(space.point(edge.to.x, edge.to.y, s.t0)) -
-                              lens.project(space.point(edge.from.x, edge.from.y, s.t0));
-        if (!faces || glm::length(run) < 4 * size) continue;
-        const glm::vec2 away = lens.project(here + outward * (0.05f * static_cast<float>(s.step))) - lens.project(here);
+        std::vector<double> values = ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step);
+        const auto seen_at = [&](double v) {
+            return lens.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, s.t0));
+        };
+        std::erase_if(values, [&](double v) { return !seen_at(v); });
+        if (!faces || values.size() < 2) continue;
+        const glm::vec2 run = *seen_at(values.back()) - *seen_at(values.front());
+        if (glm::length(run) < 4 * size) continue;
+        const auto foot = lens.project(here);
+        const auto beyond = lens.project(here + outward * (0.05f * static_cast<float>(s.step)));
+        const glm::vec2 away = foot && beyond ? *beyond - *foot : glm::vec2(0);
         const glm::vec2 direction =
             floor_on_edge(lens) || glm::length(away) < 1e-3f ? glm::vec2(0, 1) : glm::normalize(away);
-        sides.push_back({edge, direction});
         // One step for both ways, or the floor would seem to have two scales.
-        shown = std::max(shown, label_step(ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step), s.step,
-                                           glm::abs(run), size));
+        shown = std::max(shown, label_step(values, s.step, glm::abs(run), size));
+        sides.push_back({edge, direction, std::move(values)});
     }
-    for (const auto& [edge, direction] : sides) {
+    for (auto& [edge, direction, values] : sides) {
         const bool along_x = edge.from.y == edge.to.y;
-        std::vector<double> values = ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step);
         std::erase_if(values, [&](double v) { return std::abs(std::remainder(v, shown)) > 0.01 * s.step; });
         for (const double v : values) {
             // One label tells which way it is; the others are bare.
@@ -229,10 +241,13 @@ std::vector<LabelRequest> stage_labels(const DrawList& list, const Stage& s, boo
             label.text = last ? std::string(along_x ? "x " : "y ") + tick_text(v, shown) + " m" : tick_text(v, shown);
             // Boxes may reach below a floor that is seen edge-on; its labels stand below them.
             const double height = floor_on_edge(lens) ? s.lowest : s.t0;
-            label.anchor = lens.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, height));
+            const auto anchor = lens.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, height));
+            if (!anchor) continue;
+            label.anchor = *anchor;
             label.directions = {direction};
             label.distance = 0.6f * size;
-            out.push_back(label);
+            // Those that tell the way come before their bare neighbours at a corner.
+            out.insert(last ? out.begin() : out.end(), label);
         }
     }
     return out;

@@ -125,7 +125,7 @@ TEST(DrawList, EverythingIsInThePictureWhateverItsShape) {
             const DrawList list = build_draw_list(fitted, view, size);
             const Rect picture{{0, 0}, glm::vec2(size.width, size.height)};
             for (const DiskInstance& disk : list.disks) {
-                const glm::vec2 at = list.lens.project(disk.base);
+                const glm::vec2 at = list.lens.project(disk.base).value();
                 EXPECT_TRUE(picture.contains({at, at}));
             }
             for (std::size_t i = 0; i < list.texts.size(); ++i) {
@@ -164,11 +164,83 @@ TEST(DrawList, ATimeCursorMarksTheDisksThatHold) {
     view.time = 1.0;
     const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
     const auto rings =
-        std::count_if(list.lines.begin(), list.lines.end(), [](const LineInstance& l) { return l.order.layer == 9; });
+        std::count_if(list.lines.begin(), list.lines.end(), [](const LineInstance& l) { return l.order.layer == 10; });
     EXPECT_EQ(rings % 2, 0);
     EXPECT_GT(rings, 0);
     view.time = 17;
     EXPECT_NO_THROW(build_draw_list(testing::hit_scene(), view, kSize));
+}
+
+TEST(DrawList, ACursorOutsideIsSaidAndNotExplained) {
+    ViewState view;
+    view.time = 999;
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    for (const LegendEntry& entry : list.legend) EXPECT_EQ(entry.text.find("cursor"), std::string::npos);
+    EXPECT_TRUE(std::any_of(list.texts.begin(), list.texts.end(), [](const TextRun& run) {
+        return run.text.find("999 s lies outside 0..2 s") != std::string::npos;
+    }));
+}
+
+TEST(DrawList, LegendDashesGrowWithTheText) {
+    ViewState view;
+    view.query = 0;
+    const auto longest_dash = [&](PictureSize size) {
+        float longest = 0;
+        for (const OverlayLine& line : build_draw_list(testing::hit_scene(), view, size).overlay_lines)
+            longest = std::max(longest, line.dash.x);
+        return longest;
+    };
+    const float usual = longest_dash({1280, 720});
+    ASSERT_GT(usual, 0);
+    EXPECT_NEAR(longest_dash({3840, 2160}), 3 * usual, 0.01f * usual);
+}
+
+/// Boxes of a long clip must not become one mass.
+TEST(DrawList, CrowdedBoxesFade) {
+    const auto faintest = [](int samples, int leaf) {
+        mobb::FitOptions options;
+        options.leaf = leaf;
+        ViewState view;
+        view.levels = {0, 0, true};
+        float least = 1;
+        for (const BoxInstance& box :
+             build_draw_list(FittedScene(testing::scene_of({{}}, samples), options), view, kSize).boxes)
+            least = std::min(least, box.edge.a);
+        return least;
+    };
+    EXPECT_GT(faintest(60, 30), 0.9f);
+    EXPECT_LT(faintest(1260, 1), 0.2f);
+}
+
+TEST(DrawList, ManyAgentsStandUnnamed) {
+    for (const int agents : {12, 13}) {
+        std::vector<mobb::Placement> placements;
+        for (int i = 0; i < agents; ++i) placements.push_back({{2.0 * i, 0}, 90, 0});
+        ViewState view;
+        view.legend = view.boxes = false;
+        const DrawList list = build_draw_list(FittedScene(testing::scene_of(placements), {}), view, {1280, 720});
+        const auto says = [&](const std::string& text) {
+            return std::any_of(list.texts.begin(), list.texts.end(), [&](const TextRun& r) { return r.text == text; });
+        };
+        EXPECT_EQ(says("A"), agents == 12);
+        EXPECT_EQ(says("13 agents, unnamed here"), agents == 13);
+    }
+}
+
+TEST(DrawList, LabelsBehindTheEyeAreLeftOut) {
+    ViewState view;
+    view.time_height = 1;
+    view.camera = {CameraPreset::free, 225, 25, true, 40, glm::dvec3(5, 5, 1.5), 2};
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    // Everything lies between x -1 and 3, all behind this eye or to its side.
+    for (const TextRun& run : list.texts) EXPECT_NE(run.face, FontFace::mono) << run.text;
+}
+
+TEST(DrawList, TheMapsDisksLieOverItsGrid) {
+    ViewState view;
+    view.time = 1.0;
+    const DrawList list = build_draw_list(testing::hit_scene(), view, {1280, 720});
+    EXPECT_EQ(list.marks.size(), 2u);
 }
 
 TEST(DrawList, AQueryOrStepThatThereIsNotIsRefused) {
@@ -188,7 +260,7 @@ TEST(DrawList, OddScenesAreDrawn) {
             scene.clips.push_back({"still", std::nullopt, {}, std::make_shared<const mobb::Clip>(1e-3, still)});
             const DrawList list = build_draw_list(FittedScene(scene, {}), {}, kSize);
             EXPECT_EQ(list.disks.size(), static_cast<std::size_t>(count));
-            const glm::vec2 at = list.lens.project(list.disks[0].base);
+            const glm::vec2 at = list.lens.project(list.disks[0].base).value();
             EXPECT_TRUE(at.x >= 0 && at.x <= 640 && at.y >= 0 && at.y <= 360) << at.x << ' ' << at.y;
         }
     }

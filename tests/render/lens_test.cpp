@@ -31,7 +31,7 @@ TEST(Lens, EverythingFitsIntoTheFrame) {
                 const Lens lens = make_lens(camera, points, nullptr, frame, size);
                 float tightest = 1e9f;
                 for (const glm::vec3& point : points) {
-                    const glm::vec2 at = lens.project(point);
+                    const glm::vec2 at = lens.project(point).value();
                     const float room =
                         std::min({at.x - frame.min.x, at.y - frame.min.y, frame.max.x - at.x, frame.max.y - at.y});
                     EXPECT_GE(room, -0.1f);
@@ -51,7 +51,7 @@ TEST(Lens, PresetsLookTheRightWay) {
     const auto at = [&](CameraPreset preset, glm::vec3 p) {
         Camera camera;
         camera.preset = preset;
-        return make_lens(camera, points, nullptr, frame, {200, 200}).project(p);
+        return make_lens(camera, points, nullptr, frame, {200, 200}).project(p).value();
     };
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).x, 200, 0.1);
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).y, 0, 0.1);
@@ -67,16 +67,31 @@ TEST(Lens, ATargetGoesToTheMiddle) {
     camera.distance = 7;
     const glm::vec3 target(0.3f, 0.2f, 0.5f);
     const Lens lens = make_lens(camera, block(glm::vec3(1)), &target, {{0, 0}, {300, 200}}, {300, 200});
-    EXPECT_NEAR(lens.project(target).x, 150, 0.01);
-    EXPECT_NEAR(lens.project(target).y, 100, 0.01);
+    EXPECT_NEAR(lens.project(target)->x, 150, 0.01);
+    EXPECT_NEAR(lens.project(target)->y, 100, 0.01);
     EXPECT_NEAR(lens.depth(target), 7, 1e-4);
+}
+
+/// Divided by its negative depth it would be seen, upside down, in the middle of the picture.
+TEST(Lens, WhatIsBehindTheEyeIsNotSeen) {
+    Camera camera;
+    camera.preset = CameraPreset::free;
+    camera.yaw_deg = 0;
+    camera.pitch_deg = 0;
+    camera.distance = 2;
+    const glm::vec3 target(0);
+    const Lens lens = make_lens(camera, block(glm::vec3(5)), &target, {{0, 0}, {300, 200}}, {300, 200});
+    EXPECT_TRUE(lens.project({1, 0, 0}).has_value());
+    EXPECT_FALSE(lens.project({2, 0, 0}).has_value());
+    EXPECT_FALSE(lens.project({4, 0.1f, 0.1f}).has_value());
+    EXPECT_EQ(lens.pixels_per_metre({4, 0, 0}), 0);
 }
 
 TEST(Lens, APointHasNoExtentAndStillIsSeen) {
     const std::vector<glm::vec3> point{glm::vec3(0)};
     const Lens lens = make_lens({}, point, nullptr, {{0, 0}, {100, 100}}, {100, 100});
-    EXPECT_NEAR(lens.project(point[0]).x, 50, 0.5);
-    EXPECT_NEAR(lens.project(point[0]).y, 50, 0.5);
+    EXPECT_NEAR(lens.project(point[0])->x, 50, 0.5);
+    EXPECT_NEAR(lens.project(point[0])->y, 50, 0.5);
 }
 
 }  // namespace

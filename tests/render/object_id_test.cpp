@@ -29,7 +29,7 @@ TEST_P(ObjectIdTest, TheUppermostDiskIsFoundFromAbove) {
     const int last = fitted.tree(0).clip().count() - 1;
     for (const DiskInstance& disk : list.disks) {
         if (disk.id.index != last) continue;
-        const glm::vec2 at = list.lens.project(disk.base);
+        const glm::vec2 at = list.lens.project(disk.base).value();
         EXPECT_EQ(ids.at(static_cast<int>(at.x), static_cast<int>(at.y)), disk.id);
     }
     EXPECT_FALSE(ids.at(1, 1));
@@ -49,7 +49,7 @@ TEST_P(ObjectIdTest, TheNearestBoxHidesTheDisksInIt) {
             return b.id == ObjectId{participant, ObjectId::Kind::box, node};
         });
         ASSERT_NE(box, list.boxes.end());
-        const glm::vec2 at = list.lens.project(box->center + 0.9f * box->extents[0]);
+        const glm::vec2 at = list.lens.project(box->center + 0.9f * box->extents[0]).value();
         EXPECT_EQ(ids.at(static_cast<int>(at.x), static_cast<int>(at.y)), box->id);
     }
 }

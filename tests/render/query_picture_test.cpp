@@ -21,9 +21,9 @@ struct Query {
         view.query = 0;
         sides = subjects(fitted, view);
     }
-    DrawList at(int step) {
+    DrawList at(int step, PictureSize size = kSize) {
         view.step = {Step::Unit::event, static_cast<double>(step)};
-        return build_draw_list(fitted, view, kSize);
+        return build_draw_list(fitted, view, size);
     }
     int find(mobb::TestKind test, mobb::Outcome outcome) const {
         for (int i = 0; i < recorded.trace.size(); ++i) {
@@ -111,6 +111,88 @@ TEST(QueryPicture, TheHitDisksAreMarked) {
                   disk.id.participant == 0 ? query.recorded.contact->a_sample : query.recorded.contact->b_sample);
     }
     EXPECT_EQ(marked, 2);
+}
+
+TEST(QueryPicture, HitAndCursorRingsDifferAndAreExplained) {
+    Query query(testing::hit_scene());
+    query.view.time = query.recorded.contact->time;
+    const DrawList list = query.at(query.recorded.trace.size() - 1, {1280, 720});
+    std::size_t hit_lines = 0;
+    std::size_t cursor_lines = 0;
+    for (const LineInstance& line : list.lines) {
+        if (line.order.layer != 10) continue;
+        hit_lines += line.color == list.palette.hit ? 1u : 0u;
+        cursor_lines += line.color == list.palette.text ? 1u : 0u;
+        EXPECT_EQ(line.hidden, 1) << "disks must not hide rings";
+    }
+    EXPECT_EQ(hit_lines, 2 * cursor_lines) << "two rings against one";
+    const auto explained = [&](LegendEntry::Mark mark) {
+        return std::count_if(list.legend.begin(), list.legend.end(),
+                             [&](const LegendEntry& entry) { return entry.mark == mark; });
+    };
+    EXPECT_EQ(explained(LegendEntry::Mark::ring), 1);
+    EXPECT_EQ(explained(LegendEntry::Mark::double_ring), 1);
+    EXPECT_EQ(explained(LegendEntry::Mark::disk), 1) << "the dim disks";
+}
+
+TEST(QueryPicture, EarlierPairsAreSeenInBothThemes) {
+    Query query(testing::miss_scene());
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        query.view.theme = theme;
+        for (int step = 0; step < query.recorded.trace.size(); ++step) {
+            const DrawList list = query.at(step);
+            for (const BoxInstance& box : list.boxes) {
+                if (box.state == BoxState::annotation) continue;
+                const Rgba seen = mix_colors(list.palette.background, with_alpha(box.edge, 1), box.edge.a);
+                EXPECT_GE(contrast(seen, list.palette.background), 1.34f);
+            }
+        }
+    }
+}
+
+TEST(QueryPicture, SmallPicturesKeepTheScene) {
+    Query query(testing::hit_scene());
+    for (const PictureSize size : {PictureSize{64, 64}, PictureSize{160, 90}, PictureSize{320, 180}}) {
+        for (const int step : {0, 5, query.recorded.trace.size() - 1}) {
+            query.view.time = 1.0;
+            const DrawList list = query.at(step, size);
+            const glm::vec2 picture(size.width, size.height);
+            float words = 0;
+            const auto area = [](const Rect& rect) { return rect.size().x * rect.size().y; };
+            for (const TextRun& run : list.texts) words += area(run.box);
+            EXPECT_LE(words, 0.45f * picture.x * picture.y) << size.width;
+            glm::vec2 low(1e9f);
+            glm::vec2 high(-1e9f);
+            for (const DiskInstance& disk : list.disks) {
+                low = glm::min(low, list.lens.project(disk.base).value());
+                high = glm::max(high, list.lens.project(disk.base).value());
+            }
+            EXPECT_GT(high.x - low.x + high.y - low.y, 0.35f * picture.y) << size.width;
+        }
+    }
+}
+
+TEST(QueryPicture, LongNamesLeaveTheOutcomeWhole) {
+    Scene scene = testing::scene_of({{}, {{1, -1}, 90, 0}});
+    scene.agents[0].name = "a very long name of a recording that goes on and on 0001";
+    scene.agents[1].name = "a very long name of a recording that goes on and on 0002";
+    Query query(FittedScene(std::move(scene), {}));
+    const int last = query.recorded.trace.size() - 1;
+    const std::string outcome = with_unit(query.recorded.contact->time, "s");
+    for (const PictureSize size : {PictureSize{320, 180}, PictureSize{640, 360}, PictureSize{1280, 720}}) {
+        const DrawList list = query.at(last, size);
+        EXPECT_EQ(list.participants[0].size(), 56u) << "the whole name is kept where there is room";
+        std::string said;
+        for (const TextRun& run : list.texts) said += run.text + ' ';
+        EXPECT_NE(said.find("hit at " + outcome), std::string::npos) << said;
+        EXPECT_NE(said.find("deep"), std::string::npos) << said;
+    }
+}
+
+TEST(QuerySentence, LongNamesKeepBothEnds) {
+    EXPECT_EQ(shortened("walker", 10), "walker");
+    EXPECT_EQ(shortened("recording number 17", 9), "reco\u2026r 17");
+    EXPECT_EQ(shortened("\u00e9\u00e9\u00e9\u00e9\u00e9\u00e9", 5), "\u00e9\u00e9\u2026\u00e9\u00e9");
 }
 
 TEST(QueryPicture, TheGapIsAsWideAsTheTraceSays) {

@@ -1,0 +1,30 @@
+#include <render/emphasis.h>
+#include <render/paths.h>
+
+#include <algorithm>
+
+namespace mobbscope {
+
+bool Emphasis::cuts() const {
+    return std::any_of(at_cursor.begin(), at_cursor.end(), [](const auto& sample) { return sample.has_value(); });
+}
+
+Emphasis emphasis_of(const ViewState& view, std::span<const Subject> subjects, double begin, double end,
+                     const QueryProgress* progress) {
+    Emphasis out;
+    if (view.time && *view.time >= begin && *view.time <= end) {
+        out.cursor = view.time;
+        for (const Subject& subject : subjects) out.at_cursor.push_back(sample_at(subject, *view.time));
+    }
+    if (!progress) return out;
+    const mobb::Trace::Event& event = progress->event;
+    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty())
+        out.hits = {event.pairs.back().i, event.pairs.back().j};
+    for (const Subject& subject : subjects) {
+        const mobb::Node& node = subject.placed.node(subject.index == 0 ? event.a : event.b);
+        out.dims = out.dims || (view.disks && node.count < subject.clip().count());
+    }
+    return out;
+}
+
+}  // namespace mobbscope

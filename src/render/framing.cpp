@@ -1,0 +1,104 @@
+#include <render/box_corners.h>
+#include <render/framing.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace mobbscope {
+
+void Bounds::add(glm::dvec3 p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+}
+
+Bounds bounds_of(std::span<const Subject> subjects) {
+    Bounds bounds;
+    for (const Subject& subject : subjects) {
+        const mobb::PlacedClip& clip = subject.clip();
+        for (int i = 0; i < clip.count(); ++i) {
+            const mobb::Disk d = clip.disk(i);
+            bounds.add({d.x - d.r, d.y - d.r, clip.time(i)});
+            bounds.add({d.x + d.r, d.y + d.r, clip.time(i + 1)});
+        }
+    }
+    return bounds;
+}
+
+Bounds with_boxes(Bounds bounds, const DrawList& list) {
+    for (const BoxInstance& box : list.boxes) {
+        for (const glm::vec3& corner : box_corners(box)) {
+            bounds.add({corner.x + list.space.origin.x, corner.y + list.space.origin.y,
+                        corner.z / list.space.time_height + list.space.origin.z});
+        }
+    }
+    return bounds;
+}
+
+DrawnSpace space_for(const Bounds& bounds, const ViewState& view) {
+    DrawnSpace space;
+    const glm::dvec3 extent = bounds.max - bounds.min;
+    space.origin = {0.5 * (bounds.min.x + bounds.max.x), 0.5 * (bounds.min.y + bounds.max.y), bounds.min.z};
+    // A point that stands still has no width to match.
+    const double wide = std::max({extent.x, extent.y, 1e-3});
+    space.time_height = view.time_height > 0 ? view.time_height : wide / extent.z;
+    return space;
+}
+
+std::vector<glm::vec3> points_to_show(const DrawList& list, const Stage& stage, const ViewState& view,
+                                      bool has_cursor) {
+    std::vector<glm::vec3> out;
+    for (const DiskInstance& disk : list.disks) {
+        for (int i = 0; i < 8; ++i) {
+            const double angle = i * std::numbers::pi / 4;
+            const glm::vec3 rim = disk.base + disk.radius * glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
+            out.push_back(rim);
+            out.push_back(rim + glm::vec3(0, 0, disk.height));
+        }
+    }
+    for (const BoxInstance& box : list.boxes) {
+        for (const glm::vec3& corner : box_corners(box)) out.push_back(corner);
+    }
+    const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
+    out.insert(out.end(), corners.begin(), corners.begin() + (has_cursor ? 8 : 4));
+    if (view.time_axis) {
+        const glm::dvec2 foot = axis_corner(stage, right_of(view.camera));
+        out.push_back(list.space.point(foot.x, foot.y, stage.t1));
+    }
+    return out;
+}
+
+Frame free_frame(PictureSize size, float top, const Stage& stage, const ViewState& view, const Metrics& metrics) {
+    const glm::vec2 picture(size.width, size.height);
+    const Frame bare{glm::vec2(metrics.pad, std::max(metrics.pad, top)), picture - metrics.pad};
+    if (!view.labels) return bare;
+    Frame frame = bare;
+    const Font& mono = Font::of(FontFace::mono);
+    frame.min.y += 1.8f * metrics.text;  // names over the paths
+    if (view.floor) {
+        const bool floor_seen_level = std::abs(orientation(view.camera).pitch_deg) < 2;
+        frame.max.y -= 1.6f * metrics.small;
+        // Half of what the corner of the floor is labelled with goes beyond it, all of it where that corner is to the
+        // right.
+        frame.max.x -=
+            mono.width("y " + longest_distance(stage) + " m", metrics.small) * (floor_seen_level ? 0.5f : 1.0f);
+    }
+    if (view.time_axis) frame.min.x += mono.width(longest_tick(stage), metrics.small) + metrics.small;
+    // In a tiny picture the scene matters more than its labels, which then stand where they find room.
+    const bool enough = frame.max.x - frame.min.x > 0.5f * picture.x && frame.max.y - frame.min.y > 0.4f * picture.y;
+    return enough ? frame : bare;
+}
+
+Lens lens_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points, const Frame& frame) {
+    std::optional<glm::vec3> target;
+    if (view.camera.target) {
+        const glm::dvec3& t = *view.camera.target;
+        target = list.space.point(t.x, t.y, t.z / list.space.time_height);
+    }
+    return make_lens(view.camera, points, target ? &*target : nullptr, frame, list.size);
+}
+
+}  // namespace mobbscope

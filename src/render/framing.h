@@ -1,0 +1,41 @@
+/// Where the scene goes in the picture: how time becomes height, and what the lens must show.
+#pragma once
+
+#include <render/draw_list.h>
+#include <render/emphasis.h>
+#include <render/metrics.h>
+#include <render/subject.h>
+#include <render/surroundings.h>
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// In (x, y, t).
+struct Bounds {
+    glm::dvec3 min{std::numeric_limits<double>::max()};
+    glm::dvec3 max{std::numeric_limits<double>::lowest()};
+    void add(glm::dvec3 p);
+};
+
+/// Of the paths' disks.
+Bounds bounds_of(std::span<const Subject> subjects);
+
+/// `bounds` with the boxes that are shown.
+Bounds with_boxes(Bounds bounds, const DrawList& list);
+
+/// About as tall as wide, unless the view says how tall.
+DrawnSpace space_for(const Bounds& bounds, const ViewState& view);
+
+/// All that must be inside the picture, as points. Needs the space, disks and boxes.
+std::vector<glm::vec3> points_to_show(const DrawList& list, const Stage& stage, const ViewState& view, bool has_cursor);
+
+/// The picture without its margin, what is above `top`, and room for the labels along the scene's outline.
+Frame free_frame(PictureSize size, float top, const Stage& stage, const ViewState& view, const Metrics& metrics);
+
+/// A lens that shows the points in a frame, or what the view's camera aims at.
+Lens lens_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points, const Frame& frame);
+
+}  // namespace mobbscope
