@@ -7,7 +7,3 @@ target_compile_options(mobbscope_warnings INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(mobbscope_warnings INTERFACE -Wno-restrict)
 endif()
-# Under sanitizers GCC follows its own instrumentation and warns of what is set on every path.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND MOBBSCOPE_SANITIZE)
-  target_compile_options(mobbscope_warnings INTERFACE -Wno-maybe-uninitialized)
-endif()
