@@ -40,6 +40,7 @@ void OverlayPass::draw(const std::vector<Instance>& instances, PictureSize size)
 
 void OverlayPass::draw(const std::vector<Panel>& panels, PictureSize size) {
     std::vector<Instance> instances;
+    instances.reserve(panels.size());
     for (const Panel& panel : panels) {
         instances.push_back(
             {panel.rect, panel.fill, panel.border, glm::vec2(panel.radius, panel.border_width), glm::vec2(-1)});

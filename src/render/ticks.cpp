@@ -20,8 +20,8 @@ std::vector<double> ticks(double from, double to, double step) {
     std::vector<double> out;
     const double slack = 1e-6;
     const double first = std::ceil(from / step - slack);
-    const double last = std::floor(to / step + slack);
-    for (double i = first; i <= last; ++i) out.push_back(i * step);
+    const int count = static_cast<int>(std::floor(to / step + slack) - first) + 1;
+    for (int i = 0; i < count; ++i) out.push_back((first + i) * step);
     return out;
 }
 
