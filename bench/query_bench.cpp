@@ -40,18 +40,24 @@ void report(benchmark::State& state, const TestCounts& tests) {
     state.counters["samples"] = per_query(tests.samples);
 }
 
+/// Times ask(a, b, observer) on the workload's pairs, over and over, and reports the tests it made.
+template <class Placed, class Ask>
+void measure(benchmark::State& state, const std::vector<Placed>& placed, Ask ask) {
+    Statistics statistics;
+    std::size_t i = 0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(ask(placed[i], placed[i + 1], statistics));
+        i = (i + 2) % placed.size();
+    }
+    report(state, statistics.tests);
+}
+
 void direct(benchmark::State& state, double seconds) {
     const Workload& w = workload(seconds);
     std::vector<PlacedClip> placed;
     for (const auto& [clip, placement] : w.sides)
         placed.emplace_back(*w.clips[static_cast<std::size_t>(clip)], placement);
-    Statistics statistics;
-    std::size_t i = 0;
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(direct_search(placed[i], placed[i + 1], statistics));
-        i = (i + 2) % placed.size();
-    }
-    report(state, statistics.tests);
+    measure(state, placed, [](const auto& a, const auto& b, auto& observer) { return direct_search(a, b, observer); });
 }
 
 void tree(benchmark::State& state, double seconds, FitOptions options) {
@@ -60,13 +66,7 @@ void tree(benchmark::State& state, double seconds, FitOptions options) {
     for (const ClipPtr& clip : w.clips) trees.emplace_back(clip, options);
     std::vector<PlacedTree> placed;
     for (const auto& [clip, placement] : w.sides) placed.emplace_back(trees[static_cast<std::size_t>(clip)], placement);
-    Statistics statistics;
-    std::size_t i = 0;
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(query(placed[i], placed[i + 1], statistics));
-        i = (i + 2) % placed.size();
-    }
-    report(state, statistics.tests);
+    measure(state, placed, [](const auto& a, const auto& b, auto& observer) { return query(a, b, observer); });
 }
 
 void fit(benchmark::State& state, double seconds, FitOptions options) {
