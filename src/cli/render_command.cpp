@@ -171,8 +171,10 @@ void check_writable(const std::filesystem::path& output) {
     };
     std::error_code error;
     if (std::filesystem::is_directory(output, error)) refuse("is a folder");
-    const std::filesystem::path target = std::filesystem::weakly_canonical(output, error);
-    const std::filesystem::path folder = (error ? std::filesystem::absolute(output) : target).parent_path();
+    // A bare name has no folder of its own until it is made absolute.
+    const std::filesystem::path absolute = std::filesystem::absolute(output);
+    const std::filesystem::path target = std::filesystem::weakly_canonical(absolute, error);
+    const std::filesystem::path folder = (error ? absolute : target).parent_path();
     if (!std::filesystem::is_directory(folder, error)) refuse("there is no folder " + in_quotes(folder.string()));
     const bool there = std::filesystem::exists(target, error);
     if (there && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) refuse("it is write-protected");

@@ -56,6 +56,15 @@ class RenderTest : public ::testing::Test {
     }
 };
 
+TEST_F(RenderTest, ABareNameIsAFileInTheWorkingFolder) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    const Result run = run_program(arguments(kCrossing, "bare.png"));
+    std::filesystem::current_path(before);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "bare.png"));
+}
+
 TEST_F(RenderTest, WritesAPictureAndSaysNothing) {
     const Result run = run_program(arguments(kCrossing, out));
     EXPECT_EQ(run.status, 0);
