@@ -1,4 +1,5 @@
 #include <render/face_pass.h>
+#include <render/gl_state.h>
 #include <render/light.h>
 #include <render/vertex_layout.h>
 
@@ -66,8 +67,7 @@ void FacePass::accumulate(const DrawList& list) {
 void FacePass::composite(const Texture& sums, const Texture& weights) {
     glBindVertexArray(nothing_.name());
     glDisable(GL_DEPTH_TEST);
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over();
     composite_.use();
     glUniform1i(composite_.uniform("sums"), 0);
     glUniform1i(composite_.uniform("weights"), 1);

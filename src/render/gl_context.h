@@ -1,5 +1,5 @@
-/// OpenGL 3.3 core contexts that need no display, chosen by name. Nothing links libGL: each backend's library is opened
-/// when it is asked for, and glad takes its functions from there.
+/// OpenGL 3.3 core contexts. Those that need no display are chosen by name; a window brings its own. Nothing links
+/// libGL: each backend's library is opened when it is asked for, and glad takes its functions from there.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 
 namespace mobbscope {
 
+/// The contexts without a display.
 enum class Backend {
     automatic,  ///< OSMesa, then EGL: Mesa removed OSMesa in 25.1
     osmesa,     ///< off-screen Mesa, libOSMesa.so.8 or .6
@@ -19,17 +20,18 @@ enum class Backend {
 /// "auto", "osmesa" or "egl"; nothing for any other name.
 std::optional<Backend> backend_from_name(std::string_view name);
 
-/// A context and what it complained about. One thread at a time; a process may hold several, of different backends.
+/// A context and what it complained about. One thread at a time; a process may hold several, of different kinds. A kind
+/// of context is a class that says how it is made current (`bind`) and where its functions are (`function`).
 class GlContext {
   public:
-    /// Opens a context. Throws MachineError saying which libraries were tried and why each failed.
+    /// Opens a context without a display. Throws MachineError saying which libraries were tried and why each failed.
     static std::unique_ptr<GlContext> open(Backend backend);
 
     virtual ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    /// The backend's name, "osmesa" or "egl".
+    /// What messages call it: "osmesa", "egl", or "window" for a window's.
     virtual std::string_view name() const = 0;
 
     /// Makes this the calling thread's context and points glad's functions at it. False if that cannot be done.
@@ -51,7 +53,10 @@ class GlContext {
     GlContext() = default;
 
     using Function = void (*)();
+    /// Makes this the calling thread's context; false if that cannot be done. It need not be OpenGL 3.3: that is
+    /// checked.
     virtual bool bind() noexcept = 0;
+    /// The address of an OpenGL function, or null. Called while the context is current.
     virtual Function function(const char* name) const noexcept = 0;
 
   private:

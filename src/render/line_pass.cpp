@@ -1,3 +1,4 @@
+#include <render/gl_state.h>
 #include <render/line_pass.h>
 #include <render/vertex_layout.h>
 
@@ -59,8 +60,7 @@ void LinePass::begin(const std::vector<Instance>& instances, const glm::mat4& cl
     glUniform2f(program_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
     glUniform1i(program_.uniform("hidden"), 0);
     glUniform1f(program_.uniform("depth_bias"), 0);
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over();
     glDepthMask(GL_FALSE);
 }
 

@@ -1,3 +1,4 @@
+#include <render/gl_state.h>
 #include <render/glyph_atlas.h>
 #include <render/overlay_pass.h>
 #include <render/vertex_layout.h>
@@ -28,8 +29,7 @@ void OverlayPass::draw(const std::vector<Instance>& instances, PictureSize size)
     glBindVertexArray(array_.name());
     upload(instances_, instances);
     glDisable(GL_DEPTH_TEST);
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over();
     program_.use();
     glUniform2f(program_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
     glUniform1i(program_.uniform("atlas"), 0);
@@ -56,7 +56,6 @@ void OverlayPass::draw_texts(const DrawList& list) {
     const GlyphAtlas atlas = make_atlas(list.texts);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, atlas_.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE,
                  atlas.coverage.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

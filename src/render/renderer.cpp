@@ -2,6 +2,7 @@
 
 #include <render/disk_pass.h>
 #include <render/face_pass.h>
+#include <render/gl_state.h>
 #include <render/line_pass.h>
 #include <render/overlay_pass.h>
 #include <render/targets.h>
@@ -15,9 +16,6 @@ namespace mobbscope {
 
 namespace {
 
-/// Of the scene: smooth edges at a quarter of the cost of drawing it larger.
-constexpr int kSamples = 4;
-
 /// OpenGL's first row is the lowest.
 template <class T>
 void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
@@ -27,20 +25,40 @@ void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
     }
 }
 
+/// The current context's, by the names of Mesa's, Google's and Microsoft's software renderers.
+bool draws_in_software() {
+    const GLubyte* name = glGetString(GL_RENDERER);
+    const std::string_view text = name ? reinterpret_cast<const char*>(name) : "";
+    for (const char* software :
+         {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR", "GDI"}) {
+        if (text.find(software) != std::string_view::npos) return true;
+    }
+    return false;
+}
+
+std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
+    context->make_current();
+    return context;
+}
+
 }  // namespace
 
 /// The context is the first member, so that it outlives everything made in it.
 struct Renderer::State {
-    explicit State(Backend backend)
-        : context(GlContext::open(backend)), disks(*context), faces(*context), lines(*context), overlay(*context) {
+    explicit State(std::unique_ptr<GlContext> drawn_in)
+        : context(made_current(std::move(drawn_in))),
+          software(draws_in_software()),
+          disks(*context),
+          faces(*context),
+          lines(*context),
+          overlay(*context) {
         context->check("compiling shaders");
     }
 
     void begin(PictureSize size) {
         context->make_current();
+        reset_state();
         glViewport(0, 0, size.width, size.height);
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glDepthMask(GL_TRUE);
     }
 
     void draw_scene(const DrawList& list) {
@@ -65,6 +83,7 @@ struct Renderer::State {
     }
 
     std::unique_ptr<GlContext> context;
+    bool software;
     DiskPass disks;
     FacePass faces;
     LinePass lines;
@@ -72,7 +91,9 @@ struct Renderer::State {
     std::optional<Targets> targets;
 };
 
-Renderer::Renderer(Backend backend) : state_(std::make_unique<State>(backend)) {}
+Renderer::Renderer(Backend backend) : Renderer(GlContext::open(backend)) {}
+
+Renderer::Renderer(std::unique_ptr<GlContext> context) : state_(std::make_unique<State>(std::move(context))) {}
 
 Renderer::~Renderer() {
     if (state_->context->try_make_current()) return;
@@ -83,14 +104,18 @@ Renderer::~Renderer() {
 
 std::string_view Renderer::backend() const { return state_->context->name(); }
 
+GlContext& Renderer::context() { return *state_->context; }
+
+bool Renderer::is_software() const { return state_->software; }
+
 const std::vector<std::string>& Renderer::warnings() const { return state_->context->warnings(); }
 
-Image Renderer::draw(const DrawList& list) {
+const Texture& Renderer::paint(const DrawList& list, int samples) {
     State& s = *state_;
     s.begin(list.size);
-    if (!s.targets || s.targets->size() != list.size) {
+    if (!s.targets || s.targets->size() != list.size || s.targets->samples() != samples) {
         s.targets.reset();
-        s.targets.emplace(list.size, kSamples);
+        s.targets.emplace(list.size, samples);
     }
     s.draw_scene(list);
     s.targets->resolve();
@@ -98,13 +123,16 @@ Image Renderer::draw(const DrawList& list) {
     s.overlay.draw_panels(list);
     s.lines.draw_overlay(list);
     s.overlay.draw_texts(list);
+    s.context->check("drawing");
+    return s.targets->picture();
+}
 
+Image Renderer::draw(const DrawList& list) {
+    paint(list, kPictureSamples);
     Image image(list.size.width, list.size.height);
     glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-    s.context->check("drawing");
+    state_->context->check("reading the picture");
     flip_rows(image.rgba, image.width, image.height, 4);
-    // The picture is opaque; blending has left traces in alpha.
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
     return image;
 }
 

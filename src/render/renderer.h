@@ -3,6 +3,7 @@
 
 #include <render/draw_list.h>
 #include <render/gl_context.h>
+#include <render/gl_objects.h>
 #include <render/image.h>
 #include <render/object_id.h>
 
@@ -18,20 +19,36 @@ inline constexpr int kMinSide = 64;
 inline constexpr int kMaxSide = 8192;
 inline constexpr int kMaxPixels = 7680 * 4320;
 
-/// Holds a context and what it keeps between pictures. Pictures depend on the draw list alone. Not for several threads.
+/// Samples per pixel of a picture's scene: smooth edges at a quarter of the cost of drawing it larger.
+inline constexpr int kPictureSamples = 4;
+
+/// Holds a context and what it keeps between pictures. Pictures depend on the draw list alone, and not on what others
+/// left switched on in the context; they leave it with a framebuffer of their own bound, and with state of their own.
+/// Not for several threads.
 class Renderer {
   public:
     /// Throws MachineError if there is no such context.
     explicit Renderer(Backend backend = Backend::automatic);
+    /// Draws in a context that exists (not null). Throws MachineError if it is not OpenGL 3.3 core.
+    explicit Renderer(std::unique_ptr<GlContext> context);
     ~Renderer();
 
-    /// The backend in use, "osmesa" or "egl".
+    /// The name of the context in use: "osmesa", "egl", or "window".
     std::string_view backend() const;
+    /// For what else draws in it.
+    GlContext& context();
+    /// Whether the processor draws, by the name that OpenGL gives its renderer. Then multisampling is dear.
+    bool is_software() const;
 
     /// What the shader compiler remarked.
     const std::vector<std::string>& warnings() const;
 
-    /// Draws and reads back. Throws MachineError if OpenGL reports an error.
+    /// Draws without reading back. `samples` per pixel of the scene (>= 1; 1 is no multisampling, and its cost). The
+    /// texture is RGBA8 of the list's size, opaque, its first row the lowest; it holds the picture until the next paint
+    /// or draw. Throws MachineError if OpenGL reports an error.
+    const Texture& paint(const DrawList& list, int samples);
+
+    /// Paints with kPictureSamples and reads back. Throws MachineError if OpenGL reports an error.
     Image draw(const DrawList& list);
 
     /// What is nearest in each pixel: disks, and the boxes of nodes whether or not their faces are shown.

@@ -23,6 +23,7 @@ void attach_texture(const Texture& texture, GLenum attachment, GLenum internal_f
     glBindTexture(GL_TEXTURE_2D, texture.name());
     glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal_format), size.width, size.height, 0, format, GL_FLOAT,
                  nullptr);
+    // One level: another filter than the default one, which wants them all, makes the texture complete.
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0);
@@ -42,28 +43,37 @@ void blit(const Framebuffer& from, const Framebuffer& to, PictureSize size, GLbi
 
 }  // namespace
 
-Targets::Targets(PictureSize size, int samples) : size_(size) {
+Targets::Targets(PictureSize size, int samples) : size_(size), samples_(samples) {
+    const bool multisampled = samples > 1;
+    glBindFramebuffer(GL_FRAMEBUFFER, result().name());
+    attach_texture(picture_, GL_COLOR_ATTACHMENT0, GL_RGBA8, GL_RGBA, size);
+    if (multisampled) require_complete("a framebuffer");
+
     glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
-    attach_renderbuffer(scene_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, samples);
+    if (multisampled) attach_renderbuffer(scene_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, samples);
     attach_renderbuffer(scene_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, samples);
-    require_complete("a multisampled framebuffer");
+    require_complete(multisampled ? "a multisampled framebuffer" : "a framebuffer");
 
     glBindFramebuffer(GL_FRAMEBUFFER, faces_.name());
     attach_texture(sums_, GL_COLOR_ATTACHMENT0, GL_RGBA32F, GL_RGBA, size);
     attach_texture(weights_, GL_COLOR_ATTACHMENT1, GL_R32F, GL_RED, size);
-    attach_renderbuffer(faces_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, 1);
+    if (multisampled) {
+        attach_renderbuffer(faces_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, 1);
+    } else {
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, scene_depth_.name());
+    }
     const std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glDrawBuffers(static_cast<GLsizei>(outputs.size()), outputs.data());
     require_complete("32-bit float textures");
-
-    glBindFramebuffer(GL_FRAMEBUFFER, result_.name());
-    attach_renderbuffer(result_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, 1);
-    require_complete("a framebuffer");
 }
 
-void Targets::share_depth() const { blit(scene_, faces_, size_, GL_DEPTH_BUFFER_BIT); }
+void Targets::share_depth() const {
+    if (samples_ > 1) blit(scene_, faces_, size_, GL_DEPTH_BUFFER_BIT);
+}
 
-void Targets::resolve() const { blit(scene_, result_, size_, GL_COLOR_BUFFER_BIT); }
+void Targets::resolve() const {
+    if (samples_ > 1) blit(scene_, result_, size_, GL_COLOR_BUFFER_BIT);
+}
 
 IdTarget::IdTarget(PictureSize size) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());

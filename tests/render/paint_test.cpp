@@ -1,0 +1,184 @@
+#include <render/build_draw_list.h>
+
+#include "render/backends.h"
+#include "render/scenes.h"
+
+#include <glad/gl.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+constexpr PictureSize kSize{320, 240};
+
+/// Disks, boxes with faces, lines, panels and text.
+DrawList everything() {
+    ViewState view;
+    view.levels = {0, 3, false};
+    view.time = 1;
+    return build_draw_list(testing::hit_scene(), view, kSize);
+}
+
+/// The texture's pixels, rows from top to bottom.
+std::vector<std::uint8_t> pixels_of(const Texture& texture) {
+    const std::size_t row = 4 * static_cast<std::size_t>(kSize.width);
+    std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(kSize.height));
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
+    std::vector<std::uint8_t> out;
+    for (std::size_t y = static_cast<std::size_t>(kSize.height); y-- > 0;) {
+        const auto begin = upwards.begin() + static_cast<std::ptrdiff_t>(y * row);
+        out.insert(out.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
+    }
+    return out;
+}
+
+class PaintTest : public testing::OnEachBackend {
+  protected:
+    /// What a renderer that has drawn nothing before makes of it.
+    Image fresh(const DrawList& list) const { return Renderer(GetParam()).draw(list); }
+};
+
+TEST_P(PaintTest, TheTextureHoldsThePicture) {
+    const DrawList list = everything();
+    const Image drawn = renderer().draw(list);
+    EXPECT_EQ(pixels_of(renderer().paint(list, kPictureSamples)), drawn.rgba);
+    for (std::size_t i = 3; i < drawn.rgba.size(); i += 4) ASSERT_EQ(drawn.rgba[i], 255) << "pixel " << i / 4;
+}
+
+TEST_P(PaintTest, OneSampleIsNotMultisampled) {
+    const DrawList list = everything();
+    renderer().paint(list, 1);
+    GLint buffers = -1;
+    glGetIntegerv(GL_SAMPLE_BUFFERS, &buffers);
+    EXPECT_EQ(buffers, 0);
+    // A disk's outline is then a staircase: its colours are fewer.
+    EXPECT_NE(pixels_of(renderer().paint(list, 1)), renderer().draw(list).rgba);
+}
+
+TEST_P(PaintTest, TheNumberOfSamplesMayChange) {
+    const DrawList list = everything();
+    const auto single = pixels_of(renderer().paint(list, 1));
+    EXPECT_EQ(renderer().draw(list).rgba, fresh(list).rgba);
+    EXPECT_EQ(pixels_of(renderer().paint(list, 1)), single);
+}
+
+TEST_P(PaintTest, AContextMayBeGiven) {
+    const DrawList list = everything();
+    Renderer given(GlContext::open(GetParam()));
+    EXPECT_EQ(given.draw(list).rgba, renderer().draw(list).rgba);
+    EXPECT_EQ(given.backend(), testing::name_of(GetParam()));
+    EXPECT_EQ(given.context().name(), given.backend());
+}
+
+TEST_P(PaintTest, SoftwareIsToldFromAGpu) {
+    if (GetParam() != Backend::osmesa) GTEST_SKIP() << "only OSMesa is software everywhere";
+    EXPECT_TRUE(renderer().is_software());
+}
+
+/// What others that draw in the same context leave behind.
+struct Mischief {
+    const char* name;
+    std::function<void()> make;
+};
+
+const std::vector<Mischief>& mischiefs() {
+    static const std::vector<Mischief> all{
+        {"scissor", [] { glEnable(GL_SCISSOR_TEST), glScissor(3, 3, 5, 5); }},
+        {"stencil", [] { glEnable(GL_STENCIL_TEST), glStencilFunc(GL_NEVER, 0, 0); }},
+        {"viewport", [] { glViewport(1, 2, 30, 40); }},
+        {"blending", [] { glEnable(GL_BLEND), glBlendFunc(GL_ONE, GL_ONE); }},
+        {"blend equation", [] { glBlendEquation(GL_FUNC_REVERSE_SUBTRACT); }},
+        {"culling", [] { glEnable(GL_CULL_FACE), glCullFace(GL_FRONT_AND_BACK); }},
+        {"winding", [] { glFrontFace(GL_CW); }},
+        {"depth", [] { glEnable(GL_DEPTH_TEST), glDepthFunc(GL_NEVER), glDepthMask(GL_FALSE); }},
+        {"depth range", [] { glDepthRange(1, 0), glEnable(GL_DEPTH_CLAMP); }},
+        {"wireframe", [] { glPolygonMode(GL_FRONT_AND_BACK, GL_LINE); }},
+        {"polygon offset", [] { glEnable(GL_POLYGON_OFFSET_FILL), glPolygonOffset(1000, 100000); }},
+        {"colour mask", [] { glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_FALSE); }},
+        {"logic op", [] { glEnable(GL_COLOR_LOGIC_OP), glLogicOp(GL_INVERT); }},
+        {"no rasteriser", [] { glEnable(GL_RASTERIZER_DISCARD); }},
+        {"coverage", [] { glEnable(GL_SAMPLE_COVERAGE), glSampleCoverage(0.25f, GL_FALSE); }},
+        {"first vertex", [] { glProvokingVertex(GL_FIRST_VERTEX_CONVENTION); }},
+        {"packing", [] { glPixelStorei(GL_PACK_ALIGNMENT, 8), glPixelStorei(GL_PACK_ROW_LENGTH, 1000); }},
+        {"unpacking", [] { glPixelStorei(GL_UNPACK_ALIGNMENT, 8), glPixelStorei(GL_UNPACK_SKIP_PIXELS, 3); }},
+        {"no program", [] { glUseProgram(0), glBindVertexArray(0), glBindBuffer(GL_ARRAY_BUFFER, 0); }},
+        {"texture unit", [] { glActiveTexture(GL_TEXTURE5); }},
+        {"no textures",
+         [] {
+             for (GLenum unit = 0; unit < 2; ++unit) {
+                 glActiveTexture(GL_TEXTURE0 + unit);
+                 glBindTexture(GL_TEXTURE_2D, 0);
+             }
+         }},
+    };
+    return all;
+}
+
+TEST_P(PaintTest, WhatOthersLeaveInTheContextChangesNothing) {
+    const DrawList list = everything();
+    const Image expected = renderer().draw(list);
+    const auto single = pixels_of(renderer().paint(list, 1));
+    const IdImage ids = renderer().draw_ids(list);
+    for (const Mischief& mischief : mischiefs()) {
+        // Each on a renderer of its own: what one hides, another must not.
+        Renderer disturbed(GetParam());
+        disturbed.draw(list);
+        mischief.make();
+        EXPECT_EQ(disturbed.draw(list).rgba, expected.rgba) << mischief.name;
+        mischief.make();
+        EXPECT_EQ(pixels_of(disturbed.paint(list, 1)), single) << mischief.name;
+        mischief.make();
+        EXPECT_EQ(disturbed.draw_ids(list).rg, ids.rg) << mischief.name;
+    }
+}
+
+TEST_P(PaintTest, WhatIsKeptFollowsTheList) {
+    DrawList list = everything();
+    ASSERT_FALSE(list.disks.empty());
+    ASSERT_FALSE(list.boxes.empty());
+    ASSERT_FALSE(list.lines.empty());
+    ASSERT_FALSE(list.texts.empty());
+    ASSERT_FALSE(list.panels.empty());
+    Image before = renderer().draw(list);
+    const auto changed = [&](const char* what) {
+        const Image after = renderer().draw(list);
+        EXPECT_NE(after.rgba, before.rgba) << what << " changes nothing that is seen";
+        EXPECT_EQ(after.rgba, fresh(list).rgba) << what;
+        before = after;
+    };
+    for (DiskInstance& disk : list.disks) disk.radius *= 1.5f;
+    changed("radius");
+    list.disks.back().color = {1, 0, 1, 1};
+    changed("colour of a disk");
+    list.disks.pop_back();
+    changed("a disk less");
+    list.boxes.front().fill.a = 0.5f;
+    changed("face of a box");
+    list.boxes.front().width = 6;
+    changed("edge of a box");
+    list.boxes.pop_back();
+    changed("a box less");
+    list.lines.front().color = {1, 1, 0, 1};
+    list.lines.front().width = 9;
+    changed("line");
+    list.texts.front().text[0] = 'Q';
+    changed("text");
+    list.panels.front().fill = {0, 1, 0, 1};
+    changed("panel");
+    list.disks.clear();
+    list.boxes.clear();
+    list.lines.clear();
+    changed("nothing left");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PaintTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+
+}  // namespace
+}  // namespace mobbscope
