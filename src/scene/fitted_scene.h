@@ -4,6 +4,7 @@
 #include <scene/scene.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,12 +27,15 @@ class QueryList {
 /// Immutable once made; refers to nothing outside itself.
 class FittedScene {
   public:
-    /// Fits every clip with `options` (usually scene.fit). Throws std::invalid_argument if an option is out of range.
-    FittedScene(Scene scene, const mobb::FitOptions& options);
+    /// Fits every clip with `options` (usually scene.fit); a tree of `previous` over the very same clip with equal
+    /// options is shared instead. `progress` is told after each clip. Throws std::invalid_argument if an option is out
+    /// of range.
+    FittedScene(Scene scene, const mobb::FitOptions& options, const FittedScene* previous = nullptr,
+                const Progress& progress = {});
 
     const Scene& scene() const { return scene_; }
     const mobb::FitOptions& options() const { return options_; }
-    const mobb::Tree& tree(int clip) const { return trees_[static_cast<std::size_t>(clip)]; }
+    const mobb::Tree& tree(int clip) const { return *trees_[static_cast<std::size_t>(clip)]; }
     QueryList queries() const { return QueryList(scene_); }  ///< what is asked; valid as long as this
     const std::vector<Participant>& participants() const { return participants_; }  ///< what is drawn
 
@@ -42,7 +46,7 @@ class FittedScene {
   private:
     Scene scene_;
     mobb::FitOptions options_;
-    std::vector<mobb::Tree> trees_;
+    std::vector<std::shared_ptr<const mobb::Tree>> trees_;  ///< by clip
     std::vector<Participant> participants_;
 };
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,13 +79,18 @@ SceneQuery query_at(const Scene& scene, std::size_t index);
 /// What is drawn and asked about: the agents, or without any, every clip where it is.
 std::vector<Participant> participants(const Scene& scene);
 
+/// Told how much of some long work is done, of how much in all; it may throw to end the work, and what it throws passes
+/// through. An empty one is told nothing.
+using Progress = std::function<void(std::size_t done, std::size_t all)>;
+
 /// Reads a scene, a capture, or a clip file (a scene with its clips and no agents). `overrides` go over the import keys
-/// of every clip with a source. Throws InputError; all files are checked before it returns.
-Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {});
+/// of every clip with a source. `progress` is told before each clip; a clip file is read in one go. Throws InputError;
+/// all files are checked before it returns.
+Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {});
 
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                  const ImportOptions& overrides = {});
+                  const ImportOptions& overrides = {}, const Progress& progress = {});
 
 /// The scene as JSON text, numbers with 17 digits. Clips with a source are written as their source; with
 /// `inline_samples` every clip is written with its samples, so the file stands alone.

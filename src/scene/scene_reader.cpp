@@ -171,15 +171,19 @@ class NameTable {
 
 class SceneReader {
   public:
-    SceneReader(const JsonPlace& root, std::filesystem::path folder, const ImportOptions& overrides)
-        : root_(root), folder_(std::move(folder)), overrides_(overrides) {}
+    SceneReader(const JsonPlace& root, std::filesystem::path folder, const ImportOptions& overrides,
+                const Progress& progress)
+        : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress) {}
 
     Scene read() {
         root_.allow_only({"$schema", "mobbscope", "clips", "agents", "fit", "queries", "view"});
         check_version();
         const JsonPlace clips = root_.require("clips");
         if (clips.members() == 0) clips.fail("there is no clip; add one");
-        for (int i = 0; i < clips.members(); ++i) scene_.clips.push_back(read_clip(clips.member(i)));
+        for (int i = 0; i < clips.members(); ++i) {
+            if (progress_) progress_(static_cast<std::size_t>(i), static_cast<std::size_t>(clips.members()));
+            scene_.clips.push_back(read_clip(clips.member(i)));
+        }
         if (const auto agents = root_.find("agents")) {
             for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
         }
@@ -355,6 +359,7 @@ class SceneReader {
     const JsonPlace& root_;
     std::filesystem::path folder_;
     const ImportOptions& overrides_;
+    const Progress& progress_;
     Importer importer_;
     NameTable clip_names_;
     NameTable agent_names_;
@@ -382,20 +387,21 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides) {
+Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides, const Progress& progress) {
     check_file_name(file);
     const bool is_scene = lower_extension(file) == ".json";
-    Scene scene = is_scene ? parse_scene(read_file(file), file.string(), file.parent_path(), overrides)
+    if (!is_scene && progress) progress(0, 1);
+    Scene scene = is_scene ? parse_scene(read_file(file), file.string(), file.parent_path(), overrides, progress)
                            : scene_of_clips(file, overrides);
     scene.file = file;
     return scene;
 }
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                  const ImportOptions& overrides) {
+                  const ImportOptions& overrides, const Progress& progress) {
     const JsonValue value = parse_json(text, name);
     const JsonPlace root(value, name);
-    return SceneReader(root, folder, overrides).read();
+    return SceneReader(root, folder, overrides, progress).read();
 }
 
 }  // namespace mobbscope

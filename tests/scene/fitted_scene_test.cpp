@@ -5,7 +5,9 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -78,6 +80,65 @@ TEST(FittedScene, OptionsOutOfRangeAreRefused) {
     mobb::FitOptions options;
     options.leaf = 0;
     EXPECT_THROW(FittedScene(head_on(), options), std::invalid_argument);
+}
+
+TEST(FittedScene, MovingAnAgentFitsNothing) {
+    Scene scene = head_on();
+    scene.clips.push_back(scene.clips[0]);
+    scene.clips[1].name = "long";
+    std::vector<mobb::Disk> samples(42 * 30);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = {0.04 * static_cast<double>(i), 0, 0.4};
+    scene.clips[1].clip = std::make_shared<const mobb::Clip>(1 / 30.0, samples);
+    const FittedScene before(scene, scene.fit);
+
+    scene.agents[0].placement = {{3, 4}, 90, 2};
+    const FittedScene after(scene, scene.fit, &before);
+    for (const int clip : {0, 1}) EXPECT_EQ(&after.tree(clip), &before.tree(clip));
+    EXPECT_EQ(after.placed(after.participants()[0]).placed_clip().placement().start, 2);
+
+    // Other options or another clip, though an equal one, is another tree.
+    mobb::FitOptions finer = scene.fit;
+    finer.leaf = 2;
+    EXPECT_NE(&FittedScene(scene, finer, &before).tree(1), &before.tree(1));
+    scene.clips[1].clip = std::make_shared<const mobb::Clip>(1 / 30.0, samples);
+    const FittedScene changed(scene, scene.fit, &before);
+    EXPECT_EQ(&changed.tree(0), &before.tree(0));
+    EXPECT_NE(&changed.tree(1), &before.tree(1));
+    EXPECT_EQ(&changed.tree(1).clip(), scene.clips[1].clip.get());
+}
+
+TEST(FittedScene, SharedTreesOutliveTheSceneTheyCameFrom) {
+    const Scene scene = head_on();
+    auto before = std::make_unique<FittedScene>(scene, scene.fit);
+    const FittedScene after(scene, scene.fit, before.get());
+    before.reset();
+    EXPECT_EQ(after.tree(0).nodes()[0].count, 8);
+}
+
+struct Cancelled {};
+
+TEST(FittedScene, ProgressIsToldAndMayCancel) {
+    Scene scene = head_on();
+    scene.clips.resize(3, scene.clips[0]);
+    std::vector<std::size_t> told;
+    const FittedScene fitted(scene, scene.fit, nullptr, [&](std::size_t done, std::size_t all) {
+        EXPECT_EQ(all, 3u);
+        told.push_back(done);
+    });
+    EXPECT_EQ(told, (std::vector<std::size_t>{1, 2, 3}));
+    EXPECT_THROW(FittedScene(scene, scene.fit, nullptr, [](std::size_t, std::size_t) { throw Cancelled(); }),
+                 Cancelled);
+}
+
+TEST(Scene, ReadingTellsItsProgressAndMayBeCancelled) {
+    const char* text = R"({"clips": {"a": {"dt": 1, "samples": [[0,0,1]]}, "b": {"dt": 1, "samples": [[0,0,1]]}}})";
+    std::vector<std::size_t> told;
+    parse_scene(text, "s.json", "", {}, [&](std::size_t done, std::size_t all) {
+        EXPECT_EQ(all, 2u);
+        told.push_back(done);
+    });
+    EXPECT_EQ(told, (std::vector<std::size_t>{0, 1}));
+    EXPECT_THROW(parse_scene(text, "s.json", "", {}, [](std::size_t, std::size_t) { throw Cancelled(); }), Cancelled);
 }
 
 }  // namespace
