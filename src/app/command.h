@@ -1,0 +1,54 @@
+/// Every action of the window, by name: menus, palette, help sheet, shortcuts, scripts and tests are made from one
+/// table.
+#pragma once
+
+#include <app/key.h>
+#include <app/session.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::app {
+
+struct Command {
+    std::string_view id;        ///< "view.top": for scripts
+    std::string_view title;     ///< "View from above": for menus and the palette
+    std::string_view menu;      ///< "File", "Edit", "View", "Tree", "Query", "Go" or "Help"; empty: not in a menu
+    std::string_view shortcut;  ///< "Ctrl+O"; several separated by a blank; empty: none
+    std::string_view argument;  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
+    std::string_view doc;       ///< one sentence
+    bool (*enabled)(const Session&) = [](const Session&) { return true; };
+    /// Throws InputError, MachineError or std::invalid_argument, in words for the person.
+    void (*run)(Session&, const std::string& argument) = nullptr;
+    bool (*checked)(const Session&) = nullptr;                      ///< of a toggle or a choice: whether it is on
+    std::vector<std::string> (*choices)(const Session&) = nullptr;  ///< arguments to choose from
+};
+
+/// The table, in the order of the menus.
+std::span<const Command> commands();
+
+/// Null if there is none.
+const Command* find_command(std::string_view id);
+
+/// Runs a command by id as a script does: throws std::invalid_argument if there is none or it is not enabled, and what
+/// the command throws.
+void run_command(Session& session, std::string_view id, const std::string& argument = "");
+
+/// The same for a person: what goes wrong becomes a message in the window.
+void invoke(Session& session, std::string_view id, const std::string& argument = "");
+
+/// The command that a chord calls; null if none.
+const Command* command_for(const Chord& chord);
+
+// The parts of the table, one file each.
+std::span<const Command> file_commands();
+std::span<const Command> edit_commands();
+std::span<const Command> view_commands();
+std::span<const Command> tree_commands();
+std::span<const Command> query_commands();
+std::span<const Command> go_commands();
+std::span<const Command> help_commands();
+
+}  // namespace mobbscope::app

@@ -1,0 +1,73 @@
+#include <app/command.h>
+#include <import/text.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+namespace {
+
+std::vector<Command> all_commands() {
+    std::vector<Command> out;
+    for (const auto& part : {file_commands(), edit_commands(), view_commands(), tree_commands(), query_commands(),
+                             go_commands(), help_commands()}) {
+        out.insert(out.end(), part.begin(), part.end());
+    }
+    return out;
+}
+
+/// Calls `use` with each of the blank-separated chords.
+template <class Use>
+void each_chord(std::string_view shortcuts, const Use& use) {
+    while (!shortcuts.empty()) {
+        const std::size_t blank = shortcuts.find(' ');
+        use(shortcuts.substr(0, blank));
+        shortcuts.remove_prefix(blank == std::string_view::npos ? shortcuts.size() : blank + 1);
+    }
+}
+
+}  // namespace
+
+std::span<const Command> commands() {
+    static const std::vector<Command> table = all_commands();
+    return table;
+}
+
+const Command* find_command(std::string_view id) {
+    const auto table = commands();
+    const auto at = std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.id == id; });
+    return at == table.end() ? nullptr : &*at;
+}
+
+void run_command(Session& session, std::string_view id, const std::string& argument) {
+    const Command* command = find_command(id);
+    if (!command) {
+        std::vector<std::string> ids;
+        for (const Command& c : commands()) ids.emplace_back(c.id);
+        throw std::invalid_argument("there is no command " + in_quotes(id) + did_you_mean(id, ids));
+    }
+    if (!command->enabled(session)) {
+        throw std::invalid_argument("\"" + std::string(command->title) + "\" cannot be done now");
+    }
+    command->run(session, argument);
+}
+
+void invoke(Session& session, std::string_view id, const std::string& argument) {
+    try {
+        run_command(session, id, argument);
+    } catch (const std::exception& error) {
+        session.tell(Message::Level::error, error.what());
+    }
+}
+
+const Command* command_for(const Chord& chord) {
+    for (const Command& command : commands()) {
+        bool calls = false;
+        each_chord(command.shortcut, [&](std::string_view name) { calls |= chord_from_name(name) == chord; });
+        if (calls) return &command;
+    }
+    return nullptr;
+}
+
+}  // namespace mobbscope::app

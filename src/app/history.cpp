@@ -1,0 +1,54 @@
+#include <app/history.h>
+
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// A person goes back a few; every state of a large scene costs memory.
+constexpr std::size_t kMostStates = 500;
+
+}  // namespace
+
+void History::reset(Document document) {
+    states_.clear();
+    states_.push_back({std::move(document), {}, false});
+    now_ = 0;
+    open_ = false;
+}
+
+void History::change(Document document, const EditName& name) {
+    const bool joins = open_ && now_ > 0 && !name.group.empty() && states_[now_].name.group == name.group;
+    states_.resize(now_ + 1);
+    if (joins) {
+        states_[now_].document = std::move(document);
+    } else {
+        states_.push_back({std::move(document), name, false});
+        if (states_.size() > kMostStates) states_.erase(states_.begin());
+        now_ = states_.size() - 1;
+    }
+    open_ = true;
+}
+
+void History::look(ViewState view) {
+    if (states_[now_].looked || can_redo()) {
+        states_[now_].document.view = std::move(view);
+        return;
+    }
+    change({now().fitted, std::move(view)}, {"looking around", ""});
+    states_[now_].looked = true;
+    open_ = false;
+}
+
+void History::undo() {
+    --now_;
+    open_ = false;
+}
+
+void History::redo() {
+    ++now_;
+    open_ = false;
+}
+
+}  // namespace mobbscope::app

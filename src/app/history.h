@@ -1,0 +1,66 @@
+/// The document and its past: undo and redo of every edit.
+#pragma once
+
+#include <scene/fitted_scene.h>
+#include <scene/view_state.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// The scene with its trees, and how it is seen. Values: a state once reached can be returned to at no cost, as the
+/// scene is immutable and shared.
+struct Document {
+    std::shared_ptr<const FittedScene> fitted;  ///< never null
+    ViewState view;
+};
+
+/// Groups what belongs together: one drag, one number typed, looking around.
+struct EditName {
+    std::string title;  ///< "Move A", for the menu: "Undo Move A"
+    std::string group;  ///< an edit joins the last one if both have this group and it is still open; empty: never
+};
+
+class History {
+  public:
+    explicit History(Document document) { reset(std::move(document)); }
+
+    const Document& now() const { return states_[now_].document; }
+
+    /// Forgets the past: another file was opened.
+    void reset(Document document);
+    /// The document is now this; what was undone is forgotten.
+    void change(Document document, const EditName& name);
+    /// Only how it is seen has changed. All looking around between two edits is one state, and it costs nothing that
+    /// could be redone.
+    void look(ViewState view);
+    /// The present state is this instead; no edit of its own.
+    void amend(Document document) { states_[now_].document = std::move(document); }
+    /// The next edit starts a group of its own, even under the same name.
+    void close_group() { open_ = false; }
+
+    bool can_undo() const { return now_ > 0; }
+    bool can_redo() const { return now_ + 1 < states_.size(); }
+    /// Requires can_undo() (can_redo()).
+    void undo();
+    void redo();
+    /// What undo (redo) would take back (bring back); empty if nothing.
+    std::string undo_title() const { return can_undo() ? states_[now_].name.title : ""; }
+    std::string redo_title() const { return can_redo() ? states_[now_ + 1].name.title : ""; }
+
+  private:
+    struct State {
+        Document document;
+        EditName name;  ///< of the edit that led here
+        bool looked = false;
+    };
+    std::vector<State> states_;
+    std::size_t now_ = 0;
+    bool open_ = false;
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,63 @@
+/// Long work beside the window: cancellable, with progress.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace mobbscope::app {
+
+/// Thrown inside a job that was cancelled.
+struct Cancelled : std::exception {
+    const char* what() const noexcept override { return "cancelled"; }
+};
+
+/// What a job and the window tell each other. Safe from both threads.
+class JobControl {
+  public:
+    /// The job: so much is done. Throws Cancelled if the person had enough.
+    void step(std::size_t done, std::size_t all);
+    void cancel() { cancelled_ = true; }
+    /// 0..1; below 0 while nothing is known.
+    double progress() const { return progress_; }
+
+  private:
+    std::atomic<bool> cancelled_ = false;
+    std::atomic<double> progress_ = -1;
+};
+
+/// One piece of work in a thread of its own. It works on what it was given by value and hands over a closure that the
+/// window's thread runs.
+class Job {
+  public:
+    using Finish = std::function<void()>;
+    using Work = std::function<Finish(JobControl&)>;
+
+    /// `wake` is called, from the job's thread, when the work is done.
+    Job(std::string title, Work work, std::function<void()> wake);
+    /// Cancels. A job in the midst of a long step ends by itself later; its result is dropped.
+    ~Job();
+    Job(const Job&) = delete;
+    Job& operator=(const Job&) = delete;
+
+    const std::string& title() const { return title_; }
+    double progress() const;
+    void cancel();
+    /// Waits so long at most; true if the work is done.
+    bool wait(std::chrono::milliseconds longest) const;
+    bool done() const { return wait(std::chrono::milliseconds(0)); }
+    /// Of a job that is done: runs its closure, or throws what the work threw (Cancelled too). Once.
+    void finish();
+
+  private:
+    struct Shared;
+    std::string title_;
+    std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace mobbscope::app

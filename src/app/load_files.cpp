@@ -1,0 +1,77 @@
+#include <app/load_files.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kExtensions{".json", ".csv", ".bvh", ".glb", ".gltf", ".fbx"};
+
+bool is_openable(const std::filesystem::path& file) {
+    return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(file)) != kExtensions.end();
+}
+
+bool is_scene(const std::filesystem::path& file) { return lower_extension(file) == ".json"; }
+
+/// A folder's clips, by name; scenes in it are other documents.
+std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> out;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        std::error_code ignored;
+        if (entry.is_regular_file(ignored) && is_openable(entry.path()) && !is_scene(entry.path()))
+            out.push_back(entry.path());
+    }
+    if (error) throw InputError(folder.string(), "", "the folder cannot be read: " + error.message());
+    if (out.empty()) {
+        throw InputError(folder.string(), "", "there are no clips in this folder (.csv, .bvh, .glb, .gltf, .fbx)");
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+}  // namespace
+
+std::span<const std::string_view> openable_extensions() { return kExtensions; }
+
+Scene load_files(const std::vector<std::filesystem::path>& files, JobControl& control) {
+    std::vector<std::filesystem::path> all;
+    for (const std::filesystem::path& file : files) {
+        std::error_code ignored;
+        if (std::filesystem::is_directory(file, ignored)) {
+            for (std::filesystem::path& clip : clips_in(file)) all.push_back(std::move(clip));
+        } else {
+            all.push_back(file);
+        }
+    }
+    // A scene's view and fit are what the others join.
+    std::stable_partition(all.begin(), all.end(), is_scene);
+    Scene scene;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        control.step(i, all.size());
+        const Progress progress = all.size() == 1
+                                      ? Progress([&](std::size_t done, std::size_t of) { control.step(done, of); })
+                                      : Progress([&](std::size_t, std::size_t) { control.step(i, all.size()); });
+        Scene loaded = load_scene(all[i], {}, progress);
+        if (i == 0) {
+            scene = std::move(loaded);
+        } else {
+            merge(scene, std::move(loaded));
+        }
+    }
+    return scene;
+}
+
+std::optional<std::filesystem::path> scene_file_of(const std::vector<std::filesystem::path>& files) {
+    if (std::count_if(files.begin(), files.end(), is_scene) != 1) return std::nullopt;
+    return *std::find_if(files.begin(), files.end(), is_scene);
+}
+
+}  // namespace mobbscope::app

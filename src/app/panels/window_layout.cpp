@@ -1,0 +1,101 @@
+#include <app/panels.h>
+
+#include <algorithm>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr float kSplitter = 5;      // pixels at scale 1, to take hold of
+constexpr float kLeastPanel = 180;  // a panel narrower than this shows nothing
+constexpr float kLeastView = 240;
+
+/// An invisible bar between two panels; returns how far it was dragged in pixels.
+float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
+    ImGui::InvisibleButton(name, size);
+    ui.mark(name);
+    const bool active = ImGui::IsItemActive();
+    if (active || ImGui::IsItemHovered()) {
+        ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+        ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), ui.look.accent);
+    }
+    const ImVec2 moved = ImGui::GetIO().MouseDelta;
+    return active ? (upright ? moved.x : moved.y) : 0;
+}
+
+template <class Draw>
+void panel(const char* name, ImVec2 size, const Draw& draw) {
+    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    draw();
+    ImGui::EndChild();
+}
+
+}  // namespace
+
+void window_layout(Ui& ui, Viewport& viewport) {
+    const ImGuiIO& io = ImGui::GetIO();
+    menu_bar(ui);
+    const float top = ImGui::GetFrameHeight();
+    ImGui::SetNextWindowPos({0, top});
+    ImGui::SetNextWindowSize({io.DisplaySize.x, io.DisplaySize.y - top});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    ImGui::Begin("##window", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar(2);
+
+    Settings& settings = ui.session.settings;
+    const float bar = ui.px(kSplitter);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    // Each side gives way before the picture does.
+    const float most = std::max(ui.px(kLeastPanel), (room.x - ui.px(kLeastView) - 2 * bar) / 2);
+    const auto width = [&](double wanted) {
+        return std::clamp(ui.px(static_cast<float>(wanted)), ui.px(kLeastPanel), most);
+    };
+    const float left = width(settings.left_width);
+    const float right = width(settings.right_width);
+    const float bottom = std::clamp(ui.px(static_cast<float>(settings.bottom_height)), ui.px(90), 0.6f * room.y);
+    const auto spacing = [] { ImGui::SameLine(0, 0); };
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
+    panel("left", {left, room.y}, [&] {
+        scene_panel(ui);
+        tree_panel(ui);
+    });
+    ImGui::PopStyleVar();
+    spacing();
+    settings.left_width += splitter(ui, "splitter.left", {bar, room.y}, true) / ui.look.scale;
+    spacing();
+    ImGui::BeginGroup();
+    const float middle = room.x - left - right - 2 * bar;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    panel("viewport", {middle, room.y - bottom - bar}, [&] { viewport.draw(ui); });
+    ImGui::PopStyleVar();
+    settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.look.scale;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
+    panel("timeline", {middle, bottom}, [&] { timeline(ui); });
+    ImGui::PopStyleVar();
+    ImGui::EndGroup();
+    spacing();
+    settings.right_width -= splitter(ui, "splitter.right", {bar, room.y}, true) / ui.look.scale;
+    spacing();
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
+    panel("right", {right, room.y}, [&] {
+        query_panel(ui);
+        selection_panel(ui);
+    });
+    ImGui::PopStyleVar(2);
+    ImGui::End();
+
+    settings.left_width = std::clamp(settings.left_width, 180.0, 900.0);
+    settings.right_width = std::clamp(settings.right_width, 180.0, 900.0);
+    settings.bottom_height = std::clamp(settings.bottom_height, 90.0, 900.0);
+
+    dialogs(ui);
+    messages(ui);
+    job_progress(ui);
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,65 @@
+#include <app/selection.h>
+
+namespace mobbscope::app {
+
+namespace {
+
+PathRef path_of_side(const FittedScene& fitted, int query, int side) {
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
+    const int agent = (side == 0 ? asked.a : asked.b).agent;
+    // With agents, participants are the agents in their order.
+    return agent >= 0 ? PathRef{agent, -1, 0} : PathRef{-1, query, side};
+}
+
+}  // namespace
+
+PathRef path_in_view(const FittedScene& fitted, const ViewState& view, int participant) {
+    return view.query ? path_of_side(fitted, *view.query, participant) : PathRef{participant, -1, 0};
+}
+
+std::optional<int> index_in_view(const FittedScene& fitted, const ViewState& view, const PathRef& path) {
+    const int count = view.query ? 2 : static_cast<int>(fitted.participants().size());
+    if (!view.query)
+        return path.participant >= 0 && path.participant < count ? std::optional(path.participant) : std::nullopt;
+    for (int side = 0; side < count; ++side) {
+        if (path_of_side(fitted, *view.query, side) == path) return side;
+    }
+    return std::nullopt;
+}
+
+std::optional<Participant> participant_of(const FittedScene& fitted, const PathRef& path) {
+    if (path.participant >= 0) {
+        const auto index = static_cast<std::size_t>(path.participant);
+        if (index >= fitted.participants().size()) return std::nullopt;
+        return fitted.participants()[index];
+    }
+    if (path.query < 0 || static_cast<std::size_t>(path.query) >= fitted.queries().size()) return std::nullopt;
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(path.query)];
+    return path.side == 0 ? asked.a : asked.b;
+}
+
+bool exists(const FittedScene& fitted, const Selection& selection) {
+    const auto within = [&](std::size_t count) {
+        return selection.index >= 0 && static_cast<std::size_t>(selection.index) < count;
+    };
+    switch (selection.kind) {
+        case Selection::Kind::none:
+            return true;
+        case Selection::Kind::clip:
+            return within(fitted.scene().clips.size());
+        case Selection::Kind::query:
+            return within(fitted.queries().size());
+        case Selection::Kind::path:
+        case Selection::Kind::node:
+        case Selection::Kind::sample:
+            break;
+    }
+    const auto participant = participant_of(fitted, selection.path);
+    if (!participant) return false;
+    if (selection.kind == Selection::Kind::path) return true;
+    const mobb::Tree& tree = fitted.tree(participant->clip);
+    return within(selection.kind == Selection::Kind::node ? tree.nodes().size()
+                                                          : static_cast<std::size_t>(tree.clip().count()));
+}
+
+}  // namespace mobbscope::app

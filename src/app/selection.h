@@ -1,0 +1,41 @@
+/// What is selected, or under the mouse: the same thing in every panel.
+#pragma once
+
+#include <render/object_id.h>
+#include <scene/fitted_scene.h>
+
+#include <optional>
+
+namespace mobbscope::app {
+
+/// A path that is seen: an agent, or in a scene without agents a clip, or one side of a query that places a clip
+/// itself.
+struct PathRef {
+    int participant = -1;  ///< index into FittedScene::participants(), or -1:
+    int query = -1;        ///< then the side of this query
+    int side = 0;          ///< 0 a, 1 b
+    friend bool operator==(const PathRef&, const PathRef&) = default;
+};
+
+struct Selection {
+    enum class Kind { none, path, node, sample, clip, query };
+    Kind kind = Kind::none;
+    PathRef path;    ///< of a path, node or sample
+    int index = -1;  ///< node, sample, clip or query
+    friend bool operator==(const Selection&, const Selection&) = default;
+
+    bool on_path() const { return kind == Kind::path || kind == Kind::node || kind == Kind::sample; }
+};
+
+/// The path that ObjectId::participant means in a picture of `view`.
+PathRef path_in_view(const FittedScene& fitted, const ViewState& view, int participant);
+/// ... and back: its index in the picture's participants; none if it is not in the picture.
+std::optional<int> index_in_view(const FittedScene& fitted, const ViewState& view, const PathRef& path);
+
+/// Who it is and where; none if there is no such path (any more).
+std::optional<Participant> participant_of(const FittedScene& fitted, const PathRef& path);
+
+/// Whether the scene has it.
+bool exists(const FittedScene& fitted, const Selection& selection);
+
+}  // namespace mobbscope::app

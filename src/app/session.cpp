@@ -1,0 +1,325 @@
+#include <app/load_files.h>
+#include <app/session.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <render/query_progress.h>
+#include <scene/demo_scene.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// Shorter work is waited for: a window that flickers is worse than one that is late by this.
+constexpr std::chrono::milliseconds kPatience(80);
+/// Fits of fewer samples than this are no work for a job.
+constexpr std::size_t kQuickSamples = 50'000;
+/// How much longer than the paper's axes those found by searching take.
+constexpr std::size_t kSearchFactor = 100;
+constexpr std::size_t kMostMessages = 5;
+
+Document document_of(Scene scene, const FittedScene* previous, const Progress& progress = {}) {
+    const mobb::FitOptions options = scene.fit;
+    ViewState view = scene.view;
+    return {std::make_shared<const FittedScene>(std::move(scene), options, previous, progress), std::move(view)};
+}
+
+/// Whether trees over these clips are made in an instant.
+bool quick_to_fit(const Scene& scene, const FittedScene& present) {
+    std::size_t samples = 0;
+    for (const SceneClip& clip : scene.clips) {
+        const auto& known = present.scene().clips;
+        const bool kept =
+            scene.fit == present.options() &&
+            std::any_of(known.begin(), known.end(), [&](const SceneClip& k) { return k.clip == clip.clip; });
+        if (!kept) samples += static_cast<std::size_t>(clip.clip->count());
+    }
+    return samples * (scene.fit.axes == mobb::Axes::minarea ? kSearchFactor : 1) < kQuickSamples;
+}
+
+/// A view of another scene, or of this one before an edit, made to fit what there is.
+ViewState fitting(ViewState view, const FittedScene& fitted) {
+    if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
+    return view;
+}
+
+}  // namespace
+
+Session::Session(bool attended, Settings settings_)
+    : settings(std::move(settings_)),
+      attended_(attended),
+      history_(document_of({}, nullptr)),
+      saved_(document().fitted) {}
+
+// --- the document
+
+void Session::edit(const EditName& name, const std::function<void(Scene&)>& change) {
+    if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
+    Scene next = scene();
+    next.view = view();
+    change(next);
+    mobb::check(next.fit);
+    if (next.fit != fitted().options()) drop_traces(next);
+    const std::shared_ptr<const FittedScene> before = document().fitted;
+    if (quick_to_fit(next, *before)) {
+        history_.change(document_of(std::move(next), before.get()), name);
+        changed();
+        return;
+    }
+    start("Fitting trees", [this, name, before, next = std::move(next)](JobControl& control) -> Job::Finish {
+        Document document =
+            document_of(next, before.get(), [&](std::size_t done, std::size_t all) { control.step(done, all); });
+        return [this, name, document = std::move(document)] {
+            history_.change(document, name);
+            changed();
+        };
+    });
+}
+
+void Session::look(const std::function<void(ViewState&)>& change) {
+    ViewState next = view();
+    change(next);
+    next = fitting(std::move(next), fitted());
+    if (next == view()) return;
+    history_.look(std::move(next));
+    changed();
+}
+
+void Session::undo() {
+    if (job_ || !history_.can_undo()) return;
+    history_.undo();
+    changed();
+}
+
+void Session::redo() {
+    if (job_ || !history_.can_redo()) return;
+    history_.redo();
+    changed();
+}
+
+/// After every change of the document: nothing points at what is gone, and the step is one of the trace.
+void Session::changed() {
+    if (!exists(fitted(), selection)) selection = {};
+    if (!exists(fitted(), hovered)) hovered = {};
+    const RecordedQuery* query = recorded();
+    if (query && view().step.unit == Step::Unit::event && view().step.value >= query->trace.size()) {
+        Document next = document();
+        next.view.step = {Step::Unit::end, 0};
+        history_.amend(std::move(next));
+    }
+}
+
+Session::Derived& Session::derived() const {
+    if (derived_.of != document().fitted) derived_ = {document().fitted, {}, {}, {}};
+    return derived_;
+}
+
+const RecordedQuery* Session::recorded() const {
+    if (!view().query) return nullptr;
+    Derived& d = derived();
+    if (!d.recorded || d.recorded->first != *view().query) {
+        d.recorded.emplace(*view().query,
+                           record(fitted(), fitted().queries()[static_cast<std::size_t>(*view().query)]));
+    }
+    return &d.recorded->second;
+}
+
+int Session::step() const { return event_of(view().step, recorded()->trace); }
+
+const Answer& Session::answer_of(std::size_t query) const {
+    auto [at, is_new] = derived().answers.try_emplace(query);
+    if (is_new) at->second = answer(fitted(), fitted().queries()[query], {});
+    return at->second;
+}
+
+const std::vector<mobb::LevelFigures>& Session::figures_of(int clip) const {
+    auto [at, is_new] = derived().figures.try_emplace(clip);
+    if (is_new) at->second = mobb::level_figures(fitted().tree(clip));
+    return at->second;
+}
+
+// --- files
+
+std::string Session::title() const {
+    if (file_) return file_->filename().string();
+    return scene().file.empty() ? "untitled" : scene().file.stem().string();
+}
+
+void Session::replace(Document document, std::optional<std::filesystem::path> file) {
+    document.view = fitting(std::move(document.view), *document.fitted);
+    saved_ = document.fitted;
+    file_ = std::move(file);
+    selection = {};
+    hovered = {};
+    playing = false;
+    history_.reset(std::move(document));
+    changed();
+}
+
+void Session::load(std::string title, const LoadAll& load_all, const std::optional<std::filesystem::path>& file) {
+    start(std::move(title), [this, load_all, file](JobControl& control) -> Job::Finish {
+        Document document = document_of(load_all(control), nullptr,
+                                        [&](std::size_t done, std::size_t all) { control.step(done, all); });
+        return [this, document = std::move(document), file] { replace(document, file); };
+    });
+}
+
+void Session::open(const std::vector<std::filesystem::path>& files) {
+    after_asking([this, files] {
+        load(
+            "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),
+            [files](JobControl& control) { return load_files(files, control); }, scene_file_of(files));
+        if (attended_ && !files.empty()) settings.remember(files.front());
+    });
+}
+
+void Session::open_demo() {
+    after_asking([this] {
+        load(
+            "Opening the demo", [](JobControl&) { return demo_scene(); }, std::nullopt);
+    });
+}
+
+void Session::add(const std::vector<std::filesystem::path>& files) {
+    if (empty()) return open(files);
+    const std::shared_ptr<const FittedScene> before = document().fitted;
+    Scene present = scene();
+    present.view = view();
+    start("Adding files", [this, files, before, present = std::move(present)](JobControl& control) -> Job::Finish {
+        Scene next = present;
+        merge(next, load_files(files, control));
+        Document document = document_of(std::move(next), before.get());
+        return [this, document = std::move(document)] {
+            history_.change(document, {"adding files", ""});
+            changed();
+        };
+    });
+}
+
+void Session::save() {
+    if (!file_) {
+        dialog = Dialog::save_as;
+        return;
+    }
+    save_as(*file_);
+}
+
+void Session::save_as(const std::filesystem::path& file) {
+    if (empty()) throw InputError("there is nothing to save: open a scene or a clip first");
+    check_file_name(file);
+    if (lower_extension(file) != ".json") {
+        throw InputError(file.string(), "", "scenes are written as .json; rename the output");
+    }
+    Scene saved = scene();
+    saved.view = view();
+    move_to_file(saved, file);
+    write_file(file, to_json(saved));
+    // The document is the file's now: messages and further sources refer to it.
+    const mobb::FitOptions options = saved.fit;
+    Document now{std::make_shared<const FittedScene>(std::move(saved), options, &fitted()), view()};
+    history_.amend(std::move(now));
+    saved_ = document().fitted;
+    file_ = file;
+    if (attended_) settings.remember(file);
+    tell(Message::Level::info, "Saved " + file.string());
+}
+
+void Session::request_close() {
+    after_asking([this] { closed_ = true; });
+}
+
+void Session::after_asking(const std::function<void()>& then) {
+    if (!modified()) return then();
+    pending_ = then;
+    dialog = Dialog::unsaved;
+}
+
+void Session::answer_unsaved(Unsaved choice) {
+    dialog = Dialog::none;
+    if (choice == Unsaved::cancel) {
+        pending_ = nullptr;
+        return;
+    }
+    if (choice == Unsaved::save) {
+        save();
+        if (modified()) return;  // a name is asked for first; what waits goes on when it is saved
+    }
+    if (const auto then = std::exchange(pending_, nullptr)) then();
+}
+
+// --- messages and jobs
+
+void Session::tell(Message::Level level, const std::string& text) {
+    // Twice the same says nothing new.
+    std::erase_if(messages_, [&](const Message& message) { return message.text == text; });
+    messages_.push_back({level, text});
+    if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
+}
+
+void Session::dismiss(std::size_t message) {
+    if (message < messages_.size()) messages_.erase(messages_.begin() + static_cast<std::ptrdiff_t>(message));
+}
+
+void Session::start(std::string title, Job::Work work) {
+    if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
+    job_ = std::make_unique<Job>(std::move(title), std::move(work), hooks.wake);
+    job_->wait(attended_ ? kPatience : std::chrono::hours(24));
+    poll();
+}
+
+void Session::cancel_job() {
+    if (!job_) return;
+    job_.reset();
+    tell(Message::Level::info, "Cancelled");
+}
+
+void Session::poll() {
+    if (!job_ || !job_->done()) return;
+    // What it hands over may start the next one.
+    const std::unique_ptr<Job> done = std::move(job_);
+    try {
+        done->finish();
+    } catch (const Cancelled&) {
+        tell(Message::Level::info, "Cancelled");
+    } catch (const std::bad_alloc&) {
+        tell(Message::Level::error, "there is not enough memory for this");
+    } catch (const std::exception& error) {
+        tell(Message::Level::error, error.what());
+    }
+}
+
+// --- time
+
+mobb::Interval Session::time_span() const {
+    mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    const auto add = [&](const Participant& participant) {
+        const mobb::PlacedTree tree = fitted().placed(participant);
+        const mobb::PlacedClip& clip = tree.placed_clip();
+        span.t0 = std::min(span.t0, clip.time(0));
+        span.t1 = std::max(span.t1, clip.time(clip.count()));
+    };
+    if (view().query) {
+        const SceneQuery query = fitted().queries()[static_cast<std::size_t>(*view().query)];
+        add(query.a);
+        add(query.b);
+    } else {
+        for (const Participant& participant : fitted().participants()) add(participant);
+    }
+    return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
+}
+
+void Session::advance(double seconds) {
+    if (!playing || empty()) return;
+    const mobb::Interval span = time_span();
+    double time = view().time.value_or(span.t0) + seconds * speed;
+    if (time >= span.t1 || time < span.t0) time = span.t0;
+    look([&](ViewState& v) { v.time = time; });
+}
+
+}  // namespace mobbscope::app

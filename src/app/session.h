@@ -1,0 +1,159 @@
+/// The program behind the window: the document, what is selected, what is under way. Panels show it, commands change
+/// it; it knows neither.
+#pragma once
+
+#include <app/history.h>
+#include <app/job.h>
+#include <app/selection.h>
+#include <app/settings.h>
+#include <mobb/level_figures.h>
+#include <scene/answer.h>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// What is asked or shown over the panels, one at a time.
+enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about };
+
+/// A line for the person: what went wrong and what to do, or what was done.
+struct Message {
+    enum class Level { info, warning, error };
+    Level level = Level::info;
+    std::string text;
+};
+
+/// How the window's surroundings are reached; all may be empty.
+struct Hooks {
+    std::function<void()> wake;                                        ///< from any thread: there is news, draw a frame
+    std::function<void(const std::string&)> set_clipboard;             ///< UTF-8
+    std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
+};
+
+class Session {
+  public:
+    /// `attended`: false for scripts and pictures. Jobs are then waited for, nothing is animated, and no settings of
+    /// the person are read or written.
+    explicit Session(bool attended, Settings settings = {});
+
+    Hooks hooks;
+    Settings settings;
+
+    // The document.
+    const Document& document() const { return history_.now(); }
+    const FittedScene& fitted() const { return *document().fitted; }
+    const Scene& scene() const { return fitted().scene(); }
+    const ViewState& view() const { return document().view; }
+    const History& history() const { return history_; }
+    bool attended() const { return attended_; }
+    bool empty() const { return scene().clips.empty(); }
+
+    /// Changes the scene; its `view` is the present one and may be changed along. Throws what `change` throws, and
+    /// std::invalid_argument for options out of range: nothing is changed then. Fits that take long become a job, and
+    /// the document changes when it is done.
+    void edit(const EditName& name, const std::function<void(Scene&)>& change);
+    /// Changes how it is seen; undo takes back all that was looked at since the last edit in one go.
+    void look(const std::function<void(ViewState&)>& change);
+    /// An interaction has ended: what follows is undone apart from it.
+    void close_group() { history_.close_group(); }
+    void undo();
+    void redo();
+
+    /// What is asked in the view, recorded; null if no query is in the view.
+    const RecordedQuery* recorded() const;
+    /// The event of the trace that the view shows; requires recorded().
+    int step() const;
+    /// The first contact of any query, with what it cost; kept until the scene changes.
+    const Answer& answer_of(std::size_t query) const;
+    /// Figures of a clip's tree; kept until the scene changes.
+    const std::vector<mobb::LevelFigures>& figures_of(int clip) const;
+
+    // What is pointed at.
+    Selection selection;  ///< always of something that exists
+    Selection hovered;    ///< under the mouse in any panel
+    void select(const Selection& selected) { selection = selected; }
+
+    // Files.
+    /// Where Save writes; none: Save asks.
+    const std::optional<std::filesystem::path>& file() const { return file_; }
+    /// The scene differs from what is in the file. How it is seen does not count.
+    bool modified() const { return document().fitted != saved_; }
+    /// The file's name, or what stands for it.
+    std::string title() const;
+    /// Replaces the document, after asking if there are unsaved changes. Several files become one scene; folders stand
+    /// for the clips in them. Errors become messages, and what was open stays.
+    void open(const std::vector<std::filesystem::path>& files);
+    /// The scene that comes with the program.
+    void open_demo();
+    /// Adds clips, or whole scenes, to the document.
+    void add(const std::vector<std::filesystem::path>& files);
+    /// Throws MachineError if it cannot be written; without a file asks for one.
+    void save();
+    void save_as(const std::filesystem::path& file);
+    /// Ends the program, after asking if there are unsaved changes.
+    void request_close();
+    bool closed() const { return closed_; }
+
+    /// Does `then`, at once or when the person has said what becomes of unsaved changes.
+    void after_asking(const std::function<void()>& then);
+    /// The answer to Dialog::unsaved.
+    enum class Unsaved { save, discard, cancel };
+    void answer_unsaved(Unsaved choice);
+
+    // Dialogs and messages.
+    Dialog dialog = Dialog::none;
+    void tell(Message::Level level, const std::string& text);
+    const std::vector<Message>& messages() const { return messages_; }
+    void dismiss(std::size_t message);
+
+    // Jobs.
+    /// The work under way; null if none. The document cannot be edited meanwhile.
+    const Job* job() const { return job_.get(); }
+    void cancel_job();
+    /// Takes in what jobs have done. Call it before each frame.
+    void poll();
+
+    // Time.
+    bool playing = false;
+    double speed = 1;  ///< seconds of the scene per second
+    /// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
+    mobb::Interval time_span() const;
+    /// Moves the time cursor on if it is playing; at the end it begins again.
+    void advance(double seconds);
+
+  private:
+    using LoadAll = std::function<Scene(JobControl&)>;
+
+    void start(std::string title, Job::Work work);
+    void replace(Document document, std::optional<std::filesystem::path> file);
+    void load(std::string title, const LoadAll& load_all, const std::optional<std::filesystem::path>& file);
+    void changed();
+
+    bool attended_;
+    History history_;
+    std::shared_ptr<const FittedScene> saved_;
+    std::optional<std::filesystem::path> file_;
+    std::vector<Message> messages_;
+    std::unique_ptr<Job> job_;
+    std::function<void()> pending_;  ///< waits for the answer about unsaved changes
+    bool closed_ = false;
+
+    /// What is computed from the present scene when asked for.
+    struct Derived {
+        std::shared_ptr<const FittedScene> of;
+        std::optional<std::pair<int, RecordedQuery>> recorded;
+        std::map<std::size_t, Answer> answers;
+        std::map<int, std::vector<mobb::LevelFigures>> figures;
+    };
+    Derived& derived() const;
+    mutable Derived derived_;
+};
+
+}  // namespace mobbscope::app

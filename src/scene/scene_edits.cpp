@@ -1,0 +1,180 @@
+#include <import/text.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+template <class Items>
+std::string unused_name(const Items& items, std::string_view wanted) {
+    const auto taken = [&](std::string_view name) {
+        return std::any_of(items.begin(), items.end(), [&](const auto& item) { return item.name == name; });
+    };
+    std::string name(wanted);
+    for (int number = 2; taken(name); ++number) name = std::string(wanted) + ' ' + std::to_string(number);
+    return name;
+}
+
+Agent& agent_at(Scene& scene, int agent) { return scene.agents.at(static_cast<std::size_t>(agent)); }
+
+/// Queries as their agents are now.
+template <class Change>
+void change_sides(Scene& scene, int agent, const Change& change) {
+    for (SceneQuery& query : scene.queries) {
+        for (Participant* side : {&query.a, &query.b}) {
+            if (side->agent != agent) continue;
+            change(*side);
+            query.trace.reset();
+        }
+    }
+}
+
+std::filesystem::path relative_source(const std::filesystem::path& source, const std::filesystem::path& from,
+                                      const std::filesystem::path& to) {
+    if (source.is_absolute()) return source;
+    const std::filesystem::path led = std::filesystem::absolute(from / source).lexically_normal();
+    const std::filesystem::path leads = led.lexically_proximate(std::filesystem::absolute(to).lexically_normal());
+    return leads.empty() ? led : leads;
+}
+
+void move_sources(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to) {
+    for (SceneClip& clip : scene.clips) {
+        if (clip.source) clip.source = relative_source(*clip.source, from, to).generic_string();
+    }
+}
+
+void add_agents_for_clips(Scene& scene) {
+    if (!scene.agents.empty()) return;
+    for (int clip = 0; clip < static_cast<int>(scene.clips.size()); ++clip) {
+        scene.agents.push_back({scene.clips[static_cast<std::size_t>(clip)].name, clip, {}, {}});
+    }
+}
+
+}  // namespace
+
+std::string unused_clip_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.clips, wanted); }
+std::string unused_agent_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.agents, wanted); }
+
+void place_agent(Scene& scene, int agent, const mobb::Placement& placement) {
+    if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");
+    agent_at(scene, agent).placement = placement;
+    change_sides(scene, agent, [&](Participant& side) { side.placement = placement; });
+}
+
+void rename_agent(Scene& scene, int agent, const std::string& name) {
+    if (trimmed(name).empty()) throw std::invalid_argument("an agent needs a name");
+    for (int i = 0; i < static_cast<int>(scene.agents.size()); ++i) {
+        if (i != agent && agent_at(scene, i).name == name) {
+            throw std::invalid_argument("there is an agent " + in_quotes(name) + " already");
+        }
+    }
+    agent_at(scene, agent).name = name;
+    change_sides(scene, agent, [&](Participant& side) { side.name = name; });
+}
+
+int add_agent(Scene& scene, int clip, const mobb::Placement& placement) {
+    if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");
+    add_agents_for_clips(scene);
+    const std::string& wanted = scene.clips.at(static_cast<std::size_t>(clip)).name;
+    scene.agents.push_back({unused_agent_name(scene, wanted), clip, placement, {}});
+    return static_cast<int>(scene.agents.size()) - 1;
+}
+
+int duplicate_agent(Scene& scene, int agent) {
+    Agent copy = agent_at(scene, agent);
+    copy.name = unused_agent_name(scene, copy.name);
+    copy.color.reset();  // the palette tells the two apart
+    scene.agents.push_back(std::move(copy));
+    return static_cast<int>(scene.agents.size()) - 1;
+}
+
+void remove_agent(Scene& scene, int agent) {
+    if (scene.agents.size() == 1) throw std::invalid_argument("the last agent stays: a scene needs one");
+    agent_at(scene, agent);
+    scene.agents.erase(scene.agents.begin() + agent);
+    const bool explicit_queries = !scene.queries.empty();
+    std::erase_if(scene.queries,
+                  [&](const SceneQuery& query) { return query.a.agent == agent || query.b.agent == agent; });
+    for (SceneQuery& query : scene.queries) {
+        for (Participant* side : {&query.a, &query.b}) side->agent -= side->agent > agent ? 1 : 0;
+    }
+    // With its last query gone the scene asks all pairs again, and the one in view may be past the end.
+    if (scene.view.query && (explicit_queries || static_cast<std::size_t>(*scene.view.query) >= query_count(scene))) {
+        scene.view.query.reset();
+    }
+}
+
+std::size_t add_query(Scene& scene, int a, int b) {
+    if (a == b) throw std::invalid_argument("an agent is not asked against itself");
+    if (scene.queries.empty() && scene.agents.size() > 1) make_queries_explicit(scene);
+    const auto side = [&](int agent) {
+        const Agent& of = agent_at(scene, agent);
+        return Participant{of.name, of.clip, of.placement, agent};
+    };
+    scene.queries.push_back({side(a), side(b), {}, {}});
+    return scene.queries.size() - 1;
+}
+
+void remove_query(Scene& scene, std::size_t query) {
+    make_queries_explicit(scene);
+    if (scene.queries.size() <= 1) throw std::invalid_argument("the last query stays: without any all pairs are asked");
+    scene.queries.erase(scene.queries.begin() + static_cast<std::ptrdiff_t>(query));
+}
+
+void make_queries_explicit(Scene& scene) {
+    if (!scene.queries.empty()) return;
+    std::vector<SceneQuery> queries;
+    const std::size_t count = query_count(scene);
+    queries.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) queries.push_back(query_at(scene, i));
+    scene.queries = std::move(queries);
+}
+
+void drop_traces(Scene& scene) {
+    for (SceneQuery& query : scene.queries) query.trace.reset();
+}
+
+void merge(Scene& scene, Scene other) {
+    if (scene.clips.empty()) {
+        scene = std::move(other);
+        return;
+    }
+    // Bare clips are seen where they are; next to agents only agents are seen.
+    if (!scene.agents.empty() || !other.agents.empty()) {
+        add_agents_for_clips(scene);
+        add_agents_for_clips(other);
+    }
+    if (!other.queries.empty()) make_queries_explicit(scene);
+    move_sources(other, other.file.parent_path(), scene.file.parent_path());
+    const int first_clip = static_cast<int>(scene.clips.size());
+    const int first_agent = static_cast<int>(scene.agents.size());
+    for (SceneClip& clip : other.clips) {
+        clip.name = unused_clip_name(scene, clip.name);
+        scene.clips.push_back(std::move(clip));
+    }
+    for (Agent& agent : other.agents) {
+        agent.name = unused_agent_name(scene, agent.name);
+        agent.clip += first_clip;
+        scene.agents.push_back(std::move(agent));
+    }
+    for (SceneQuery& query : other.queries) {
+        for (Participant* side : {&query.a, &query.b}) {
+            side->clip += first_clip;
+            if (side->agent >= 0) side->agent += first_agent;
+            side->name = side->agent >= 0 ? agent_at(scene, side->agent).name
+                                          : scene.clips[static_cast<std::size_t>(side->clip)].name;
+        }
+        scene.queries.push_back(std::move(query));
+    }
+}
+
+void move_to_file(Scene& scene, const std::filesystem::path& file) {
+    move_sources(scene, scene.file.parent_path(), file.parent_path());
+    scene.file = file;
+}
+
+}  // namespace mobbscope
