@@ -86,7 +86,8 @@ void draw_handles(Ui& ui, const ShownPicture& picture, const HandlePlaces& place
             draw.AddLine(*foot, head, ground, ui.px(3.5f));
             draw.AddLine(*foot, head, color(Handle::shift), ui.px(1.5f));
             const float w = ui.px(kKnob);
-            draw.AddTriangleFilled({head.x - w, head.y + w}, {head.x + w, head.y + w}, {head.x, head.y - w}, color(Handle::shift));
+            draw.AddTriangleFilled({head.x - w, head.y + w}, {head.x + w, head.y + w}, {head.x, head.y - w},
+                                   color(Handle::shift));
         }
     }
     if (places.move) {

@@ -13,9 +13,9 @@ enum class Handle { none, move, turn, shift };
 
 /// Where the handles of a path stand in the picture, pixels of the window.
 struct HandlePlaces {
-    double time = 0;      ///< of the plane in which it is moved and turned: when the path starts
-    glm::dvec2 pivot{0};  ///< where the path starts, world metres
-    double radius = 0;    ///< of the ring that turns it, metres
+    double time = 0;                          ///< of the plane in which it is moved and turned: when the path starts
+    glm::dvec2 pivot{0};                      ///< where the path starts, world metres
+    double radius = 0;                        ///< of the ring that turns it, metres
     std::optional<ImVec2> move, turn, shift;  ///< their middles; none where they cannot be seen or have no meaning
 };
 HandlePlaces handle_places(Ui& ui, const ShownPicture& picture, const mobb::PlacedClip& clip);

@@ -7,6 +7,7 @@
 #include <app/selection.h>
 #include <app/settings.h>
 #include <mobb/level_figures.h>
+#include <render/image.h>
 #include <scene/answer.h>
 
 #include <filesystem>
@@ -32,8 +33,10 @@ struct Message {
 
 /// How the window's surroundings are reached; all may be empty.
 struct Hooks {
-    std::function<void()> wake;                                        ///< from any thread: there is news, draw a frame
-    std::function<void(const std::string&)> set_clipboard;             ///< UTF-8
+    std::function<void()> wake;                             ///< from any thread: there is news, draw a frame
+    std::function<void(const std::string&)> set_clipboard;  ///< UTF-8
+    std::function<Camera()> settled_camera;                 ///< of the viewport's picture, see render/settle.h
+    std::function<PictureSize()> viewport_size;             ///< of the viewport's picture
     std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
 };
 

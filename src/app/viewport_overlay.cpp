@@ -42,12 +42,14 @@ void describe_node(Described& out, const Subject& subject, int index) {
     out.name = node_name(subject, index);
     const mobb::Box world = world_box(tree, index);
     const bool upright = world.kind == mobb::BoxKind::obb2d;
-    out.facts = {{"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + (upright ? ", 2D box" : ", 3D box")},
-                 {"level", std::to_string(node.level)},
-                 {"samples", std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" + std::to_string(node.count) + ")"},
-                 {"time", numbers("%.3f..%.3f s", tree.begin(node), tree.end(node))},
-                 {"centre", numbers("%.3f, %.3f m", world.center.x, world.center.y)},
-                 {upright ? "sides" : "sides 1, 2", numbers("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1])}};
+    out.facts = {
+        {"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + (upright ? ", 2D box" : ", 3D box")},
+        {"level", std::to_string(node.level)},
+        {"samples",
+         std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" + std::to_string(node.count) + ")"},
+        {"time", numbers("%.3f..%.3f s", tree.begin(node), tree.end(node))},
+        {"centre", numbers("%.3f, %.3f m", world.center.x, world.center.y)},
+        {upright ? "sides" : "sides 1, 2", numbers("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1])}};
     if (!upright) out.facts.emplace_back("side 3", numbers("%.3f m", 2 * world.half[2], 0));
     const double volume = mobb::volume(node.box, tree.time_scale());
     double cylinders = 0;
@@ -68,7 +70,8 @@ void describe_sample(Described& out, const Subject& subject, int index) {
                  {"radius", numbers("%.3f m", disk.r, 0)}};
     if (index + 1 < clip.count()) {
         const mobb::Disk next = clip.disk(index + 1);
-        out.facts.emplace_back("speed", numbers("%.2f m/s", std::hypot(next.x - disk.x, next.y - disk.y) / clip.clip().dt(), 0));
+        out.facts.emplace_back("speed",
+                               numbers("%.2f m/s", std::hypot(next.x - disk.x, next.y - disk.y) / clip.clip().dt(), 0));
     }
 }
 
@@ -80,7 +83,8 @@ void describe_path(Described& out, const FittedScene& fitted, const Participant&
                  {"samples", std::to_string(clip.count())},
                  {"time", numbers("%.3f..%.3f s", clip.time(0), clip.time(clip.count()))},
                  {"starts at", numbers("%.3f, %.3f m", clip.disk(0).x, clip.disk(0).y)},
-                 {"tree", std::to_string(tree.tree().nodes().size()) + " nodes, " + std::to_string(tree.tree().depth()) + " levels"}};
+                 {"tree", std::to_string(tree.tree().nodes().size()) + " nodes, " +
+                              std::to_string(tree.tree().depth()) + " levels"}};
 }
 
 void describe_clip(Described& out, const SceneClip& clip) {

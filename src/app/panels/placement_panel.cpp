@@ -1,7 +1,89 @@
+#include <app/command.h>
 #include <app/panels.h>
+#include <app/panels/parts.h>
+#include <scene/scene_edits.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
 
 namespace mobbscope::app {
 
-void placement_panel(Ui& ui) { static_cast<void>(ui); }
+namespace {
+
+/// A number to type, or to drag; true when it has changed.
+bool number(Ui& ui, const char* label, const char* name, double& value, float speed, const char* format,
+            const char* help) {
+    form_label(ui, label, help);
+    ImGui::PushFont(ui.look.mono);
+    const bool changed = ImGui::DragScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &value, speed,
+                                           nullptr, nullptr, format);
+    ImGui::PopFont();
+    ui.mark(name);
+    return changed && std::isfinite(value);
+}
+
+void rename(Ui& ui, int agent, const std::string& name) {
+    form_label(ui, "Name", "What the agent is called in queries and pictures");
+    std::array<char, 256> text{};
+    std::strncpy(text.data(), name.c_str(), text.size() - 1);
+    ImGui::InputText("##agent.name", text.data(), text.size());
+    ui.mark("agent.name");
+    if (!ImGui::IsItemDeactivatedAfterEdit() || name == text.data()) return;
+    try {
+        ui.session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text.data()); });
+    } catch (const std::exception& error) {
+        ui.session.tell(Message::Level::error, error.what());
+    }
+}
+
+void color(Ui& ui, const Participant& who, int index) {
+    form_label(ui, "Colour", nullptr);
+    const Rgba now = agent_color(ui.session.scene(), who, index);
+    std::array<float, 3> rgb{now.r, now.g, now.b};
+    const bool changed =
+        ImGui::ColorEdit3("##agent.color", rgb.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
+    ui.mark("agent.color");
+    if (!changed) return;
+    ui.session.edit({"colouring " + who.name, "color"}, [&](Scene& scene) {
+        const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
+        scene.agents[static_cast<std::size_t>(who.agent)].color = Color{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
+    });
+}
+
+}  // namespace
+
+void placement_panel(Ui& ui) {
+    Session& session = ui.session;
+    if (!session.selection.on_path()) return;
+    const auto who = participant_of(session.fitted(), session.selection.path);
+    if (!who || who->agent < 0) return;
+    ImGui::PushID("placement");
+    heading(ui, "PLACEMENT");
+    rename(ui, who->agent, who->name);
+    mobb::Placement placement = who->placement;
+    bool changed = number(ui, "x", "agent.x", placement.translate.x, 0.01f, "%.3f m", "Where the clip's origin goes");
+    changed |= number(ui, "y", "agent.y", placement.translate.y, 0.01f, "%.3f m", "Where the clip's origin goes");
+    changed |= number(ui, "turned", "agent.turn", placement.rotate_deg, 0.25f, "%.2f\u00B0",
+                      "About the clip's origin, counter-clockwise");
+    changed |= number(ui, "starts at", "agent.start", placement.start, 0.01f, "%.3f s",
+                      "Global time at which the clip begins");
+    color(ui, *who, session.selection.path.participant);
+    if (changed) {
+        try {
+            session.edit({"placing " + who->name, "placement"},
+                         [&](Scene& scene) { place_agent(scene, who->agent, placement); });
+        } catch (const std::exception& error) {
+            session.tell(Message::Level::error, error.what());
+        }
+    }
+    if (ImGui::SmallButton("Duplicate")) invoke(session, "agent.duplicate");
+    ui.mark("agent.duplicate");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Remove")) invoke(session, "agent.remove");
+    ui.mark("agent.remove");
+    ImGui::PopID();
+}
 
 }  // namespace mobbscope::app

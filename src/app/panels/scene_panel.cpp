@@ -1,7 +1,136 @@
+#include <app/command.h>
 #include <app/panels.h>
+#include <app/panels/parts.h>
+#include <render/palette.h>
+
+#include <cstdio>
 
 namespace mobbscope::app {
 
-void scene_panel(Ui& ui) { static_cast<void>(ui); }
+namespace {
+
+constexpr int kMostRows = 9;
+
+std::string seconds(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f s", value);
+    return text;
+}
+
+void agent_menu(Ui& ui, const Selection& self) {
+    if (!ImGui::BeginPopupContextItem()) return;
+    ui.session.select(self);
+    for (const char* id : {"view.frame", "agent.duplicate", "agent.remove"}) {
+        const Command* command = find_command(id);
+        if (!command) continue;
+        const std::string title(command->title);
+        const std::string shortcut(command->shortcut);
+        if (ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command->enabled(ui.session)))
+            invoke(ui.session, id);
+    }
+    ImGui::EndPopup();
+}
+
+/// One of what is seen: an agent, or in a scene without agents a clip where it is.
+void path_row(Ui& ui, int index) {
+    Session& session = ui.session;
+    const FittedScene& fitted = session.fitted();
+    const Participant& who = fitted.participants()[static_cast<std::size_t>(index)];
+    const Selection self{Selection::Kind::path, {index, -1, 0}, -1};
+    const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const mobb::Clip& clip = *fitted.scene().clips[static_cast<std::size_t>(who.clip)].clip;
+    const bool clicked = row(ui, {"agent" + std::to_string(index), who.name, seconds(clip.duration()),
+                                  on_it(session.selection), on_it(session.hovered), ui.px(18), 0});
+    ui.mark("agent." + std::to_string(index));
+    agent_menu(ui, self);
+    const float side = ui.px(10);
+    const float y = corner.y + 0.5f * (ImGui::GetFrameHeight() - side);
+    ImGui::GetWindowDrawList()->AddRectFilled({corner.x + ui.px(7), y}, {corner.x + ui.px(7) + side, y + side},
+                                              to_im(agent_color(fitted.scene(), who, index)), ui.px(2));
+    if (ImGui::IsItemHovered()) session.hovered = self;
+    if (clicked) session.select(self);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
+}
+
+void agents(Ui& ui) {
+    Session& session = ui.session;
+    const bool has_agents = !session.scene().agents.empty();
+    heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE");
+    numbers_right(ui, std::to_string(session.fitted().participants().size()), ui.look.quiet);
+    rows(ui, "##agents", static_cast<int>(session.fitted().participants().size()), kMostRows,
+         [&](int i) { path_row(ui, i); });
+    if (ImGui::SmallButton("+ agent")) ImGui::OpenPopup("add agent");
+    ui.mark("scene.add_agent");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add an agent that plays one of the clips");
+    if (ImGui::BeginPopup("add agent")) {
+        for (const SceneClip& clip : session.scene().clips) {
+            // The scene changes under the loop when an agent is added.
+            const std::string name = clip.name;
+            if (!ImGui::MenuItem(name.c_str())) continue;
+            invoke(session, "agent.add", name);
+            break;
+        }
+        ImGui::EndPopup();
+    }
+}
+
+void clips(Ui& ui) {
+    Session& session = ui.session;
+    const auto& all = session.scene().clips;
+    heading(ui, "CLIPS");
+    numbers_right(ui, std::to_string(all.size()), ui.look.quiet);
+    rows(ui, "##clips", static_cast<int>(all.size()), kMostRows, [&](int i) {
+        const SceneClip& clip = all[static_cast<std::size_t>(i)];
+        const Selection self{Selection::Kind::clip, {}, i};
+        const bool warned = !clip.facts.warnings.empty();
+        if (row(ui, {"clip" + std::to_string(i), clip.name, (warned ? "! " : "") + seconds(clip.clip->duration()),
+                     session.selection == self, session.hovered == self, 0, warned ? ui.look.warning : 0})) {
+            session.select(self);
+        }
+        ui.mark("clip." + std::to_string(i));
+        if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().c_str());
+    });
+    if (ImGui::SmallButton("+ files")) invoke(session, "file.add");
+    ui.mark("scene.add_files");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add clips, or the clips and agents of another scene");
+}
+
+void queries(Ui& ui) {
+    Session& session = ui.session;
+    const auto count = static_cast<int>(session.fitted().queries().size());
+    heading(ui, session.scene().queries.empty() && count > 0 ? "QUERIES (ALL PAIRS)" : "QUERIES");
+    numbers_right(ui, std::to_string(count), ui.look.quiet);
+    rows(ui, "##queries", count, kMostRows, [&](int i) {
+        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
+        const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
+        const bool hit = answer.contact.has_value();
+        const bool unexpected = query.expect && query.expect->collides != hit;
+        const Palette& palette = ui.look.palette;
+        if (row(ui,
+                {"query" + std::to_string(i), query.a.name + " against " + query.b.name,
+                 std::string(unexpected ? "! " : "") + (hit ? "\u25CF hit" : "\u25CB miss"), session.view().query == i,
+                 false, 0, to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
+            invoke(session, session.view().query == i ? "query.none" : "query.select",
+                   session.view().query == i ? "" : std::to_string(i));
+        }
+        ui.mark("query." + std::to_string(i));
+        if (unexpected && ImGui::IsItemHovered()) ImGui::SetTooltip("The scene expects the other answer");
+    });
+    if (count == 0) words(ui, "needs two agents", ui.look.quiet);
+}
+
+}  // namespace
+
+void scene_panel(Ui& ui) {
+    if (ui.session.empty()) {
+        words(ui, "Nothing is open", ui.look.quiet);
+        return;
+    }
+    agents(ui);
+    placement_panel(ui);
+    clips(ui);
+    queries(ui);
+}
 
 }  // namespace mobbscope::app

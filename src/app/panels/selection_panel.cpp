@@ -1,7 +1,27 @@
 #include <app/panels.h>
+#include <app/panels/parts.h>
+#include <app/viewport_overlay.h>
 
 namespace mobbscope::app {
 
-void selection_panel(Ui& ui) { static_cast<void>(ui); }
+void selection_panel(Ui& ui) {
+    const Session& session = ui.session;
+    if (session.empty()) return;
+    heading(ui, "SELECTION");
+    if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
+        ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+        ImGui::TextWrapped("Click a disk, a box or a name. Click again for what lies behind.");
+        ImGui::PopStyleColor();
+        return;
+    }
+    const Described what = describe(session.fitted(), session.selection);
+    ImGui::TextWrapped("%s", what.name.c_str());
+    for (const auto& [key, value] : what.facts) {
+        form_label(ui, key.c_str(), nullptr);
+        ImGui::PushFont(ui.look.mono);
+        ImGui::TextWrapped("%s", value.c_str());
+        ImGui::PopFont();
+    }
+}
 
 }  // namespace mobbscope::app

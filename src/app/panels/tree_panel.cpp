@@ -1,7 +1,189 @@
+#include <app/command.h>
 #include <app/panels.h>
+#include <app/panels/parts.h>
+#include <import/text.h>
+#include <render/level_boxes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 
 namespace mobbscope::app {
 
-void tree_panel(Ui& ui) { static_cast<void>(ui); }
+namespace {
+
+struct Choice {
+    const char* value;  ///< the command's argument
+    const char* label;
+    const char* help;
+};
+
+constexpr std::array<Choice, 4> kKinds{{{"mobb", "MOBB", "Boxes upright in time"},
+                                        {"umobb", "UMOBB", "Free boxes in space-time"},
+                                        {"hybrid1", "hybrid 1", "MOBB root, UMOBB below"},
+                                        {"hybrid2", "hybrid 2", "UMOBB root, MOBB below"}}};
+constexpr std::array<Choice, 3> kAxes{{{"endpoints", "endpoints", "Along first to last sample: the paper's"},
+                                       {"covariance", "covariance", "Principal axes of the centres"},
+                                       {"minarea", "minarea", "Smallest area or volume found"}}};
+constexpr std::array<Choice, 2> kColours{{{"agent", "agent", "Boxes in their agent's colour"},
+                                          {"level", "level", "Boxes by their level, from dark to bright"}}};
+
+template <std::size_t count>
+void choose(Ui& ui, const char* label, const char* command, const std::array<Choice, count>& choices,
+            std::string_view now, const char* help) {
+    form_label(ui, label, help);
+    const auto at = std::find_if(choices.begin(), choices.end(), [&](const Choice& c) { return c.value == now; });
+    const bool open = ImGui::BeginCombo((std::string("##") + command).c_str(), at == choices.end() ? "" : at->label);
+    ui.mark(command);
+    if (!open) return;
+    for (const Choice& choice : choices) {
+        if (ImGui::Selectable(choice.label, choice.value == now)) invoke(ui.session, command, choice.value);
+        ui.mark(std::string(command) + "." + choice.value);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.help);
+    }
+    ImGui::EndCombo();
+}
+
+/// A whole number with buttons; what is typed counts when it is done.
+void whole(Ui& ui, const char* label, const char* command, int now, int least, const char* help) {
+    form_label(ui, label, help);
+    ImGui::PushFont(ui.look.mono);
+    int value = now;
+    ImGui::InputInt((std::string("##") + command).c_str(), &value, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool left = ImGui::IsItemDeactivatedAfterEdit();
+    ImGui::PopFont();
+    ui.mark(command);
+    static_cast<void>(left);
+    if (value != now && value >= least) invoke(ui.session, command, std::to_string(value));
+}
+
+void time_scale(Ui& ui) {
+    const mobb::FitOptions& fit = ui.session.fitted().options();
+    form_label(ui, "Time scale",
+               "Metres per second that mix time with space in free boxes (w); MOBB boxes do not use it");
+    ImGui::BeginDisabled(fit.tree == mobb::TreeKind::mobb);
+    ImGui::PushFont(ui.look.mono);
+    double value = fit.time_scale;
+    const double least = 1 / mobb::kMaxTimeScale;
+    const double most = mobb::kMaxTimeScale;
+    const bool changed = ImGui::DragScalar("##tree.time_scale", ImGuiDataType_Double, &value, 0.01f, &least, &most,
+                                           "%.3g m/s", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    ImGui::PopFont();
+    ImGui::EndDisabled();
+    ui.mark("tree.time_scale");
+    if (changed && std::isfinite(value)) invoke(ui.session, "tree.time_scale", short_double(value));
+}
+
+/// Which levels are drawn.
+void shown_levels(Ui& ui, int depth) {
+    const ViewState& view = ui.session.view();
+    form_label(ui, "Show levels", "Which boxes are drawn: from a level to another, or the leaves");
+    const int last = std::max(0, depth - 1);
+    std::array<int, 2> range{std::min(view.levels.first, last), std::min(view.levels.last, last)};
+    const float leaves = ImGui::CalcTextSize("leaves").x + ui.px(34);
+    ImGui::SetNextItemWidth(std::max(ui.px(50), ImGui::GetContentRegionAvail().x - leaves - ui.px(6)));
+    ImGui::PushFont(ui.look.mono);
+    ImGui::BeginDisabled(view.levels.leaves);
+    if (ImGui::SliderInt2("##view.level", range.data(), 0, last, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+        // The end that was not moved gives way.
+        if (range[0] > range[1])
+            (range[0] != view.levels.first ? range[1] : range[0]) = range[0] != view.levels.first ? range[0] : range[1];
+        invoke(ui.session, "view.level", std::to_string(range[0]) + ":" + std::to_string(range[1]));
+    }
+    ImGui::EndDisabled();
+    ImGui::PopFont();
+    ui.mark("view.level");
+    ImGui::SameLine(0, ui.px(6));
+    bool all = view.levels.leaves;
+    if (ImGui::Checkbox("leaves", &all)) invoke(ui.session, "view.leaves");
+    ui.mark("view.leaves");
+}
+
+/// The tree that the bars are about: of what is selected, else the first that is seen.
+int clip_in_focus(const Session& session) {
+    if (session.selection.kind == Selection::Kind::clip) return session.selection.index;
+    if (session.selection.on_path()) {
+        if (const auto who = participant_of(session.fitted(), session.selection.path)) return who->clip;
+    }
+    return session.fitted().participants().front().clip;
+}
+
+/// Volume of each level as a bar, and how much of it the disks fill.
+void level_bars(Ui& ui, int clip) {
+    const Session& session = ui.session;
+    const auto& figures = session.figures_of(clip);
+    heading(ui, "VOLUME BY LEVEL");
+    numbers_right(ui, session.scene().clips[static_cast<std::size_t>(clip)].name, ui.look.quiet);
+    const double most = std::max(figures.front().volume, 1e-300);
+    const ImFont* mono = ui.look.mono;
+    const float height = ui.px(18);
+    const auto draw_row = [&](int i) {
+        const mobb::LevelFigures& level = figures[static_cast<std::size_t>(i)];
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const float width = ImGui::GetContentRegionAvail().x;
+        const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
+        ui.mark("level." + std::to_string(i));
+        const bool over = ImGui::IsItemHovered();
+        const LevelRange& shown = session.view().levels;
+        const bool drawn =
+            !shown.leaves && !session.view().query && level.level >= shown.first && level.level <= shown.last;
+        char text[64];
+        std::snprintf(text, sizeof text, level.tightness ? "%.3g  %2.0f%%" : "%.3g", level.volume,
+                      100 * level.tightness.value_or(0));
+        const float label = ui.px(26);
+        const float figure = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, "00.00  100%").x;
+        const float room = std::max(ui.px(20), width - label - figure - ui.px(8));
+        const float long_bar = room * static_cast<float>(level.volume / most);
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        const float y0 = corner.y + ui.px(3);
+        const float y1 = corner.y + height - ui.px(3);
+        const ImVec2 start{corner.x + label, y0};
+        draw.AddText(mono, mono->FontSize, {corner.x, corner.y + 0.5f * (height - mono->FontSize)},
+                     drawn || over ? ui.look.text : ui.look.quiet, ("L" + std::to_string(level.level)).c_str());
+        const Rgba accent = ui.look.palette.accent;
+        draw.AddRectFilled(start, {start.x + std::max(ui.px(1), long_bar), y1},
+                           to_im(with_alpha(accent, drawn || over ? 0.55f : 0.3f)), ui.px(2));
+        // The filled part is what the disks take of the boxes.
+        draw.AddRectFilled(start, {start.x + long_bar * static_cast<float>(level.tightness.value_or(0)), y1},
+                           to_im(accent), ui.px(2));
+        draw.AddText(mono, mono->FontSize,
+                     {corner.x + width - mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text).x,
+                      corner.y + 0.5f * (height - mono->FontSize)},
+                     ui.look.quiet, text);
+        if (clicked) invoke(ui.session, "view.level", std::to_string(level.level));
+        if (over) {
+            ImGui::SetTooltip(
+                "level %d: %d boxes, %.6g m\u00B2\u00B7s\nthe disks fill %.1f %% of them (tightness %.4f)\nclick to "
+                "show this level",
+                level.level, level.nodes, level.volume, 100 * level.tightness.value_or(0), level.tightness.value_or(0));
+        }
+    };
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    for (int i = 0; i < static_cast<int>(figures.size()); ++i) draw_row(i);
+    ImGui::PopStyleVar();
+    words(ui, "m\u00B2\u00B7s, and how full", ui.look.quiet);
+}
+
+}  // namespace
+
+void tree_panel(Ui& ui) {
+    const Session& session = ui.session;
+    if (session.empty()) return;
+    ImGui::PushID("tree");
+    heading(ui, "TREE");
+    const mobb::FitOptions fit = session.fitted().options();
+    choose(ui, "Kind", "tree.kind", kKinds, mobb::name(fit.tree), "What bounds the disks");
+    whole(ui, "Leaf samples", "tree.leaf", fit.leaf, 1, "n_min: a node of at most so many samples is a leaf");
+    choose(ui, "Axes", "tree.axes", kAxes, mobb::name(fit.axes), "How boxes are turned");
+    whole(ui, "Levels", "tree.levels", fit.levels, 0, "0: all; 1 is the paper's \"1 level\" tree");
+    time_scale(ui);
+    const int clip = clip_in_focus(session);
+    shown_levels(ui, session.fitted().tree(clip).depth());
+    choose(ui, "Colour by", "view.color_by", kColours, session.view().color_by == ColorBy::level ? "level" : "agent",
+           "What the boxes' colours mean");
+    level_bars(ui, clip);
+    ImGui::PopID();
+}
 
 }  // namespace mobbscope::app

@@ -1,0 +1,99 @@
+#include <app/panels/parts.h>
+
+#include <algorithm>
+
+namespace mobbscope::app {
+
+void heading(Ui& ui, const char* text) {
+    ImGui::Dummy({0, ui.px(4)});
+    ImGui::PushFont(ui.look.caption);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+void words(Ui&, const std::string& text, ImU32 color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void numbers(Ui& ui, const std::string& text, ImU32 color) {
+    ImGui::PushFont(ui.look.mono);
+    words(ui, text, color);
+    ImGui::PopFont();
+}
+
+void numbers_right(Ui& ui, const std::string& text, ImU32 color) {
+    ImGui::PushFont(ui.look.mono);
+    ImGui::SameLine();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const std::string shown = fitted_text(text, room);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room - ImGui::CalcTextSize(shown.c_str()).x));
+    words(ui, shown, color);
+    ImGui::PopFont();
+}
+
+void form_label(Ui& ui, const char* label, const char* help) {
+    ImGui::AlignTextToFramePadding();
+    words(ui, label, ui.look.quiet);
+    if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    const float column = std::max(ui.px(86), 0.38f * ImGui::GetWindowContentRegionMax().x);
+    ImGui::SameLine(column);
+    ImGui::SetNextItemWidth(-1);
+}
+
+std::string fitted_text(const std::string& text, float room) {
+    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+    std::string cut = text;
+    while (!cut.empty() && ImGui::CalcTextSize((cut + "\u2026").c_str()).x > room) {
+        // Whole characters of UTF-8.
+        do cut.pop_back();
+        while (!cut.empty() && (static_cast<unsigned char>(text[cut.size()]) & 0xC0u) == 0x80u);
+    }
+    return cut + "\u2026";
+}
+
+void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw) {
+    const float height = ImGui::GetFrameHeight();
+    const bool scrolls = count > most_rows;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), 0});
+    if (scrolls)
+        ImGui::BeginChild(name, {0, height * (static_cast<float>(most_rows) + 0.5f)}, false,
+                          ImGuiWindowFlags_NoBackground);
+    ImGuiListClipper clipper;
+    clipper.Begin(count, height);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw(i);
+    }
+    if (scrolls) ImGui::EndChild();
+    ImGui::PopStyleVar();
+}
+
+bool row(Ui& ui, const Row& row) {
+    const float height = ImGui::GetFrameHeight();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::PushID(row.id.c_str());
+    const bool clicked = ImGui::InvisibleButton("##row", {width, height});
+    ImGui::PopID();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 end{corner.x + width, corner.y + height};
+    if (row.selected || row.hovered || ImGui::IsItemHovered()) {
+        draw.AddRectFilled(corner, end, row.selected ? ui.look.raised : ui.look.border, ui.px(4));
+    }
+    if (row.selected) draw.AddRectFilled(corner, {corner.x + ui.px(2), end.y}, ui.look.accent, ui.px(1));
+    const float pad = ui.px(6);
+    const ImFont* mono = ui.look.mono;
+    const float y = corner.y + 0.5f * (height - ImGui::GetFontSize());
+    const ImVec2 remark = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, row.remark.c_str());
+    const float left = corner.x + pad + row.indent;
+    const std::string name = fitted_text(row.name, std::max(ui.px(24), end.x - pad - remark.x - ui.px(8) - left));
+    draw.AddText({left, y}, ui.look.text, name.c_str());
+    draw.AddText(mono, mono->FontSize, {end.x - pad - remark.x, corner.y + 0.5f * (height - mono->FontSize)},
+                 row.remark_color != 0 ? row.remark_color : ui.look.quiet, row.remark.c_str());
+    return clicked;
+}
+
+}  // namespace mobbscope::app

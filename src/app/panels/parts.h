@@ -1,0 +1,41 @@
+/// Pieces that panels are built from.
+#pragma once
+
+#include <app/ui.h>
+
+#include <functional>
+#include <string>
+
+namespace mobbscope::app {
+
+/// The quiet heading of a section.
+void heading(Ui& ui, const char* text);
+
+/// Words in a colour; numbers in the fixed-width face.
+void words(Ui& ui, const std::string& text, ImU32 color);
+void numbers(Ui& ui, const std::string& text, ImU32 color);
+/// The same at the right edge of the panel, on the present line; cut off visibly if there is no room.
+void numbers_right(Ui& ui, const std::string& text, ImU32 color);
+
+/// A row of a form: the label at the left, the next widget takes the rest.
+void form_label(Ui& ui, const char* label, const char* help);
+
+/// A text that fits `room` pixels in the present font: its end becomes an ellipsis.
+std::string fitted_text(const std::string& text, float room);
+
+/// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.
+void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw);
+
+/// A list's row across the panel: a name, and a short remark at its right end. Returns true when it is clicked.
+struct Row {
+    std::string id;  ///< unique in the list
+    std::string name;
+    std::string remark;
+    bool selected = false;
+    bool hovered = false;    ///< lit, as it is under the mouse elsewhere
+    float indent = 0;        ///< pixels left of the name
+    ImU32 remark_color = 0;  ///< 0: quiet
+};
+bool row(Ui& ui, const Row& row);
+
+}  // namespace mobbscope::app

@@ -1,0 +1,69 @@
+#include <app/command.h>
+#include <app/viewport.h>
+
+#include <array>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// A small button for a command; lit while the command says it is on.
+void command_button(Ui& ui, const char* label, const char* id) {
+    const Command* command = find_command(id);
+    if (!command) return;
+    const bool on = command->checked && command->checked(ui.session);
+    const bool enabled = command->enabled(ui.session);
+    ImGui::BeginDisabled(!enabled);
+    ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.look.raised : IM_COL32_BLACK_TRANS);
+    ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.look.text : ui.look.quiet);
+    if (ImGui::Button(label)) invoke(ui.session, id);
+    ImGui::PopStyleColor(2);
+    ImGui::EndDisabled();
+    ui.mark(std::string("toolbar.") + id);
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+        ImGui::SetTooltip("%.*s  %.*s", static_cast<int>(command->title.size()), command->title.data(),
+                          static_cast<int>(command->shortcut.size()), command->shortcut.data());
+    }
+}
+
+}  // namespace
+
+void viewport_toolbar(Ui& ui) {
+    struct Item {
+        const char* label;
+        const char* id;  ///< null: a gap
+    };
+    constexpr std::array<Item, 13> kItems{{{"Iso", "view.iso"},
+                                           {"Top", "view.top"},
+                                           {"Front", "view.front"},
+                                           {"Side", "view.side"},
+                                           {nullptr, nullptr},
+                                           {"Frame", "view.frame"},
+                                           {"Perspective", "view.perspective"},
+                                           {nullptr, nullptr},
+                                           {"Disks", "view.disks"},
+                                           {"Boxes", "view.boxes"},
+                                           {"Floor", "view.floor"},
+                                           {"Labels", "view.labels"},
+                                           {"Legend", "view.legend"}}};
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ui.px(4)});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(8), ui.px(3)});
+    ImGui::SetCursorPos({ui.px(6), ui.px(4)});
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
+    float widest = 0;
+    for (const Item& item : kItems) {
+        if (!item.label) {
+            ImGui::SameLine(0, ui.px(14));
+            continue;
+        }
+        widest = ImGui::CalcTextSize(item.label).x + ui.px(16);
+        // What has no room is still in the menus.
+        if (ImGui::GetCursorScreenPos().x + widest > right) break;
+        command_button(ui, item.label, item.id);
+        ImGui::SameLine();
+    }
+    ImGui::NewLine();
+    ImGui::PopStyleVar(2);
+}
+
+}  // namespace mobbscope::app
