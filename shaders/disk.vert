@@ -1,24 +1,36 @@
 #version 330 core
-// A unit cylinder, placed and scaled for each sample.
+// A unit cylinder, placed and scaled for each sample, or leaning and tapered for a run of them.
 layout(location = 0) in vec3 corner;  // x, y on the unit circle or its centre; z 0 below, 1 above
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 base_and_radius;
-layout(location = 3) in float height;
+layout(location = 3) in vec4 top_and_radius;
 layout(location = 4) in vec4 color;
 layout(location = 5) in uvec2 id;
 
 uniform mat4 clip_from_world;
+uniform vec3 back;  // towards the eye
+uniform bool runs;
 
 out vec3 surface_normal;
-out vec4 surface_color;
+out float upper;  // share of the disks' faces, the rest being their sides
+flat out vec4 surface_color;
 out vec2 local;  // 0 in the middle to 1 at the rim; 0 below to 1 above
 flat out uvec2 object_id;
 
 void main() {
-    vec3 point = base_and_radius.xyz + vec3(corner.xy * base_and_radius.w, corner.z * height);
-    gl_Position = clip_from_world * vec4(point, 1.0);
+    vec4 end = corner.z > 0.5 ? top_and_radius : base_and_radius;
+    gl_Position = clip_from_world * vec4(end.xyz + vec3(corner.xy * end.w, 0.0), 1.0);
     surface_normal = normal;
+    upper = abs(normal.z);
     surface_color = color;
     local = vec2(length(corner.xy), corner.z);
+    if (runs) {
+        // Of each disk as much of the face is seen as its successor leaves free, beside its side.
+        vec4 step = top_and_radius - base_and_radius;
+        float face = max(0.0, -(dot(step.xy, normal.xy) + step.w) * back.z);
+        float side = max(0.0, step.z * dot(normal.xy, back.xy));
+        upper = face / max(face + side, 1e-6);
+        local.y += 10.0;  // far from an edge
+    }
     object_id = id;
 }

@@ -1,4 +1,5 @@
 #include <render/disk_pass.h>
+#include <render/disk_runs.h>
 #include <render/light.h>
 #include <render/vertex_layout.h>
 
@@ -10,6 +11,15 @@
 
 namespace mobbscope {
 
+struct DiskPass::Instance {
+    glm::vec3 base;
+    float radius;
+    glm::vec3 top;
+    float top_radius;
+    Rgba color;
+    GLuint id[2];
+};
+
 namespace {
 
 struct Vertex {
@@ -17,36 +27,36 @@ struct Vertex {
     glm::vec3 normal;
 };
 
-struct Instance {
-    glm::vec3 base;
-    float radius;
-    float height;
-    Rgba color;
-    GLuint id[2];
-};
+/// Pixels that a shape may be off.
+constexpr float tolerance(Detail detail) { return detail == Detail::fine ? 0.17f : 0.45f; }
 
-/// Enough sides that the largest disk looks round: its outline is within a sixth of a pixel of a circle.
-int sides_for(const DrawList& list) {
+/// Enough sides that the largest disk looks round.
+int sides_for(const DrawList& list, Detail detail) {
+    const PixelScale scale(list.lens);
     float radius = 0;
-    for (const DiskInstance& disk : list.disks) {
-        radius = std::max(radius, disk.radius * list.lens.pixels_per_metre(disk.base));
-    }
-    const float sides = std::numbers::pi_v<float> / std::acos(1 - std::min(1.0f, 0.17f / std::max(radius, 0.2f)));
-    return std::clamp(4 * static_cast<int>(std::ceil(sides / 4)), 12, 128);
+    for (const DiskInstance& disk : list.disks) radius = std::max(radius, disk.radius * scale.at(disk.base));
+    const float off = std::min(1.0f, tolerance(detail) / std::max(radius, 0.2f));
+    const float sides = std::numbers::pi_v<float> / std::acos(1 - off);
+    return std::clamp(4 * static_cast<int>(std::ceil(sides / 4)), detail == Detail::fine ? 12 : 8, 128);
 }
 
 }  // namespace
 
 DiskPass::DiskPass(GlContext& context) : program_(context, "disk") {
-    glBindVertexArray(array_.name());
+    describe(single_);
+    describe(runs_);
+}
+
+void DiskPass::describe(const Batch& batch) const {
+    glBindVertexArray(batch.array.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
     const VertexLayout corner(sizeof(Vertex), 0);
     corner.floats(0, 3, offsetof(Vertex, corner));
     corner.floats(1, 3, offsetof(Vertex, normal));
-    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, batch.instances.name());
     const VertexLayout disk(sizeof(Instance), 1);
     disk.floats(2, 4, offsetof(Instance, base));
-    disk.floats(3, 1, offsetof(Instance, height));
+    disk.floats(3, 4, offsetof(Instance, top));
     disk.floats(4, 4, offsetof(Instance, color));
     disk.integers(5, 2, offsetof(Instance, id));
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
@@ -67,22 +77,22 @@ void DiskPass::make_cylinder(int segments) {
         return glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
     };
     const glm::vec3 up(0, 0, 1);
-    for (int i = 0; i < segments; ++i) {
-        const glm::vec3 here = direction(i);
-        const glm::vec3 next = direction(i + 1);
-        const GLushort a = add(here, here);
-        const GLushort b = add(next, next);
-        const GLushort c = add(here + up, here);
-        const GLushort d = add(next + up, next);
-        indices.insert(indices.end(), {a, b, c, c, b, d});
+    for (int i = 0; i <= segments; ++i) {
+        const GLushort below = add(direction(i), direction(i));
+        const GLushort above = add(direction(i) + up, direction(i));
+        if (i == 0) continue;
+        const GLushort a = static_cast<GLushort>(below - 2);
+        const GLushort c = static_cast<GLushort>(above - 2);
+        indices.insert(indices.end(), {a, below, c, c, below, above});
     }
     for (const bool upper : {true, false}) {
         const glm::vec3 level = upper ? up : glm::vec3(0);
         const glm::vec3 normal = upper ? up : -up;
         const GLushort middle = add(level, normal);
-        for (int i = 0; i < segments; ++i) {
-            const GLushort a = add(direction(i) + level, normal);
-            const GLushort b = add(direction(i + 1) + level, normal);
+        add(direction(0) + level, normal);
+        for (int i = 1; i <= segments; ++i) {
+            const GLushort b = add(direction(i) + level, normal);
+            const GLushort a = static_cast<GLushort>(b - 1);
             indices.insert(indices.end(), {middle, upper ? a : b, upper ? b : a});
         }
     }
@@ -90,36 +100,55 @@ void DiskPass::make_cylinder(int segments) {
     upload(indices_, indices, GL_ELEMENT_ARRAY_BUFFER);
 }
 
-void DiskPass::draw(const DrawList& list) {
+void DiskPass::draw(const DrawList& list, Detail detail) {
     if (list.disks.empty()) return;
-    glBindVertexArray(array_.name());
-    make_cylinder(sides_for(list));
-    std::vector<Instance> instances;
-    instances.reserve(list.disks.size());
-    for (const DiskInstance* disk : in_order(list.disks)) {
-        instances.push_back({disk->base, disk->radius, disk->height, disk->color, {disk->id.r(), disk->id.g()}});
+    DiskGroups groups;
+    groups.single = in_order(list.disks);
+    if (detail == Detail::coarse) groups = group_runs(groups.single, list.lens, tolerance(detail));
+    std::vector<Instance> single;
+    single.reserve(groups.single.size());
+    for (const DiskInstance* disk : groups.single) {
+        const glm::vec3 top = disk->base + glm::vec3(0, 0, disk->height);
+        single.push_back({disk->base, disk->radius, top, disk->radius, disk->color, {disk->id.r(), disk->id.g()}});
     }
-    upload(instances_, instances);
+    std::vector<Instance> runs;
+    runs.reserve(groups.runs.size());
+    for (const DiskRun& run : groups.runs) {
+        runs.push_back({run.base, run.radius, run.top, run.top_radius, run.color, {0, 0}});
+    }
 
+    glBindVertexArray(single_.array.name());
+    make_cylinder(sides_for(list, detail));
     program_.use();
     glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(list.lens.clip_from_world));
     glUniform3fv(program_.uniform("light"), 1, glm::value_ptr(towards_light(list.lens)));
+    glUniform3fv(program_.uniform("back"), 1, glm::value_ptr(list.lens.back));
     glUniform3fv(program_.uniform("background"), 1, glm::value_ptr(list.palette.background));
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    const bool from_above = list.lens.back.z >= 0;
-    const GLsizei count = static_cast<GLsizei>(instances.size());
     const GLsizei side = 6 * segments_;
-    if (from_above) {
-        glDrawElementsInstanced(GL_TRIANGLES, side + 3 * segments_, GL_UNSIGNED_SHORT, nullptr, count);
+    const GLsizei face = 3 * segments_;
+
+    glUniform1i(program_.uniform("runs"), 0);
+    upload(single_.instances, single);
+    const GLsizei count = static_cast<GLsizei>(single.size());
+    if (list.lens.back.z >= 0) {
+        glDrawElementsInstanced(GL_TRIANGLES, side + face, GL_UNSIGNED_SHORT, nullptr, count);
     } else {
         glDrawElementsInstanced(GL_TRIANGLES, side, GL_UNSIGNED_SHORT, nullptr, count);
-        const std::size_t lower_face = sizeof(GLushort) * static_cast<std::size_t>(side + 3 * segments_);
-        glDrawElementsInstanced(GL_TRIANGLES, 3 * segments_, GL_UNSIGNED_SHORT,
-                                reinterpret_cast<const void*>(lower_face), count);
+        const std::size_t lower_face = sizeof(GLushort) * static_cast<std::size_t>(side + face);
+        glDrawElementsInstanced(GL_TRIANGLES, face, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(lower_face),
+                                count);
+    }
+    if (!runs.empty()) {
+        glUniform1i(program_.uniform("runs"), 1);
+        glBindVertexArray(runs_.array.name());
+        upload(runs_.instances, runs);
+        // Their ends lie within the path; its last disk is a single one.
+        glDrawElementsInstanced(GL_TRIANGLES, side, GL_UNSIGNED_SHORT, nullptr, static_cast<GLsizei>(runs.size()));
     }
     glDisable(GL_CULL_FACE);
 }

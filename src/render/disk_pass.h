@@ -6,21 +6,31 @@
 
 namespace mobbscope {
 
+/// How true to shape. `coarse` is off by less than half a pixel, as edges without multisampling are anyway.
+enum class Detail { fine, coarse };
+
 class DiskPass {
   public:
     explicit DiskPass(GlContext& context);
 
-    /// Into the bound framebuffer, colours to output 0 and ids to output 1.
-    void draw(const DrawList& list);
+    /// Into the bound framebuffer: colours to output 0 and, of fine disks, ids to output 1.
+    void draw(const DrawList& list, Detail detail);
 
   private:
+    struct Instance;
+    /// Instances and where their numbers lie.
+    struct Batch {
+        VertexArray array;
+        Buffer instances;
+    };
+    void describe(const Batch& batch) const;
     void make_cylinder(int segments);
 
     ShaderProgram program_;
-    VertexArray array_;
     Buffer vertices_;
     Buffer indices_;
-    Buffer instances_;
+    Batch single_;
+    Batch runs_;
     int segments_ = 0;
 };
 

@@ -67,7 +67,7 @@ struct Renderer::State {
         glClearColor(ground.r, ground.g, ground.b, 1);
         glClearDepth(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        disks.draw(list);
+        disks.draw(list, targets->samples() > 1 ? Detail::fine : Detail::coarse);
         if (FacePass::needed(list)) {
             targets->share_depth();
             glBindFramebuffer(GL_FRAMEBUFFER, targets->faces().name());
@@ -151,7 +151,7 @@ IdImage Renderer::draw_ids(const DrawList& list) {
     const GLfloat farthest = 1;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     write_output(1);
-    s.disks.draw(list);
+    s.disks.draw(list, Detail::fine);
     write_output(2);
     s.faces.draw_ids(list);
 

@@ -47,7 +47,9 @@ std::vector<const T*> in_order(const std::vector<T>& items) {
     std::vector<const T*> sorted;
     sorted.reserve(items.size());
     for (const T& item : items) sorted.push_back(&item);
-    std::stable_sort(sorted.begin(), sorted.end(), [](const T* a, const T* b) { return a->order < b->order; });
+    const auto before = [](const T* a, const T* b) { return a->order < b->order; };
+    // Lists come in order, but for what is added last.
+    if (!std::is_sorted(sorted.begin(), sorted.end(), before)) std::stable_sort(sorted.begin(), sorted.end(), before);
     return sorted;
 }
 
