@@ -55,7 +55,7 @@ void Viewport::build(const Key& key) {
     why_not_.clear();
     try {
         check(key.size);
-        list_ = build_draw_list(*key.fitted, key.view, key.size);
+        list_ = build_draw_list(*key.fitted, key.view, key.size, key.scale);
     } catch (const std::invalid_argument& error) {
         why_not_ = error.what();
     }
@@ -73,7 +73,7 @@ void Viewport::take_off(Ui& ui, const Key& next) {
         return;
     }
     const Camera from = settled(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
-    const DrawList there = build_draw_list(*next.fitted, next.view, next.size);
+    const DrawList there = build_draw_list(*next.fitted, next.view, next.size, next.scale);
     if (there.space.time_height != list_->space.time_height) return;
     flight_.emplace(from, settled(next.view.camera, there), ui.now);
 }
