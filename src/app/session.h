@@ -38,8 +38,6 @@ struct Hooks {
     std::function<Camera()> settled_camera;                 ///< of the viewport's picture, see render/settle.h
     std::function<PictureSize()> viewport_size;             ///< of the viewport's picture
     std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
-    std::function<Camera()> settled_camera;      ///< the explicit camera (render/settle.h) of what the viewport shows
-    std::function<PictureSize()> viewport_size;  ///< pixels of the viewport's picture
     std::function<double()> ui_scale;            ///< at which text and panels are drawn now
 };
 
