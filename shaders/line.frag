@@ -1,5 +1,5 @@
 #version 330 core
-in vec4 line_color;
+flat in vec4 line_color;
 flat in vec4 pattern;
 flat in float half_width;
 noperspective in float across;

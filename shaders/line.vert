@@ -11,7 +11,7 @@ uniform vec2 viewport;
 uniform bool hidden;
 uniform float depth_bias;
 
-out vec4 line_color;
+flat out vec4 line_color;
 flat out vec4 pattern;
 flat out float half_width;
 noperspective out float across;  // pixels from the middle

@@ -1,11 +1,14 @@
 #include <render/face_pass.h>
 #include <render/gl_state.h>
 #include <render/light.h>
+#include <render/screen_tiles.h>
 #include <render/vertex_layout.h>
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 namespace mobbscope {
 
@@ -32,6 +35,9 @@ FacePass::FacePass(GlContext& context) : faces_(context, "face"), composite_(con
     }
     box.floats(4, 4, offsetof(Instance, fill));
     box.integers(5, 2, offsetof(Instance, id));
+    glBindVertexArray(tile_array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
+    VertexLayout(sizeof(Rect), 1).floats(0, 4, 0);
 }
 
 bool FacePass::needed(const DrawList& list) { return std::any_of(list.boxes.begin(), list.boxes.end(), has_faces); }
@@ -56,7 +62,29 @@ void FacePass::draw(const DrawList& list, bool ids) {
     glDrawArraysInstanced(GL_TRIANGLES, 0, 36, static_cast<GLsizei>(instances.size()));
 }
 
+/// Only what faces may cover is cleared and blended: these are the dearest pixels of a picture.
+void FacePass::clear(const DrawList& list) {
+    std::vector<BoxInstance> boxes;
+    std::copy_if(list.boxes.begin(), list.boxes.end(), std::back_inserter(boxes), has_faces);
+    const std::vector<Rect> tiles = covering_tiles(boxes, list.lens);
+    tile_count_ = static_cast<GLsizei>(tiles.size());
+    if (tiles.empty()) return;
+    upload(tiles_, tiles);
+    Rect around = tiles.front();
+    for (const Rect& tile : tiles) around = {glm::min(around.min, tile.min), glm::max(around.max, tile.max)};
+    const glm::ivec2 corner(around.min.x, static_cast<float>(list.size.height) - around.max.y);
+    const glm::ivec2 extent(around.size());
+    glScissor(corner.x, corner.y, extent.x, extent.y);
+    glEnable(GL_SCISSOR_TEST);
+    const std::array<GLfloat, 4> nothing_yet{0, 0, 0, 1};
+    const std::array<GLfloat, 4> zero{0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, nothing_yet.data());
+    glClearBufferfv(GL_COLOR, 1, zero.data());
+    glDisable(GL_SCISSOR_TEST);
+}
+
 void FacePass::accumulate(const DrawList& list) {
+    clear(list);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     // Colours add up; alpha keeps the product of (1 - opacity).
@@ -64,8 +92,8 @@ void FacePass::accumulate(const DrawList& list) {
     draw(list, false);
 }
 
-void FacePass::composite(const Texture& sums, const Texture& weights) {
-    glBindVertexArray(nothing_.name());
+void FacePass::composite(const Texture& sums, const Texture& weights, PictureSize size) {
+    glBindVertexArray(tile_array_.name());
     glDisable(GL_DEPTH_TEST);
     blend_over();
     composite_.use();
@@ -75,7 +103,8 @@ void FacePass::composite(const Texture& sums, const Texture& weights) {
     glBindTexture(GL_TEXTURE_2D, weights.name());
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, sums.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glUniform2f(composite_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tile_count_);
 }
 
 void FacePass::draw_ids(const DrawList& list) {

@@ -4,7 +4,9 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 
@@ -50,11 +52,16 @@ DrawnSpace space_for(const Bounds& bounds, const ViewState& view) {
 
 std::vector<glm::vec3> points_to_show(const DrawList& list, const Stage& stage, const ViewState& view,
                                       bool has_cursor) {
+    std::array<glm::vec3, 8> circle;
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+        const double angle = static_cast<double>(i) * std::numbers::pi / 4;
+        circle[i] = glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
+    }
     std::vector<glm::vec3> out;
+    out.reserve(2 * circle.size() * list.disks.size() + 8 * list.boxes.size() + 9);
     for (const DiskInstance& disk : list.disks) {
-        for (int i = 0; i < 8; ++i) {
-            const double angle = i * std::numbers::pi / 4;
-            const glm::vec3 rim = disk.base + disk.radius * glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
+        for (const glm::vec3& direction : circle) {
+            const glm::vec3 rim = disk.base + disk.radius * direction;
             out.push_back(rim);
             out.push_back(rim + glm::vec3(0, 0, disk.height));
         }

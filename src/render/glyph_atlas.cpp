@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
+#include <cstddef>
 
 namespace mobbscope {
 
@@ -13,7 +12,7 @@ constexpr int kWidth = 512;
 constexpr int kQuarters = 4;  // pen positions within a pixel
 
 struct Cell {
-    GlyphBitmap bitmap;
+    const GlyphBitmap* bitmap = nullptr;
     int x = 0;
     int y = 0;
 };
@@ -22,15 +21,15 @@ struct Cell {
 class RowPacker {
   public:
     void place(Cell& cell) {
-        if (x_ + cell.bitmap.width > kWidth) {
+        if (x_ + cell.bitmap->width > kWidth) {
             x_ = 0;
             y_ += row_height_;
             row_height_ = 0;
         }
         cell.x = x_;
         cell.y = y_;
-        x_ += cell.bitmap.width;
-        row_height_ = std::max(row_height_, cell.bitmap.height);
+        x_ += cell.bitmap->width;
+        row_height_ = std::max(row_height_, cell.bitmap->height);
     }
     int height() const { return y_ + row_height_; }
 
@@ -40,13 +39,26 @@ class RowPacker {
     int row_height_ = 0;
 };
 
-using CellKey = std::tuple<FontFace, float, char32_t, int>;
-
 }  // namespace
 
-GlyphAtlas make_atlas(std::span<const TextRun> texts) {
+const GlyphBitmap& GlyphCache::glyph(const GlyphKey& key) {
+    const auto [at, added] = glyphs_.try_emplace(key);
+    if (added) {
+        const auto& [face, size, code, quarter] = key;
+        at->second = Font::of(face).rasterise(code, size, static_cast<float>(quarter) / kQuarters);
+    }
+    return at->second;
+}
+
+void GlyphCache::forget_some() {
+    constexpr std::size_t kMany = 4096;
+    if (glyphs_.size() > kMany) glyphs_.clear();
+}
+
+GlyphAtlas make_atlas(std::span<const TextRun> texts, GlyphCache& cache) {
+    cache.forget_some();
     GlyphAtlas atlas;
-    std::map<CellKey, Cell> cells;
+    std::map<GlyphKey, Cell> cells;
     RowPacker packer;
     for (const TextRun& run : texts) {
         const Font& font = Font::of(run.face);
@@ -56,16 +68,17 @@ GlyphAtlas make_atlas(std::span<const TextRun> texts) {
             const float snapped = std::floor(pen * kQuarters + 0.5f) / kQuarters;
             const float whole = std::floor(snapped);
             const int quarter = static_cast<int>((snapped - whole) * kQuarters);
-            const auto [at, added] = cells.try_emplace({run.face, run.size, codes[i], quarter});
+            const GlyphKey key(run.face, run.size, codes[i], quarter);
+            const auto [at, added] = cells.try_emplace(key);
             Cell& cell = at->second;
             if (added) {
-                cell.bitmap = font.rasterise(codes[i], run.size, static_cast<float>(quarter) / kQuarters);
+                cell.bitmap = &cache.glyph(key);
                 packer.place(cell);
             }
-            const glm::vec2 corner(whole + static_cast<float>(cell.bitmap.left),
-                                   std::round(run.baseline.y) + static_cast<float>(cell.bitmap.top));
-            const glm::vec2 extent(cell.bitmap.width, cell.bitmap.height);
-            if (cell.bitmap.width > 0) {
+            const glm::vec2 corner(whole + static_cast<float>(cell.bitmap->left),
+                                   std::round(run.baseline.y) + static_cast<float>(cell.bitmap->top));
+            const glm::vec2 extent(cell.bitmap->width, cell.bitmap->height);
+            if (cell.bitmap->width > 0) {
                 atlas.glyphs.push_back({{corner, corner + extent}, glm::vec2(cell.x, cell.y), run.color});
             }
             pen += font.advance(codes[i], i + 1 < codes.size() ? codes[i + 1] : 0, run.size);
@@ -74,10 +87,10 @@ GlyphAtlas make_atlas(std::span<const TextRun> texts) {
     atlas.width = kWidth;
     atlas.height = std::max(1, packer.height());
     atlas.coverage.resize(static_cast<std::size_t>(atlas.width) * static_cast<std::size_t>(atlas.height));
-    for (const auto& [key, cell] : cells) {
-        for (int row = 0; row < cell.bitmap.height; ++row) {
-            const auto from = cell.bitmap.coverage.begin() + row * cell.bitmap.width;
-            std::copy(from, from + cell.bitmap.width, atlas.coverage.begin() + (cell.y + row) * atlas.width + cell.x);
+    for (const auto& [wanted, cell] : cells) {
+        for (int row = 0; row < cell.bitmap->height; ++row) {
+            const auto from = cell.bitmap->coverage.begin() + row * cell.bitmap->width;
+            std::copy(from, from + cell.bitmap->width, atlas.coverage.begin() + (cell.y + row) * atlas.width + cell.x);
         }
     }
     return atlas;

@@ -4,7 +4,9 @@
 #include <render/draw_list.h>
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace mobbscope {
@@ -23,7 +25,22 @@ struct GlyphAtlas {
     std::vector<PlacedGlyph> glyphs;
 };
 
-/// Rasterises every glyph once for each size and quarter of a pixel that it is wanted at.
-GlyphAtlas make_atlas(std::span<const TextRun> texts);
+/// Face, size, code point, and how many quarters of a pixel (0..3) the pen stands to the right.
+using GlyphKey = std::tuple<FontFace, float, char32_t, int>;
+
+/// Rasterised glyphs, kept from picture to picture.
+class GlyphCache {
+  public:
+    /// Valid until the next forget_some.
+    const GlyphBitmap& glyph(const GlyphKey& key);
+    /// Forgets all when they have become many, as they do while a window changes its size.
+    void forget_some();
+
+  private:
+    std::map<GlyphKey, GlyphBitmap> glyphs_;
+};
+
+/// Every glyph stands in it once for each size and quarter of a pixel that it is wanted at.
+GlyphAtlas make_atlas(std::span<const TextRun> texts, GlyphCache& cache);
 
 }  // namespace mobbscope

@@ -65,7 +65,9 @@ void LinePass::begin(const std::vector<Instance>& instances, const glm::mat4& cl
 }
 
 void LinePass::draw_scene(const DrawList& list) {
-    std::vector<LineInstance> lines = list.lines;
+    std::vector<LineInstance> lines;
+    lines.reserve(list.lines.size() + 12 * list.boxes.size());
+    lines = list.lines;
     for (const BoxInstance* box : in_order(list.boxes)) add_edges(*box, lines);
     if (lines.empty()) return;
     std::vector<Instance> instances;

@@ -1,5 +1,4 @@
 #include <render/gl_state.h>
-#include <render/glyph_atlas.h>
 #include <render/overlay_pass.h>
 #include <render/vertex_layout.h>
 
@@ -53,7 +52,7 @@ void OverlayPass::draw_panels(const DrawList& list) { draw(list.panels, list.siz
 void OverlayPass::draw_texts(const DrawList& list) {
     draw(list.marks, list.size);
     if (list.texts.empty()) return;
-    const GlyphAtlas atlas = make_atlas(list.texts);
+    const GlyphAtlas atlas = make_atlas(list.texts, glyphs_);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, atlas_.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE,

@@ -3,6 +3,7 @@
 
 #include <render/draw_list.h>
 #include <render/gl_objects.h>
+#include <render/glyph_atlas.h>
 
 namespace mobbscope {
 
@@ -23,6 +24,7 @@ class OverlayPass {
     VertexArray array_;
     Buffer instances_;
     Texture atlas_;
+    GlyphCache glyphs_;
 };
 
 }  // namespace mobbscope

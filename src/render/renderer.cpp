@@ -71,13 +71,9 @@ struct Renderer::State {
         if (FacePass::needed(list)) {
             targets->share_depth();
             glBindFramebuffer(GL_FRAMEBUFFER, targets->faces().name());
-            const std::array<GLfloat, 4> nothing_yet{0, 0, 0, 1};
-            const std::array<GLfloat, 4> zero{0, 0, 0, 0};
-            glClearBufferfv(GL_COLOR, 0, nothing_yet.data());
-            glClearBufferfv(GL_COLOR, 1, zero.data());
             faces.accumulate(list);
             glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
-            faces.composite(targets->sums(), targets->weights());
+            faces.composite(targets->sums(), targets->weights(), list.size);
         }
         lines.draw_scene(list);
     }

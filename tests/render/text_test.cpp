@@ -102,7 +102,8 @@ TEST(GlyphAtlas, EveryGlyphLiesInItAndHasInk) {
     run.text = "step 14 / 61: A 2.1";
     run.baseline = {10.3f, 20};
     const std::vector<TextRun> runs{run};
-    const GlyphAtlas atlas = make_atlas(runs);
+    GlyphCache cache;
+    const GlyphAtlas atlas = make_atlas(runs, cache);
     EXPECT_GE(atlas.glyphs.size(), 14u);  // spaces may be left out
     for (const PlacedGlyph& glyph : atlas.glyphs) {
         const glm::vec2 end = glyph.texel + glyph.rect.size();
