@@ -180,6 +180,14 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
     });
 }
 
+void Session::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
+    after_asking([this, scene, files] {
+        load(
+            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
+        if (attended_ && !files.empty()) settings.remember(files.front());
+    });
+}
+
 void Session::open_demo() {
     after_asking([this] { load("Opening the demo", [](JobControl&) { return demo_scene(); }, {}); });
 }

@@ -35,10 +35,11 @@ struct Message {
 struct Hooks {
     std::function<void()> wake;                             ///< from any thread: there is news, draw a frame
     std::function<void(const std::string&)> set_clipboard;  ///< UTF-8
+    std::function<std::string()> clipboard;                 ///< likewise
     std::function<Camera()> settled_camera;                 ///< of the viewport's picture, see render/settle.h
     std::function<PictureSize()> viewport_size;             ///< of the viewport's picture
     std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
-    std::function<double()> ui_scale;            ///< at which text and panels are drawn now
+    std::function<double()> ui_scale;                                  ///< at which text and panels are drawn now
 };
 
 /// What was put into the open dialog so far; the dialog says what it means by it.
@@ -102,6 +103,8 @@ class Session {
     /// Replaces the document, after asking if there are unsaved changes. Several files become one scene; folders stand
     /// for the clips in them. Errors become messages, and what was open stays.
     void open(const std::vector<std::filesystem::path>& files);
+    /// The same with a scene that was read from those files already.
+    void open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files);
     /// The scene that comes with the program.
     void open_demo();
     /// What `open` was given; empty for the demo and before anything was opened.
