@@ -160,10 +160,11 @@ std::string Session::title() const {
     return scene().file.empty() ? "untitled" : scene().file.stem().string();
 }
 
-void Session::replace(Document document, std::optional<std::filesystem::path> file) {
+void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
     document.view = fitting(std::move(document.view), *document.fitted);
     saved_ = document.fitted;
-    file_ = std::move(file);
+    file_ = scene_file_of(opened);
+    opened_ = opened;
     selection = {};
     hovered = {};
     playing = false;
@@ -171,11 +172,11 @@ void Session::replace(Document document, std::optional<std::filesystem::path> fi
     changed();
 }
 
-void Session::load(std::string title, const LoadAll& load_all, const std::optional<std::filesystem::path>& file) {
-    start(std::move(title), [this, load_all, file](JobControl& control) -> Job::Finish {
+void Session::load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files) {
+    start(std::move(title), [this, load_all, files](JobControl& control) -> Job::Finish {
         Document document = document_of(load_all(control), nullptr,
                                         [&](std::size_t done, std::size_t all) { control.step(done, all); });
-        return [this, document = std::move(document), file] { replace(document, file); };
+        return [this, document = std::move(document), files] { replace(document, files); };
     });
 }
 
@@ -183,16 +184,13 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
     after_asking([this, files] {
         load(
             "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),
-            [files](JobControl& control) { return load_files(files, control); }, scene_file_of(files));
+            [files](JobControl& control) { return load_files(files, control); }, files);
         if (attended_ && !files.empty()) settings.remember(files.front());
     });
 }
 
 void Session::open_demo() {
-    after_asking([this] {
-        load(
-            "Opening the demo", [](JobControl&) { return demo_scene(); }, std::nullopt);
-    });
+    after_asking([this] { load("Opening the demo", [](JobControl&) { return demo_scene(); }, {}); });
 }
 
 void Session::add(const std::vector<std::filesystem::path>& files) {
@@ -213,7 +211,8 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
 
 void Session::save() {
     if (!file_) {
-        dialog = Dialog::save_as;
+        dialog = Dialog::save_as;  // what waits for the changes to be saved goes on waiting
+        input = {};
         return;
     }
     save_as(*file_);
@@ -235,8 +234,11 @@ void Session::save_as(const std::filesystem::path& file) {
     history_.amend(std::move(now));
     saved_ = document().fitted;
     file_ = file;
+    opened_ = {file};
     if (attended_) settings.remember(file);
     tell(Message::Level::info, "Saved " + file.string());
+    if (dialog == Dialog::save_as || dialog == Dialog::unsaved) dialog = Dialog::none;
+    if (const auto then = std::exchange(pending_, nullptr)) then();
 }
 
 void Session::request_close() {
@@ -245,21 +247,27 @@ void Session::request_close() {
 
 void Session::after_asking(const std::function<void()>& then) {
     if (!modified()) return then();
+    open_dialog(Dialog::unsaved);
     pending_ = then;
-    dialog = Dialog::unsaved;
 }
 
 void Session::answer_unsaved(Unsaved choice) {
+    if (choice == Unsaved::save) return save();
+    const auto then = std::exchange(pending_, nullptr);
+    close_dialog();
+    if (choice == Unsaved::discard && then) then();
+}
+
+void Session::open_dialog(Dialog which, DialogInput with) {
+    close_dialog();
+    dialog = which;
+    input = std::move(with);
+}
+
+void Session::close_dialog() {
     dialog = Dialog::none;
-    if (choice == Unsaved::cancel) {
-        pending_ = nullptr;
-        return;
-    }
-    if (choice == Unsaved::save) {
-        save();
-        if (modified()) return;  // a name is asked for first; what waits goes on when it is saved
-    }
-    if (const auto then = std::exchange(pending_, nullptr)) then();
+    input = {};
+    pending_ = nullptr;
 }
 
 // --- messages and jobs

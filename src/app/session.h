@@ -8,6 +8,7 @@
 #include <app/selection.h>
 #include <app/settings.h>
 #include <mobb/level_figures.h>
+#include <render/image.h>
 #include <scene/answer.h>
 
 #include <filesystem>
@@ -36,6 +37,17 @@ struct Hooks {
     std::function<void()> wake;                                        ///< from any thread: there is news, draw a frame
     std::function<void(const std::string&)> set_clipboard;             ///< UTF-8
     std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
+    std::function<Camera()> settled_camera;      ///< the explicit camera (render/settle.h) of what the viewport shows
+    std::function<PictureSize()> viewport_size;  ///< pixels of the viewport's picture
+    std::function<double()> ui_scale;            ///< at which text and panels are drawn now
+};
+
+/// What was put into the open dialog so far; the dialog says what it means by it.
+struct DialogInput {
+    std::string text;
+    std::string command;      ///< the palette asks for the argument of this one; empty: it lists all
+    int picked = 0;           ///< of a list
+    bool confirming = false;  ///< asks whether to overwrite
 };
 
 class Session {
@@ -95,9 +107,12 @@ class Session {
     void open(const std::vector<std::filesystem::path>& files);
     /// The scene that comes with the program.
     void open_demo();
+    /// What `open` was given; empty for the demo and before anything was opened.
+    const std::vector<std::filesystem::path>& opened() const { return opened_; }
     /// Adds clips, or whole scenes, to the document.
     void add(const std::vector<std::filesystem::path>& files);
-    /// Throws MachineError if it cannot be written; without a file asks for one.
+    /// Throws MachineError if it cannot be written; without a file asks for one. What waits for the answer about
+    /// unsaved changes goes on when they are saved.
     void save();
     void save_as(const std::filesystem::path& file);
     /// Ends the program, after asking if there are unsaved changes.
@@ -111,7 +126,11 @@ class Session {
     void answer_unsaved(Unsaved choice);
 
     // Dialogs and messages.
-    Dialog dialog = Dialog::none;
+    Dialog dialog = Dialog::none;  ///< the open one
+    DialogInput input;             ///< ... and what was put into it
+    void open_dialog(Dialog which, DialogInput with = {});
+    /// Nothing comes of it: what waited for its answer is forgotten.
+    void close_dialog();
     void tell(Message::Level level, const std::string& text);
     const std::vector<Message>& messages() const { return messages_; }
     void dismiss(std::size_t message);
@@ -135,14 +154,15 @@ class Session {
     using LoadAll = std::function<Scene(JobControl&)>;
 
     void start(std::string title, Job::Work work);
-    void replace(Document document, std::optional<std::filesystem::path> file);
-    void load(std::string title, const LoadAll& load_all, const std::optional<std::filesystem::path>& file);
+    void replace(Document document, const std::vector<std::filesystem::path>& opened);
+    void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
     void changed();
 
     bool attended_;
     History history_;
     std::shared_ptr<const FittedScene> saved_;
     std::optional<std::filesystem::path> file_;
+    std::vector<std::filesystem::path> opened_;
     std::vector<Message> messages_;
     std::unique_ptr<Job> job_;
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes

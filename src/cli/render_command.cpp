@@ -96,6 +96,7 @@ ViewState over(ViewState view, const Arguments& arguments) {
         view.camera.preset = *arguments.view;
         // A preset frames the scene; a target was meant for the camera that it replaces.
         view.camera.target.reset();
+        view.camera.shift = {0, 0};
     }
     if (arguments.yaw || arguments.pitch) {
         // The angle that is not given stays what is seen now.
@@ -234,7 +235,7 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
                "Free camera: degrees from +x to the eye, counter-clockwise", "DEG");
     add_parsed(command, "--pitch", arguments.pitch, number_within(-90, 90), "Free camera: degrees above the floor",
                "DEG");
-    add_parsed(command, "--fov", arguments.fov, number_within(5, 120), "Vertical field of view in degrees", "DEG");
+    add_parsed(command, "--fov", arguments.fov, number_within(kLeastFov, kMostFov), "Vertical field of view in degrees", "DEG");
     command.add_flag("--ortho", arguments.orthographic, "Without perspective");
     add_parsed(command, "--level", arguments.levels, parse_level_range, "Levels shown: N, A:B or leaves", "LEVELS");
     add_parsed(

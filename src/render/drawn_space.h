@@ -14,6 +14,10 @@ struct DrawnSpace {
     glm::vec3 point(double x, double y, double t) const {
         return glm::vec3(glm::dvec3(x - origin.x, y - origin.y, (t - origin.z) * time_height));
     }
+    /// The (x, y, t) that is drawn at a point.
+    glm::dvec3 place(glm::dvec3 point) const {
+        return {point.x + origin.x, point.y + origin.y, point.z / time_height + origin.z};
+    }
     /// A direction or extent of a box, which is in (x, y, w*t) with w in m/s. A tilted box is sheared by this, as time
     /// is drawn time_height metres a second and not w.
     glm::vec3 extent(glm::dvec3 v, double time_scale) const {

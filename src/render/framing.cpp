@@ -65,7 +65,7 @@ std::vector<glm::vec3> points_to_show(const DrawList& list, const Stage& stage, 
     const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
     out.insert(out.end(), corners.begin(), corners.begin() + (has_cursor ? 8 : 4));
     if (view.time_axis) {
-        const glm::dvec2 foot = axis_corner(stage, right_of(view.camera));
+        const glm::dvec2 foot = axis_corner(stage, glm::vec3(directions(view.camera).right));
         out.push_back(list.space.point(foot.x, foot.y, stage.t1));
     }
     return out;

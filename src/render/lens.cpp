@@ -84,16 +84,20 @@ glm::mat4 view_matrix(const Lens& lens) {
 
 /// Shifts and shrinks clip space so that what filled the picture fills the frame; the rest of the picture shows more
 /// around.
-glm::mat4 into_frame(const Frame& frame, PictureSize size) {
-    const glm::vec2 picture(size.width, size.height);
-    const glm::vec2 scale = (frame.max - frame.min) / picture;
-    const glm::vec2 middle = (frame.max + frame.min) / picture - 1.0f;
+glm::mat4 into_frame(glm::vec2 scale, glm::vec2 middle) {
     glm::mat4 m(1);
     m[0][0] = scale.x;
     m[1][1] = scale.y;
     m[3][0] = middle.x;
-    m[3][1] = -middle.y;
+    m[3][1] = middle.y;
     return m;
+}
+
+/// The whole picture, moved so that its middle is where the target is seen.
+Frame shifted_picture(const Camera& camera, PictureSize size) {
+    const glm::vec2 picture(size.width, size.height);
+    const glm::vec2 by = glm::vec2(camera.shift) * glm::vec2(1, -1) * picture;
+    return {by, by + picture};
 }
 
 }  // namespace
@@ -114,9 +118,15 @@ Orientation orientation(const Camera& camera) {
     return {camera.yaw_deg, camera.pitch_deg, camera.perspective};
 }
 
-glm::vec3 right_of(const Camera& camera) {
-    const double yaw = radians(orientation(camera).yaw_deg);
-    return glm::vec3(glm::dvec3(-std::sin(yaw), std::cos(yaw), 0));
+Directions directions(const Camera& camera) {
+    const Orientation o = orientation(camera);
+    const double yaw = radians(o.yaw_deg);
+    const double pitch = radians(o.pitch_deg);
+    Directions d;
+    d.back = {std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)};
+    d.right = {-std::sin(yaw), std::cos(yaw), 0};
+    d.up = glm::cross(d.back, d.right);
+    return d;
 }
 
 std::optional<glm::vec2> Lens::project(glm::vec3 point) const {
@@ -127,6 +137,15 @@ std::optional<glm::vec2> Lens::project(glm::vec3 point) const {
                      (0.5f - clip.y / clip.w * 0.5f) * static_cast<float>(size.height)};
 }
 
+Ray Lens::ray(glm::vec2 pixel) const {
+    const glm::dvec2 clip(2.0 * pixel.x / size.width - 1, 1 - 2.0 * pixel.y / size.height);
+    const glm::dvec2 across = (clip - glm::dvec2(middle)) / glm::dvec2(scale);
+    const glm::dvec3 aside = glm::dvec3(right) * across.x + glm::dvec3(up) * across.y;
+    const glm::dvec3 ahead = -glm::dvec3(back);
+    if (perspective) return {glm::dvec3(eye), glm::normalize(aside + ahead)};
+    return {glm::dvec3(eye) + aside + ahead * static_cast<double>(near_depth), glm::normalize(ahead)};
+}
+
 float Lens::depth(glm::vec3 point) const { return glm::dot(eye - point, back); }
 
 float Lens::pixels_per_metre(glm::vec3 point) const {
@@ -135,17 +154,15 @@ float Lens::pixels_per_metre(glm::vec3 point) const {
     return here && beside ? glm::length(*beside - *here) : 0;
 }
 
-Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target, const Frame& frame,
-               PictureSize size) {
-    const Orientation o = orientation(camera);
-    const double yaw = radians(o.yaw_deg);
-    const double pitch = radians(o.pitch_deg);
+Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target,
+               const Frame& free_frame, PictureSize size) {
+    const Frame frame = target ? shifted_picture(camera, size) : free_frame;
+    const Directions d = directions(camera);
     Lens lens;
     lens.size = size;
-    lens.perspective = o.perspective;
-    lens.back =
-        glm::vec3(glm::dvec3(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)));
-    lens.right = right_of(camera);
+    lens.perspective = orientation(camera).perspective;
+    lens.back = glm::vec3(d.back);
+    lens.right = glm::vec3(d.right);
     lens.up = glm::cross(lens.back, lens.right);
 
     Extent extent;
@@ -179,7 +196,11 @@ Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const gl
     }
     const glm::vec2 scale = lens.perspective ? glm::vec2(1 / (tan_y * aspect), 1 / tan_y)
                                              : glm::vec2(1 / (stand.half_height * aspect), 1 / stand.half_height);
-    lens.clip_from_world = into_frame(frame, size) *
+    const glm::vec2 picture(size.width, size.height);
+    const glm::vec2 shrink = (frame.max - frame.min) / picture;
+    lens.scale = shrink * scale;
+    lens.middle = ((frame.max + frame.min) / picture - 1.0f) * glm::vec2(1, -1);
+    lens.clip_from_world = into_frame(shrink, lens.middle) *
                            projection(lens.perspective, scale, lens.near_depth, lens.far_depth) * view_matrix(lens);
     return lens;
 }

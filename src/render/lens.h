@@ -19,9 +19,20 @@ struct Frame {
     glm::vec2 max{0};
 };
 
+/// What is seen in one place of the picture, drawn space.
+struct Ray {
+    glm::dvec3 origin{0};
+    glm::dvec3 direction{0, 0, -1};  ///< unit, away from the viewer
+    glm::dvec3 at(double distance) const { return origin + distance * direction; }
+};
+
 /// A camera with all its numbers settled.
 struct Lens {
     glm::mat4 clip_from_world{1};
+    /// What clip_from_world does across the line of sight: a point x to the right of the eye and y above it goes to
+    /// scale * (x, y) + middle * w, where w is its depth, or 1 without perspective.
+    glm::vec2 scale{1};
+    glm::vec2 middle{0};
     glm::vec3 right{1, 0, 0};  ///< unit, on the screen
     glm::vec3 up{0, 0, 1};
     glm::vec3 back{0, -1, 0};  ///< from the scene towards the eye
@@ -34,6 +45,8 @@ struct Lens {
     /// The pixel (from the upper left corner, fractional) where a point is seen; none for one behind the eye, which the
     /// division would mirror, or nearer to it than anything is drawn.
     std::optional<glm::vec2> project(glm::vec3 point) const;
+    /// The line of sight through a pixel: from the eye, or without perspective from before the nearest of the scene.
+    Ray ray(glm::vec2 pixel) const;
     /// Distance along the line of sight.
     float depth(glm::vec3 point) const;
     /// Pixels that a metre across the line of sight takes at a point; 0 where none can be seen.
@@ -48,11 +61,16 @@ struct Orientation {
 };
 Orientation orientation(const Camera& camera);
 
-/// The unit vector that points to the right in the picture.
-glm::vec3 right_of(const Camera& camera);
+/// The camera's unit directions.
+struct Directions {
+    glm::dvec3 right, up;
+    glm::dvec3 back;  ///< from the scene towards the eye
+};
+Directions directions(const Camera& camera);
 
-/// A lens for the camera. Without a target all `points` fit into `frame` as large as can be; `target` (drawn space)
-/// goes to the middle of the frame otherwise. `points` also set what is near and far.
+/// A lens for the camera. Without a target all `points` fit into `frame` as large as can be. With `target` (drawn
+/// space) the frame is the whole picture, moved by the camera's shift, and the target goes to its middle. `points` also
+/// set what is near and far.
 Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target, const Frame& frame,
                PictureSize size);
 

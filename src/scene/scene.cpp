@@ -1,5 +1,8 @@
 #include <scene/scene.h>
 
+#include <charconv>
+#include <cstdio>
+
 namespace mobbscope {
 
 namespace {
@@ -13,6 +16,20 @@ Participant participant_of(const Scene& scene, std::size_t agent) {
 std::size_t pairs_before(std::size_t a, std::size_t agents) { return a * (2 * agents - a - 1) / 2; }
 
 }  // namespace
+
+std::optional<Color> color_from_text(std::string_view text) {
+    std::uint32_t rgb = 0;
+    const char* const end = text.data() + text.size();
+    if (text.size() != 7 || text[0] != '#' || std::from_chars(text.data() + 1, end, rgb, 16).ptr != end) return {};
+    return Color{static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 0xff),
+                 static_cast<std::uint8_t>(rgb & 0xff)};
+}
+
+std::string to_string(const Color& color) {
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02X%02X%02X", color.r, color.g, color.b);
+    return text;
+}
 
 std::size_t query_count(const Scene& scene) {
     if (!scene.queries.empty()) return scene.queries.size();

@@ -25,6 +25,10 @@ struct Color {
     friend bool operator==(const Color&, const Color&) = default;
 };
 
+/// "#E69F00", as in files; nothing for any other text.
+std::optional<Color> color_from_text(std::string_view text);
+std::string to_string(const Color& color);
+
 struct SceneClip {
     std::string name;
     std::optional<std::string> source;           ///< relative to the scene file; none: the samples stand in the scene

@@ -47,17 +47,17 @@ void move_sources(Scene& scene, const std::filesystem::path& from, const std::fi
     }
 }
 
+}  // namespace
+
+std::string unused_clip_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.clips, wanted); }
+std::string unused_agent_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.agents, wanted); }
+
 void add_agents_for_clips(Scene& scene) {
     if (!scene.agents.empty()) return;
     for (int clip = 0; clip < static_cast<int>(scene.clips.size()); ++clip) {
         scene.agents.push_back({scene.clips[static_cast<std::size_t>(clip)].name, clip, {}, {}});
     }
 }
-
-}  // namespace
-
-std::string unused_clip_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.clips, wanted); }
-std::string unused_agent_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.agents, wanted); }
 
 void place_agent(Scene& scene, int agent, const mobb::Placement& placement) {
     if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");

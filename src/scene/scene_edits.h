@@ -14,6 +14,9 @@ namespace mobbscope {
 std::string unused_clip_name(const Scene& scene, std::string_view wanted);
 std::string unused_agent_name(const Scene& scene, std::string_view wanted);
 
+/// A scene without agents gets one for every clip, where it is: what was seen of it is then agents.
+void add_agents_for_clips(Scene& scene);
+
 /// The agent's clip placed elsewhere. Its queries follow; traces recorded of them are dropped, expectations stay.
 /// Throws std::invalid_argument if a number is out of range (mobb::is_valid).
 void place_agent(Scene& scene, int agent, const mobb::Placement& placement);

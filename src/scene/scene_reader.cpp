@@ -7,7 +7,6 @@
 #include <scene/trace_json.h>
 #include <scene/view_json.h>
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -44,14 +43,9 @@ ImportOptions merged(ImportOptions base, const ImportOptions& over) {
 }
 
 Color read_color(const JsonPlace& place) {
-    const std::string& text = place.string();
-    std::uint32_t rgb = 0;
-    const char* const end = text.data() + text.size();
-    if (text.size() != 7 || text[0] != '#' || std::from_chars(text.data() + 1, end, rgb, 16).ptr != end) {
-        place.fail(in_quotes(text) + " is no colour; give one like #E69F00");
-    }
-    return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 0xff),
-            static_cast<std::uint8_t>(rgb & 0xff)};
+    const std::optional<Color> color = color_from_text(place.string());
+    if (!color) place.fail(in_quotes(place.string()) + " is no colour; give one like #E69F00");
+    return *color;
 }
 
 std::pair<double, double> read_pair(const JsonPlace& place, const char* what) {

@@ -5,7 +5,6 @@
 #include <scene/trace_json.h>
 #include <scene/view_json.h>
 
-#include <cstdio>
 #include <sstream>
 
 namespace mobbscope {
@@ -60,11 +59,7 @@ void write_agent(JsonWriter& out, const Scene& scene, const Agent& agent) {
     out.member("name", agent.name);
     out.member("clip", scene.clips[static_cast<std::size_t>(agent.clip)].name);
     write_placement(out, agent.placement);
-    if (agent.color) {
-        char text[8];
-        std::snprintf(text, sizeof text, "#%02X%02X%02X", agent.color->r, agent.color->g, agent.color->b);
-        out.member("color", text);
-    }
+    if (agent.color) out.member("color", to_string(*agent.color));
     out.end_object();
 }
 

@@ -28,21 +28,27 @@ CameraPreset read_preset(const JsonPlace& place) {
 }
 
 Camera read_camera(const JsonPlace& place) {
-    place.allow_only({"preset", "yaw_deg", "pitch_deg", "perspective", "fov_deg", "target", "distance"});
+    place.allow_only({"preset", "yaw_deg", "pitch_deg", "perspective", "fov_deg", "target", "distance", "shift"});
     Camera camera;
     if (const auto preset = place.find("preset")) camera.preset = read_preset(*preset);
     if (const auto yaw = place.find("yaw_deg")) camera.yaw_deg = yaw->number(-1e9, 1e9);
     if (const auto pitch = place.find("pitch_deg")) camera.pitch_deg = pitch->number(-90, 90);
     if (const auto perspective = place.find("perspective")) camera.perspective = perspective->boolean();
-    if (const auto fov = place.find("fov_deg")) camera.fov_deg = fov->number(5, 120);
+    if (const auto fov = place.find("fov_deg")) camera.fov_deg = fov->number(kLeastFov, kMostFov);
     if (const auto target = place.find("target")) {
         target->require_size(3, "[x, y, height] in metres");
         glm::dvec3 point;
         for (int i = 0; i < 3; ++i) point[i] = (*target)[i].number(-mobb::kMaxLength, mobb::kMaxLength);
         camera.target = point;
         camera.distance = place.require("distance").number(kSmallestDistance, mobb::kMaxLength);
+        if (const auto shift = place.find("shift")) {
+            shift->require_size(2, "[right, up] in widths and heights of the picture");
+            for (int i = 0; i < 2; ++i) camera.shift[i] = (*shift)[i].number(-1, 1);
+        }
     } else if (const auto distance = place.find("distance")) {
         distance->fail("a distance needs a target; add one, or leave both out and the camera frames the scene");
+    } else if (const auto shift = place.find("shift")) {
+        shift->fail("a shift needs a target; add one, or leave it out and the camera frames the scene");
     }
     return camera;
 }
@@ -69,6 +75,10 @@ void write_camera(JsonWriter& out, const Camera& camera) {
         out.key("target");
         out.numbers({camera.target->x, camera.target->y, camera.target->z});
         out.member("distance", camera.distance);
+        if (camera.shift != standard.shift) {
+            out.key("shift");
+            out.numbers({camera.shift.x, camera.shift.y});
+        }
     }
     out.end_object();
 }

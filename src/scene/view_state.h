@@ -2,6 +2,7 @@
 /// and every picture is a function of (scene, view state, size).
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <optional>
@@ -13,15 +14,25 @@ namespace mobbscope {
 enum class CameraPreset { iso, top, front, side, free };
 enum class Theme { dark, light };
 
+/// Degrees.
+inline constexpr double kLeastFov = 0.5;
+inline constexpr double kMostFov = 150;
+
 struct Camera {
     CameraPreset preset = CameraPreset::iso;  ///< `free` takes the angles below; the others bring their own
     double yaw_deg = 45;                      ///< free: direction from the target to the eye, counter-clockwise from +x
     double pitch_deg = 25;                    ///< free: above the floor, -90..90
     bool perspective = true;                  ///< top, front and side are orthographic whatever this says
-    double fov_deg = 12;                      ///< vertical, 5..120
+    /// Vertical, kLeastFov..kMostFov: over the whole picture with a target, otherwise over what the scene is framed in.
+    double fov_deg = 12;
     /// What is looked at, world metres with time drawn as height; none: the camera frames the scene by itself.
     std::optional<glm::dvec3> target;
-    double distance = 0;  ///< metres from the target to the eye (> 0) when there is a target
+    /// Metres from the target to the eye (> 0) when there is a target. Without perspective the scale is that which the
+    /// target would have with it.
+    double distance = 0;
+    /// How far to the right and upwards of the picture's middle the target is seen, in widths and heights of the
+    /// picture, each -1..1. The picture is shifted, not turned: what is parallel stays so.
+    glm::dvec2 shift{0};
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 

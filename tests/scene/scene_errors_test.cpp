@@ -124,6 +124,11 @@ TEST(SceneErrors, EverythingElseIsChecked) {
         {R"("view": {"camera": {"pitch_deg": 91}})", "out of range"},
         {R"("view": {"camera": {"target": [0, 0, 0]}})", "'distance' is missing"},
         {R"("view": {"camera": {"distance": 3}})", "needs a target"},
+        {R"("view": {"camera": {"shift": [0, 0]}})", "needs a target"},
+        {R"("view": {"camera": {"target": [0, 0, 0], "distance": 1, "shift": [0, 1.5]}})", "out of range"},
+        {R"("view": {"camera": {"target": [0, 0, 0], "distance": 1, "shift": 1}})", "array"},
+        {R"("view": {"camera": {"fov_deg": 0.4}})", "out of range"},
+        {R"("view": {"camera": {"fov_deg": 151}})", "out of range"},
         {R"("view": {"disks": 1})", "expected true or false"},
     };
     for (const auto& [rest, message] : cases) {

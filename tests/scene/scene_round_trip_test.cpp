@@ -32,7 +32,7 @@ Scene random_scene(std::mt19937_64& random) {
     }
     scene.fit = {mobb::TreeKind::hybrid2, 4, 3, mobb::Axes::covariance, positive(random)};
     scene.view.camera = {
-        CameraPreset::free, length(random), length(random), false, 33.3, glm::dvec3{0.1, 0.2, 0.3}, 9.7};
+        CameraPreset::free, length(random), length(random), false, 33.3, glm::dvec3{0.1, 0.2, 0.3}, 9.7, {0.1, -0.7}};
     scene.view.levels = {1, 4, false};
     scene.view.query = 1;
     scene.view.step = {Step::Unit::percent, 100.0 / 3};

@@ -50,6 +50,13 @@ void run_command(Session& session, std::string_view id, const std::string& argum
     if (!command->enabled(session)) {
         throw std::invalid_argument("\"" + std::string(command->title) + "\" cannot be done now");
     }
+    if (command->needs_argument() && argument.empty()) {
+        throw std::invalid_argument("\"" + std::string(command->title) + "\" needs " + std::string(command->argument));
+    }
+    if (command->argument.empty() && !argument.empty()) {
+        throw std::invalid_argument("\"" + std::string(command->title) + "\" takes nothing, but was given " +
+                                    in_quotes(argument));
+    }
     command->run(session, argument);
 }
 
@@ -68,6 +75,10 @@ const Command* command_for(const Chord& chord) {
         if (calls) return &command;
     }
     return nullptr;
+}
+
+std::string_view first_shortcut(const Command& command) {
+    return command.shortcut.substr(0, command.shortcut.find(' '));
 }
 
 }  // namespace mobbscope::app

@@ -1,7 +1,231 @@
 #include <app/command.h>
+#include <app/commands/arguments.h>
+#include <app/commands/selected_agent.h>
+#include <import/text.h>
+#include <scene/scene_edits.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace mobbscope::app {
 
-std::span<const Command> edit_commands() { return {}; }
+namespace {
+
+constexpr double kAside = 1;         // metres from the original to its copy
+constexpr double kBetween = 0.5;     // metres from the others to a new agent
+constexpr double kMaxDegrees = 1e9;  // as placements allow
+
+bool has_scene(const Session& session) { return !session.empty(); }
+
+struct FloorBounds {
+    glm::dvec2 min{std::numeric_limits<double>::max()};
+    glm::dvec2 max{std::numeric_limits<double>::lowest()};
+
+    void add(const mobb::PlacedClip& clip) {
+        for (int i = 0; i < clip.count(); ++i) {
+            const mobb::Disk disk = clip.disk(i);
+            min = glm::min(min, glm::dvec2(disk.x - disk.r, disk.y - disk.r));
+            max = glm::max(max, glm::dvec2(disk.x + disk.r, disk.y + disk.r));
+        }
+    }
+};
+
+/// Beside all others, level with the middle of them, beginning when the first of them does.
+mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
+    FloorBounds others, own;
+    double start = std::numeric_limits<double>::max();
+    for (const Participant& participant : fitted.participants()) {
+        const mobb::PlacedTree tree = fitted.placed(participant);
+        others.add(tree.placed_clip());
+        start = std::min(start, participant.placement.start);
+    }
+    own.add(mobb::PlacedClip(clip, {}));
+    const double x = 0.5 * (others.min.x + others.max.x - own.min.x - own.max.x);
+    const double y = others.max.y + kBetween - own.min.y;
+    const auto rounded_up = [](double metres) { return std::ceil(metres * 10) / 10; };
+    return {{rounded_up(x), rounded_up(y)}, 0, start};
+}
+
+std::vector<std::string> clip_names(const Session& session) {
+    std::vector<std::string> out;
+    for (const SceneClip& clip : session.scene().clips) out.push_back(clip.name);
+    return out;
+}
+
+void select_agent(Session& session, int agent) { session.select({Selection::Kind::path, {agent, -1, 0}, -1}); }
+
+void add(Session& session, const std::string& name) {
+    const std::vector<std::string> names = clip_names(session);
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end())
+        throw std::invalid_argument("there is no clip " + in_quotes(name) + did_you_mean(name, names));
+    const int clip = static_cast<int>(at - names.begin());
+    const mobb::Placement placement =
+        aside(session.fitted(), *session.scene().clips[static_cast<std::size_t>(clip)].clip);
+    int agent = 0;
+    session.edit({"adding an agent", ""}, [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
+    select_agent(session, agent);
+}
+
+void duplicate(Session& session, const std::string&) {
+    int copy = 0;
+    edit_selected_agent(session, "duplicating", [&](Scene& scene, int agent) {
+        copy = duplicate_agent(scene, agent);
+        mobb::Placement placement = scene.agents[static_cast<std::size_t>(copy)].placement;
+        placement.translate += glm::dvec2(kAside, kAside) / std::sqrt(2.0);
+        place_agent(scene, copy, placement);
+    });
+    select_agent(session, copy);
+}
+
+void remove(Session& session, const std::string&) {
+    edit_selected_agent(session, "removing", [](Scene& scene, int agent) { remove_agent(scene, agent); });
+    // The next agent has its index now.
+    session.select({});
+}
+
+void rename(Session& session, const std::string& name) {
+    edit_selected_agent(session, "renaming", [&](Scene& scene, int agent) { rename_agent(scene, agent, name); });
+}
+
+template <class Change>
+void place(Session& session, const std::string& doing, const Change& change) {
+    edit_selected_agent(session, doing, [&](Scene& scene, int agent) {
+        mobb::Placement placement = scene.agents[static_cast<std::size_t>(agent)].placement;
+        change(placement);
+        place_agent(scene, agent, placement);
+    });
+}
+
+void move(Session& session, const std::string& text) {
+    const glm::dvec2 to = two_numbers(text, "the place");
+    place(session, "moving", [&](mobb::Placement& placement) { placement.translate = to; });
+}
+
+void nudge(Session& session, const std::string& text) {
+    const glm::dvec2 by = two_numbers(text, "the way");
+    place(session, "moving", [&](mobb::Placement& placement) { placement.translate += by; });
+}
+
+void turn(Session& session, const std::string& text) {
+    const double degrees = number_in(text, "the angle", -kMaxDegrees, kMaxDegrees);
+    place(session, "turning", [&](mobb::Placement& placement) { placement.rotate_deg = degrees; });
+}
+
+void start(Session& session, const std::string& text) {
+    const double time = number_in(text, "the start", -mobb::kMaxTime, mobb::kMaxTime);
+    place(session, "shifting", [&](mobb::Placement& placement) { placement.start = time; });
+}
+
+void shift_start(Session& session, const std::string& text) {
+    const double by = number_in(text, "the shift", -mobb::kMaxTime, mobb::kMaxTime);
+    place(session, "shifting", [&](mobb::Placement& placement) { placement.start += by; });
+}
+
+void set_color(Session& session, const std::string& text) {
+    std::optional<Color> color;
+    if (text != "none") {
+        color = color_from_text(text);
+        if (!color) {
+            throw std::invalid_argument("the colour cannot be " + in_quotes(text) + ": give one like #E69F00, or none");
+        }
+    }
+    edit_selected_agent(session, "colouring",
+                        [&](Scene& scene, int agent) { scene.agents[static_cast<std::size_t>(agent)].color = color; });
+}
+
+}  // namespace
+
+std::span<const Command> edit_commands() {
+    static const std::vector<Command> table{
+        {.id = "edit.undo",
+         .title = "Undo",
+         .menu = "Edit",
+         .shortcut = "Ctrl+Z",
+         .doc = "Takes back the last edit, or the looking around since.",
+         .enabled = [](const Session& session) { return !session.job() && session.history().can_undo(); },
+         .run = [](Session& session, const std::string&) { session.undo(); }},
+        {.id = "edit.redo",
+         .title = "Redo",
+         .menu = "Edit",
+         .shortcut = "Ctrl+Y Ctrl+Shift+Z",
+         .doc = "Brings back what was undone.",
+         .enabled = [](const Session& session) { return !session.job() && session.history().can_redo(); },
+         .run = [](Session& session, const std::string&) { session.redo(); }},
+        {.id = "agent.add",
+         .title = "Add agent",
+         .menu = "Edit",
+         .argument = "CLIP",
+         .doc = "Adds an agent that plays a clip, a little aside from the others.",
+         .enabled = has_scene,
+         .run = add,
+         .choices = clip_names},
+        {.id = "agent.duplicate",
+         .title = "Duplicate agent",
+         .menu = "Edit",
+         .shortcut = "Ctrl+D",
+         .doc = "Adds a copy of the selected agent, a metre aside.",
+         .enabled = has_selected_agent,
+         .run = duplicate},
+        {.id = "agent.remove",
+         .title = "Remove agent",
+         .menu = "Edit",
+         .shortcut = "Delete",
+         .doc = "Removes the selected agent and the queries about it; its clip stays.",
+         .enabled =
+             [](const Session& session) {
+                 return has_selected_agent(session) && session.fitted().participants().size() > 1;
+             },
+         .run = remove},
+        {.id = "agent.rename",
+         .title = "Rename agent...",
+         .menu = "Edit",
+         .argument = "NAME",
+         .doc = "Gives the selected agent another name.",
+         .enabled = has_selected_agent,
+         .run = rename},
+        {.id = "agent.move",
+         .title = "Place agent at",
+         .argument = "X Y",
+         .doc = "Places the selected agent on the floor, in metres.",
+         .enabled = has_selected_agent,
+         .run = move},
+        {.id = "agent.turn",
+         .title = "Turn agent to",
+         .argument = "DEG",
+         .doc = "Turns the selected agent's path about its clip's origin: degrees, counter-clockwise.",
+         .enabled = has_selected_agent,
+         .run = turn},
+        {.id = "agent.start",
+         .title = "Start agent at",
+         .argument = "S",
+         .doc = "Lets the selected agent begin at a moment, in seconds.",
+         .enabled = has_selected_agent,
+         .run = start},
+        {.id = "agent.nudge",
+         .title = "Move agent by",
+         .argument = "DX DY",
+         .doc = "Moves the selected agent on the floor by metres.",
+         .enabled = has_selected_agent,
+         .run = nudge},
+        {.id = "agent.shift_start",
+         .title = "Shift agent in time by",
+         .argument = "S",
+         .doc = "Lets the selected agent begin later by seconds; below 0 earlier.",
+         .enabled = has_selected_agent,
+         .run = shift_start},
+        {.id = "agent.color",
+         .title = "Colour agent",
+         .argument = "#RRGGBB|none",
+         .doc = "Gives the selected agent a colour of its own, or the palette's again.",
+         .enabled = has_selected_agent,
+         .run = set_color},
+    };
+    return table;
+}
 
 }  // namespace mobbscope::app

@@ -1,7 +1,233 @@
 #include <app/command.h>
+#include <app/commands/arguments.h>
+#include <app/commands/node_place.h>
+#include <import/text.h>
+#include <render/level_boxes.h>
+
+#include <algorithm>
+#include <stdexcept>
 
 namespace mobbscope::app {
 
-std::span<const Command> go_commands() { return {}; }
+namespace {
+
+bool has_scene(const Session& session) { return !session.empty(); }
+
+/// The paths that have names: those in the picture first, as a query may place clips itself.
+std::vector<PathRef> paths(const Session& session) {
+    std::vector<PathRef> out;
+    if (session.view().query) {
+        for (int side = 0; side < 2; ++side) out.push_back(path_in_view(session.fitted(), session.view(), side));
+    }
+    for (int i = 0; i < static_cast<int>(session.fitted().participants().size()); ++i) out.push_back({i, -1, 0});
+    return out;
+}
+
+PathRef path_named(const Session& session, std::string_view name) {
+    std::vector<std::string> names;
+    for (const PathRef& path : paths(session)) {
+        names.push_back(participant_of(session.fitted(), path)->name);
+        if (names.back() == name) return path;
+    }
+    throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
+}
+
+const mobb::Tree& tree_of(const Session& session, const PathRef& path) {
+    return session.fitted().tree(participant_of(session.fitted(), path)->clip);
+}
+
+const mobb::Tree& selected_tree(const Session& session) { return tree_of(session, session.selection.path); }
+
+/// Selects something of a path and brings it into the picture: what a query does not show is outside of it, and a node
+/// is seen only on its level.
+void go_to(Session& session, const Selection& selected) {
+    const bool in_view = index_in_view(session.fitted(), session.view(), selected.path).has_value();
+    const mobb::Tree& tree = tree_of(session, selected.path);
+    session.look([&](ViewState& view) {
+        if (!in_view) view.query.reset();
+        if (selected.kind != Selection::Kind::node || view.query) return;
+        const std::vector<int> shown = shown_nodes(tree, view.levels);
+        if (std::find(shown.begin(), shown.end(), selected.index) != shown.end()) return;
+        const int level = tree.nodes()[static_cast<std::size_t>(selected.index)].level;
+        view.levels = {level, level, false};
+    });
+    session.select(selected);
+}
+
+void go_to_node(Session& session, int node) { go_to(session, {Selection::Kind::node, session.selection.path, node}); }
+
+std::vector<std::string> names_of_paths(const Session& session) {
+    std::vector<std::string> out;
+    for (const PathRef& path : paths(session)) {
+        const std::string name = participant_of(session.fitted(), path)->name;
+        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    }
+    return out;
+}
+
+void go_agent(Session& session, const std::string& name) {
+    go_to(session, {Selection::Kind::path, path_named(session, name), -1});
+}
+
+void go_node(Session& session, const std::string& text) {
+    const auto [name, place] = name_and_word(text, "the node");
+    const PathRef path = path_named(session, name);
+    go_to(session, {Selection::Kind::node, path, node_at(tree_of(session, path), place)});
+}
+
+void go_sample(Session& session, const std::string& text) {
+    const auto [name, index] = name_and_word(text, "the sample");
+    const PathRef path = path_named(session, name);
+    const int last = tree_of(session, path).clip().count() - 1;
+    go_to(session, {Selection::Kind::sample, path, whole_number_in(index, "the sample", 0, last)});
+}
+
+// --- about the tree
+
+/// A node's parent, or a sample's leaf; -1 if there is none.
+int parent(const Session& session) {
+    const Selection& selected = session.selection;
+    if (selected.kind == Selection::Kind::sample) return leaf_of_sample(selected_tree(session), selected.index);
+    if (selected.kind != Selection::Kind::node) return -1;
+    return selected_tree(session).nodes()[static_cast<std::size_t>(selected.index)].parent;
+}
+
+/// A node's first child, or a path's root; -1 if there is none.
+int child(const Session& session) {
+    const Selection& selected = session.selection;
+    if (selected.kind == Selection::Kind::path) return 0;
+    if (selected.kind != Selection::Kind::node) return -1;
+    return selected_tree(session).nodes()[static_cast<std::size_t>(selected.index)].children[0];
+}
+
+/// The node before or after on the same level; -1 if there is none.
+template <int direction>
+int neighbour(const Session& session) {
+    if (session.selection.kind != Selection::Kind::node) return -1;
+    return neighbour_on_level(selected_tree(session), session.selection.index, direction);
+}
+
+/// A command that goes to the node that `find` finds, if it finds one.
+template <int (*find)(const Session&)>
+bool is_found(const Session& session) {
+    return find(session) >= 0;
+}
+template <int (*find)(const Session&)>
+void go_to_found(Session& session, const std::string&) {
+    go_to_node(session, find(session));
+}
+
+// --- the rest
+
+std::vector<std::string> clip_names(const Session& session) {
+    std::vector<std::string> out;
+    for (const SceneClip& clip : session.scene().clips) out.push_back(clip.name);
+    return out;
+}
+
+void go_clip(Session& session, const std::string& name) {
+    const std::vector<std::string> names = clip_names(session);
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end())
+        throw std::invalid_argument("there is no clip " + in_quotes(name) + did_you_mean(name, names));
+    session.select({Selection::Kind::clip, {}, static_cast<int>(at - names.begin())});
+}
+
+bool has_contact(const Session& session) {
+    const RecordedQuery* recorded = session.recorded();
+    return recorded && recorded->contact;
+}
+
+void go_contact(Session& session, const std::string&) {
+    const RecordedQuery& recorded = *session.recorded();
+    session.look([&](ViewState& view) {
+        view.time = recorded.contact->time;
+        view.step = {Step::Unit::end, 0};  // the search ends with the hit
+    });
+}
+
+}  // namespace
+
+std::span<const Command> go_commands() {
+    static const std::vector<Command> table{
+        {.id = "go.palette",
+         .title = "Search...",
+         .menu = "Go",
+         .shortcut = "Ctrl+P",
+         .doc = "Finds commands, agents, clips, queries and nodes by a few letters.",
+         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::palette); }},
+        {.id = "go.agent",
+         .title = "Agent",
+         .menu = "Go",
+         .argument = "NAME",
+         .doc = "Selects an agent.",
+         .enabled = has_scene,
+         .run = go_agent,
+         .choices = names_of_paths},
+        {.id = "go.clip",
+         .title = "Clip",
+         .menu = "Go",
+         .argument = "NAME",
+         .doc = "Selects a clip.",
+         .enabled = has_scene,
+         .run = go_clip,
+         .choices = clip_names},
+        {.id = "go.node",
+         .title = "Node...",
+         .menu = "Go",
+         .argument = "AGENT NODE",
+         .doc = "Selects a node, by its index (A 12) or by level and place (A 2.1), and shows its level.",
+         .enabled = has_scene,
+         .run = go_node},
+        {.id = "go.sample",
+         .title = "Sample...",
+         .menu = "Go",
+         .argument = "AGENT INDEX",
+         .doc = "Selects a sample of an agent by its number from 0.",
+         .enabled = has_scene,
+         .run = go_sample},
+        {.id = "go.parent",
+         .title = "Parent node",
+         .menu = "Go",
+         .shortcut = "Ctrl+Up",
+         .doc = "Selects the node above the selected one, or the leaf that holds the selected sample.",
+         .enabled = is_found<parent>,
+         .run = go_to_found<parent>},
+        {.id = "go.child",
+         .title = "First child node",
+         .menu = "Go",
+         .shortcut = "Ctrl+Down",
+         .doc = "Selects the first node below the selected one, or the root of the selected agent's tree.",
+         .enabled = is_found<child>,
+         .run = go_to_found<child>},
+        {.id = "go.previous_node",
+         .title = "Previous node",
+         .menu = "Go",
+         .shortcut = "Ctrl+Left",
+         .doc = "Selects the node before the selected one on its level.",
+         .enabled = is_found<neighbour<-1>>,
+         .run = go_to_found<neighbour<-1>>},
+        {.id = "go.next_node",
+         .title = "Next node",
+         .menu = "Go",
+         .shortcut = "Ctrl+Right",
+         .doc = "Selects the node after the selected one on its level.",
+         .enabled = is_found<neighbour<1>>,
+         .run = go_to_found<neighbour<1>>},
+        {.id = "go.contact",
+         .title = "Contact",
+         .menu = "Go",
+         .doc = "Goes to the moment and the step at which the two of the query in view first touch.",
+         .enabled = has_contact,
+         .run = go_contact},
+        {.id = "go.none",
+         .title = "Select nothing",
+         .menu = "Go",
+         .doc = "Selects nothing.",
+         .enabled = [](const Session& session) { return session.selection.kind != Selection::Kind::none; },
+         .run = [](Session& session, const std::string&) { session.select({}); }},
+    };
+    return table;
+}
 
 }  // namespace mobbscope::app

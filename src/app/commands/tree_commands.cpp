@@ -1,7 +1,103 @@
 #include <app/command.h>
+#include <app/commands/arguments.h>
+#include <import/text.h>
+
+#include <limits>
+#include <stdexcept>
 
 namespace mobbscope::app {
 
-std::span<const Command> tree_commands() { return {}; }
+namespace {
+
+bool has_scene(const Session& session) { return !session.empty(); }
+
+std::vector<std::string> as_strings(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
+
+template <class Change>
+void fit(Session& session, const std::string& doing, const Change& change) {
+    session.edit({doing, ""}, [&](Scene& scene) { change(scene.fit); });
+}
+
+void set_kind(Session& session, const std::string& text) {
+    const auto kind = mobb::tree_kind_from_name(text);
+    if (!kind) {
+        throw std::invalid_argument("the trees cannot be " + in_quotes(text) + ": give one of " +
+                                    listed(mobb::tree_kind_names()));
+    }
+    fit(session, "changing the kind of trees", [&](mobb::FitOptions& options) { options.tree = *kind; });
+}
+
+void set_axes(Session& session, const std::string& text) {
+    const auto axes = mobb::axes_from_name(text);
+    if (!axes) {
+        throw std::invalid_argument("the axes cannot be " + in_quotes(text) + ": give one of " +
+                                    listed(mobb::axes_names()));
+    }
+    fit(session, "changing the axes", [&](mobb::FitOptions& options) { options.axes = *axes; });
+}
+
+void set_leaf(Session& session, const std::string& text) {
+    const int leaf = whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max());
+    fit(session, "changing the leaves", [&](mobb::FitOptions& options) { options.leaf = leaf; });
+}
+
+void set_levels(Session& session, const std::string& text) {
+    const int levels = whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max());
+    fit(session, "changing the levels", [&](mobb::FitOptions& options) { options.levels = levels; });
+}
+
+void set_time_scale(Session& session, const std::string& text) {
+    const double scale = number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
+    fit(session, "changing the time scale", [&](mobb::FitOptions& options) { options.time_scale = scale; });
+}
+
+}  // namespace
+
+std::span<const Command> tree_commands() {
+    static const std::vector<Command> table{
+        {.id = "tree.kind",
+         .title = "Tree kind",
+         .menu = "Tree",
+         .argument = "K",
+         .doc = "Fits boxes upright in time (mobb), free boxes (umobb), or one kind at the root and the other below.",
+         .enabled = has_scene,
+         .run = set_kind,
+         .choices = [](const Session&) { return as_strings(mobb::tree_kind_names()); },
+         .chosen = [](const Session& session,
+                      const std::string& kind) { return name(session.scene().fit.tree) == kind; }},
+        {.id = "tree.axes",
+         .title = "Axes",
+         .menu = "Tree",
+         .argument = "K",
+         .doc = "Takes the directions of boxes from first to last sample, from the principal axes, or the tightest.",
+         .enabled = has_scene,
+         .run = set_axes,
+         .choices = [](const Session&) { return as_strings(mobb::axes_names()); },
+         .chosen = [](const Session& session,
+                      const std::string& axes) { return name(session.scene().fit.axes) == axes; }},
+        {.id = "tree.leaf",
+         .title = "Samples in a leaf...",
+         .menu = "Tree",
+         .argument = "N",
+         .doc = "Makes a node of at most N samples a leaf; 10 is the usual number.",
+         .enabled = has_scene,
+         .run = set_leaf},
+        {.id = "tree.levels",
+         .title = "Levels of the trees...",
+         .menu = "Tree",
+         .argument = "N",
+         .doc = "Ends the trees after N levels; 0 lets them go down to their leaves.",
+         .enabled = has_scene,
+         .run = set_levels},
+        {.id = "tree.time_scale",
+         .title = "Time scale...",
+         .menu = "Tree",
+         .argument = "W",
+         .doc = "Mixes time with space in free boxes at so many metres per second.",
+         .enabled = has_scene,
+         .run = set_time_scale},
+    };
+    return table;
+}
 
 }  // namespace mobbscope::app

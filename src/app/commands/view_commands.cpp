@@ -1,7 +1,515 @@
 #include <app/command.h>
+#include <app/commands/arguments.h>
+#include <app/commands/explicit_view.h>
+#include <import/text.h>
+#include <render/lens.h>
+#include <render/navigate.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace mobbscope::app {
 
-std::span<const Command> view_commands() { return {}; }
+namespace {
+
+constexpr double kZoomStep = 1.25;
+constexpr double kOrbitStep = 5;  // degrees
+constexpr std::array kScales{0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0};
+
+bool has_scene(const Session& session) { return !session.empty(); }
+bool shows_levels(const Session& session) { return has_scene(session) && !session.view().query; }
+
+// --- the camera
+
+/// The scene framed by itself again. What the field of view was before the camera stood somewhere is not known.
+void frame_by_itself(Camera& camera) {
+    if (camera.target) camera.fov_deg = Camera{}.fov_deg;
+    camera.target.reset();
+    camera.distance = 0;
+    camera.shift = {0, 0};
+}
+
+template <CameraPreset preset>
+void see_from(Session& session, const std::string&) {
+    session.look([](ViewState& view) {
+        view.camera.preset = preset;
+        frame_by_itself(view.camera);
+    });
+}
+
+template <CameraPreset preset>
+bool is_seen_from(const Session& session) {
+    return session.view().camera.preset == preset;
+}
+
+bool may_have_perspective(const Session& session) {
+    Camera camera = session.view().camera;
+    camera.perspective = true;
+    return has_scene(session) && orientation(camera).perspective;
+}
+
+void frame_all(Session& session, const std::string&) {
+    session.look([](ViewState& view) { frame_by_itself(view.camera); });
+}
+
+void frame_selection(Session& session, const std::string& none) {
+    const std::optional<SceneBox> box = box_of(session, session.selection);
+    if (!box) return frame_all(session, none);
+    const glm::dvec3 drawn(1, 1, drawn_time_height(session));
+    move_camera(session, [&](const Camera& camera, PictureSize size) {
+        return framing(camera, box->min * drawn, box->max * drawn, size);
+    });
+}
+
+void zoom(Session& session, double factor) {
+    move_camera(session, [&](const Camera& camera, PictureSize size) {
+        const glm::dvec2 target =
+            (glm::dvec2(0.5) + camera.shift * glm::dvec2(1, -1)) * glm::dvec2(size.width, size.height);
+        return zoomed(camera, factor, glm::vec2(target), size);
+    });
+}
+
+/// The scene turns as if it was dragged to the right and downwards.
+void orbit(Session& session, glm::dvec2 degrees) {
+    move_camera(session, [&](const Camera& camera, PictureSize size) {
+        return orbited(camera, glm::vec2(degrees * (size.height / 180.0)), size);
+    });
+}
+
+template <int x, int y>
+void orbit_step(Session& session, const std::string&) {
+    orbit(session, kOrbitStep * glm::dvec2(x, y));
+}
+
+// --- what is drawn
+
+template <bool ViewState::*part>
+void toggle(Session& session, const std::string&) {
+    session.look([](ViewState& view) { view.*part = !(view.*part); });
+}
+
+template <bool ViewState::*part>
+bool is_on(const Session& session) {
+    return session.view().*part;
+}
+
+/// Levels of the deepest tree in the picture.
+int depth_in_view(const Session& session) {
+    int depth = 1;
+    for (const Participant& participant : session.fitted().participants()) {
+        depth = std::max(depth, session.fitted().tree(participant.clip).depth());
+    }
+    return depth;
+}
+
+/// A query's picture has no levels: showing some leaves it.
+void show_levels(Session& session, LevelRange levels) {
+    session.look([&](ViewState& view) {
+        view.levels = levels;
+        view.query.reset();
+    });
+}
+
+bool can_be_finer(const Session& session) {
+    const LevelRange levels = session.view().levels;
+    return shows_levels(session) && !levels.leaves && levels.last + 1 < depth_in_view(session);
+}
+
+void finer(Session& session, const std::string&) {
+    const LevelRange levels = session.view().levels;
+    show_levels(session, {levels.first + 1, levels.last + 1, false});
+}
+
+bool can_be_coarser(const Session& session) {
+    return shows_levels(session) && (session.view().levels.leaves || session.view().levels.first > 0);
+}
+
+void coarser(Session& session, const std::string&) {
+    const LevelRange levels = session.view().levels;
+    const int deepest = depth_in_view(session) - 1;
+    // Leaves are of several levels, and a range from a file may go deeper than the trees do.
+    if (levels.leaves) return show_levels(session, {deepest, deepest, false});
+    const int by = std::max(1, std::min(levels.last - deepest, levels.first));
+    show_levels(session, {levels.first - by, levels.last - by, false});
+}
+
+void set_levels(Session& session, const std::string& levels) { show_levels(session, parse_level_range(levels)); }
+
+void set_time_height(Session& session, const std::string& metres) {
+    const double height = metres == "auto" ? 0 : number_in(metres, "the height of a second", 1e-6, 1e6);
+    session.look([&](ViewState& view) { view.time_height = height; });
+}
+
+std::vector<std::string> theme_names(const Session&) { return {"dark", "light"}; }
+
+void set_theme(Session& session, const std::string& text) {
+    const Theme other = session.view().theme == Theme::dark ? Theme::light : Theme::dark;
+    const std::optional<Theme> theme = text.empty() ? other : theme_from_name(text);
+    if (!theme) throw std::invalid_argument("a theme cannot be " + in_quotes(text) + ": give dark or light");
+    session.look([&](ViewState& view) { view.theme = *theme; });
+}
+
+bool is_theme(const Session& session, const std::string& text) { return name(session.view().theme) == text; }
+
+// --- the window
+
+double present_scale(const Session& session) {
+    if (session.settings.ui_scale > 0) return session.settings.ui_scale;
+    return session.hooks.ui_scale ? session.hooks.ui_scale() : 1;
+}
+
+void set_scale(Session& session, const std::string& text) {
+    session.settings.ui_scale = number_in(text, "the scale", kScales.front(), kScales.back());
+}
+
+constexpr double kHair = 1e-3;
+
+void larger(Session& session, const std::string&) {
+    const auto next = std::upper_bound(kScales.begin(), kScales.end(), present_scale(session) + kHair);
+    session.settings.ui_scale = next == kScales.end() ? kScales.back() : *next;
+}
+
+void smaller(Session& session, const std::string&) {
+    const auto next = std::lower_bound(kScales.begin(), kScales.end(), present_scale(session) - kHair);
+    session.settings.ui_scale = next == kScales.begin() ? kScales.front() : *(next - 1);
+}
+
+// --- time
+
+void set_time(Session& session, double time) {
+    session.look([&](ViewState& view) { view.time = time; });
+}
+
+/// The shortest sample of the paths in the picture, seconds.
+double sample_time(const Session& session) {
+    double dt = std::numeric_limits<double>::max();
+    const auto add = [&](const Participant& participant) {
+        dt = std::min(dt, session.fitted().tree(participant.clip).clip().dt());
+    };
+    if (session.view().query) {
+        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(*session.view().query)];
+        add(query.a);
+        add(query.b);
+    } else {
+        for (const Participant& participant : session.fitted().participants()) add(participant);
+    }
+    return dt;
+}
+
+/// To the next multiple of a sample after (before) the present time, counted from the first moment.
+void step_time(Session& session, int direction) {
+    const mobb::Interval span = session.time_span();
+    const double dt = sample_time(session);
+    const double at = (session.view().time.value_or(span.t0) - span.t0) / dt;
+    const double next = direction > 0 ? std::floor(at + kHair) + 1 : std::ceil(at - kHair) - 1;
+    session.playing = false;
+    set_time(session, std::clamp(span.t0 + next * dt, span.t0, span.t1));
+}
+
+void play(Session& session, const std::string&) {
+    session.playing = !session.playing;
+    if (session.playing && !session.view().time) set_time(session, session.time_span().t0);
+}
+
+}  // namespace
+
+std::span<const Command> view_commands() {
+    static const std::vector<Command> table{
+        {.id = "view.iso",
+         .title = "View from a corner",
+         .menu = "View",
+         .shortcut = "1",
+         .doc = "Looks from above a corner of the floor, with the whole scene in the picture.",
+         .enabled = has_scene,
+         .run = see_from<CameraPreset::iso>,
+         .checked = is_seen_from<CameraPreset::iso>},
+        {.id = "view.top",
+         .title = "View from above",
+         .menu = "View",
+         .shortcut = "2",
+         .doc = "Looks down on the floor: the paths as on a map.",
+         .enabled = has_scene,
+         .run = see_from<CameraPreset::top>,
+         .checked = is_seen_from<CameraPreset::top>},
+        {.id = "view.front",
+         .title = "View from the front",
+         .menu = "View",
+         .shortcut = "3",
+         .doc = "Looks along y: x to the right, time upwards.",
+         .enabled = has_scene,
+         .run = see_from<CameraPreset::front>,
+         .checked = is_seen_from<CameraPreset::front>},
+        {.id = "view.side",
+         .title = "View from the side",
+         .menu = "View",
+         .shortcut = "4",
+         .doc = "Looks along x: y across, time upwards.",
+         .enabled = has_scene,
+         .run = see_from<CameraPreset::side>,
+         .checked = is_seen_from<CameraPreset::side>},
+        {.id = "view.perspective",
+         .title = "Perspective",
+         .menu = "View",
+         .shortcut = "5",
+         .doc = "Draws what is farther smaller; without it, equal lengths stay equal.",
+         .enabled = may_have_perspective,
+         .run =
+             [](Session& session, const std::string&) {
+                 session.look([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+             },
+         .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }},
+        {.id = "view.frame",
+         .title = "Frame the selection",
+         .menu = "View",
+         .shortcut = "F",
+         .doc = "Brings what is selected into the middle, as large as it fits; without a selection everything.",
+         .enabled = has_scene,
+         .run = frame_selection},
+        {.id = "view.frame_all",
+         .title = "Frame everything",
+         .menu = "View",
+         .shortcut = "Home",
+         .doc = "Shows the whole scene again from the present direction.",
+         .enabled = has_scene,
+         .run = frame_all},
+        {.id = "view.zoom",
+         .title = "Zoom by",
+         .argument = "FACTOR",
+         .doc = "Goes nearer by a factor; below 1 farther.",
+         .enabled = has_scene,
+         .run = [](Session& session,
+                   const std::string& text) { zoom(session, number_in(text, "the factor", 1e-3, 1e3)); }},
+        {.id = "view.zoom_in",
+         .title = "Zoom in",
+         .menu = "View/Camera",
+         .shortcut = "=",
+         .doc = "Goes nearer.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string&) { zoom(session, kZoomStep); }},
+        {.id = "view.zoom_out",
+         .title = "Zoom out",
+         .menu = "View/Camera",
+         .shortcut = "-",
+         .doc = "Goes farther away.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string&) { zoom(session, 1 / kZoomStep); }},
+        {.id = "view.orbit",
+         .title = "Turn by",
+         .argument = "DX DY",
+         .doc = "Turns the scene by degrees to the right and downwards.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string& text) { orbit(session, two_numbers(text, "the angles")); }},
+        {.id = "view.orbit_left",
+         .title = "Turn to the left",
+         .menu = "View/Camera",
+         .shortcut = "Alt+Left",
+         .doc = "Turns the scene to the left by 5 degrees.",
+         .enabled = has_scene,
+         .run = orbit_step<-1, 0>},
+        {.id = "view.orbit_right",
+         .title = "Turn to the right",
+         .menu = "View/Camera",
+         .shortcut = "Alt+Right",
+         .doc = "Turns the scene to the right by 5 degrees.",
+         .enabled = has_scene,
+         .run = orbit_step<1, 0>},
+        {.id = "view.orbit_up",
+         .title = "Tip upwards",
+         .menu = "View/Camera",
+         .shortcut = "Alt+Up",
+         .doc = "Tips the scene upwards by 5 degrees: it is seen more from the side.",
+         .enabled = has_scene,
+         .run = orbit_step<0, -1>},
+        {.id = "view.orbit_down",
+         .title = "Tip downwards",
+         .menu = "View/Camera",
+         .shortcut = "Alt+Down",
+         .doc = "Tips the scene downwards by 5 degrees: it is seen more from above.",
+         .enabled = has_scene,
+         .run = orbit_step<0, 1>},
+        {.id = "view.pan",
+         .title = "Shift by",
+         .argument = "DX DY",
+         .doc = "Shifts the scene by pixels to the right and downwards.",
+         .enabled = has_scene,
+         .run =
+             [](Session& session, const std::string& text) {
+                 const glm::vec2 pixels(two_numbers(text, "the way"));
+                 move_camera(session,
+                             [&](const Camera& camera, PictureSize size) { return panned(camera, pixels, size); });
+             }},
+        {.id = "view.disks",
+         .title = "Disks",
+         .menu = "View/Show",
+         .shortcut = "D",
+         .doc = "Shows the samples: a disk for as long as it holds.",
+         .run = toggle<&ViewState::disks>,
+         .checked = is_on<&ViewState::disks>},
+        {.id = "view.boxes",
+         .title = "Boxes",
+         .menu = "View/Show",
+         .shortcut = "B",
+         .doc = "Shows the boxes of the trees.",
+         .run = toggle<&ViewState::boxes>,
+         .checked = is_on<&ViewState::boxes>},
+        {.id = "view.floor",
+         .title = "Floor",
+         .menu = "View/Show",
+         .shortcut = "G",
+         .doc = "Shows the grid in metres with the paths' traces on it.",
+         .run = toggle<&ViewState::floor>,
+         .checked = is_on<&ViewState::floor>},
+        {.id = "view.time_axis",
+         .title = "Time axis",
+         .menu = "View/Show",
+         .shortcut = "X",
+         .doc = "Shows the upright scale in seconds.",
+         .run = toggle<&ViewState::time_axis>,
+         .checked = is_on<&ViewState::time_axis>},
+        {.id = "view.labels",
+         .title = "Labels",
+         .menu = "View/Show",
+         .shortcut = "L",
+         .doc = "Shows all text in the picture.",
+         .run = toggle<&ViewState::labels>,
+         .checked = is_on<&ViewState::labels>},
+        {.id = "view.legend",
+         .title = "Legend",
+         .menu = "View/Show",
+         .shortcut = "K",
+         .doc = "Shows what colours and lines stand for.",
+         .run = toggle<&ViewState::legend>,
+         .checked = is_on<&ViewState::legend>},
+        {.id = "view.level",
+         .title = "Show levels",
+         .argument = "N|A:B|leaves",
+         .doc = "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
+         .enabled = has_scene,
+         .run = set_levels},
+        {.id = "view.finer",
+         .title = "Finer level",
+         .menu = "View/Levels",
+         .shortcut = "]",
+         .doc = "Shows the boxes one level further down the trees.",
+         .enabled = can_be_finer,
+         .run = finer},
+        {.id = "view.coarser",
+         .title = "Coarser level",
+         .menu = "View/Levels",
+         .shortcut = "[",
+         .doc = "Shows the boxes one level nearer to the roots.",
+         .enabled = can_be_coarser,
+         .run = coarser},
+        {.id = "view.leaves",
+         .title = "Leaves",
+         .menu = "View/Levels",
+         .shortcut = "E",
+         .doc = "Shows the leaves of the trees, whatever their level; leaves the query in view.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string&) { set_levels(session, "leaves"); },
+         .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }},
+        {.id = "view.time_height",
+         .title = "Height of a second",
+         .argument = "M|auto",
+         .doc = "Draws a second so many metres high; auto makes the scene about as tall as wide.",
+         .enabled = has_scene,
+         .run = set_time_height},
+        {.id = "view.theme",
+         .title = "Theme",
+         .menu = "View",
+         .shortcut = "T",
+         .argument = "[dark|light]",
+         .doc = "Changes between dark and light, for the window and its pictures.",
+         .run = set_theme,
+         .choices = theme_names,
+         .chosen = is_theme},
+        {.id = "window.scale",
+         .title = "Scale of text and panels",
+         .argument = "X",
+         .doc = "Makes text and panels so many times as large, 0.5 to 4.",
+         .run = set_scale},
+        {.id = "window.larger",
+         .title = "Larger text",
+         .menu = "View/Window",
+         .shortcut = "Ctrl+=",
+         .doc = "Makes text and panels larger.",
+         .run = larger},
+        {.id = "window.smaller",
+         .title = "Smaller text",
+         .menu = "View/Window",
+         .shortcut = "Ctrl+-",
+         .doc = "Makes text and panels smaller.",
+         .run = smaller},
+        {.id = "window.scale_reset",
+         .title = "Text as large as the monitor says",
+         .menu = "View/Window",
+         .shortcut = "Ctrl+0",
+         .doc = "Makes text and panels as large as the monitor's scale asks for.",
+         .run = [](Session& session, const std::string&) { session.settings.ui_scale = 0; }},
+        {.id = "time.at",
+         .title = "Time cursor at",
+         .argument = "S",
+         .doc = "Puts the time cursor at a moment, in seconds.",
+         .enabled = has_scene,
+         .run =
+             [](Session& session, const std::string& text) {
+                 set_time(session, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
+             }},
+        {.id = "time.clear",
+         .title = "No time cursor",
+         .menu = "View/Time",
+         .doc = "Takes the time cursor out of the picture.",
+         .enabled = [](const Session& session) { return session.view().time.has_value(); },
+         .run =
+             [](Session& session, const std::string&) {
+                 session.playing = false;
+                 session.look([](ViewState& view) { view.time.reset(); });
+             }},
+        {.id = "time.play",
+         .title = "Play",
+         .menu = "View/Time",
+         .shortcut = "Space",
+         .doc = "Lets the time cursor run, or stops it.",
+         .enabled = has_scene,
+         .run = play,
+         .checked = [](const Session& session) { return session.playing; }},
+        {.id = "time.start",
+         .title = "To the first moment",
+         .menu = "View/Time",
+         .doc = "Puts the time cursor where the first path begins.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string&) { set_time(session, session.time_span().t0); }},
+        {.id = "time.end",
+         .title = "To the last moment",
+         .menu = "View/Time",
+         .doc = "Puts the time cursor where the last path ends.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string&) { set_time(session, session.time_span().t1); }},
+        {.id = "time.forward",
+         .title = "A sample on",
+         .menu = "View/Time",
+         .shortcut = ".",
+         .doc = "Moves the time cursor on by a sample.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string&) { step_time(session, 1); }},
+        {.id = "time.back",
+         .title = "A sample back",
+         .menu = "View/Time",
+         .shortcut = ",",
+         .doc = "Moves the time cursor back by a sample.",
+         .enabled = has_scene,
+         .run = [](Session& session, const std::string&) { step_time(session, -1); }},
+        {.id = "time.speed",
+         .title = "Speed of playing",
+         .argument = "X",
+         .doc = "Plays so many seconds of the scene in a second, 0.01 to 100.",
+         .run = [](Session& session,
+                   const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); }},
+    };
+    return table;
+}
 
 }  // namespace mobbscope::app

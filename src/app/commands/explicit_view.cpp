@@ -1,0 +1,78 @@
+#include <app/commands/explicit_view.h>
+#include <render/build_draw_list.h>
+#include <render/framing.h>
+#include <render/settle.h>
+#include <render/world_box.h>
+
+#include <algorithm>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr PictureSize kWithoutWindow{1280, 720};
+
+void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
+    for (int i = range.first; i < range.end(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
+        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
+    }
+}
+
+void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
+    for (const glm::dvec3& corner : mobb::corners(world_box(tree, node))) {
+        bounds.add({corner.x, corner.y, corner.z / tree.time_scale()});
+    }
+}
+
+bool is_selected(const Session& session, const Selection& selected, int index, int clip) {
+    if (selected.on_path()) return index_in_view(session.fitted(), session.view(), selected.path) == index;
+    if (selected.kind == Selection::Kind::clip) return clip == selected.index;
+    return selected.kind == Selection::Kind::query && session.view().query == selected.index;
+}
+
+}  // namespace
+
+PictureSize viewport_size(const Session& session) {
+    return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
+}
+
+double drawn_time_height(const Session& session) {
+    return space_for(bounds_of(subjects(session.fitted(), session.view())), session.view()).time_height;
+}
+
+void move_camera(Session& session, const std::function<Camera(const Camera&, PictureSize)>& move) {
+    const PictureSize size = viewport_size(session);
+    const double time_height = drawn_time_height(session);
+    const Camera camera = session.hooks.settled_camera
+                              ? session.hooks.settled_camera()
+                              : settled(session.view().camera, build_draw_list(session.fitted(), session.view(), size));
+    const Camera moved = move(camera, size);
+    session.look([&](ViewState& view) {
+        view.camera = moved;
+        view.time_height = time_height;
+    });
+}
+
+std::optional<SceneBox> box_of(const Session& session, const Selection& selected) {
+    Bounds bounds;
+    for (const Subject& subject : subjects(session.fitted(), session.view())) {
+        const mobb::PlacedClip& clip = subject.clip();
+        const auto is_clip = [&](const auto& known) { return known.clip.get() == &clip.clip(); };
+        const auto& clips = session.scene().clips;
+        const auto at = std::find_if(clips.begin(), clips.end(), is_clip);
+        if (!is_selected(session, selected, subject.index, static_cast<int>(at - clips.begin()))) continue;
+        if (selected.kind == Selection::Kind::node) {
+            add_box(bounds, subject.placed, selected.index);
+        } else if (selected.kind == Selection::Kind::sample) {
+            add_samples(bounds, clip, {selected.index, 1});
+        } else {
+            add_samples(bounds, clip, {0, clip.count()});
+        }
+    }
+    if (bounds.min.x > bounds.max.x) return std::nullopt;
+    return SceneBox{bounds.min, bounds.max};
+}
+
+}  // namespace mobbscope::app

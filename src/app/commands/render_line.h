@@ -1,0 +1,18 @@
+/// The picture in the window as a command line.
+#pragma once
+
+#include <app/session.h>
+
+#include <string>
+
+namespace mobbscope::app {
+
+/// "mobbscope render ..." that draws the present picture in the viewport's size, quoted for a shell. Throws
+/// std::invalid_argument, saying that the scene must be saved first, if its files and the command's options do not tell
+/// the whole picture.
+std::string render_line(const Session& session);
+
+/// A word as a POSIX shell takes it literally.
+std::string shell_quoted(const std::string& word);
+
+}  // namespace mobbscope::app

@@ -1,0 +1,44 @@
+#include <app/commands/selected_agent.h>
+#include <import/text.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+bool has_selected_agent(const Session& session) {
+    return session.selection.on_path() && session.selection.path.participant >= 0;
+}
+
+int selected_agent(const Session& session) { return session.selection.path.participant; }
+
+std::string selected_agent_name(const Session& session) {
+    return participant_of(session.fitted(), session.selection.path)->name;
+}
+
+void edit_selected_agent(Session& session, const std::string& doing,
+                         const std::function<void(Scene&, int agent)>& change) {
+    const int agent = selected_agent(session);
+    session.edit({doing + ' ' + selected_agent_name(session), ""}, [&](Scene& scene) {
+        add_agents_for_clips(scene);
+        change(scene, agent);
+    });
+}
+
+std::vector<std::string> path_names(const Session& session) {
+    std::vector<std::string> out;
+    for (const Participant& participant : session.fitted().participants()) out.push_back(participant.name);
+    return out;
+}
+
+int path_by_name(const Session& session, const std::string& name) {
+    const std::vector<std::string> names = path_names(session);
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) {
+        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
+    }
+    return static_cast<int>(at - names.begin());
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,15 @@
+/// From a camera that frames the scene by itself to one that says where it stands.
+#pragma once
+
+#include <render/draw_list.h>
+#include <scene/view_state.h>
+
+namespace mobbscope {
+
+/// The explicit camera (preset free, with a target) that shows what `list.lens` shows; `camera` is the one that the
+/// list was built with. The target lies in the middle of the picture's free part, as deep as the middle of the disks
+/// and boxes. It is in world metres with time drawn `list.space.time_height` high, which the view has to keep. A camera
+/// that has a target keeps it. A field of view beyond kMostFov, as a tiny picture may have, is cut to that.
+Camera settled(const Camera& camera, const DrawList& list);
+
+}  // namespace mobbscope

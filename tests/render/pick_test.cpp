@@ -1,0 +1,215 @@
+#include <render/build_draw_list.h>
+#include <render/pick.h>
+#include <render/render.h>
+#include <render/settle.h>
+#include <render/subject.h>
+#include <render/world_box.h>
+
+#include "render/backends.h"
+#include "render/scenes.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+constexpr PictureSize kSize{960, 540};
+
+FittedScene demo_scene(const std::string& name) {
+    Scene scene = load_scene(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets" / "scenes" / (name + ".json"));
+    const mobb::FitOptions options = scene.fit;
+    return {std::move(scene), options};
+}
+
+std::string describe(const std::optional<ObjectId>& id) {
+    if (!id) return "nothing";
+    return std::to_string(id->participant) + (id->kind == ObjectId::Kind::disk ? " disk " : " box ") +
+           std::to_string(id->index);
+}
+
+glm::vec2 middle_of_pixel(int x, int y) { return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}; }
+
+/// Whether the picks have `drawn` first. Nested boxes share planes, where rounding decides which of them is drawn:
+/// there it may come after others of the same depth.
+bool agrees(const std::vector<Pick>& picks, const std::optional<ObjectId>& drawn) {
+    if (!drawn || picks.empty()) return !drawn && picks.empty();
+    return std::any_of(picks.begin(), picks.end(), [&](const Pick& one) {
+        return one.id == *drawn && one.id.kind == picks.front().id.kind && one.depth - picks.front().depth < 1e-3f;
+    });
+}
+
+/// How many of every so many pixels differ, and how many of them show something.
+struct Agreement {
+    int pixels = 0;
+    int shown = 0;
+    int differing = 0;
+    std::string example;
+};
+
+Agreement compare(const DrawList& list, const IdImage& drawn) {
+    Agreement out;
+    for (int y = 2; y < drawn.height; y += 5) {
+        for (int x = 2; x < drawn.width; x += 5) {
+            const std::optional<ObjectId> expected = drawn.at(x, y);
+            const std::vector<Pick> picks = pick(list, middle_of_pixel(x, y));
+            ++out.pixels;
+            out.shown += expected ? 1 : 0;
+            if (agrees(picks, expected)) continue;
+            ++out.differing;
+            out.example = "(" + std::to_string(x) + ", " + std::to_string(y) + "): drawn " + describe(expected) +
+                          ", picked " + describe(picks.empty() ? std::nullopt : std::optional(picks.front().id));
+        }
+    }
+    return out;
+}
+
+class PickTest : public testing::OnEachBackend {};
+
+TEST_P(PickTest, AgreesWithThePicture) {
+    for (const char* name : {"crossing", "collision", "circles"}) {
+        const FittedScene fitted = demo_scene(name);
+        std::vector<ViewState> views(8, fitted.scene().view);
+        views[0].levels = {0, 4, false};
+        views[1].levels = {3, 3, false};
+        views[1].camera = {};
+        views[1].camera.preset = CameraPreset::top;
+        views[2].camera.preset = CameraPreset::front;
+        views[3].camera.preset = CameraPreset::side;
+        views[3].boxes = false;
+        views[4].levels.leaves = true;
+        views[4].camera.preset = CameraPreset::free;
+        views[4].camera.pitch_deg = -30;
+        views[5].camera.perspective = false;
+        views[5].camera.fov_deg = 60;
+        if (!fitted.queries().empty()) {
+            views[6].query = 0;
+            views[6].step = {Step::Unit::percent, 40};
+            views[7].query = 0;
+        }
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            const DrawList list = build_draw_list(fitted, views[i], kSize);
+            const Agreement agreement = compare(list, renderer().draw_ids(list));
+            EXPECT_GT(agreement.shown, agreement.pixels / 100) << name << ", view " << i;
+            EXPECT_LT(agreement.differing, 0.005 * agreement.shown)
+                << name << ", view " << i << ": of " << agreement.shown << " shown, such as " << agreement.example;
+        }
+    }
+}
+
+TEST_P(PickTest, AgreesFromInsideABox) {
+    const FittedScene fitted = demo_scene("crossing");
+    ViewState view = fitted.scene().view;
+    view.levels = {0, 2, false};
+    view.disks = false;
+    DrawList list = build_draw_list(fitted, view, kSize);
+    view.camera = settled(view.camera, list);
+    view.camera.fov_deg = 100;
+    view.camera.distance = 0.2;
+    list = build_draw_list(fitted, view, kSize);
+    const Agreement agreement = compare(list, renderer().draw_ids(list));
+    EXPECT_GT(agreement.shown, agreement.pixels / 2);
+    EXPECT_LT(agreement.differing, 0.005 * agreement.shown) << agreement.example;
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, PickTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+
+/// How far from a box's surface a place is, metres: 0 on it.
+double off_surface(const mobb::PlacedTree& tree, int node, glm::dvec3 place) {
+    const mobb::Box box = world_box(tree, node);
+    const glm::dvec3 from = glm::dvec3(place.x, place.y, place.z * tree.time_scale()) - box.center;
+    double outside = -1e9;
+    for (int i = 0; i < 3; ++i) {
+        const double along = std::abs(glm::dot(from, box.axes[static_cast<std::size_t>(i)]));
+        outside = std::max(outside, along - box.half[i]);
+    }
+    return std::abs(outside);
+}
+
+double off_surface(const mobb::PlacedClip& clip, int sample, glm::dvec3 place) {
+    const mobb::Disk disk = clip.disk(sample);
+    const double beyond_rim = std::hypot(place.x - disk.x, place.y - disk.y) - disk.r;
+    const double beyond_faces = std::max(clip.time(sample) - place.z, place.z - clip.time(sample + 1));
+    return std::abs(std::max(beyond_rim, beyond_faces));
+}
+
+TEST(Pick, PlacesLieOnWhatIsPicked) {
+    for (const bool far : {false, true}) {
+        const glm::dvec2 there = far ? glm::dvec2(10'000, -10'000) : glm::dvec2(0);
+        const double then = far ? 1e5 : 0;
+        mobb::FitOptions options;
+        options.tree = mobb::TreeKind::umobb;
+        options.time_scale = 2;
+        const FittedScene fitted(testing::scene_of({{there, 0, then}, {there + glm::dvec2(1, -1), 90, then}}), options);
+        for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::top, CameraPreset::side}) {
+            ViewState view;
+            view.camera.preset = preset;
+            view.levels = {0, 3, false};
+            const DrawList list = build_draw_list(fitted, view, kSize);
+            const std::vector<Subject> paths = subjects(fitted, view);
+            int picked = 0;
+            for (int y = 5; y < kSize.height; y += 11) {
+                for (int x = 5; x < kSize.width; x += 11) {
+                    float depth = -1e9f;
+                    for (const Pick& one : pick(list, middle_of_pixel(x, y))) {
+                        ++picked;
+                        const mobb::PlacedTree& tree = paths[static_cast<std::size_t>(one.id.participant)].placed;
+                        const double off = one.id.kind == ObjectId::Kind::disk
+                                               ? off_surface(tree.placed_clip(), one.id.index, one.place)
+                                               : off_surface(tree, one.id.index, one.place);
+                        ASSERT_LT(off, 1e-5) << describe(one.id);
+                        // A box is drawn a hair nearer than it is.
+                        ASSERT_GE(one.depth, depth - 0.01f) << "nearest first";
+                        depth = std::max(depth, one.depth);
+                        const glm::dvec3 p = one.place;
+                        const glm::vec2 seen = list.lens.project(list.space.point(p.x, p.y, p.z)).value();
+                        ASSERT_LT(glm::length(seen - middle_of_pixel(x, y)), 0.05f);
+                    }
+                }
+            }
+            EXPECT_GT(picked, 1000);
+        }
+    }
+}
+
+TEST(Pick, NothingIsPickedBesideTheScene) {
+    const FittedScene fitted = testing::miss_scene();
+    EXPECT_TRUE(pick(build_draw_list(fitted, {}, kSize), {1.5f, 1.5f}).empty());
+}
+
+TEST(FloorAt, IsWhereTheFloorIsSeen) {
+    const FittedScene fitted(testing::scene_of({{{500, -70}, 0, 12}}), {});
+    for (const bool perspective : {true, false}) {
+        ViewState view;
+        view.camera.perspective = perspective;
+        const DrawList list = build_draw_list(fitted, view, kSize);
+        for (const double time : {12.0, 13.25}) {
+            const glm::dvec2 place(500.3, -69.8);
+            const glm::vec2 pixel = list.lens.project(list.space.point(place.x, place.y, time)).value();
+            EXPECT_LT(glm::length(floor_at(list, pixel, time).value() - place), 1e-4);
+        }
+    }
+}
+
+TEST(FloorAt, ThereIsNoneAlongOrBehindTheView) {
+    const FittedScene fitted = testing::miss_scene();
+    ViewState view;
+    view.camera.preset = CameraPreset::front;
+    EXPECT_FALSE(floor_at(build_draw_list(fitted, view, kSize), {300, 200}, 0));
+    view.camera.preset = CameraPreset::free;
+    view.camera.pitch_deg = 5;
+    view.camera.fov_deg = 60;
+    const DrawList list = build_draw_list(fitted, view, kSize);
+    EXPECT_TRUE(floor_at(list, {480, 539}, 0));
+    EXPECT_FALSE(floor_at(list, {480, 1}, 0)) << "above the horizon";
+}
+
+}  // namespace
+}  // namespace mobbscope
