@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "mobb/random_motion.h"
+#include "app/random_query.h"
 
 namespace mobbscope::app {
 namespace {
@@ -14,28 +14,6 @@ using mobb::Outcome;
 using mobb::TestKind;
 using mobb::Trace;
 using mobb::test::Random;
-
-struct Asked {
-    mobb::ClipPtr clip_a, clip_b;
-    mobb::Tree tree_a, tree_b;
-    mobb::Placement place_a, place_b;
-    Trace trace;
-
-    mobb::PlacedTree a() const { return {tree_a, place_a}; }
-    mobb::PlacedTree b() const { return {tree_b, place_b}; }
-};
-
-Asked ask_at_random(Random& random) {
-    const mobb::ClipPtr clip_a = mobb::test::random_clip(random, 400);
-    const mobb::ClipPtr clip_b = mobb::test::random_partner(random, *clip_a, 400);
-    const mobb::FitOptions fit = mobb::test::random_fit(random);
-    Asked out{clip_a, clip_b, mobb::Tree(clip_a, fit), mobb::Tree(clip_b, fit), {}, {}, {}};
-    mobb::test::random_placements(random, *clip_a, *clip_b, out.place_a, out.place_b);
-    mobb::TraceRecorder recorder;
-    static_cast<void>(mobb::query(out.a(), out.b(), recorder));
-    out.trace = recorder.take();
-    return out;
-}
 
 bool inside(const mobb::Interval& inner, const mobb::Interval& outer) {
     return outer.t0 <= inner.t0 && inner.t1 <= outer.t1;
@@ -57,7 +35,7 @@ TEST(Recursion, HoldsEveryEventOnceAndChildrenInsideParents) {
     int hits = 0;
     int deep = 0;
     for (int round = 0; round < 300; ++round) {
-        const Asked asked = ask_at_random(random);
+        const test::RandomQuery asked = test::random_query(random);
         const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
         ASSERT_EQ(found.pair_of.size(), static_cast<std::size_t>(asked.trace.size()));
         int events = 0;
@@ -101,7 +79,7 @@ TEST(Recursion, CountsWhatHadBeenCountedAtEachStep) {
     std::int64_t wasted_in_all = 0;
     int needed_in_all = 0;
     for (int round = 0; round < 60; ++round) {
-        const Asked asked = ask_at_random(random);
+        const test::RandomQuery asked = test::random_query(random);
         if (asked.trace.size() > 400) continue;
         const Recursion found = recursion_of(asked.trace, asked.a(), asked.b());
         for (int step = 0; step < asked.trace.size(); ++step) {
@@ -139,7 +117,7 @@ TEST(Recursion, CountsWhatHadBeenCountedAtEachStep) {
 
 TEST(Recursion, OfAnEmptyTraceIsEmpty) {
     Random random(7);
-    const Asked asked = ask_at_random(random);
+    const test::RandomQuery asked = test::random_query(random);
     const Recursion found = recursion_of(Trace(), asked.a(), asked.b());
     EXPECT_TRUE(found.pairs.empty());
     EXPECT_EQ(found.depth, 0);
