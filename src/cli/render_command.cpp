@@ -29,6 +29,7 @@ struct Arguments {
     std::filesystem::path file;
     std::filesystem::path output;
     PictureSize size{1280, 720};
+    double scale = 0;
     Backend backend = Backend::automatic;
     std::optional<CameraPreset> view;
     std::optional<double> yaw, pitch, fov;
@@ -37,6 +38,7 @@ struct Arguments {
     std::optional<int> query;
     std::optional<Step> step;
     std::optional<double> time, time_height;
+    std::optional<ColorBy> color_by;
     std::optional<Theme> theme;
     FitArguments fit;
     ImportOptions import_options;
@@ -116,6 +118,7 @@ ViewState over(ViewState view, const Arguments& arguments) {
     if (arguments.step) view.step = *arguments.step;
     if (arguments.time) view.time = *arguments.time;
     if (arguments.time_height) view.time_height = *arguments.time_height;
+    if (arguments.color_by) view.color_by = *arguments.color_by;
     if (arguments.theme) view.theme = *arguments.theme;
     return view;
 }
@@ -213,7 +216,7 @@ void run(const Arguments& arguments) {
     const FittedScene fitted(std::move(scene), options);
     const DrawList list = [&] {
         try {
-            return build_draw_list(fitted, view, arguments.size);
+            return build_draw_list(fitted, view, arguments.size, arguments.scale);
         } catch (const std::invalid_argument& error) {
             throw InputError(arguments.file.string(), "", error.what());
         }
@@ -226,6 +229,8 @@ void run(const Arguments& arguments) {
 
 void add_view_options(CLI::App& command, Arguments& arguments) {
     add_parsed(command, "--size", arguments.size, parse_size, "The picture's size in pixels, default 1280x720", "WxH");
+    add_parsed(command, "--scale", arguments.scale, number_within(kLeastScale, kMostScale),
+               "Of text and lines; 1 suits 1280x720, default: what suits the size", "X");
     const auto parse_view = [](const std::string& text) {
         return required(camera_preset(text), text, "iso, top, front, side, free");
     };
@@ -235,7 +240,8 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
                "Free camera: degrees from +x to the eye, counter-clockwise", "DEG");
     add_parsed(command, "--pitch", arguments.pitch, number_within(-90, 90), "Free camera: degrees above the floor",
                "DEG");
-    add_parsed(command, "--fov", arguments.fov, number_within(kLeastFov, kMostFov), "Vertical field of view in degrees", "DEG");
+    add_parsed(command, "--fov", arguments.fov, number_within(kLeastFov, kMostFov), "Vertical field of view in degrees",
+               "DEG");
     command.add_flag("--ortho", arguments.orthographic, "Without perspective");
     add_parsed(command, "--level", arguments.levels, parse_level_range, "Levels shown: N, A:B or leaves", "LEVELS");
     add_parsed(
@@ -253,6 +259,10 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
                "Time cursor, global seconds", "T");
     add_parsed(command, "--time-height", arguments.time_height, number_within(1e-6, 1e6),
                "Metres drawn per second; default: as tall as wide", "M");
+    add_parsed(
+        command, "--color-by", arguments.color_by,
+        [](const std::string& text) { return required(color_by_from_name(text), text, "agent, level"); },
+        "What the colour of boxes says: agent or level", "WHAT");
     add_parsed(
         command, "--backend", arguments.backend,
         [](const std::string& text) { return required(backend_from_name(text), text, "auto, osmesa, egl"); },

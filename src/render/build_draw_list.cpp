@@ -1,3 +1,4 @@
+#include <import/text.h>
 #include <render/annotations.h>
 #include <render/block_layout.h>
 #include <render/build_draw_list.h>
@@ -34,9 +35,10 @@ struct QueryAtStep {
 };
 
 void add_paths(DrawList& list, std::span<const Subject> subjects, const Emphasis& emphasis,
-               const QueryProgress* progress) {
+               const QueryProgress* progress, bool behind) {
     for (const Subject& subject : subjects) {
         PathFocus focus;
+        focus.behind = behind;
         if (progress) {
             const mobb::Node& tested = subject.placed.node(subject.index == 0 ? progress->event.a : progress->event.b);
             focus.range = mobb::SampleRange{tested.first, tested.count};
@@ -85,10 +87,14 @@ void add_stage(DrawList& list, std::span<const Subject> subjects, const Stage& s
 
 }  // namespace
 
-DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size) {
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
+    if (scale != 0 && !(scale >= kLeastScale && scale <= kMostScale)) {
+        throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
+                                    short_double(kLeastScale) + " to " + short_double(kMostScale));
+    }
     const std::vector<Subject> paths = subjects(fitted, view);
     if (paths.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
-    const Metrics metrics = metrics_of(size);
+    const Metrics metrics = metrics_of(size, scale);
     DrawList list;
     list.size = size;
     list.palette = palette(view.theme);
@@ -103,10 +109,9 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
     const bool has_cursor = emphasis.cursor.has_value();
 
     if (view.boxes && progress) add_query_boxes(list, paths, *progress, metrics.scale);
-    if (view.boxes && !progress) {
-        for (const Subject& subject : paths) add_level_boxes(list, subject, view.levels, metrics.scale);
-    }
-    if (view.disks) add_paths(list, paths, emphasis, progress);
+    const bool levels = view.boxes && !progress;
+    if (levels) add_level_boxes(list, paths, view.levels, view.color_by, metrics.scale);
+    if (view.disks) add_paths(list, paths, emphasis, progress, levels && view.color_by == ColorBy::level);
     const Bounds all = with_boxes(bounds, list);
     Stage stage = make_stage(all.min, all.max);
     stage.t0 = bounds.min.z;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 namespace mobbscope {
 
@@ -42,6 +43,26 @@ void add_agents(std::vector<LegendEntry>& entries, std::span<const Subject> subj
     if (shown < subjects.size()) {
         entries.push_back(
             entry_of(LegendEntry::Mark::disk, Rgba(0), "and " + std::to_string(subjects.size() - shown) + " more"));
+    }
+}
+
+/// The levels that are drawn, coarsest first.
+std::vector<int> drawn_levels(const DrawList& list) {
+    std::set<int> levels;
+    for (const BoxInstance& box : list.boxes) levels.insert(box.order.level);
+    return {levels.begin(), levels.end()};
+}
+
+/// The colours of the levels that are drawn; of many, a few from the coarsest to the finest.
+void add_level_colors(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> subjects) {
+    const std::vector<int> levels = drawn_levels(list);
+    const int count = std::min(static_cast<int>(levels.size()), kMostLevels);
+    for (int i = 0; i < count; ++i) {
+        const std::size_t which =
+            count < 2 ? 0 : (static_cast<std::size_t>(i) * (levels.size() - 1)) / static_cast<std::size_t>(count - 1);
+        const Rgba color = level_color(levels[which], subjects, list.palette);
+        entries.push_back({LegendEntry::Mark::box, outlining(color, list.palette), with_alpha(color, 0.3f), 1.5f,
+                           kSolid, "level " + std::to_string(levels[which])});
     }
 }
 
@@ -140,7 +161,13 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Su
         if (emphasis.hits) entries.push_back(entry_of(Mark::double_ring, list.palette.hit, "samples that hit"));
     } else {
         add_agents(entries, subjects);
-        if (view.boxes && !list.boxes.empty()) add_levels(entries, list, subjects, view.levels);
+        if (view.boxes && !list.boxes.empty()) {
+            if (view.color_by == ColorBy::level) {
+                add_level_colors(entries, list, subjects);
+            } else {
+                add_levels(entries, list, subjects, view.levels);
+            }
+        }
     }
     if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, kSolid, 1.3f}, "time cursor"));
     if (emphasis.cuts()) entries.push_back(entry_of(LegendEntry::Mark::ring, list.palette.text, "sample at that time"));

@@ -127,18 +127,28 @@ void refine_crowded_boxes(DrawList& list, float scale) {
     }
 }
 
-void add_level_boxes(DrawList& list, const Subject& subject, const LevelRange& levels, float scale) {
-    const mobb::Tree& tree = subject.placed.tree();
-    const int last = last_shown_level(tree, levels);
-    for (const int node : shown_nodes(tree, levels)) {
-        const LevelStyle style =
-            levels.leaves ? level_style(0, 0, 0) : level_style(subject.placed.node(node).level, levels.first, last);
-        BoxInstance box = node_box(subject, node, list.space);
-        box.state = BoxState::level;
-        box.fill = with_alpha(subject.color, style.face);
-        box.edge = with_alpha(outlining(subject.color, list.palette), style.edge);
-        box.width = style.width * scale;
-        list.boxes.push_back(box);
+Rgba level_color(int level, std::span<const Subject> subjects, const Palette& palette) {
+    int deepest = 1;
+    for (const Subject& subject : subjects) deepest = std::max(deepest, subject.placed.tree().depth() - 1);
+    return quantity_color(static_cast<float>(level) / static_cast<float>(deepest), palette);
+}
+
+void add_level_boxes(DrawList& list, std::span<const Subject> subjects, const LevelRange& levels, ColorBy color_by,
+                     float scale) {
+    for (const Subject& subject : subjects) {
+        const mobb::Tree& tree = subject.placed.tree();
+        const int last = last_shown_level(tree, levels);
+        for (const int node : shown_nodes(tree, levels)) {
+            const int level = subject.placed.node(node).level;
+            const LevelStyle style = levels.leaves ? level_style(0, 0, 0) : level_style(level, levels.first, last);
+            const Rgba color = color_by == ColorBy::level ? level_color(level, subjects, list.palette) : subject.color;
+            BoxInstance box = node_box(subject, node, list.space);
+            box.state = BoxState::level;
+            box.fill = with_alpha(color, style.face);
+            box.edge = with_alpha(outlining(color, list.palette), style.edge);
+            box.width = style.width * scale;
+            list.boxes.push_back(box);
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 #include <render/draw_list.h>
 #include <render/subject.h>
 
+#include <span>
 #include <vector>
 
 namespace mobbscope {
@@ -11,8 +12,13 @@ namespace mobbscope {
 /// The nodes of `tree` that a range of levels shows: those on its levels and the leaves above the first.
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
 
-/// The boxes of those nodes in the subject's colour; where several levels are shown, finer ones are fuller and heavier.
-void add_level_boxes(DrawList& list, const Subject& subject, const LevelRange& levels, float scale);
+/// The boxes of those nodes, coloured by their subject or their level; where several levels are shown, finer ones are
+/// fuller and heavier.
+void add_level_boxes(DrawList& list, std::span<const Subject> subjects, const LevelRange& levels, ColorBy color_by,
+                     float scale);
+
+/// The colour of a level where boxes are coloured by it: that level's in all pictures of these trees.
+Rgba level_color(int level, std::span<const Subject> subjects, const Palette& palette);
 
 /// Makes boxes of levels finer where they are small in the picture, and fainter where many lie over one another, as
 /// they would bury what is inside. Needs the lens. `scale`: of line widths.

@@ -26,6 +26,10 @@ constexpr std::uint32_t kVermillion = 0xD55E00;
 constexpr std::array<std::uint32_t, 8> kAgents{0xE69F00, kSkyBlue, 0xCC79A7, 0x0072B2,
                                                0xF3CF80, 0xABDAF4, 0xE6BCD3, 0x6BA9D0};
 
+// Viridis (van der Walt and Smith) in equal steps.
+constexpr std::array<std::uint32_t, 10> kViridis{0x440154, 0x482878, 0x3E4A89, 0x31688E, 0x26828E,
+                                                 0x1F9E89, 0x35B779, 0x6DCD59, 0xB4DE2C, 0xFDE725};
+
 Palette dark_palette() {
     Palette p;
     p.background = hex(0x14181D);
@@ -75,6 +79,13 @@ Rgba agent_color(const Scene& scene, const Participant& participant, int index) 
         if (own) return Rgba(own->r, own->g, own->b, 255) / 255.0f;
     }
     return hex(kAgents[static_cast<std::size_t>(index) % kAgents.size()]);
+}
+
+Rgba quantity_color(float quantity, const Palette& palette) {
+    const float t = std::clamp(quantity, 0.0f, 1.0f);
+    const float at = (palette.dark ? 0.3f + 0.7f * t : 0.8f * t) * static_cast<float>(kViridis.size() - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
+    return mix_colors(hex(kViridis[below]), hex(kViridis[below + 1]), at - static_cast<float>(below));
 }
 
 Rgba with_alpha(Rgba color, float alpha) { return {color.r, color.g, color.b, alpha}; }

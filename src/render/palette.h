@@ -1,5 +1,5 @@
-/// The colours of pictures: Okabe and Ito's for categories (they stay apart for colour-blind eyes), quiet surfaces
-/// around.
+/// The colours of pictures: Okabe and Ito's for categories (they stay apart for colour-blind eyes), viridis for
+/// quantities, quiet surfaces around.
 #pragma once
 
 #include <scene/scene.h>
@@ -32,6 +32,9 @@ const Palette& palette(Theme theme);
 
 /// The colour of an agent: its own, or the palette's by index. None of them is an outcome's colour.
 Rgba agent_color(const Scene& scene, const Participant& participant, int index);
+
+/// The colour of a quantity from 0 to 1: viridis, of which the part that stands out from the theme's ground is taken.
+Rgba quantity_color(float quantity, const Palette& palette);
 
 /// `color` with another opacity.
 Rgba with_alpha(Rgba color, float alpha);

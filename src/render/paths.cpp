@@ -15,7 +15,7 @@ Rgba disk_color(const Palette& palette, const Subject& subject, const PathFocus&
     const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
     const float age = 1 - static_cast<float>(sample) / static_cast<float>(subject.clip().count());
     const float back = kEarly * age;
-    return with_alpha(subject.color, (1 - back) * (in_focus ? 1 : kOutOfFocus));
+    return with_alpha(subject.color, (1 - back) * (in_focus ? 1 : kOutOfFocus) * (focus.behind ? kBehind : 1));
 }
 
 }  // namespace

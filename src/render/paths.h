@@ -12,10 +12,14 @@ namespace mobbscope {
 /// How much of its colour a disk outside the nodes under test keeps.
 inline constexpr float kOutOfFocus = 0.38f;
 
+/// ... and one behind boxes whose colours are to be read.
+inline constexpr float kBehind = 0.5f;
+
 /// Which samples of a path matter now; those outside step back.
 struct PathFocus {
     std::optional<mobb::SampleRange> range;  ///< none: all
     std::optional<int> hit;                  ///< a sample that collides
+    bool behind = false;                     ///< the boxes' colours matter more: all disks step back
 };
 
 void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus);

@@ -16,14 +16,15 @@ void check(PictureSize size) {
                                 " in all");
 }
 
-Image render(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer) {
+Image render(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer, double scale) {
     check(size);
-    return renderer.draw(build_draw_list(fitted, view, size));
+    return renderer.draw(build_draw_list(fitted, view, size, scale));
 }
 
-IdImage render_ids(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer) {
+IdImage render_ids(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer,
+                   double scale) {
     check(size);
-    return renderer.draw_ids(build_draw_list(fitted, view, size));
+    return renderer.draw_ids(build_draw_list(fitted, view, size, scale));
 }
 
 }  // namespace mobbscope

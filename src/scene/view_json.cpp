@@ -86,8 +86,8 @@ void write_camera(JsonWriter& out, const Camera& camera) {
 }  // namespace
 
 ViewState read_view(const JsonPlace& place) {
-    place.allow_only({"camera", "levels", "query", "step", "time", "time_height", "theme", "disks", "boxes", "floor",
-                      "time_axis", "labels", "legend"});
+    place.allow_only({"camera", "levels", "query", "step", "time", "time_height", "color_by", "theme", "disks", "boxes",
+                      "floor", "time_axis", "labels", "legend"});
     ViewState view;
     if (const auto camera = place.find("camera")) view.camera = read_camera(*camera);
     if (const auto levels = place.find("levels")) view.levels = read_number_or_text(*levels, parse_level_range);
@@ -95,6 +95,12 @@ ViewState read_view(const JsonPlace& place) {
     if (const auto step = place.find("step")) view.step = read_number_or_text(*step, parse_step);
     if (const auto time = place.find("time")) view.time = time->number(-mobb::kMaxTime, mobb::kMaxTime);
     if (const auto height = place.find("time_height")) view.time_height = height->number(0, kMaxHeight);
+    if (const auto color_by = place.find("color_by")) {
+        const auto value = color_by_from_name(color_by->string());
+        if (!value)
+            color_by->fail("boxes cannot be coloured by " + in_quotes(color_by->string()) + "; give agent or level");
+        view.color_by = *value;
+    }
     if (const auto theme = place.find("theme")) {
         const auto value = theme_from_name(theme->string());
         if (!value) theme->fail(in_quotes(theme->string()) + " is no theme; give dark or light");
@@ -118,6 +124,7 @@ void write_view(JsonWriter& out, const ViewState& view) {
     if (view.step != standard.step) out.member("step", to_string(view.step));
     if (view.time) out.member("time", *view.time);
     if (view.time_height != standard.time_height) out.member("time_height", view.time_height);
+    if (view.color_by != standard.color_by) out.member("color_by", name(view.color_by));
     if (view.theme != standard.theme) out.member("theme", name(view.theme));
     for (const Toggle& toggle : kToggles) {
         if (view.*toggle.value != standard.*toggle.value) out.member(toggle.key, view.*toggle.value);

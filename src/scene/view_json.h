@@ -2,7 +2,8 @@
 ///
 ///     {"camera": {"preset": "iso", "yaw_deg": 45, "pitch_deg": 25, "perspective": true, "fov_deg": 12,
 ///                 "target": [0, 0, 1], "distance": 12, "shift": [0, 0.1]},
-///      "levels": "1:3", "query": 0, "step": "40%", "time": 1.5, "time_height": 2, "theme": "dark",
+///      "levels": "1:3", "query": 0, "step": "40%", "time": 1.5, "time_height": 2,
+///      "color_by": "agent", "theme": "dark",
 ///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true}
 ///
 /// `levels` is a level or what `--level` takes, `step` an event number or what `--step` takes.

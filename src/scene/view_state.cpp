@@ -93,4 +93,12 @@ std::optional<Theme> theme_from_name(std::string_view text) {
     return std::nullopt;
 }
 
+std::string_view name(ColorBy color_by) { return color_by == ColorBy::agent ? "agent" : "level"; }
+
+std::optional<ColorBy> color_by_from_name(std::string_view text) {
+    if (text == "agent") return ColorBy::agent;
+    if (text == "level") return ColorBy::level;
+    return std::nullopt;
+}
+
 }  // namespace mobbscope

@@ -13,6 +13,8 @@ namespace mobbscope {
 
 enum class CameraPreset { iso, top, front, side, free };
 enum class Theme { dark, light };
+/// What the colour of a level's boxes says: whose they are, or which level.
+enum class ColorBy { agent, level };
 
 /// Degrees.
 inline constexpr double kLeastFov = 0.5;
@@ -59,6 +61,7 @@ struct ViewState {
     Step step;
     std::optional<double> time;  ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
     double time_height = 0;      ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
+    ColorBy color_by = ColorBy::agent;  ///< of the boxes of levels; those of a query have their states' colours
     Theme theme = Theme::dark;
     bool disks = true;
     bool boxes = true;
@@ -79,6 +82,8 @@ std::optional<CameraPreset> camera_preset(const std::string& name);
 std::string_view name(CameraPreset preset);
 std::string_view name(Theme theme);
 std::optional<Theme> theme_from_name(std::string_view name);
+std::string_view name(ColorBy color_by);
+std::optional<ColorBy> color_by_from_name(std::string_view name);
 /// What parse_level_range and parse_step read.
 std::string to_string(const LevelRange& levels);
 std::string to_string(const Step& step);

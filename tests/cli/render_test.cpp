@@ -169,6 +169,24 @@ TEST(Render, OptionsThatContradictEachOtherAreNamed) {
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST_F(RenderTest, ScaleAndColoursAreTaken) {
+    const Image usual = picture(kCrossing, {});
+    EXPECT_NE(picture(kCrossing, {"--scale", "2"}).rgba, usual.rgba);
+    EXPECT_NE(picture(kCrossing, {"--color-by", "level"}).rgba, usual.rgba);
+    EXPECT_EQ(picture(kCrossing, {"--color-by", "agent"}).rgba, usual.rgba);
+    expect_refused(run_program(arguments(kCrossing, out, {"--scale", "9"})), 2, "from 0.5 to 8");
+    expect_refused(run_program(arguments(kCrossing, out, {"--color-by", "node"})), 2, "agent, level");
+}
+
+/// A camera that was moved in the window and saved.
+TEST_F(RenderTest, ASavedCameraIsTaken) {
+    const std::string clips = R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,1,1],[3,1,1]]}},
+        "view": {"camera": {"preset": "free", "yaw_deg": 20, "fov_deg": 0.5, "target": [1.5, 0.5, 2], "distance": 900)";
+    const Image centred = picture(folder.write("a.json", clips + "}}}"), {});
+    const Image shifted = picture(folder.write("b.json", clips + R"(, "shift": [0.2, -0.1]}}})"), {});
+    EXPECT_NE(centred.rgba, shifted.rgba);
+}
+
 TEST_F(RenderTest, TheAngleThatIsNotGivenStays) {
     const std::string scene =
         folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,1,1],[3,1,1]]}}})");

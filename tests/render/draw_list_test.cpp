@@ -8,7 +8,11 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace mobbscope {
 namespace {
@@ -263,6 +267,94 @@ TEST(DrawList, OddScenesAreDrawn) {
             const glm::vec2 at = list.lens.project(list.disks[0].base).value();
             EXPECT_TRUE(at.x >= 0 && at.x <= 640 && at.y >= 0 && at.y <= 360) << at.x << ' ' << at.y;
         }
+    }
+}
+
+TEST(DrawList, ColoursByLevelAreThoseOfTheLegend) {
+    const FittedScene fitted = testing::miss_scene();
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        ViewState view;
+        view.theme = theme;
+        view.levels = {0, 3, false};
+        const DrawList by_agent = build_draw_list(fitted, view, {1280, 720});
+        view.color_by = ColorBy::level;
+        const DrawList list = build_draw_list(fitted, view, {1280, 720});
+        std::map<int, Rgba> colors;
+        for (const BoxInstance& box : list.boxes) {
+            // Whoever it belongs to, and however faint it is where boxes crowd.
+            const Rgba edge = with_alpha(box.edge, 1);
+            EXPECT_EQ(colors.try_emplace(box.order.level, edge).first->second, edge);
+            EXPECT_GT(contrast(edge, list.palette.background), 2);
+        }
+        ASSERT_EQ(colors.size(), 4u);
+        for (const auto& [level, color] : colors) {
+            const auto entry = std::find_if(list.legend.begin(), list.legend.end(), [&](const LegendEntry& e) {
+                return e.text == "level " + std::to_string(level);
+            });
+            ASSERT_NE(entry, list.legend.end()) << level;
+            EXPECT_EQ(entry->color, color);
+            if (level == 0) continue;
+            EXPECT_GT(glm::length(color - colors[level - 1]), 0.15f) << level;
+        }
+        for (std::size_t i = 0; i < list.disks.size(); ++i) {
+            const Rgba usual = by_agent.disks[i].color;
+            EXPECT_EQ(with_alpha(list.disks[i].color, 1), with_alpha(usual, 1)) << "still the agent's";
+            EXPECT_LT(list.disks[i].color.a, 0.6f * usual.a) << "but behind the boxes";
+        }
+    }
+}
+
+TEST(DrawList, ALevelHasOneColourInEveryPicture) {
+    ViewState view;
+    view.color_by = ColorBy::level;
+    view.levels = {0, 3, false};
+    const FittedScene fitted = testing::miss_scene();
+    std::optional<Rgba> color;
+    for (const BoxInstance& box : build_draw_list(fitted, view, kSize).boxes) {
+        if (box.order.level == 2) color = with_alpha(box.edge, 1);
+    }
+    view.levels = {2, 2, false};
+    EXPECT_EQ(with_alpha(build_draw_list(fitted, view, kSize).boxes.at(0).edge, 1), color);
+}
+
+TEST(DrawList, QueriesKeepTheirStatesColours) {
+    ViewState view;
+    view.query = 0;
+    const FittedScene fitted = testing::hit_scene();
+    const DrawList usual = build_draw_list(fitted, view, kSize);
+    view.color_by = ColorBy::level;
+    const DrawList list = build_draw_list(fitted, view, kSize);
+    ASSERT_EQ(list.boxes.size(), usual.boxes.size());
+    for (std::size_t i = 0; i < list.boxes.size(); ++i) EXPECT_EQ(list.boxes[i].edge, usual.boxes[i].edge);
+    EXPECT_EQ(list.disks[0].color, usual.disks[0].color);
+}
+
+TEST(Metrics, TextIsOneSizeFromSmallWindowsToLargeOnes) {
+    for (const PictureSize size : {PictureSize{850, 540}, PictureSize{800, 500}, PictureSize{1280, 720}}) {
+        EXPECT_EQ(metrics_of(size).text, 12) << size.width;
+    }
+    EXPECT_FLOAT_EQ(metrics_of({640, 360}).scale, 0.8f);
+    EXPECT_FLOAT_EQ(metrics_of({100, 100}).scale, 0.8f);
+    EXPECT_FLOAT_EQ(metrics_of({2560, 1440}).scale, 2);
+    float before = 0;
+    for (int width = 64; width < 8000; width += 50) {
+        const float scale = metrics_of({width, width / 2}).scale;
+        EXPECT_GE(scale, before);
+        EXPECT_LT(scale - before, before == 0 ? 1 : 0.1f) << "no jumps";
+        before = scale;
+    }
+    EXPECT_FLOAT_EQ(metrics_of({640, 360}, 3).scale, 3);
+}
+
+TEST(DrawList, TextAndLinesTakeTheScaleThatIsAskedFor) {
+    const FittedScene fitted = testing::miss_scene();
+    const PictureSize size{1280, 720};
+    const DrawList usual = build_draw_list(fitted, {}, size);
+    const DrawList large = build_draw_list(fitted, {}, size, 2);
+    EXPECT_FLOAT_EQ(large.texts[0].size, 2 * usual.texts[0].size);
+    EXPECT_FLOAT_EQ(large.lines[0].width, 2 * usual.lines[0].width);
+    for (const double scale : {-1.0, 0.4, 8.5, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(build_draw_list(fitted, {}, size, scale), std::invalid_argument) << scale;
     }
 }
 

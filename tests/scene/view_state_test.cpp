@@ -27,13 +27,15 @@ TEST(ViewState, StepsAreReadAndWritten) {
     }
 }
 
-TEST(ViewState, NamesOfCamerasAndThemesAreTheirOwnInverse) {
+TEST(ViewState, NamesAreTheirOwnInverse) {
     for (const CameraPreset preset :
          {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side, CameraPreset::free}) {
         EXPECT_EQ(camera_preset(std::string(name(preset))), preset);
     }
     EXPECT_FALSE(camera_preset("below"));
     EXPECT_EQ(theme_from_name(name(Theme::light)), Theme::light);
+    EXPECT_EQ(color_by_from_name(name(ColorBy::level)), ColorBy::level);
+    EXPECT_FALSE(color_by_from_name("node"));
     EXPECT_FALSE(theme_from_name(""));
 }
 
