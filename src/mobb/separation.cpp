@@ -16,9 +16,6 @@ constexpr double kSlackFactor = 256 * std::numeric_limits<double>::epsilon();
 /// Metres. Squares of lengths below 1e-154 underflow in the hit predicate, which then sees disks closer than they are.
 constexpr double kLeastSlack = 1e-150;
 
-/// Edge-edge axes shorter than this are skipped.
-constexpr double kShortestEdgeAxis = 1e-3;
-
 double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 }  // namespace

@@ -39,11 +39,15 @@ class RelativeFrame {
     double slack3d_;
 };
 
+/// Edge-edge axes (cross products of unit axes) shorter than this are skipped.
+inline constexpr double kShortestEdgeAxis = 1e-3;
+
 /// Two obb2d: four axes (paper, Section 3.2).
 Separation separate_obb2d(const Box& a, const Box& b, const RelativeFrame& frame);
 
 /// Any two boxes as 3D boxes: fifteen axes at most (Gottschalk et al. 1996, the paper's [8]). An edge-edge axis shorter
-/// than 1e-3 is skipped: its direction is poorly known and the face axes next to it decide almost the same.
+/// than kShortestEdgeAxis is skipped: its direction is poorly known and the face axes next to it decide almost the
+/// same.
 Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame);
 
 }  // namespace mobb

@@ -40,6 +40,10 @@ Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), op
     if (!clip_) throw std::invalid_argument("a tree needs a clip");
     check(options_);
     build({0, clip_->count()}, -1, 0);
+    // Depth-first order is within a level the order of time.
+    std::vector<int> counts(static_cast<std::size_t>(depth_), 0);
+    places_.reserve(nodes_.size());
+    for (const Node& node : nodes_) places_.push_back(counts[static_cast<std::size_t>(node.level)]++);
 }
 
 int Tree::build(SampleRange range, int parent, int level) {

@@ -66,6 +66,9 @@ class Tree {
     std::span<const Node> nodes() const { return nodes_; }
     int depth() const { return depth_; }  ///< number of levels, >= 1
 
+    /// How many nodes of its level come before a node, in the order of time.
+    int place_in_level(int node) const { return places_[static_cast<std::size_t>(node)]; }
+
     /// Clip time covered by a node, [t0, t1) in seconds.
     double t0(const Node& node) const { return node.first * clip_->dt(); }
     double t1(const Node& node) const { return node.end() * clip_->dt(); }
@@ -76,6 +79,7 @@ class Tree {
     ClipPtr clip_;
     FitOptions options_;
     std::vector<Node> nodes_;
+    std::vector<int> places_;  ///< by node, see place_in_level
     int depth_ = 0;
 };
 

@@ -1,7 +1,7 @@
+#include <render/box_axes.h>
 #include <render/query_sentence.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,23 +10,14 @@ namespace mobbscope {
 
 namespace {
 
-/// What a box's axis is called: by how long the box is along it.
-std::string axis_name(const Subject& subject, int node, int axis, int axes) {
-    const mobb::Box& box = subject.placed.node(node).box;
-    int longer = 0;
-    for (int i = 0; i < axes; ++i) {
-        longer += box.half[i] > box.half[axis] || (box.half[i] == box.half[axis] && i < axis) ? 1 : 0;
-    }
-    const std::array<const char*, 3> names{"long", axes == 2 ? "short" : "middle", "short"};
-    return subject.label + "'s " + names[static_cast<std::size_t>(longer)] + " axis";
-}
-
 std::string separating_axis(std::span<const Subject> sides, const mobb::Trace::Event& event) {
-    const int axes = event.test == mobb::TestKind::obb2d ? 2 : 3;
-    if (event.axis < axes) return "along " + axis_name(sides[0], event.a, event.axis, axes);
-    if (event.axis < 2 * axes) return "along " + axis_name(sides[1], event.b, event.axis - axes, axes);
-    const int edge = event.axis - 6;
-    return "across " + axis_name(sides[0], event.a, edge / 3, 3) + " and " + axis_name(sides[1], event.b, edge % 3, 3);
+    const auto axis_of = [&](const Subject& side, int node, int axis) {
+        return side.label + "'s " + axis_word(side.placed.node(node).box, event.test, axis) + " axis";
+    };
+    const AxisOrigin origin = axis_origin(event.test, event.axis);
+    if (origin.b < 0) return "along " + axis_of(sides[0], event.a, origin.a);
+    if (origin.a < 0) return "along " + axis_of(sides[1], event.b, origin.b);
+    return "across " + axis_of(sides[0], event.a, origin.a) + " and " + axis_of(sides[1], event.b, origin.b);
 }
 
 std::string what_next(std::span<const Subject> sides, const mobb::Trace::Event& event) {
@@ -82,12 +73,9 @@ std::string with_unit(double value, const char* unit) {
 }
 
 std::string node_name(const Subject& subject, int node) {
-    const auto nodes = subject.placed.tree().nodes();
-    const int level = nodes[static_cast<std::size_t>(node)].level;
-    // Nodes stand in depth-first order, which within a level is the order of time.
-    const auto place =
-        std::count_if(nodes.begin(), nodes.begin() + node, [&](const mobb::Node& n) { return n.level == level; });
-    return subject.label + ' ' + std::to_string(level) + '.' + std::to_string(place);
+    const mobb::Tree& tree = subject.placed.tree();
+    const int level = subject.placed.node(node).level;
+    return subject.label + ' ' + std::to_string(level) + '.' + std::to_string(tree.place_in_level(node));
 }
 
 std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Event& event) {

@@ -1,3 +1,4 @@
+#include <render/box_axes.h>
 #include <render/query_boxes.h>
 #include <render/separation_gap.h>
 #include <render/world_box.h>
@@ -10,28 +11,6 @@
 namespace mobbscope {
 
 namespace {
-
-struct Projection {
-    double min = 0;
-    double max = 0;
-    double middle() const { return 0.5 * (min + max); }
-};
-
-Projection project(const mobb::Box& box, glm::dvec3 axis) {
-    const double center = glm::dot(box.center, axis);
-    double reach = 0;
-    for (int i = 0; i < 3; ++i) reach += box.half[i] * std::abs(glm::dot(box.axes[static_cast<std::size_t>(i)], axis));
-    return {center - reach, center + reach};
-}
-
-/// The axis that an event names, unit (see mobb::Separation).
-glm::dvec3 axis_of(const mobb::Box& a, const mobb::Box& b, const mobb::Trace::Event& event) {
-    const auto i = static_cast<std::size_t>(event.axis);
-    if (event.test == mobb::TestKind::obb2d) return i < 2 ? a.axes[i] : b.axes[i - 2];
-    if (i < 3) return a.axes[i];
-    if (i < 6) return b.axes[i - 3];
-    return glm::normalize(glm::cross(a.axes[(i - 6) / 3], b.axes[(i - 6) % 3]));
-}
 
 /// What both cover; where they share nothing, the gap between them.
 Projection shared(Projection a, Projection b) {
@@ -46,7 +25,7 @@ std::optional<SeparationGap> separation_gap(std::span<const Subject> sides, cons
     if (event.outcome != mobb::Outcome::separated) return std::nullopt;
     const mobb::Box a = world_box(sides[0].placed, event.a);
     const mobb::Box b = world_box(sides[1].placed, event.b);
-    const glm::dvec3 axis = axis_of(a, b, event);
+    const glm::dvec3 axis = test_axis(a, b, event.test, event.axis);
     // One direction level with the floor where there is a choice, so that the rectangles stand upright.
     const bool upright_axis = std::abs(axis.z) > 0.999;
     const glm::dvec3 across = upright_axis ? glm::normalize(glm::cross(axis, glm::dvec3(0, 1, 0)))

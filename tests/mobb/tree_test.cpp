@@ -3,6 +3,7 @@
 #include <mobb/random_motion.h>
 #include <mobb/tree.h>
 
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
@@ -41,6 +42,20 @@ TEST(Tree, SplitsAtTheMiddleSample) {
         EXPECT_EQ(depth, tree.depth());
         if (options.levels > 0) {
             EXPECT_LE(tree.depth(), options.levels);
+        }
+    }
+}
+
+TEST(Tree, PlacesInALevelCountThroughTime) {
+    Random random(5);
+    for (int round = 0; round < 50; ++round) {
+        const Tree tree(test::random_clip(random, 400), test::random_fit(random));
+        const auto nodes = tree.nodes();
+        for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+            const Node& node = nodes[static_cast<std::size_t>(i)];
+            EXPECT_EQ(tree.place_in_level(i), std::count_if(nodes.begin(), nodes.end(), [&](const Node& other) {
+                          return other.level == node.level && other.first < node.first;
+                      }));
         }
     }
 }

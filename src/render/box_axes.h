@@ -1,0 +1,40 @@
+/// The axes that a box test tries: their directions, their names, and what boxes cover along them.
+#pragma once
+
+#include <mobb/box.h>
+#include <mobb/trace.h>
+
+#include <string>
+
+namespace mobbscope {
+
+/// What a box covers along an axis, metres.
+struct Projection {
+    double min = 0;
+    double max = 0;
+    double middle() const { return 0.5 * (min + max); }
+};
+
+/// `axis`: unit.
+Projection project(const mobb::Box& box, glm::dvec3 axis);
+
+/// How many axes there are at most: 4 of an obb2d test, 15 of an obb3d test.
+int axis_count(mobb::TestKind test);
+
+/// Whether the test tries that axis: it skips edge-edge axes that are too short. Both boxes in one frame.
+bool is_tried(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis);
+
+/// The direction of axis number `axis` of a box test (see mobb::Separation), unit; of one that it tries.
+glm::dvec3 test_axis(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis);
+
+/// Where an axis comes from: an axis of A's box, one of B's, or one of each, across both. -1: none.
+struct AxisOrigin {
+    int a = -1;
+    int b = -1;
+};
+AxisOrigin axis_origin(mobb::TestKind test, int axis);
+
+/// "long", "middle" or "short": how far the box reaches along its axis `axis`, among the 2 or 3 that the test knows.
+std::string axis_word(const mobb::Box& box, mobb::TestKind test, int axis);
+
+}  // namespace mobbscope
