@@ -116,7 +116,7 @@ void Session::changed() {
 }
 
 Session::Derived& Session::derived() const {
-    if (derived_.of != document().fitted) derived_ = {document().fitted, {}, {}, {}};
+    if (derived_.of != document().fitted) derived_ = {document().fitted, {}, {}, {}, {}};
     return derived_;
 }
 
@@ -124,10 +124,19 @@ const RecordedQuery* Session::recorded() const {
     if (!view().query) return nullptr;
     Derived& d = derived();
     if (!d.recorded || d.recorded->first != *view().query) {
+        d.findings.reset();
         d.recorded.emplace(*view().query,
                            record(fitted(), fitted().queries()[static_cast<std::size_t>(*view().query)]));
     }
     return &d.recorded->second;
+}
+
+std::shared_ptr<const QueryFindings> Session::findings() const {
+    const RecordedQuery* query = recorded();
+    if (!query) return nullptr;
+    Derived& d = derived();
+    if (!d.findings) d.findings = std::make_shared<const QueryFindings>(find_out(fitted(), view(), *query));
+    return d.findings;
 }
 
 int Session::step() const { return event_of(view().step, recorded()->trace); }

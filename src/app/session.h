@@ -4,6 +4,7 @@
 
 #include <app/history.h>
 #include <app/job.h>
+#include <app/query_findings.h>
 #include <app/selection.h>
 #include <app/settings.h>
 #include <mobb/level_figures.h>
@@ -83,6 +84,8 @@ class Session {
     const RecordedQuery* recorded() const;
     /// The event of the trace that the view shows; requires recorded().
     int step() const;
+    /// What follows from it, likewise; null if no query is in the view.
+    std::shared_ptr<const QueryFindings> findings() const;
     /// The first contact of any query, with what it cost; kept until the scene changes.
     const Answer& answer_of(std::size_t query) const;
     /// Figures of a clip's tree; kept until the scene changes.
@@ -172,6 +175,7 @@ class Session {
     struct Derived {
         std::shared_ptr<const FittedScene> of;
         std::optional<std::pair<int, RecordedQuery>> recorded;
+        std::shared_ptr<const QueryFindings> findings;  ///< of `recorded`
         std::map<std::size_t, Answer> answers;
         std::map<int, std::vector<mobb::LevelFigures>> figures;
     };

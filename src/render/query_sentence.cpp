@@ -56,22 +56,6 @@ std::string sample_outcome(std::span<const Subject> sides, const mobb::Trace::Ev
            with_unit(clearance, "m") + " apart";
 }
 
-std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Event& event) {
-    switch (event.test) {
-        case mobb::TestKind::time:
-            return time_outcome(sides, event);
-        case mobb::TestKind::samples:
-            return sample_outcome(sides, event);
-        case mobb::TestKind::obb2d:
-        case mobb::TestKind::obb3d:
-            break;
-    }
-    if (event.outcome == mobb::Outcome::separated) {
-        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m");
-    }
-    return "the boxes overlap, " + what_next(sides, event);
-}
-
 std::string counted(std::int64_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
@@ -92,6 +76,22 @@ std::string node_name(const Subject& subject, int node) {
     const mobb::Tree& tree = subject.placed.tree();
     const int level = subject.placed.node(node).level;
     return subject.label + ' ' + std::to_string(level) + '.' + std::to_string(tree.place_in_level(node));
+}
+
+std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Event& event) {
+    switch (event.test) {
+        case mobb::TestKind::time:
+            return time_outcome(sides, event);
+        case mobb::TestKind::samples:
+            return sample_outcome(sides, event);
+        case mobb::TestKind::obb2d:
+        case mobb::TestKind::obb3d:
+            break;
+    }
+    if (event.outcome == mobb::Outcome::separated) {
+        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m");
+    }
+    return "the boxes overlap, " + what_next(sides, event);
 }
 
 std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& trace, int step) {

@@ -13,6 +13,9 @@ namespace mobbscope {
 /// A node as "<name> <level>.<place in the level>", counted from 0: "A 2.1".
 std::string node_name(const Subject& subject, int node);
 
+/// What a test found: "separated along B's long axis by 0.183 m".
+std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Event& event);
+
 /// What a step shows: "step 14 / 61: A 2.1 against B 2.3: separated along B's long axis by 0.183 m".
 std::string step_sentence(std::span<const Subject> sides, const mobb::Trace& trace, int step);
 

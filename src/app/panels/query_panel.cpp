@@ -1,7 +1,54 @@
+#include <app/command.h>
 #include <app/panels.h>
+#include <app/panels/outcome_cell.h>
+#include <app/panels/query_parts.h>
+#include <app/panels/section.h>
 
 namespace mobbscope::app {
 
-void query_panel(Ui& ui) { static_cast<void>(ui); }
+namespace {
+
+/// Which of the queries is in view, and the ways to the others.
+void query_header(Ui& ui) {
+    const std::size_t count = ui.session.fitted().queries().size();
+    const std::string which = std::to_string(*ui.session.view().query + 1) + " / " + std::to_string(count);
+    heading(ui, count == 1 ? "QUERY" : ("QUERY " + which).c_str());
+    if (count > 1) {
+        flow(command_button_width("previous"));
+        command_button(ui, "previous", "query.previous");
+        flow(command_button_width("next"));
+        command_button(ui, "next", "query.next");
+    }
+    flow(command_button_width("close"));
+    command_button(ui, "close", "query.none");
+}
+
+}  // namespace
+
+void query_panel(Ui& ui) {
+    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+    if (!findings) {
+        query_list(ui);
+        return;
+    }
+    const std::shared_ptr<const FittedScene> kept = ui.session.document().fitted;
+    query_header(ui);
+    if (ui.session.findings() != findings) return;  // another query, or none: drawn in the next frame
+    query_answer(ui, *findings);
+    if (ui.session.findings() != findings) return;
+    if (!findings->recursion.pairs.empty()) {
+        step_transport(ui);
+        step_strip(ui, ImGui::GetContentRegionAvail().x, ui.px(22));
+        current_test(ui, *findings);
+        why_axes(ui, *findings);
+        measured_pairs(ui, *findings);
+        heading(ui, "RECURSION: TIME OF A BY TIME OF B");
+        recursion_square(ui, *findings);
+        outcome_legend(ui);
+    }
+    heading(ui, "CLEARANCE OVER TIME");
+    clearance_chart(ui, *findings, ui.px(110));
+    query_counters(ui, *findings);
+}
 
 }  // namespace mobbscope::app

@@ -1,0 +1,156 @@
+#include <app/command.h>
+#include <app/panels/memo.h>
+#include <app/panels/outcome_cell.h>
+#include <app/panels/query_parts.h>
+#include <app/panels/section.h>
+#include <render/query_sentence.h>
+#include <render/ticks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// What the chart covers, and where.
+struct Chart {
+    ImVec2 min, max;
+    mobb::Interval time;
+    double low = 0, high = 1;  ///< metres
+
+    float x(double t) const {
+        return min.x + static_cast<float>((t - time.t0) / (time.t1 - time.t0)) * (max.x - min.x);
+    }
+    float y(double metres) const { return max.y - static_cast<float>((metres - low) / (high - low)) * (max.y - min.y); }
+    double t(float x) const {
+        return time.t0 + static_cast<double>((x - min.x) / (max.x - min.x)) * (time.t1 - time.t0);
+    }
+};
+
+void draw_curve(ImDrawList& list, const Look& look, const Chart& chart, const std::vector<ClearanceColumn>& columns) {
+    const ClearanceColumn* before = nullptr;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        const ClearanceColumn& column = columns[k];
+        if (!column.any) continue;
+        const float x = chart.min.x + static_cast<float>(k);
+        // Joined to its neighbour, so that a steep curve has no holes.
+        const double high = before ? std::max(column.most, std::min(before->least, column.most)) : column.most;
+        const double low = before ? std::min(column.least, before->most) : column.least;
+        const double top = before ? std::max(high, std::min(before->least, high)) : high;
+        const bool contact = column.least < 0;
+        const ImU32 color = contact ? mark_color(look, EventMark::hit) : look.text;
+        const float line = std::max(1.5f * look.scale, chart.y(low) - chart.y(top));
+        list.AddRectFilled({x, chart.y(low) - line}, {x + 1, chart.y(low)}, color);
+        if (contact) {
+            list.AddRectFilled({x, chart.y(0)}, {x + 1, chart.y(column.least)},
+                               mark_color(look, EventMark::hit, 0.35f));
+        }
+        before = &column;
+    }
+}
+
+/// Text that stays inside the chart.
+void text_at(ImDrawList& list, const Look& look, const Chart& chart, ImVec2 at, ImU32 color, const std::string& text) {
+    ImFont* font = look.caption ? look.caption : ImGui::GetFont();
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str());
+    const float x = std::clamp(at.x, chart.min.x + 2, std::max(chart.min.x + 2, chart.max.x - size.x - 2));
+    list.AddText(font, font->FontSize, {x, at.y}, color, text.c_str());
+}
+
+void least_mark(ImDrawList& list, const Look& look, const Chart& chart, const ClearancePiece& least) {
+    const EventMark mark = least.clearance < 0 ? EventMark::hit : EventMark::separated;
+    const ImVec2 at{chart.x(0.5 * (least.t0 + least.t1)), chart.y(least.clearance)};
+    list.AddCircleFilled(at, 3.5f * look.scale, mark_color(look, mark));
+    list.AddCircle(at, 3.5f * look.scale, look.text, 0, look.scale);
+}
+
+void time_ticks(ImDrawList& list, const Look& look, const Chart& chart) {
+    const double span = chart.time.t1 - chart.time.t0;
+    const double parts = std::max(1.0, static_cast<double>((chart.max.x - chart.min.x) / (70 * look.scale)));
+    const double step = nice_step(span, parts);
+    for (const double t : ticks(chart.time.t0, chart.time.t1, step)) {
+        const float x = chart.x(t);
+        list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * look.scale}, look.quiet, look.scale);
+        text_at(list, look, chart, {x + 3 * look.scale, chart.max.y + look.scale}, look.quiet,
+                tick_text(t, step) + " s");
+    }
+}
+
+/// The piece that holds at a time; null if none does.
+const ClearancePiece* piece_at(const Clearance& clearance, double t) {
+    const auto at = std::partition_point(clearance.pieces.begin(), clearance.pieces.end(),
+                                         [&](const ClearancePiece& p) { return p.t1 <= t; });
+    return at != clearance.pieces.end() && at->t0 <= t ? &*at : nullptr;
+}
+
+}  // namespace
+
+void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
+    const Clearance& clearance = findings.clearance;
+    if (!clearance.least) {
+        words(ui.look.quiet, "They share no time, so there is no clearance.");
+        return;
+    }
+    const ClearancePiece& least = clearance.pieces[*clearance.least];
+    number_row(ui, least.clearance < 0 ? "deepest" : "least", signed_metres(least.clearance) + " m", least.clearance,
+               "m");
+    number_row(ui, "at", with_unit(least.t0, "s"), least.t0, "s");
+
+    const float label = (ui.look.caption ? ui.look.caption : ImGui::GetFont())->FontSize + ui.px(4);
+    const int width = static_cast<int>(ImGui::GetContentRegionAvail().x);
+    if (width < 8) return;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("clearance", {static_cast<float>(width), height});
+    ui.mark("query.clearance");
+    const bool hovered = ImGui::IsItemHovered();
+    const bool active = ImGui::IsItemActive();
+
+    Chart chart{at, {at.x + static_cast<float>(width), at.y + height - label}, ui.session.time_span(), 0, 0};
+    using Drawn = std::pair<std::shared_ptr<const QueryFindings>, int>;
+    static Memo<Drawn, std::vector<ClearanceColumn>> memo;
+    const std::vector<ClearanceColumn>& columns = memo.get(
+        {ui.session.findings(), width}, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
+    double most = 0;
+    for (const ClearanceColumn& column : columns) {
+        if (column.any) most = std::max(most, column.most);
+    }
+    const double range = std::max(most - std::min(0.0, least.clearance), 1e-3);
+    chart.low = std::min(0.0, least.clearance) - 0.12 * range;
+    chart.high = most + 0.08 * range;
+
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(chart.min, chart.max, ui.look.raised);
+    const float zero = chart.y(0);
+    dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.look, EventMark::hit), ui.look.scale,
+                ui.px(3));
+    text_at(list, ui.look, chart, {chart.min.x + ui.px(3), zero - label + ui.px(2)}, mark_text(ui.look, EventMark::hit),
+            "contact");
+    text_at(list, ui.look, chart, {chart.min.x + ui.px(3), chart.min.y + ui.px(1)}, ui.look.quiet,
+            with_unit(most, "m"));
+    draw_curve(list, ui.look, chart, columns);
+    least_mark(list, ui.look, chart, least);
+    time_ticks(list, ui.look, chart);
+    if (const auto& time = ui.session.view().time; time && *time >= chart.time.t0 && *time <= chart.time.t1) {
+        list.AddLine({chart.x(*time), chart.min.y}, {chart.x(*time), chart.max.y}, ui.look.accent, ui.px(1.5f));
+    }
+    if (!hovered && !active) return;
+    const double t = std::clamp(chart.t(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);
+    if (const ClearancePiece* piece = piece_at(clearance, t)) {
+        ImGui::SetTooltip("%s: %s m\nsample %d of %s, sample %d of %s", with_unit(t, "s").c_str(),
+                          signed_metres(piece->clearance).c_str(), piece->a_sample, findings.sides[0].label.c_str(),
+                          piece->b_sample, findings.sides[1].label.c_str());
+    } else {
+        ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
+    }
+    if (!active) return;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", t);
+    if (ui.session.view().time != t) invoke(ui.session, "time.at", text);
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,73 @@
+#include <app/command.h>
+#include <app/panels/outcome_cell.h>
+#include <app/panels/query_parts.h>
+#include <app/panels/section.h>
+#include <render/query_sentence.h>
+
+#include <algorithm>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr int kMostRows = 12;  // a longer list scrolls by itself
+
+void query_row(Ui& ui, std::size_t index, float height) {
+    const SceneQuery query = ui.session.fitted().queries()[index];
+    const Answer& answer = ui.session.answer_of(index);
+    const EventMark mark = answer.contact ? EventMark::hit : EventMark::separated;
+    ImGui::PushID(static_cast<int>(index));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (ImGui::Selectable("##query", false, 0, {width, height})) {
+        invoke(ui.session, "query.select", std::to_string(index));
+    }
+    ui.mark("query.row." + std::to_string(index));
+    const std::string pair = query.a.name + " against " + query.b.name;
+    if (ImGui::IsItemHovered()) {
+        ui.session.hovered = {Selection::Kind::query, {}, static_cast<int>(index)};
+        ImGui::SetTooltip("%s", sentence(query, answer.contact).c_str());
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float side = ui.px(11);
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 cell{at.x + ui.px(2), at.y + 0.5f * (line - side) + ui.px(2)};
+    outcome_cell(list, ui.look, cell, {cell.x + side, cell.y + side}, mark, 1);
+    const float left = cell.x + side + ui.px(7);
+    list.PushClipRect(at, {at.x + width, at.y + height}, true);
+    list.AddText({left, at.y + ui.px(2)}, ui.look.text, pair.c_str());
+    const std::string found = answer.contact ? "hit at " + with_unit(answer.contact->time, "s") : "never collide";
+    list.AddText({left, at.y + ui.px(3) + line}, mark_text(ui.look, mark), found.c_str());
+    list.PopClipRect();
+    ImGui::PopID();
+}
+
+}  // namespace
+
+void query_list(Ui& ui) {
+    const std::size_t count = ui.session.fitted().queries().size();
+    heading(ui, "QUERIES", count > 0 ? std::to_string(count) : "");
+    if (count == 0) {
+        words(ui.look.quiet, ui.session.empty()
+                                 ? "Open a scene to ask whether two agents collide."
+                                 : "A query asks whether two agents ever collide. Add a second agent: every pair of "
+                                   "agents is asked by itself.");
+        return;
+    }
+    words(ui.look.quiet, "Choose one to see why.");
+    const float height = 2 * ImGui::GetTextLineHeight() + ui.px(6);
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const int rows = static_cast<int>(count);
+    const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostRows)) + spacing;
+    ImGui::BeginChild("queries", {0, room});
+    ImGuiListClipper clipper;
+    clipper.Begin(rows, height + spacing);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            query_row(ui, static_cast<std::size_t>(i), height);
+        }
+    }
+    ImGui::EndChild();
+}
+
+}  // namespace mobbscope::app

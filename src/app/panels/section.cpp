@@ -1,0 +1,110 @@
+#include <app/command.h>
+#include <app/panels/section.h>
+
+#include <cstdio>
+#include <string_view>
+
+namespace mobbscope::app {
+
+void heading(Ui& ui, const char* text, const std::string& right) {
+    ImGui::Dummy({0, ui.px(6)});
+    ImGui::PushFont(ui.look.caption);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float left = ImGui::GetCursorPosX();
+    ImGui::TextUnformatted(text);
+    const float width = ImGui::CalcTextSize(right.c_str()).x;
+    if (!right.empty() && ImGui::CalcTextSize(text).x + width + ui.px(12) < room) {
+        ImGui::SameLine(left + room - width);
+        ImGui::TextUnformatted(right.c_str());
+    }
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+void words(ImU32 color, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color) {
+    ImGui::PushFont(ui.look.mono);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(shown.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    if (!ImGui::IsItemHovered()) return;
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.17g", value);
+    ImGui::SetTooltip("%s %s\nClick to copy", digits, unit);
+    if (ImGui::IsItemClicked() && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(digits);
+}
+
+void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float left = ImGui::GetCursorPosX();
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
+    ImGui::PushFont(ui.look.mono);
+    const float width = ImGui::CalcTextSize(shown.c_str()).x;
+    ImGui::PopFont();
+    ImGui::SameLine(left + room - width);
+    number(ui, shown, value, unit, ui.look.text);
+}
+
+void framed(Ui& ui, ImU32 fill, ImU32 border, const std::function<void()>& draw) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float inset = ui.px(9);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.ChannelsSplit(2);
+    list.ChannelsSetCurrent(1);
+    ImGui::SetCursorScreenPos({at.x + inset, at.y + inset});
+    ImGui::BeginGroup();
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width - 2 * inset);
+    draw();
+    ImGui::PopTextWrapPos();
+    ImGui::EndGroup();
+    const float bottom = ImGui::GetItemRectMax().y + inset;
+    list.ChannelsSetCurrent(0);
+    list.AddRectFilled(at, {at.x + width, bottom}, fill, ui.px(5));
+    list.AddRect(at, {at.x + width, bottom}, border, ui.px(5), 0, ui.px(1.5f));
+    list.ChannelsMerge();
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({width, bottom - at.y});
+}
+
+void flow(float width) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + spacing + width <= right) ImGui::SameLine();
+}
+
+float command_button_width(const char* label) {
+    return ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+void command_button(Ui& ui, const char* label, const char* id) {
+    const Command* command = find_command(id);
+    const bool enabled = command && command->enabled(ui.session);
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    const std::string_view name = id;
+    ui.mark("query." + std::string(name.substr(name.find('.') + 1)));
+    if (command && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+        const std::string key = command->shortcut.empty() ? "" : "  (" + std::string(command->shortcut) + ")";
+        ImGui::SetTooltip("%s%s", std::string(command->doc).c_str(), key.c_str());
+    }
+    if (pressed) invoke(ui.session, id);
+}
+
+std::string signed_metres(double metres) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%+.3f", metres);
+    return text;
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,39 @@
+/// The small parts that panels with words and numbers are put together from.
+#pragma once
+
+#include <app/ui.h>
+
+#include <functional>
+#include <string>
+
+namespace mobbscope::app {
+
+/// A quiet heading with room above it; `right` stands at the other end of its line if there is room.
+void heading(Ui& ui, const char* text, const std::string& right = "");
+
+/// Wrapped text in a colour.
+void words(ImU32 color, const std::string& text);
+
+/// A number as shown; the tooltip has all its digits, and a click copies them.
+void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color);
+
+/// A label at the left and, at the right edge, a number.
+void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit);
+
+/// A frame around what `draw` draws, as wide as there is room.
+void framed(Ui& ui, ImU32 fill, ImU32 border, const std::function<void()>& draw);
+
+/// The next widget, `width` pixels wide, goes on the same line if it fits there.
+void flow(float width);
+
+/// A button that runs a command; its tooltip says what it does and by which key. Marked "query.<the command's last
+/// word>".
+void command_button(Ui& ui, const char* label, const char* command);
+
+/// Width of that button.
+float command_button_width(const char* label);
+
+/// "+0.183"
+std::string signed_metres(double metres);
+
+}  // namespace mobbscope::app

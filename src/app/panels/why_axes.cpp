@@ -1,0 +1,149 @@
+#include <app/panels/outcome_cell.h>
+#include <app/panels/query_parts.h>
+#include <app/panels/section.h>
+#include <render/axis_intervals.h>
+#include <render/query_sentence.h>
+
+#include <algorithm>
+#include <string>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr float kWide = 300;      // pixels at scale 1 from which name, bars and number stand on one line
+constexpr float kBar = 5;         // height of a bar
+constexpr float kUntried = 0.4f;  // strength of axes that the test did not come to
+
+/// Two intervals on one line of numbers.
+struct Row {
+    std::string name;
+    mobb::Interval a, b;
+    double span = 1;  ///< what the width of the bars stands for
+    std::string shown;
+    double value = 0;
+    const char* unit = "m";
+    ImU32 color = 0;  ///< of the number
+    float strength = 1;
+    bool separating = false;
+};
+
+/// The two bars, what they share or what lies between them.
+void draw_bars(Ui& ui, const QueryFindings& findings, const Row& row, ImVec2 min, ImVec2 max) {
+    const double middle = 0.5 * (std::min(row.a.t0, row.b.t0) + std::max(row.a.t1, row.b.t1));
+    const auto x = [&](double at) {
+        return 0.5f * (min.x + max.x) + static_cast<float>((at - middle) / row.span) * (max.x - min.x);
+    };
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float bar = ui.px(kBar);
+    const float y = 0.5f * (min.y + max.y);
+    const auto draw = [&](const mobb::Interval& interval, const Subject& side, float top) {
+        const float x0 = x(interval.t0);
+        list.AddRectFilled({x0, top}, {std::max(x(interval.t1), x0 + ui.px(1.5f)), top + bar},
+                           to_im(with_alpha(side.color, row.strength)));
+    };
+    draw(row.a, findings.sides[0], y - bar - ui.px(1));
+    draw(row.b, findings.sides[1], y + ui.px(1));
+    const double from = std::max(row.a.t0, row.b.t0);
+    const double to = std::min(row.a.t1, row.b.t1);
+    const float top = y - bar - ui.px(3);
+    const float bottom = y + bar + ui.px(3);
+    if (from < to) {
+        const ImU32 color = to_im(with_alpha(ui.look.palette.quiet_text, 0.8f * row.strength));
+        for (const double edge : {from, to})
+            dashed_line(list, {x(edge), top}, {x(edge), bottom}, color, ui.px(1), ui.px(2));
+    } else if (row.separating) {
+        const ImU32 color = row.color;
+        list.AddLine({x(to), top}, {x(to), bottom}, color, ui.px(1.5f));
+        list.AddLine({x(from), top}, {x(from), bottom}, color, ui.px(1.5f));
+        list.AddLine({x(to), y}, {x(from), y}, color, ui.px(1.5f));
+    }
+}
+
+void draw_row(Ui& ui, const QueryFindings& findings, const Row& row) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    const bool wide = room >= ui.px(kWide);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeight();
+    const float inset = ui.px(6);
+    const float bars = ui.px(2 * kBar + 8);
+    const float height = wide ? std::max(line, bars) + ui.px(4) : line + bars + ui.px(4);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (row.separating) {
+        list.AddRectFilled(at, {at.x + room, at.y + height}, mark_color(ui.look, EventMark::separated, 0.1f), ui.px(4));
+        list.AddRect(at, {at.x + room, at.y + height}, row.color, ui.px(4), 0, ui.px(1.5f));
+    }
+    ImGui::PushFont(ui.look.mono);
+    const float number_width = ImGui::CalcTextSize(row.shown.c_str()).x;
+    const float number_column = std::max(number_width, ImGui::CalcTextSize("apart 0.000 s").x);
+    ImGui::PopFont();
+    const float text_y = wide ? at.y + 0.5f * (height - line) : at.y + ui.px(2);
+    const ImU32 name_color = row.separating ? ui.look.text : ui.look.quiet;
+    list.AddText({at.x + inset, text_y}, name_color, row.name.c_str());
+    ImGui::SetCursorScreenPos({at.x + room - inset - number_width, text_y});
+    number(ui, row.shown, row.value, row.unit, row.color);
+    const float name_column = ui.px(104);
+    const ImVec2 min{at.x + (wide ? name_column : inset), wide ? at.y : at.y + ui.px(2) + line};
+    const ImVec2 max{at.x + room - (wide ? number_column + 2 * inset : inset), at.y + height};
+    draw_bars(ui, findings, row, min, max);
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({room, height});
+}
+
+Row time_row(Ui& ui, const QueryFindings& findings, const mobb::Trace::Event& event) {
+    const mobb::PlacedTree& a = findings.sides[0].placed;
+    const mobb::PlacedTree& b = findings.sides[1].placed;
+    Row row;
+    row.name = "time";
+    row.a = {a.begin(a.node(event.a)), a.end(a.node(event.a))};
+    row.b = {b.begin(b.node(event.b)), b.end(b.node(event.b))};
+    row.span = std::max(row.a.t1, row.b.t1) - std::min(row.a.t0, row.b.t0);
+    const double gap = std::max(row.a.t0, row.b.t0) - std::min(row.a.t1, row.b.t1);
+    const bool apart = event.outcome == mobb::Outcome::disjoint_in_time;
+    row.value = apart ? gap : -gap;
+    row.unit = "s";
+    row.shown =
+        apart && gap < mobb::kMinOverlap ? "only touch" : (apart ? "apart " : "share ") + with_unit(row.value, "s");
+    row.color = apart ? mark_text(ui.look, EventMark::apart_in_time) : ui.look.text;
+    return row;
+}
+
+}  // namespace
+
+void why_axes(Ui& ui, const QueryFindings& findings) {
+    const mobb::Trace::Event event = ui.session.recorded()->trace[ui.session.step()];
+    heading(ui, "IN TIME");
+    draw_row(ui, findings, time_row(ui, findings, event));
+    const std::vector<AxisInterval> axes = axis_intervals(findings.sides, event);
+    if (axes.empty()) return;
+    heading(ui, "ALONG EACH AXIS", "gap, m");
+    double span = 0;
+    for (const AxisInterval& axis : axes) {
+        span = std::max(span, std::max(axis.a_max, axis.b_max) - std::min(axis.a_min, axis.b_min));
+    }
+    bool tried = true;
+    bool untried = false;  // axes come after the one that separates
+    for (const AxisInterval& axis : axes) {
+        Row row;
+        row.name = axis.name;
+        row.a = {axis.a_min, axis.a_max};
+        row.b = {axis.b_min, axis.b_max};
+        row.span = span;
+        row.separating = axis.axis == event.axis;
+        untried = untried || !tried;
+        row.strength = tried ? 1 : kUntried;
+        // The one that separates has the number that the test found.
+        row.value = row.separating ? event.gap : axis.gap;
+        row.shown = signed_metres(row.value);
+        row.color = row.separating ? mark_text(ui.look, EventMark::separated) : tried ? ui.look.text : ui.look.quiet;
+        draw_row(ui, findings, row);
+        if (row.separating) tried = false;
+    }
+    if (event.outcome == mobb::Outcome::separated) {
+        words(ui.look.quiet, untried ? "One gap is enough: the fainter axes were not tried." : "One gap is enough.");
+    } else {
+        words(ui.look.quiet, "No axis has a gap, so the boxes may meet.");
+    }
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,253 @@
+// The table as a whole: ids, shortcuts, arguments, what can be done when.
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::all_messages;
+using testing::CrossingFolder;
+using testing::refusal;
+
+std::vector<std::string> words(std::string_view text) {
+    std::istringstream in{std::string(text)};
+    std::vector<std::string> out;
+    for (std::string word; in >> word;) out.push_back(word);
+    return out;
+}
+
+TEST(CommandTable, IdsAreUniqueAndEverythingIsSaid) {
+    const std::set<std::string_view> menus{"File", "Edit", "View", "Tree", "Query", "Go", "Help"};
+    std::set<std::string_view> ids;
+    for (const Command& command : commands()) {
+        SCOPED_TRACE(command.id);
+        EXPECT_TRUE(ids.insert(command.id).second);
+        EXPECT_FALSE(command.title.empty());
+        EXPECT_TRUE(command.doc.ends_with('.'));
+        EXPECT_TRUE(command.run);
+        EXPECT_TRUE(command.menu.empty() || menus.contains(command.menu.substr(0, command.menu.find('/'))));
+        EXPECT_TRUE(command.choices || !command.chosen);
+        EXPECT_TRUE(!command.choices || !command.argument.empty());
+        EXPECT_TRUE(command.shortcut.empty() || !command.menu.empty()) << "shortcuts stand in menus";
+        EXPECT_TRUE(command.shortcut.empty() || !command.needs_argument()) << "a key gives none";
+        EXPECT_EQ(find_command(command.id), &command);
+    }
+}
+
+TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
+    std::set<std::string> chords;
+    for (const Command& command : commands()) {
+        SCOPED_TRACE(command.id);
+        for (const std::string& name : words(command.shortcut)) {
+            const std::optional<Chord> chord = chord_from_name(name);
+            ASSERT_TRUE(chord) << name;
+            EXPECT_EQ(command_for(*chord), &command);
+            EXPECT_TRUE(chords.insert(to_string(*chord)).second) << name << " is another command's too";
+        }
+    }
+    EXPECT_GT(chords.size(), 50u);
+    EXPECT_EQ(command_for({Key::f12}), nullptr);
+}
+
+TEST(CommandTable, WhatThereIsNotIsRefusedWithTheNearest) {
+    Session session(false);
+    EXPECT_EQ(refusal(session, "view.topp"), "there is no command 'view.topp' (did you mean 'view.top'?)");
+}
+
+TEST(CommandTable, AnEmptySessionOnlyOpensAndHelps) {
+    Session session(false);
+    for (const Command& command : commands()) {
+        SCOPED_TRACE(command.id);
+        const std::string group(command.id.substr(0, command.id.find('.')));
+        if (group == "agent" || group == "tree" || group == "query" || group == "step" || group == "edit") {
+            EXPECT_FALSE(command.enabled(session));
+        }
+        // Whatever can be done must not fail for want of a scene.
+        if (command.enabled(session) && !command.needs_argument()) {
+            EXPECT_NO_THROW(run_command(session, command.id)) << command.id;
+        }
+        session.close_dialog();
+    }
+    EXPECT_EQ(refusal(session, "view.top"), "\"View from above\" cannot be done now");
+}
+
+TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    run_command(session, "go.agent", "A");
+    run_command(session, "query.select", "0");
+    const std::vector<std::array<std::string, 3>> bad{
+        {"agent.move", "1", "the place cannot be '1': give two numbers, such as 1.5 -2"},
+        {"agent.move", "1 nan", "the place cannot be '1 nan': give two numbers, such as 1.5 -2"},
+        {"agent.move", "1e300 0", "a placement is too far away or not a number"},
+        {"agent.turn", "north", "the angle cannot be 'north': give a number from -1e+09 to 1e+09"},
+        {"agent.color", "red", "the colour cannot be 'red': give one like #E69F00, or none"},
+        {"agent.rename", "B", "there is an agent 'B' already"},
+        {"agent.rename", " ", "an agent needs a name"},
+        {"agent.add", "wolk", "there is no clip 'wolk' (did you mean 'walk'?)"},
+        {"tree.kind", "rtree", "the trees cannot be 'rtree': give one of mobb, umobb, hybrid1, hybrid2"},
+        {"tree.axes", "x", "the axes cannot be 'x': give one of endpoints, covariance, minarea"},
+        {"tree.leaf", "0", "the samples of a leaf cannot be '0': give a whole number from 1 to 2147483647"},
+        {"view.zoom", "0", "the factor cannot be '0': give a number from 0.001 to 1000"},
+        {"view.theme", "blue", "a theme cannot be 'blue': give dark or light"},
+        {"query.select", "3", "the query cannot be '3': give a whole number from 0 to 2"},
+        {"query.add", "A", "an agent is not asked against itself"},
+        {"go.node", "A", "the node cannot be 'A': give a name and a number, such as A 12"},
+        {"go.node", "Z 1", "there is no agent 'Z'"},
+        {"go.node", "A 9.0", "the level cannot be '9': give a whole number from 0 to 4"},
+        {"go.sample", "A 60", "the sample cannot be '60': give a whole number from 0 to 59"},
+        {"agent.move", "", "\"Place agent at\" needs X Y"},
+        {"view.top", "now", "\"View from above\" takes nothing, but was given 'now'"},
+    };
+    const auto before = session.document().fitted;
+    for (const auto& [id, argument, message] : bad) EXPECT_EQ(refusal(session, id, argument), message);
+    EXPECT_EQ(session.document().fitted, before);
+}
+
+TEST(CommandTable, NumbersThatNobodyMeansAreRefusedEverywhere) {
+    CrossingFolder folder;
+    for (const Command& command : commands()) {
+        if (command.argument.empty() || command.argument.find("FILE") != std::string_view::npos) continue;
+        for (const char* text : {"nan", "1e999", "1 2 3 4", "\xff", "-"}) {
+            Session session(false);
+            session.open({folder.scene});
+            run_command(session, "go.agent", "A");
+            run_command(session, "query.select", "0");
+            if (command.id == "agent.rename") continue;  // names are free
+            EXPECT_THROW(run_command(session, command.id, text), std::invalid_argument) << command.id << ' ' << text;
+        }
+    }
+}
+
+TEST(CommandTable, AsInvokedWhatGoesWrongIsAMessage) {
+    Session session(false);
+    invoke(session, "view.top");
+    ASSERT_EQ(session.messages().size(), 1u);
+    EXPECT_EQ(session.messages()[0].level, Message::Level::error);
+    EXPECT_EQ(session.messages()[0].text, "\"View from above\" cannot be done now");
+}
+
+TEST(CommandTable, ChoicesCanAllBeChosen) {
+    CrossingFolder folder;
+    for (const Command& command : commands()) {
+        if (!command.choices) continue;
+        SCOPED_TRACE(command.id);
+        Session session(false);
+        session.settings.recent = {folder.file("walk.csv")};
+        session.open({folder.scene});
+        run_command(session, "go.agent", "A");
+        const std::vector<std::string> choices = command.choices(session);
+        EXPECT_FALSE(choices.empty());
+        for (const std::string& choice : choices) {
+            Session other(false);
+            other.open({folder.scene});
+            run_command(other, "go.agent", "A");
+            EXPECT_NO_THROW(run_command(other, command.id, choice)) << choice;
+            EXPECT_EQ(all_messages(other), "");
+            if (command.chosen) {
+                EXPECT_TRUE(command.chosen(other, choice)) << choice;
+            }
+        }
+    }
+}
+
+TEST(CommandTable, ClipsBecomeAgentsWhenOneIsEdited) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    run_command(session, "go.agent", "stand");
+    run_command(session, "agent.move", "3 4");
+    ASSERT_EQ(session.scene().agents.size(), 2u);
+    EXPECT_EQ(session.scene().agents[1].placement.translate, glm::dvec2(3, 4));
+    EXPECT_EQ(session.fitted().queries().size(), 1u);
+    run_command(session, "edit.undo");
+    EXPECT_TRUE(session.scene().agents.empty());
+}
+
+TEST(CommandTable, StepsEndWhereTheTraceDoes) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    run_command(session, "query.select", "0");
+    EXPECT_FALSE(find_command("step.over")->enabled(session));
+    run_command(session, "step.first");
+    EXPECT_FALSE(find_command("step.out")->enabled(session));
+    run_command(session, "query.select", "2");
+    run_command(session, "step.next_hit");
+    EXPECT_EQ(all_messages(session), "There is no later test that found a hit\n");
+    EXPECT_FALSE(find_command("go.contact")->enabled(session)) << "B and C never meet";
+}
+
+TEST(CommandTable, LevelsStayWithinTheTrees) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    const int deepest = session.fitted().tree(0).depth() - 1;
+    while (find_command("view.finer")->enabled(session)) run_command(session, "view.finer");
+    EXPECT_EQ(session.view().levels, (LevelRange{deepest, deepest, false}));
+    while (find_command("view.coarser")->enabled(session)) run_command(session, "view.coarser");
+    EXPECT_EQ(session.view().levels, (LevelRange{0, 0, false}));
+    run_command(session, "view.level", "900");
+    run_command(session, "view.coarser");
+    EXPECT_EQ(session.view().levels.last, deepest) << "levels that no tree has are passed over";
+}
+
+TEST(CommandTable, TimeStepsStayWithinTheSpan) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    run_command(session, "time.back");
+    EXPECT_EQ(session.view().time, session.time_span().t0);
+    run_command(session, "time.end");
+    run_command(session, "time.forward");
+    EXPECT_EQ(session.view().time, session.time_span().t1);
+}
+
+TEST(CommandTable, TheLineToCopyTellsThePicture) {
+    CrossingFolder folder;
+    Session session(false);
+    std::string copied;
+    session.hooks.set_clipboard = [&](const std::string& text) { copied = text; };
+    const std::filesystem::path odd = folder.write("o'dd name.json", mobbscope::testing::slurp(folder.scene));
+    session.open({odd});
+    const auto options = [&] {
+        run_command(session, "file.copy_command");
+        const std::size_t file_end = copied.find("name.json'") + 10;
+        return copied.substr(file_end, copied.find(" --size") - file_end);
+    };
+    EXPECT_EQ(options(), "");
+    EXPECT_NE(copied.find("o'\\''dd name.json'"), std::string::npos) << copied;
+    run_command(session, "view.top");
+    run_command(session, "query.select", "1");
+    run_command(session, "step.to", "0");
+    EXPECT_EQ(options(), " --view top --query 1 --step 0");
+    run_command(session, "query.none");
+    run_command(session, "view.level", "1:3");
+    run_command(session, "time.at", "0.1");
+    run_command(session, "view.theme", "light");
+    run_command(session, "view.iso");
+    run_command(session, "view.perspective");
+    EXPECT_EQ(options(), " --view iso --ortho --level 1:3 --time 0.1 --theme light");
+    // What no option says must be in the file.
+    run_command(session, "view.floor");
+    EXPECT_NE(refusal(session, "file.copy_command").find("save the scene first"), std::string::npos);
+    run_command(session, "view.floor");
+    run_command(session, "view.zoom_in");
+    EXPECT_NE(refusal(session, "file.copy_command").find("save the scene first"), std::string::npos);
+    run_command(session, "file.save");
+    EXPECT_EQ(options(), "");
+    run_command(session, "go.agent", "A");
+    run_command(session, "agent.nudge", "1 0");
+    EXPECT_NE(refusal(session, "file.copy_command").find("save the scene first"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mobbscope::app
