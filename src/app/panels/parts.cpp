@@ -4,43 +4,15 @@
 
 namespace mobbscope::app {
 
-void heading(Ui& ui, const char* text) {
-    ImGui::Dummy({0, ui.px(4)});
-    ImGui::PushFont(ui.look.caption);
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
-    ImGui::TextUnformatted(text);
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
-}
-
-void words(Ui&, const std::string& text, ImU32 color) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
-}
-
-void numbers(Ui& ui, const std::string& text, ImU32 color) {
-    ImGui::PushFont(ui.look.mono);
-    words(ui, text, color);
-    ImGui::PopFont();
-}
-
-void numbers_right(Ui& ui, const std::string& text, ImU32 color) {
-    ImGui::PushFont(ui.look.mono);
-    ImGui::SameLine();
-    const float room = ImGui::GetContentRegionAvail().x;
-    const std::string shown = fitted_text(text, room);
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, room - ImGui::CalcTextSize(shown.c_str()).x));
-    words(ui, shown, color);
-    ImGui::PopFont();
-}
-
 void form_label(Ui& ui, const char* label, const char* help) {
     ImGui::AlignTextToFramePadding();
-    words(ui, label, ui.look.quiet);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
     if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
-    const float column = std::max(ui.px(86), 0.38f * ImGui::GetWindowContentRegionMax().x);
-    ImGui::SameLine(column);
+    // Below the longest label of all forms the columns still stand under one another.
+    const float column = ImGui::GetWindowContentRegionMin().x + ImGui::CalcTextSize("Leaf samples").x + ui.px(12);
+    ImGui::SameLine(std::max(column, 0.34f * ImGui::GetWindowContentRegionMax().x));
     ImGui::SetNextItemWidth(-1);
 }
 

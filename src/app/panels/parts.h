@@ -1,21 +1,12 @@
 /// Pieces that panels are built from.
 #pragma once
 
-#include <app/ui.h>
+#include <app/panels/section.h>
 
 #include <functional>
 #include <string>
 
 namespace mobbscope::app {
-
-/// The quiet heading of a section.
-void heading(Ui& ui, const char* text);
-
-/// Words in a colour; numbers in the fixed-width face.
-void words(Ui& ui, const std::string& text, ImU32 color);
-void numbers(Ui& ui, const std::string& text, ImU32 color);
-/// The same at the right edge of the panel, on the present line; cut off visibly if there is no room.
-void numbers_right(Ui& ui, const std::string& text, ImU32 color);
 
 /// A row of a form: the label at the left, the next widget takes the rest.
 void form_label(Ui& ui, const char* label, const char* help);

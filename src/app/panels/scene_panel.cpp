@@ -56,10 +56,9 @@ void path_row(Ui& ui, int index) {
 void agents(Ui& ui) {
     Session& session = ui.session;
     const bool has_agents = !session.scene().agents.empty();
-    heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE");
-    numbers_right(ui, std::to_string(session.fitted().participants().size()), ui.look.quiet);
-    rows(ui, "##agents", static_cast<int>(session.fitted().participants().size()), kMostRows,
-         [&](int i) { path_row(ui, i); });
+    const auto count = static_cast<int>(session.fitted().participants().size());
+    heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
+    rows(ui, "##agents", count, kMostRows, [&](int i) { path_row(ui, i); });
     if (ImGui::SmallButton("+ agent")) ImGui::OpenPopup("add agent");
     ui.mark("scene.add_agent");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add an agent that plays one of the clips");
@@ -78,8 +77,7 @@ void agents(Ui& ui) {
 void clips(Ui& ui) {
     Session& session = ui.session;
     const auto& all = session.scene().clips;
-    heading(ui, "CLIPS");
-    numbers_right(ui, std::to_string(all.size()), ui.look.quiet);
+    heading(ui, "CLIPS", std::to_string(all.size()));
     rows(ui, "##clips", static_cast<int>(all.size()), kMostRows, [&](int i) {
         const SceneClip& clip = all[static_cast<std::size_t>(i)];
         const Selection self{Selection::Kind::clip, {}, i};
@@ -99,32 +97,31 @@ void clips(Ui& ui) {
 void queries(Ui& ui) {
     Session& session = ui.session;
     const auto count = static_cast<int>(session.fitted().queries().size());
-    heading(ui, session.scene().queries.empty() && count > 0 ? "QUERIES (ALL PAIRS)" : "QUERIES");
-    numbers_right(ui, std::to_string(count), ui.look.quiet);
+    heading(ui, session.scene().queries.empty() && count > 0 ? "QUERIES (ALL PAIRS)" : "QUERIES",
+            std::to_string(count));
     rows(ui, "##queries", count, kMostRows, [&](int i) {
         const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
         const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.look.palette;
-        if (row(ui,
-                {"query" + std::to_string(i), query.a.name + " against " + query.b.name,
-                 std::string(unexpected ? "! " : "") + (hit ? "\u25CF hit" : "\u25CB miss"), session.view().query == i,
-                 false, 0, to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
+        if (row(ui, {"query" + std::to_string(i), query.a.name + " against " + query.b.name,
+                     std::string(unexpected ? "! " : "") + (hit ? "hit" : "miss"), session.view().query == i, false, 0,
+                     to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
             invoke(session, session.view().query == i ? "query.none" : "query.select",
                    session.view().query == i ? "" : std::to_string(i));
         }
         ui.mark("query." + std::to_string(i));
         if (unexpected && ImGui::IsItemHovered()) ImGui::SetTooltip("The scene expects the other answer");
     });
-    if (count == 0) words(ui, "needs two agents", ui.look.quiet);
+    if (count == 0) words(ui.look.quiet, "needs two agents");
 }
 
 }  // namespace
 
 void scene_panel(Ui& ui) {
     if (ui.session.empty()) {
-        words(ui, "Nothing is open", ui.look.quiet);
+        words(ui.look.quiet, "Nothing is open");
         return;
     }
     agents(ui);

@@ -9,9 +9,7 @@ void selection_panel(Ui& ui) {
     if (session.empty()) return;
     heading(ui, "SELECTION");
     if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
-        ImGui::TextWrapped("Click a disk, a box or a name. Click again for what lies behind.");
-        ImGui::PopStyleColor();
+        words(ui.look.quiet, "Click a disk, a box or a name. Click again for what lies behind.");
         return;
     }
     const Described what = describe(session.fitted(), session.selection);

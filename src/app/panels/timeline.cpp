@@ -1,6 +1,7 @@
 #include <app/command.h>
 #include <app/panels.h>
 #include <app/panels/parts.h>
+#include <app/panels/query_parts.h>
 #include <import/text.h>
 #include <render/paths.h>
 #include <render/subject.h>
@@ -63,7 +64,10 @@ void time_row(Ui& ui) {
     char text[64];
     std::snprintf(text, sizeof text, "%7.3f s", session.view().time.value_or(span.t0));
     ImGui::AlignTextToFramePadding();
-    numbers(ui, session.view().time ? text : "   off   ", session.view().time ? ui.look.text : ui.look.quiet);
+    ImGui::PushFont(ui.look.mono);
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(session.view().time ? ui.look.text : ui.look.quiet), "%s",
+                       session.view().time ? text : "   off   ");
+    ImGui::PopFont();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
     ImGui::SameLine();
     const float clear = ImGui::GetFrameHeight();
@@ -74,11 +78,26 @@ void time_row(Ui& ui) {
     ImGui::EndDisabled();
     ui.mark("timeline.clear");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Hide the time cursor");
-    if (session.view().time) {
-        char ends[96];
-        std::snprintf(ends, sizeof ends, "%.2f .. %.2f s", span.t0, span.t1);
-        words(ui, ends, ui.look.quiet);
-    }
+}
+
+/// The second clock: where in the trace we stand.
+void step_row(Ui& ui) {
+    button(ui, "|<", "step.first");
+    ImGui::SameLine(0, ui.px(4));
+    button(ui, "<", "step.back");
+    ImGui::SameLine(0, ui.px(4));
+    button(ui, ">", "step.forward");
+    ImGui::SameLine(0, ui.px(4));
+    button(ui, ">|", "step.last");
+    ImGui::SameLine();
+    char text[48];
+    std::snprintf(text, sizeof text, "%d / %d", ui.session.step(), ui.session.recorded()->trace.size() - 1);
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushFont(ui.look.mono);
+    ImGui::TextUnformatted(text);
+    ImGui::PopFont();
+    ImGui::SameLine();
+    step_strip(ui, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
 }
 
 }  // namespace
@@ -87,6 +106,11 @@ void timeline(Ui& ui) {
     if (ui.session.empty()) return;
     ImGui::PushID("timeline");
     time_row(ui);
+    if (ui.session.recorded()) {
+        step_row(ui);
+        const ImVec2 room = ImGui::GetContentRegionAvail();
+        if (room.y > ui.px(24)) recursion_icicle(ui, room);
+    }
     ImGui::PopID();
 }
 

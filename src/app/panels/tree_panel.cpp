@@ -51,10 +51,8 @@ void whole(Ui& ui, const char* label, const char* command, int now, int least, c
     ImGui::PushFont(ui.look.mono);
     int value = now;
     ImGui::InputInt((std::string("##") + command).c_str(), &value, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
-    const bool left = ImGui::IsItemDeactivatedAfterEdit();
     ImGui::PopFont();
     ui.mark(command);
-    static_cast<void>(left);
     if (value != now && value >= least) invoke(ui.session, command, std::to_string(value));
 }
 
@@ -75,28 +73,51 @@ void time_scale(Ui& ui) {
     if (changed && std::isfinite(value)) invoke(ui.session, "tree.time_scale", short_double(value));
 }
 
-/// Which levels are drawn.
+/// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
-    const ViewState& view = ui.session.view();
-    form_label(ui, "Show levels", "Which boxes are drawn: from a level to another, or the leaves");
-    const int last = std::max(0, depth - 1);
-    std::array<int, 2> range{std::min(view.levels.first, last), std::min(view.levels.last, last)};
-    const float leaves = ImGui::CalcTextSize("leaves").x + ui.px(34);
-    ImGui::SetNextItemWidth(std::max(ui.px(50), ImGui::GetContentRegionAvail().x - leaves - ui.px(6)));
-    ImGui::PushFont(ui.look.mono);
-    ImGui::BeginDisabled(view.levels.leaves);
-    if (ImGui::SliderInt2("##view.level", range.data(), 0, last, "%d", ImGuiSliderFlags_AlwaysClamp)) {
-        // The end that was not moved gives way.
-        if (range[0] > range[1])
-            (range[0] != view.levels.first ? range[1] : range[0]) = range[0] != view.levels.first ? range[0] : range[1];
-        invoke(ui.session, "view.level", std::to_string(range[0]) + ":" + std::to_string(range[1]));
-    }
-    ImGui::EndDisabled();
-    ImGui::PopFont();
+    const LevelRange& shown = ui.session.view().levels;
+    form_label(ui, "Show", "Which boxes are drawn: click a level; drag over several, or Shift-click, for a range");
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    const float leaves = ImGui::CalcTextSize("leaves").x + 2 * padding.x;
+    const ImVec2 size{std::max(ui.px(40), ImGui::GetContentRegionAvail().x - leaves - ui.px(6)),
+                      ImGui::GetFrameHeight()};
+    ImGui::InvisibleButton("##levels", size);
     ui.mark("view.level");
+    const float cell = size.x / static_cast<float>(depth);
+    const auto level_at = [&](float x) { return std::clamp(static_cast<int>((x - corner.x) / cell), 0, depth - 1); };
+    const ImGuiIO& io = ImGui::GetIO();
+    if (ImGui::IsItemActive()) {
+        const int here = level_at(io.MousePos.x);
+        const int from = io.KeyShift && !shown.leaves ? shown.first : level_at(io.MouseClickedPos[0].x);
+        const LevelRange wanted{std::min(from, here), std::max(from, here), false};
+        if (wanted != shown) invoke(ui.session, "view.level", to_string(wanted));
+    }
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ui.look.window, ui.px(4));
+    const int over = ImGui::IsItemHovered() ? level_at(io.MousePos.x) : -1;
+    for (int level = 0; level < depth; ++level) {
+        const ImVec2 min{corner.x + cell * static_cast<float>(level) + 1, corner.y + 1};
+        const ImVec2 max{corner.x + cell * static_cast<float>(level + 1) - 1, corner.y + size.y - 1};
+        const bool lit = !shown.leaves && !ui.session.view().query && level >= std::min(shown.first, depth - 1) &&
+                         level <= shown.last;
+        if (lit || level == over)
+            draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.look.palette.accent, 0.45f)) : ui.look.raised,
+                               ui.px(3));
+        const std::string label = std::to_string(level);
+        const ImFont* mono = ui.look.mono;
+        const ImVec2 text = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, label.c_str());
+        // Of very deep trees only the cells remain.
+        if (text.x > cell) continue;
+        draw.AddText(mono, mono->FontSize, {0.5f * (min.x + max.x - text.x), 0.5f * (min.y + max.y - text.y)},
+                     lit ? ui.look.text : ui.look.quiet, label.c_str());
+    }
+    draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, ui.look.border, ui.px(4));
     ImGui::SameLine(0, ui.px(6));
-    bool all = view.levels.leaves;
-    if (ImGui::Checkbox("leaves", &all)) invoke(ui.session, "view.leaves");
+    const bool on = shown.leaves && !ui.session.view().query;
+    ImGui::PushStyleColor(ImGuiCol_Button, on ? to_im(with_alpha(ui.look.palette.accent, 0.45f)) : ui.look.window);
+    if (ImGui::Button("leaves")) invoke(ui.session, "view.leaves");
+    ImGui::PopStyleColor();
     ui.mark("view.leaves");
 }
 
@@ -113,8 +134,7 @@ int clip_in_focus(const Session& session) {
 void level_bars(Ui& ui, int clip) {
     const Session& session = ui.session;
     const auto& figures = session.figures_of(clip);
-    heading(ui, "VOLUME BY LEVEL");
-    numbers_right(ui, session.scene().clips[static_cast<std::size_t>(clip)].name, ui.look.quiet);
+    heading(ui, "VOLUME BY LEVEL", session.scene().clips[static_cast<std::size_t>(clip)].name);
     const double most = std::max(figures.front().volume, 1e-300);
     const ImFont* mono = ui.look.mono;
     const float height = ui.px(18);
@@ -162,7 +182,7 @@ void level_bars(Ui& ui, int clip) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     for (int i = 0; i < static_cast<int>(figures.size()); ++i) draw_row(i);
     ImGui::PopStyleVar();
-    words(ui, "m\u00B2\u00B7s, and how full", ui.look.quiet);
+    words(ui.look.quiet, "m\u00B2\u00B7s, and how much of it the disks fill");
 }
 
 }  // namespace
