@@ -1,6 +1,7 @@
 #version 330 core
 in vec3 surface_normal;
 in float upper;
+in float face_shade;
 flat in vec4 surface_color;
 in vec2 local;
 flat in uvec2 object_id;
@@ -21,7 +22,7 @@ float seam(float to_edge) {
 void main() {
     bool cap = abs(surface_normal.z) > 0.5;
     vec3 n = normalize(surface_normal);
-    float shade = mix(0.54 + 0.36 * (0.5 + 0.5 * dot(n, light)), 1.0, upper);
+    float shade = mix(0.54 + 0.36 * (0.5 + 0.5 * dot(n, light)), face_shade, upper);
     float edge = cap ? seam(1.0 - local.x) : seam(local.y);
     color = vec4(mix(background, surface_color.rgb * shade * (1.0 - 0.38 * edge), surface_color.a), 1.0);
     id = object_id;

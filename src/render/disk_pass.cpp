@@ -122,6 +122,7 @@ void DiskPass::draw(const DrawList& list, Detail detail) {
     program_.use();
     glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(list.lens.clip_from_world));
     glUniform3fv(program_.uniform("light"), 1, glm::value_ptr(towards_light(list.lens)));
+    glUniform1f(program_.uniform("scale"), PixelScale(list.lens).near());
     glUniform3fv(program_.uniform("back"), 1, glm::value_ptr(list.lens.back));
     glUniform3fv(program_.uniform("background"), 1, glm::value_ptr(list.palette.background));
     glEnable(GL_DEPTH_TEST);

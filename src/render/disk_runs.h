@@ -30,6 +30,8 @@ class PixelScale {
     explicit PixelScale(const Lens& lens);
     /// 0 for a point behind the eye.
     float at(glm::vec3 point) const;
+    /// At distance 1 from the eye; without perspective anywhere.
+    float near() const { return scale_; }
 
   private:
     const Lens* lens_;
