@@ -179,11 +179,11 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
     });
 }
 
-void Session::open_scene(const Scene& scene, const std::optional<std::filesystem::path>& file) {
-    after_asking([this, scene, file] {
+void Session::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
+    after_asking([this, scene, files] {
         load(
-            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, file);
-        if (attended_ && !scene.file.empty()) settings.remember(scene.file);
+            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, scene_file_of(files));
+        if (attended_ && !files.empty()) settings.remember(files.front());
     });
 }
 

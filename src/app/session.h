@@ -91,8 +91,8 @@ class Session {
     /// Replaces the document, after asking if there are unsaved changes. Several files become one scene; folders stand
     /// for the clips in them. Errors become messages, and what was open stays.
     void open(const std::vector<std::filesystem::path>& files);
-    /// Replaces the document by a scene that was read already, after asking. `file`: where Save writes.
-    void open_scene(const Scene& scene, const std::optional<std::filesystem::path>& file);
+    /// The same with the scene that was read from these files already.
+    void open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files);
     /// The scene that comes with the program.
     void open_demo();
     /// Adds clips, or whole scenes, to the document.

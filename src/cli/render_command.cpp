@@ -1,5 +1,4 @@
 #include <app/headless_window.h>
-#include <app/load_files.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
@@ -167,7 +166,7 @@ Image window_picture(const FittedScene& fitted, const ViewState& view, const Arg
     scene.fit = fitted.options();
     scene.view = view;
     app::Session session(false);
-    session.open_scene(scene, app::scene_file_of({arguments.file}));
+    session.open_scene(scene, {arguments.file});
     app::HeadlessWindow window(GlContext::open(arguments.backend), session, arguments.size,
                                arguments.ui_scale.value_or(1));
     window.settle();
