@@ -3,7 +3,6 @@
 
 #include <import/import.h>
 #include <mobb/tree.h>
-#include <render/image.h>
 #include <scene/scene.h>
 
 #include <CLI/CLI.hpp>
@@ -39,9 +38,6 @@ void add_import_options(CLI::App& command, ImportOptions& options);
 
 /// Adds the FILE that a command works on: a scene or a clip.
 void add_scene_file(CLI::App& command, std::filesystem::path& file);
-
-/// "1280x720". Throws std::invalid_argument unless a picture of that size can be made.
-PictureSize parse_size(const std::string& text);
 
 /// Reads a finite number within [low, high]; throws std::invalid_argument.
 std::function<double(const std::string&)> number_within(double low, double high);

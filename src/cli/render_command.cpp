@@ -1,5 +1,4 @@
 #include <app/headless_window.h>
-#include <app/load_files.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>

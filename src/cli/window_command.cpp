@@ -1,13 +1,19 @@
 #include <cli/exit_status.h>
+#include <cli/messages.h>
 #include <cli/options.h>
 #include <cli/window_command.h>
 
+#include <app/headless_window.h>
 #include <app/load_files.h>
+#include <app/script.h>
 #include <import/error.h>
+#include <import/file.h>
 #include <import/text.h>
 #include <render/render.h>
 #include <scene/demo_scene.h>
 
+#include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -32,6 +38,30 @@ Scene load_all(const CLI::App& program, const std::vector<std::filesystem::path>
     return app::load_files(files, control);
 }
 
+/// Scripts find the same everywhere: they neither read nor write a person's settings.
+int run_script(const Scene& scene, const WindowArguments& arguments) {
+    const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string());
+    app::Session session(false);
+    const std::unique_ptr<app::Stage> stage = [&]() -> std::unique_ptr<app::Stage> {
+        if (!arguments.headless && app::has_display()) {
+            return std::make_unique<app::GlfwWindow>(session, arguments.window);
+        }
+        const double scale = arguments.window.ui_scale > 0 ? arguments.window.ui_scale : 1;
+        return std::make_unique<app::HeadlessWindow>(GlContext::open(Backend::automatic), session,
+                                                     arguments.window.size.value_or(app::kDefaultSize), scale);
+    }();
+    session.open_scene(scene, arguments.files);
+    try {
+        script.run(session, *stage, std::cout);
+    } catch (const app::ExpectationError& error) {
+        flush_results();
+        complain(error.what());
+        return kFailed;
+    }
+    flush_results();
+    return kDone;
+}
+
 }  // namespace
 
 void add_window_options(CLI::App& program, WindowArguments& arguments) {
@@ -39,6 +69,9 @@ void add_window_options(CLI::App& program, WindowArguments& arguments) {
     add_parsed(program, "--size", arguments.window.size, parse_size, "The window's size in pixels", "WxH");
     add_parsed(program, "--ui-scale", arguments.window.ui_scale, number_within(app::kLeastScale, app::kMostScale),
                "Size of text and panels, 0.5 to 4; default: the monitor's", "X");
+    program.add_option("--script", arguments.script, "Run commands and input from this file, then end")
+        ->type_name("SCRIPT");
+    program.add_flag("--headless", arguments.headless, "With --script: without a display");
 }
 
 void check_not_before_command(const CLI::App& program) {
@@ -55,7 +88,11 @@ void check_not_before_command(const CLI::App& program) {
 }
 
 int open_window(const CLI::App& program, const WindowArguments& arguments) {
+    if (arguments.headless && arguments.script.empty()) {
+        throw InputError("--headless: give a --script to run; pictures without a display come from mobbscope render");
+    }
     const Scene scene = load_all(program, arguments.files);
+    if (!arguments.script.empty()) return run_script(scene, arguments);
     const std::filesystem::path settings = app::settings_file();
     app::Session session(true, app::load_settings(settings));
     app::GlfwWindow window(session, arguments.window);

@@ -13,6 +13,8 @@ namespace mobbscope::cli {
 struct WindowArguments {
     std::vector<std::filesystem::path> files;
     app::WindowOptions window;
+    std::filesystem::path script;  ///< empty: none
+    bool headless = false;         ///< the script runs without a window
 };
 
 /// Adds FILE... and the window's options. `arguments` must live until the program has run.
@@ -21,8 +23,8 @@ void add_window_options(CLI::App& program, WindowArguments& arguments);
 /// Throws InputError if an argument of the window stands before a command.
 void check_not_before_command(const CLI::App& program);
 
-/// Returns the exit status when the window is closed. Throws InputError if a file cannot be used, MachineError where
-/// there is no display.
+/// Returns the exit status when the window is closed or the script has ended. Throws InputError if a file cannot be
+/// used, MachineError where there is no display for a window.
 int open_window(const CLI::App& program, const WindowArguments& arguments);
 
 }  // namespace mobbscope::cli

@@ -6,6 +6,8 @@
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
+#include <string>
+
 namespace mobbscope {
 
 /// The picture of a scene; `scale` as in build_draw_list. The same arguments give the same picture on the same backend
@@ -18,5 +20,8 @@ IdImage render_ids(const FittedScene& fitted, const ViewState& view, PictureSize
 
 /// Throws std::invalid_argument, saying what is allowed, unless a picture of this size can be made.
 void check(PictureSize size);
+
+/// "1280x720". Throws std::invalid_argument if it is no such text or check refuses it.
+PictureSize parse_size(const std::string& text);
 
 }  // namespace mobbscope

@@ -1,0 +1,52 @@
+/// Scripts that work the window: commands, mouse and keys, pictures, and what is expected of the state. One statement a
+/// line; `#` begins a comment; a word with blanks stands in double quotes. Places are X Y, in pixels of the window from
+/// its upper left corner, or the NAME of a widget (Marks), meaning its middle.
+///
+///     run COMMAND [ARGUMENT...]        a command of the table; the rest of the line is its argument
+///     move PLACE
+///     click PLACE [left|right|middle|double]
+///     drag X1 Y1 X2 Y2 [left|right|middle]
+///     drag NAME DX DY [left|right|middle]
+///     scroll PLACE N                   notches; N > 0 is away from the person
+///     key CHORD                        "Ctrl+Shift+S"
+///     type TEXT                        the rest of the line
+///     frames N
+///     size WxH
+///     picture FILE.png                 the whole window
+///     viewport FILE.png                the picture in it, as `render` draws it
+///     state [FILE.json]                the state (state_json.h), to standard output or a file
+///     expect POINTER VALUE             RFC 6901 into the state, and JSON; numbers agree to 1e-9 of their size. What is
+///     expect POINTER != VALUE          not there is null
+///     expect POINTER ~ NUMBER TOLERANCE
+///     marks                            names and rectangles of widgets, to standard output
+///     wait SECONDS
+#pragma once
+
+#include <app/script_statements.h>
+
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::app {
+
+class Script {
+  public:
+    /// `name` stands for the file in messages. Throws InputError naming the line of the first statement that is none.
+    static Script parse(std::string_view text, const std::string& name);
+
+    /// Runs it to its end. Throws ExpectationError; InputError if a statement cannot be done; MachineError; each names
+    /// the line.
+    void run(Session& session, Stage& stage, std::ostream& out) const;
+
+  private:
+    struct Statement {
+        int line = 0;
+        ScriptAction act;
+    };
+    std::string name_;
+    std::vector<Statement> statements_;
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,381 @@
+#include <app/command.h>
+#include <app/script_statements.h>
+#include <app/state_json.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <render/font.h>
+#include <render/png.h>
+#include <render/render.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace mobbscope::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Two clicks further apart are no double click (ImGuiIO::MouseDoubleClickTime is 0.3 s).
+constexpr double kNoDoubleClick = 0.4;
+constexpr int kStepsOfDrag = 8;
+constexpr double kRelative = 1e-9;
+
+// --- reading
+
+using Place = std::variant<glm::vec2, std::string>;
+
+/// The words behind the statement's name, taken one after the other.
+class Words {
+  public:
+    explicit Words(const ScriptLine& line) : words_(line.words) {}
+
+    bool done() const { return at_ == words_.size(); }
+    std::string next(const char* what) {
+        if (done()) throw std::invalid_argument("\"" + words_.front() + "\" needs " + what);
+        return words_[at_++];
+    }
+    double number(const char* what) {
+        const std::string word = next(what);
+        const std::optional<double> value = parse_double(word);
+        if (!value)
+            throw std::invalid_argument(in_quotes(word) + " is no number: " + words_.front() + " needs " + what);
+        return *value;
+    }
+    int count(const char* what, int most) {
+        const std::string word = next(what);
+        const std::optional<int> value = parse_int(word);
+        if (!value || *value < 0 || *value > most) {
+            throw std::invalid_argument(in_quotes(word) + " is no whole number from 0 to " + std::to_string(most));
+        }
+        return *value;
+    }
+    bool number_comes() const { return !done() && parse_double(words_[at_]).has_value(); }
+    Place place() {
+        if (!number_comes()) return next("a place: X Y, or a widget's name");
+        const double x = number("a place");
+        return glm::vec2(x, number("Y behind X"));
+    }
+    /// One of these words if any is left; its index, else 0.
+    template <std::size_t N>
+    int choice(const std::array<std::string_view, N>& of) {
+        if (done()) return 0;
+        const std::string word = next("");
+        const auto at = std::find(of.begin(), of.end(), word);
+        if (at == of.end()) throw std::invalid_argument(in_quotes(word) + " is none of " + listed(of));
+        return static_cast<int>(at - of.begin());
+    }
+    void end() const {
+        if (!done()) throw std::invalid_argument(in_quotes(words_[at_]) + " is too much here");
+    }
+
+  private:
+    const std::vector<std::string>& words_;
+    std::size_t at_ = 1;
+};
+
+std::string file_name(const ScriptLine& line, const char* extension) {
+    if (line.rest.empty()) throw std::invalid_argument("\"" + line.words[0] + "\" needs a file name");
+    if (lower_extension(line.rest) != extension) {
+        throw std::invalid_argument(in_quotes(line.rest) + " must end in " + extension);
+    }
+    return line.rest;
+}
+
+// --- mouse and keys
+
+glm::vec2 resolve(const ScriptRun& run, const Place& place) {
+    if (const auto* at = std::get_if<glm::vec2>(&place)) return *at;
+    const std::string& name = std::get<std::string>(place);
+    const std::map<std::string, Rect>& marks = run.stage.shell().marks().all();
+    const auto at = marks.find(name);
+    if (at != marks.end()) return at->second.center();
+    std::vector<std::string> names;
+    for (const auto& mark : marks) names.push_back(mark.first);
+    throw std::invalid_argument("there is no " + in_quotes(name) + " in the window now" + did_you_mean(name, names));
+}
+
+void move_to(ScriptRun& run, glm::vec2 at) {
+    run.stage.shell().feed(MouseMove{at});
+    run.stage.settle();
+}
+
+void press(ScriptRun& run, int button, bool down) {
+    run.stage.shell().feed(MouseButton{button, down});
+    run.stage.frame();
+}
+
+void click(ScriptRun& run, glm::vec2 at, int button, int times) {
+    if (std::exchange(run.clicked, true)) run.stage.run_for(kNoDoubleClick);
+    move_to(run, at);
+    for (int i = 0; i < times; ++i) {
+        press(run, button, true);
+        press(run, button, false);
+    }
+    run.stage.settle();
+}
+
+void drag(ScriptRun& run, glm::vec2 from, glm::vec2 to, int button) {
+    if (std::exchange(run.clicked, false)) run.stage.run_for(kNoDoubleClick);
+    move_to(run, from);
+    press(run, button, true);
+    for (int i = 1; i <= kStepsOfDrag; ++i) {
+        run.stage.shell().feed(MouseMove{from + (to - from) * (static_cast<float>(i) / kStepsOfDrag)});
+        run.stage.frame();
+    }
+    press(run, button, false);
+    run.stage.settle();
+}
+
+void press_chord(ScriptRun& run, const Chord& chord) {
+    Shell& shell = run.stage.shell();
+    std::vector<Key> keys;
+    if (chord.ctrl) keys.push_back(Key::ctrl);
+    if (chord.alt) keys.push_back(Key::alt);
+    if (chord.shift) keys.push_back(Key::shift);
+    keys.push_back(chord.key);
+    for (const Key key : keys) shell.feed(KeyPress{key, true});
+    run.stage.settle();
+    for (auto key = keys.rbegin(); key != keys.rend(); ++key) shell.feed(KeyPress{*key, false});
+    run.stage.settle();
+}
+
+ScriptAction make_move(const ScriptLine& line) {
+    Words words(line);
+    const Place place = words.place();
+    words.end();
+    return [place](ScriptRun& run) { move_to(run, resolve(run, place)); };
+}
+
+ScriptAction make_click(const ScriptLine& line) {
+    Words words(line);
+    const Place place = words.place();
+    const int how = words.choice(std::array<std::string_view, 4>{"left", "right", "middle", "double"});
+    words.end();
+    return [place, how](ScriptRun& run) { click(run, resolve(run, place), how == 3 ? 0 : how, how == 3 ? 2 : 1); };
+}
+
+ScriptAction make_drag(const ScriptLine& line) {
+    Words words(line);
+    const Place from = words.place();
+    const glm::vec2 to(words.number("where to"), words.number("where to"));
+    const int button = words.choice(std::array<std::string_view, 3>{"left", "right", "middle"});
+    words.end();
+    return [from, to, button](ScriptRun& run) {
+        const glm::vec2 begin = resolve(run, from);
+        drag(run, begin, std::holds_alternative<std::string>(from) ? begin + to : to, button);
+    };
+}
+
+ScriptAction make_scroll(const ScriptLine& line) {
+    Words words(line);
+    const Place place = words.place();
+    const double notches = words.number("a number of notches");
+    words.end();
+    return [place, notches](ScriptRun& run) {
+        move_to(run, resolve(run, place));
+        run.stage.shell().feed(Wheel{{0, notches}});
+        run.stage.settle();
+    };
+}
+
+ScriptAction make_key(const ScriptLine& line) {
+    Words words(line);
+    const std::string name = words.next("a chord, such as Ctrl+S");
+    words.end();
+    const std::optional<Chord> chord = chord_from_name(name);
+    if (!chord) throw std::invalid_argument(in_quotes(name) + " is no chord; write it like Ctrl+Shift+S");
+    return [chord](ScriptRun& run) { press_chord(run, *chord); };
+}
+
+ScriptAction make_type(const ScriptLine& line) {
+    if (line.rest.empty()) throw std::invalid_argument("\"type\" needs a text");
+    return [text = line.rest](ScriptRun& run) {
+        for (const char32_t code : code_points(text)) run.stage.shell().feed(TypedText{code});
+        run.stage.settle();
+    };
+}
+
+// --- the window
+
+ScriptAction make_run(const ScriptLine& line) {
+    Words words(line);
+    const std::string id = words.next("a command");
+    const std::string argument(trimmed(std::string_view(line.rest).substr(line.rest.find(id) + id.size())));
+    if (!find_command(id)) {
+        std::vector<std::string> ids;
+        for (const Command& command : commands()) ids.emplace_back(command.id);
+        throw std::invalid_argument("there is no command " + in_quotes(id) + did_you_mean(id, ids));
+    }
+    return [id, argument](ScriptRun& run) {
+        run_command(run.session, id, argument);
+        run.stage.settle();
+    };
+}
+
+ScriptAction make_frames(const ScriptLine& line) {
+    Words words(line);
+    const int count = words.count("a number of frames", 100'000);
+    words.end();
+    return [count](ScriptRun& run) {
+        for (int i = 0; i < count; ++i) run.stage.frame();
+    };
+}
+
+ScriptAction make_wait(const ScriptLine& line) {
+    Words words(line);
+    const double seconds = words.number("seconds");
+    words.end();
+    if (!(seconds >= 0 && seconds <= 3600)) throw std::invalid_argument("it can wait from 0 to 3600 seconds");
+    return [seconds](ScriptRun& run) {
+        run.stage.run_for(seconds);
+        run.clicked = false;
+    };
+}
+
+ScriptAction make_size(const ScriptLine& line) {
+    Words words(line);
+    const PictureSize size = parse_size(words.next("a size: WxH"));
+    words.end();
+    return [size](ScriptRun& run) {
+        run.stage.resize(size);
+        run.stage.settle();
+    };
+}
+
+ScriptAction make_picture(const ScriptLine& line) {
+    return [file = file_name(line, ".png")](ScriptRun& run) { write_png(file, run.stage.shell().read_back()); };
+}
+
+ScriptAction make_viewport(const ScriptLine& line) {
+    return [file = file_name(line, ".png")](ScriptRun& run) { write_png(file, run.stage.shell().viewport_picture()); };
+}
+
+ScriptAction make_marks(const ScriptLine& line) {
+    Words(line).end();
+    return [](ScriptRun& run) {
+        for (const auto& [name, rect] : run.stage.shell().marks().all()) {
+            run.out << name << ' ' << rect.min.x << ' ' << rect.min.y << ' ' << rect.max.x << ' ' << rect.max.y << '\n';
+        }
+    };
+}
+
+// --- the state
+
+ScriptAction make_state(const ScriptLine& line) {
+    const std::string file = line.rest.empty() ? "" : file_name(line, ".json");
+    return [file](ScriptRun& run) {
+        const std::string text = state_json(run.session).dump(2) + '\n';
+        if (file.empty()) {
+            run.out << text;
+        } else {
+            write_file(file, text);
+        }
+    };
+}
+
+bool agree(const Json& a, const Json& b) {
+    if (a.is_number() && b.is_number()) {
+        const double x = a.get<double>();
+        const double y = b.get<double>();
+        return std::abs(x - y) <= kRelative * std::max(std::abs(x), std::abs(y));
+    }
+    if (a.type() != b.type() || a.size() != b.size()) return false;
+    if (a.is_array()) return std::equal(a.begin(), a.end(), b.begin(), agree);
+    if (a.is_object()) {
+        return std::all_of(a.items().begin(), a.items().end(), [&](const auto& item) {
+            return b.contains(item.key()) && agree(item.value(), b[item.key()]);
+        });
+    }
+    return a == b;
+}
+
+/// Null if there is nothing.
+Json value_at(const Session& session, const Json::json_pointer& pointer) {
+    const Json state = state_json(session);
+    return state.contains(pointer) ? state.at(pointer) : Json(nullptr);
+}
+
+Json parse_value(const std::string& text) {
+    Json value = Json::parse(text, nullptr, false);
+    if (value.is_discarded()) {
+        throw std::invalid_argument(in_quotes(text) + " is no JSON; texts stand in double quotes");
+    }
+    return value;
+}
+
+[[noreturn]] void disappoint(const std::string& pointer, const Json& is, const std::string& expected) {
+    throw ExpectationError(pointer + " is " + shortened(is.dump(), 200) + ", expected " + expected);
+}
+
+ScriptAction make_expect(const ScriptLine& line) {
+    Words words(line);
+    const std::string text = words.next("a JSON pointer and a value");
+    Json::json_pointer pointer;
+    try {
+        pointer = Json::json_pointer(text);
+    } catch (const Json::exception&) {
+        throw std::invalid_argument(in_quotes(text) + " is no JSON pointer; write it like /query/collides");
+    }
+    std::string value(trimmed(std::string_view(line.rest).substr(line.rest.find(text) + text.size())));
+    // The pointer may have stood in quotes.
+    if (line.rest.starts_with('"') && value.starts_with('"')) value = trimmed(std::string_view(value).substr(1));
+    if (value.starts_with("~ ")) {
+        words.next("");
+        const double number = words.number("a number behind ~");
+        const double tolerance = words.number("a tolerance");
+        words.end();
+        return [=](ScriptRun& run) {
+            const Json is = value_at(run.session, pointer);
+            if (is.is_number() && std::abs(is.get<double>() - number) <= tolerance) return;
+            disappoint(text, is, brief(number) + " within " + brief(tolerance));
+        };
+    }
+    const bool other = value.starts_with("!= ");
+    const Json wanted = parse_value(other ? value.substr(3) : value);
+    return [=](ScriptRun& run) {
+        const Json is = value_at(run.session, pointer);
+        if (agree(is, wanted) == other) disappoint(text, is, (other ? "anything but " : "") + wanted.dump());
+    };
+}
+
+struct Verb {
+    std::string_view name;
+    ScriptAction (*make)(const ScriptLine& line);
+};
+
+constexpr std::array<Verb, 15> kVerbs{{{"run", make_run},
+                                       {"move", make_move},
+                                       {"click", make_click},
+                                       {"drag", make_drag},
+                                       {"scroll", make_scroll},
+                                       {"key", make_key},
+                                       {"type", make_type},
+                                       {"frames", make_frames},
+                                       {"size", make_size},
+                                       {"picture", make_picture},
+                                       {"viewport", make_viewport},
+                                       {"state", make_state},
+                                       {"expect", make_expect},
+                                       {"marks", make_marks},
+                                       {"wait", make_wait}}};
+
+}  // namespace
+
+ScriptAction make_action(const ScriptLine& line) {
+    const std::string& name = line.words.front();
+    const auto at = std::find_if(kVerbs.begin(), kVerbs.end(), [&](const Verb& verb) { return verb.name == name; });
+    if (at != kVerbs.end()) return at->make(line);
+    std::vector<std::string> names;
+    for (const Verb& verb : kVerbs) names.emplace_back(verb.name);
+    throw std::invalid_argument(in_quotes(name) + " is no statement" + did_you_mean(name, names));
+}
+
+}  // namespace mobbscope::app

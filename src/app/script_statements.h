@@ -1,0 +1,40 @@
+/// The statements of scripts, one maker each.
+#pragma once
+
+#include <app/session.h>
+#include <app/stage.h>
+
+#include <functional>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// A script expected something else. what() says where and what is there.
+class ExpectationError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What a script works on.
+struct ScriptRun {
+    Session& session;
+    Stage& stage;
+    std::ostream& out;
+    bool clicked = false;  ///< a click may still be the first half of a double click
+};
+
+using ScriptAction = std::function<void(ScriptRun&)>;
+
+/// The words of a line, and what follows the first: for statements that take all of it as it stands.
+struct ScriptLine {
+    std::vector<std::string> words;
+    std::string rest;
+};
+
+/// Throws std::invalid_argument, in words, if it is no statement.
+ScriptAction make_action(const ScriptLine& line);
+
+}  // namespace mobbscope::app
