@@ -180,6 +180,14 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
     });
 }
 
+void Session::open_scene(const Scene& scene, const std::optional<std::filesystem::path>& file) {
+    after_asking([this, scene, file] {
+        load(
+            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, file);
+        if (attended_ && !scene.file.empty()) settings.remember(scene.file);
+    });
+}
+
 void Session::open_demo() {
     after_asking([this] { load("Opening the demo", [](JobControl&) { return demo_scene(); }, {}); });
 }

@@ -35,6 +35,7 @@ struct Message {
 struct Hooks {
     std::function<void()> wake;                                        ///< from any thread: there is news, draw a frame
     std::function<void(const std::string&)> set_clipboard;             ///< UTF-8
+    std::function<std::string()> clipboard;                            ///< likewise
     std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
     std::function<Camera()> settled_camera;      ///< the explicit camera (render/settle.h) of what the viewport shows
     std::function<PictureSize()> viewport_size;  ///< pixels of the viewport's picture
@@ -102,6 +103,8 @@ class Session {
     /// Replaces the document, after asking if there are unsaved changes. Several files become one scene; folders stand
     /// for the clips in them. Errors become messages, and what was open stays.
     void open(const std::vector<std::filesystem::path>& files);
+    /// Replaces the document by a scene that was read already, after asking. `file`: where Save writes.
+    void open_scene(const Scene& scene, const std::optional<std::filesystem::path>& file);
     /// The scene that comes with the program.
     void open_demo();
     /// What `open` was given; empty for the demo and before anything was opened.

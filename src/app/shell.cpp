@@ -1,1 +1,325 @@
+#include <app/command.h>
+#include <app/input_queue.h>
+#include <app/panels.h>
 #include <app/shell.h>
+#include <app/ui_pass.h>
+#include <app/window_target.h>
+#include <import/file.h>
+#include <render/png.h>
+#include <render/renderer.h>
+#include <scene/demo_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+/// Dear ImGui lays out with sizes of the frame before, so what happens is seen whole after so many frames.
+constexpr int kFramesToSettle = 3;
+/// Half a period of a text field's blinking cursor.
+constexpr double kBlink = 0.4;
+/// Playing goes on where it was, however long the machine was busy.
+constexpr double kLongestStep = 0.25;
+
+struct ImGuiContextDeleter {
+    void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
+};
+
+std::unique_ptr<ImGuiContext, ImGuiContextDeleter> make_imgui() {
+    IMGUI_CHECKVERSION();
+    std::unique_ptr<ImGuiContext, ImGuiContextDeleter> context(ImGui::CreateContext());
+    ImGui::SetCurrentContext(context.get());
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.BackendPlatformName = "mobbscope";
+    io.BackendRendererName = "mobbscope";
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    InputQueue::map_keys(io);
+    return context;
+}
+
+double within_limits(double scale) { return std::clamp(scale, kLeastScale, kMostScale); }
+
+/// Keys that go on while they are held.
+bool repeats(const Chord& chord) {
+    switch (chord.key) {
+        case Key::left:
+        case Key::right:
+        case Key::up:
+        case Key::down:
+        case Key::page_up:
+        case Key::page_down:
+        case Key::comma:
+        case Key::period:
+        case Key::minus:
+        case Key::equal:
+        case Key::left_bracket:
+        case Key::right_bracket:
+            return true;
+        case Key::y:
+        case Key::z:
+            return chord.ctrl;
+        default:
+            return false;
+    }
+}
+
+/// What a text field does with a chord by itself.
+bool edits_text(const Chord& chord) {
+    const bool function_key = chord.key >= Key::f1 && chord.key <= Key::f12;
+    if (!chord.ctrl) return !function_key;
+    switch (chord.key) {
+        case Key::a:
+        case Key::c:
+        case Key::v:
+        case Key::x:
+        case Key::y:
+        case Key::z:
+        case Key::left:
+        case Key::right:
+        case Key::home:
+        case Key::end:
+        case Key::backspace:
+        case Key::del:
+        case Key::enter:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// Clips that are dropped join what a person has opened, but not the demo.
+bool opened_by_person(const Session& session) {
+    if (session.empty()) return false;
+    if (session.file() || session.modified()) return true;
+    try {
+        return session.scene().file != demo_scene_file();
+    } catch (const MachineError&) {
+        return true;
+    }
+}
+
+/// Hands panels textures of their own: the renderer's holds the next picture soon.
+class TexturePainter final : public Painter {
+  public:
+    explicit TexturePainter(Renderer& renderer) : renderer_(renderer) {}
+
+    void begin_frame() { used_ = 0; }
+
+    ImTextureID paint(const DrawList& list, bool still) override {
+        const int samples = still || !renderer_.is_software() ? kPictureSamples : 1;
+        const Texture& picture = renderer_.paint(list, samples);
+        if (used_ == copies_.size()) copies_.push_back(std::make_unique<PictureCopy>());
+        return texture_id(copies_[used_++]->take(picture, list.size));
+    }
+
+  private:
+    Renderer& renderer_;
+    std::vector<std::unique_ptr<PictureCopy>> copies_;
+    std::size_t used_ = 0;
+};
+
+}  // namespace
+
+struct Shell::State {
+    State(std::unique_ptr<GlContext> context, Session& of, double wanted_scale)
+        : session(of),
+          imgui(make_imgui()),
+          renderer(std::move(context)),
+          drawn(std::make_unique<Drawn>(renderer)),
+          scale(within_limits(wanted_scale)),
+          settings_scale(of.settings.ui_scale) {
+        ImGuiIO& io = ImGui::GetIO();
+        io.UserData = this;
+        io.ClipboardUserData = this;
+        io.SetClipboardTextFn = [](void* self, const char* text) { static_cast<State*>(self)->copy(text); };
+        io.GetClipboardTextFn = [](void* self) { return static_cast<State*>(self)->paste(); };
+    }
+    ~State() {
+        ImGui::SetCurrentContext(imgui.get());
+        // The names would be deleted in whichever context is current; see Renderer.
+        if (!renderer.context().try_make_current()) static_cast<void>(drawn.release());
+    }
+
+    /// What is made in the context.
+    struct Drawn {
+        explicit Drawn(Renderer& renderer) : painter(renderer), ui(renderer.context()) {}
+        TexturePainter painter;
+        UiPass ui;
+        std::optional<WindowTarget> target;
+    };
+
+    void copy(const char* text) {
+        clipboard = text;
+        if (session.hooks.set_clipboard) session.hooks.set_clipboard(clipboard);
+    }
+    const char* paste() {
+        if (session.hooks.clipboard) clipboard = session.hooks.clipboard();
+        return clipboard.c_str();
+    }
+
+    /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
+    bool press(const Chord& chord, bool repeated) {
+        const Command* command = command_for(chord);
+        if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none) return false;
+        if (ImGui::GetIO().WantTextInput && edits_text(chord)) return false;
+        const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+        if (busy && !chord.ctrl && edits_text(chord)) return false;
+        invoke(session, command->id);
+        return true;
+    }
+
+    void drop(const Drop& dropped) {
+        if (dropped.paths.empty()) return;
+        const bool clips = std::none_of(dropped.paths.begin(), dropped.paths.end(),
+                                        [](const auto& path) { return lower_extension(path) == ".json"; });
+        try {
+            clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths);
+        } catch (const std::exception& error) {
+            session.tell(Message::Level::error, error.what());
+        }
+    }
+
+    void feed() {
+        if (!input.empty()) settling = kFramesToSettle;
+        input.feed(ImGui::GetIO(),
+                   {[this](const Chord& chord, bool repeated) { return press(chord, repeated); },
+                    [this](const Drop& dropped) { drop(dropped); }, [this] { session.request_close(); }});
+    }
+
+    void follow_time(double now) {
+        const double passed = time ? std::max(now - *time, 0.0) : 0.0;
+        time = now;
+        // Dear ImGui wants time to pass.
+        ImGui::GetIO().DeltaTime = std::max(static_cast<float>(passed), 1e-5f);
+        if (std::exchange(was_playing, session.playing) && session.playing) {
+            session.advance(std::min(passed, kLongestStep));
+        }
+    }
+
+    void follow_look() {
+        if (session.settings.ui_scale != settings_scale) {
+            settings_scale = session.settings.ui_scale;
+            if (settings_scale > 0) scale = within_limits(settings_scale);
+        }
+        const auto wanted = std::pair(session.view().theme, static_cast<float>(scale));
+        if (look_made_for == wanted) return;
+        look = make_look(wanted.first, wanted.second);
+        drawn->ui.upload(*ImGui::GetIO().Fonts);
+        look_made_for = wanted;
+        settling = kFramesToSettle;
+    }
+
+    double lay_out(double now) {
+        marks.clear();
+        drawn->painter.begin_frame();
+        Ui ui{session, look, marks, drawn->painter, now, kNever};
+        ImGui::NewFrame();
+        window_layout(ui, viewport);
+        const ImGuiIO& io = ImGui::GetIO();
+        if (io.WantTextInput) ui.want_frame_in(kBlink);
+        if (session.playing) ui.want_frame_in(0);
+        ImGui::Render();
+        return ui.next_frame;
+    }
+
+    void draw(PictureSize size) {
+        if (!drawn->target || drawn->target->size() != size) drawn->target.emplace(size);
+        const ImVec4 ground = ImGui::ColorConvertU32ToFloat4(look.window);
+        drawn->target->clear({ground.x, ground.y, ground.z, 1});
+        drawn->ui.draw(*ImGui::GetDrawData(), size);
+        renderer.context().check("drawing the window");
+    }
+
+    Session& session;
+    std::unique_ptr<ImGuiContext, ImGuiContextDeleter> imgui;
+    Renderer renderer;
+    std::unique_ptr<Drawn> drawn;
+    Viewport viewport;
+    InputQueue input;
+    Marks marks;
+    Look look{};
+    std::optional<std::pair<Theme, float>> look_made_for;
+    double scale;
+    double settings_scale;
+    std::optional<double> time;
+    std::string clipboard;
+    int settling = kFramesToSettle;
+    bool was_playing = false;
+    ImGuiMouseCursor cursor = ImGuiMouseCursor_Arrow;
+    bool wants_text = false;
+};
+
+Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale)
+    : state_(std::make_unique<State>(std::move(context), session, scale)) {
+    session.hooks.export_picture = [this](const std::filesystem::path& file) { write_png(file, viewport_picture()); };
+}
+
+Shell::~Shell() { state_->session.hooks.export_picture = nullptr; }
+
+void Shell::feed(const InputEvent& event) { state_->input.push(event); }
+
+double Shell::frame(PictureSize size, double now) {
+    State& s = *state_;
+    ImGui::SetCurrentContext(s.imgui.get());
+    s.renderer.context().make_current();
+    ImGuiIO& io = ImGui::GetIO();
+    if (io.DisplaySize.x != static_cast<float>(size.width) || io.DisplaySize.y != static_cast<float>(size.height)) {
+        io.DisplaySize = {static_cast<float>(size.width), static_cast<float>(size.height)};
+        s.settling = kFramesToSettle;
+    }
+    s.follow_time(now);
+    const Job* job = s.session.job();
+    s.session.poll();
+    if (s.session.job() != job) s.settling = kFramesToSettle;
+    s.feed();
+    s.follow_look();
+    const double wanted = s.lay_out(now);
+    s.draw(size);
+    if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
+    s.cursor = ImGui::GetMouseCursor();
+    s.wants_text = io.WantTextInput;
+    if (s.settling > 0) --s.settling;
+    return !s.input.empty() || s.settling > 0 ? 0 : std::max(wanted, 0.0);
+}
+
+Image Shell::read_back() {
+    State& s = *state_;
+    s.renderer.context().make_current();
+    Image image = s.drawn->target->read();
+    s.renderer.context().check("reading the window");
+    return image;
+}
+
+void Shell::present() {
+    State& s = *state_;
+    s.renderer.context().make_current();
+    s.drawn->target->present();
+    s.renderer.context().check("showing the window");
+}
+
+const Marks& Shell::marks() const { return state_->marks; }
+
+Image Shell::viewport_picture() {
+    const DrawList* shown = state_->viewport.shown();
+    if (!shown) throw std::invalid_argument("there is no picture yet: open a scene or a clip first");
+    return state_->renderer.draw(*shown);
+}
+
+void Shell::set_scale(double scale) { state_->scale = within_limits(scale); }
+
+ImGuiMouseCursor Shell::cursor() const { return state_->cursor; }
+
+bool Shell::wants_text() const { return state_->wants_text; }
+
+}  // namespace mobbscope::app

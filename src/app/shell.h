@@ -13,30 +13,39 @@
 
 namespace mobbscope::app {
 
+/// Of text and panels.
+inline constexpr double kLeastScale = 0.5;
+inline constexpr double kMostScale = 4;
+
 class Shell {
   public:
-    /// `scale`: of text and panels, 0.5 to 4. Throws MachineError if OpenGL fails.
+    /// `scale`: of text and panels, until the settings say another; it is brought within kLeastScale..kMostScale.
+    /// Takes over the session's hook for exported pictures. Throws MachineError if OpenGL fails.
     Shell(std::unique_ptr<GlContext> context, Session& session, double scale);
     ~Shell();
+    Shell(const Shell&) = delete;
+    Shell& operator=(const Shell&) = delete;
 
     void feed(const InputEvent& event);
 
-    /// One frame into the shell's own framebuffer. `now`: seconds, never less than before. Returns in how many seconds
-    /// the next one is wanted if nothing happens; infinity: never.
+    /// One frame into the shell's own framebuffer. `size`: at least 1x1. `now`: seconds, never less than before.
+    /// Returns in how many seconds the next one is wanted if nothing happens; infinity: never. Throws MachineError if
+    /// OpenGL reports an error.
     double frame(PictureSize size, double now);
 
-    /// The last frame.
+    /// The last frame; there must have been one.
     Image read_back();
     /// Copies the last frame to the context's default framebuffer.
     void present();
 
     /// Where widgets stood in the last frame.
     const Marks& marks() const;
-    /// The viewport's picture, as `render` draws it.
+    /// The viewport's picture, as `render` draws it. Throws std::invalid_argument if there is none yet.
     Image viewport_picture();
 
     void set_scale(double scale);
     ImGuiMouseCursor cursor() const;
+    /// A text field has the keys.
     bool wants_text() const;
 
   private:

@@ -2,14 +2,12 @@
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
-#include <cli/options.h>
+#include <cli/window_command.h>
 #include <import/error.h>
-#include <import/text.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -18,21 +16,6 @@
 namespace mobbscope::cli {
 
 namespace {
-
-/// `mobbscope [FILE...]` is for the window. Throws InputError if a file cannot be used.
-int open_window(const CLI::App& program, const std::vector<std::string>& files) {
-    std::vector<std::string> commands;
-    for (const CLI::App* command : program.get_subcommands({})) commands.push_back(command->get_name());
-    for (const std::string& file : files) {
-        std::error_code ignored;
-        if (!file.empty() && !std::filesystem::exists(file, ignored)) {
-            throw InputError(in_quotes(file) + " is neither a command nor a file" + did_you_mean(file, commands));
-        }
-        load_scene(file);
-    }
-    complain("this version has no window yet; give a command, see mobbscope --help");
-    return kNoMachine;
-}
 
 /// Help and version are results; everything else that CLI11 throws is bad usage, whatever its own code is.
 int end_of_parse(const CLI::App& program, const CLI::ParseError& end) {
@@ -58,8 +41,8 @@ int run(int argc, char** argv) {
     CLI::App program("See and debug bounding-volume trees in space-time", "mobbscope");
     program.set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
     program.require_subcommand(0, 1);
-    std::vector<std::string> files;
-    program.add_option("FILE", files, "Scenes, captures or clips to open in the window");
+    WindowArguments window;
+    add_window_options(program, window);
     int status = kDone;
     add_convert_command(program);
     add_fit_command(program);
@@ -72,15 +55,10 @@ int run(int argc, char** argv) {
     add_planned_command(program, "diff");
     add_planned_command(program, "bench");
     // Before any command runs: what stands in front of its name is no argument of it.
-    program.parse_complete_callback([&program, &files] {
-        const std::vector<CLI::App*> chosen = program.get_subcommands();
-        if (files.empty() || chosen.empty()) return;
-        throw InputError(in_quotes(files.front()) + " stands before the command " + chosen.front()->get_name() +
-                         "; a command's files come after its name");
-    });
+    program.parse_complete_callback([&program] { check_not_before_command(program); });
     try {
         program.parse(argc, argv);
-        return program.get_subcommands().empty() ? open_window(program, files) : status;
+        return program.get_subcommands().empty() ? open_window(program, window) : status;
     } catch (const CLI::ParseError& end) {
         return end_of_parse(program, end);
     }

@@ -1,6 +1,7 @@
 #include <cli/messages.h>
 #include <cli/options.h>
 #include <import/text.h>
+#include <render/render.h>
 
 #include <algorithm>
 #include <limits>
@@ -142,6 +143,28 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
 
 void add_scene_file(CLI::App& command, std::filesystem::path& file) {
     command.add_option("FILE", file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)")->required();
+}
+
+PictureSize parse_size(const std::string& text) {
+    const std::size_t x = text.find('x');
+    const std::optional<int> width = parse_int(std::string_view(text).substr(0, x));
+    const std::optional<int> height =
+        x == std::string::npos ? std::nullopt : parse_int(std::string_view(text).substr(x + 1));
+    if (!width || !height)
+        throw std::invalid_argument(in_quotes(text) + " is no size: give WIDTHxHEIGHT in pixels (1280x720)");
+    const PictureSize size{*width, *height};
+    check(size);
+    return size;
+}
+
+std::function<double(const std::string&)> number_within(double low, double high) {
+    return [low, high](const std::string& text) {
+        const std::optional<double> value = parse_double(text);
+        if (!value || !(*value >= low && *value <= high)) {
+            throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " + brief(high));
+        }
+        return *value;
+    };
 }
 
 Scene load(const std::filesystem::path& file, const ImportOptions& options) {

@@ -3,11 +3,14 @@
 
 #include <import/import.h>
 #include <mobb/tree.h>
+#include <render/image.h>
 #include <scene/scene.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace mobbscope::cli {
@@ -36,6 +39,31 @@ void add_import_options(CLI::App& command, ImportOptions& options);
 
 /// Adds the FILE that a command works on: a scene or a clip.
 void add_scene_file(CLI::App& command, std::filesystem::path& file);
+
+/// "1280x720". Throws std::invalid_argument unless a picture of that size can be made.
+PictureSize parse_size(const std::string& text);
+
+/// Reads a finite number within [low, high]; throws std::invalid_argument.
+std::function<double(const std::string&)> number_within(double low, double high);
+
+/// Adds an option whose text goes through `parse`; the std::invalid_argument that it throws becomes bad usage. `target`
+/// must live until the command has run.
+template <class Parse, class T>
+void add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
+                const char* placeholder) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &target, parse](const std::string& text) {
+                try {
+                    target = parse(text);
+                } catch (const std::invalid_argument& error) {
+                    throw CLI::ValidationError(name, error.what());
+                }
+            },
+            help)
+        ->type_name(placeholder);
+}
 
 /// load_scene, with its warnings on standard error. Throws InputError.
 Scene load(const std::filesystem::path& file, const ImportOptions& options);

@@ -1,3 +1,5 @@
+#include <app/headless_window.h>
+#include <app/load_files.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
@@ -40,56 +42,16 @@ struct Arguments {
     std::optional<double> time, time_height;
     std::optional<ColorBy> color_by;
     std::optional<Theme> theme;
+    bool ui = false;
+    std::optional<double> ui_scale;
     FitArguments fit;
     ImportOptions import_options;
 };
-
-/// "1280x720".
-PictureSize parse_size(const std::string& text) {
-    const std::size_t x = text.find('x');
-    const std::optional<int> width = parse_int(std::string_view(text).substr(0, x));
-    const std::optional<int> height =
-        x == std::string::npos ? std::nullopt : parse_int(std::string_view(text).substr(x + 1));
-    if (!width || !height)
-        throw std::invalid_argument(in_quotes(text) + " is no size: give WIDTHxHEIGHT in pixels (1280x720)");
-    const PictureSize size{*width, *height};
-    check(size);
-    return size;
-}
 
 template <class T>
 T required(std::optional<T> value, const std::string& text, const char* allowed) {
     if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + allowed);
     return *value;
-}
-
-/// An option whose text goes through `parse`; what parse throws becomes bad usage.
-template <class Parse, class T>
-void add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
-                const char* placeholder) {
-    command
-        .add_option_function<std::string>(
-            name,
-            [name, &target, parse](const std::string& text) {
-                try {
-                    target = parse(text);
-                } catch (const std::invalid_argument& error) {
-                    throw CLI::ValidationError(name, error.what());
-                }
-            },
-            help)
-        ->type_name(placeholder);
-}
-
-/// A finite number within [low, high].
-auto number_within(double low, double high) {
-    return [low, high](const std::string& text) {
-        const std::optional<double> value = parse_double(text);
-        if (!value || !(*value >= low && *value <= high)) {
-            throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " + brief(high));
-        }
-        return *value;
-    };
 }
 
 /// The scene's view with the options given over it.
@@ -131,6 +93,7 @@ void check_together(const Arguments& arguments) {
     if (arguments.query && arguments.levels) {
         contradict("--query", "--level", "a picture shows a query or levels; leave one out");
     }
+    if (arguments.ui_scale && !arguments.ui) throw InputError("--ui-scale: the picture has panels only with --ui");
     const CameraPreset preset = arguments.view.value_or(CameraPreset::free);
     const std::string view = "--view " + std::string(name(preset));
     const std::string angle = arguments.yaw ? "--yaw" : "--pitch";
@@ -202,6 +165,19 @@ void warn_of_missing_glyphs(const DrawList& list) {
          " of this scene's names; boxes stand for them");
 }
 
+/// The whole window with the scene open in it: one frame of the real thing.
+Image window_picture(const FittedScene& fitted, const ViewState& view, const Arguments& arguments) {
+    Scene scene = fitted.scene();
+    scene.fit = fitted.options();
+    scene.view = view;
+    app::Session session(false);
+    session.open_scene(scene, app::scene_file_of({arguments.file}));
+    app::HeadlessWindow window(GlContext::open(arguments.backend), session, arguments.size,
+                               arguments.ui_scale.value_or(1));
+    window.settle();
+    return window.shell().read_back();
+}
+
 void run(const Arguments& arguments) {
     check_output_name(arguments.output);
     check_together(arguments);
@@ -223,6 +199,10 @@ void run(const Arguments& arguments) {
     }();
     check_writable(arguments.output);
     warn_of_missing_glyphs(list);
+    if (arguments.ui) {
+        write_png(arguments.output, window_picture(fitted, view, arguments));
+        return;
+    }
     Renderer renderer(arguments.backend);
     write_png(arguments.output, renderer.draw(list));
 }
@@ -271,6 +251,9 @@ void add_view_options(CLI::App& command, Arguments& arguments) {
         command, "--theme", arguments.theme,
         [](const std::string& text) { return required(theme_from_name(text), text, "dark, light"); }, "dark or light",
         "NAME");
+    command.add_flag("--ui", arguments.ui, "The whole window, panels included");
+    add_parsed(command, "--ui-scale", arguments.ui_scale, number_within(app::kLeastScale, app::kMostScale),
+               "With --ui: size of text and panels, 0.5 to 4", "X");
 }
 
 }  // namespace

@@ -59,9 +59,13 @@ Font::Font(std::string_view data) {
     info_ = info;
 }
 
+std::string_view Font::file(FontFace face) {
+    return render_assets::embedded(face == FontFace::text ? MOBBSCOPE_FONT_TEXT_NAME : MOBBSCOPE_FONT_MONO_NAME);
+}
+
 const Font& Font::of(FontFace face) {
-    static const Font text(render_assets::embedded(MOBBSCOPE_FONT_TEXT_NAME));
-    static const Font mono(render_assets::embedded(MOBBSCOPE_FONT_MONO_NAME));
+    static const Font text(file(FontFace::text));
+    static const Font mono(file(FontFace::mono));
     return face == FontFace::text ? text : mono;
 }
 

@@ -28,6 +28,8 @@ struct GlyphBitmap {
 class Font {
   public:
     static const Font& of(FontFace face);
+    /// The font file itself, for others that draw glyphs. Valid as long as the program runs.
+    static std::string_view file(FontFace face);
 
     /// Pixels from pen start to pen end. `size` is the em's height in pixels.
     float width(std::string_view utf8, float size) const;

@@ -5,7 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -170,13 +176,54 @@ TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
     }
 }
 
-TEST(Program, WithoutACommandThereIsNoWindowYet) {
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{}, {kScenes + "crossing.json"}}) {
+/// As on a machine without a display, until it goes.
+class NoDisplay {
+  public:
+    NoDisplay() {
+        for (auto& [name, value] : kept_) {
+            if (const char* present = std::getenv(name)) value = present;
+            ::unsetenv(name);
+        }
+    }
+    ~NoDisplay() {
+        for (const auto& [name, value] : kept_) {
+            if (value) ::setenv(name, value->c_str(), 1);
+        }
+    }
+    NoDisplay(const NoDisplay&) = delete;
+    NoDisplay& operator=(const NoDisplay&) = delete;
+
+  private:
+    std::array<std::pair<const char*, std::optional<std::string>>, 2> kept_{
+        {{"DISPLAY", std::nullopt}, {"WAYLAND_DISPLAY", std::nullopt}}};
+};
+
+TEST(Program, WithoutADisplayTheWindowSaysWhatWorks) {
+    const NoDisplay no_display;
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{}, {kScenes + "crossing.json"}, {"--size", "800x600", "--ui-scale", "2"}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 3);
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_NE(run.err.find("no display"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("mobbscope render"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("--headless"), std::string::npos) << run.err;
     }
     EXPECT_NE(run_program({"fti"}).err.find("did you mean 'fit'?"), std::string::npos);
+}
+
+TEST(Program, OptionsOfTheWindowAreChecked) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--ui-scale", "0.4"},
+                                                      {"--ui-scale", "4.1"},
+                                                      {"--ui-scale", "big"},
+                                                      {"--size", "10x10"},
+                                                      {"--size", "1280"},
+                                                      {"--size", "800x600", "query", kScenes + "crossing.json"}}) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 2) << arguments[1];
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
 }
 
 TEST(Program, WhatDoesNotApplyIsSaidButStopsNothing) {
