@@ -192,7 +192,8 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
 void Session::open_scene(const Scene& scene, const std::optional<std::filesystem::path>& file) {
     after_asking([this, scene, file] {
         load(
-            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, file);
+            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; },
+            file ? std::vector{*file} : std::vector<std::filesystem::path>{});
         if (attended_ && !scene.file.empty()) settings.remember(scene.file);
     });
 }
