@@ -28,11 +28,11 @@ std::string on_the_floor(std::span<const Subject> sides, const FloorPaths& floor
     const Subject& first = sides[floor.meeting->a_first ? 0 : 1];
     const Subject& second = sides[floor.meeting->a_first ? 1 : 0];
     if (floor.meeting->gap <= kTouching) {
-        return "Their paths cross on the floor; there " + second.label + " comes the moment " + first.label +
+        return "Their paths cross on the floor, but not in time: " + second.label + " comes the moment " + first.label +
                " leaves.";
     }
-    return "Their paths cross on the floor, but there " + second.label + " comes " +
-           with_unit(floor.meeting->gap, "s") + " after " + first.label + " has gone, at the least.";
+    return "Their paths cross on the floor, but not in time: at the closest, " + second.label + " comes " +
+           with_unit(floor.meeting->gap, "s") + " after " + first.label + " has gone.";
 }
 
 }  // namespace

@@ -160,9 +160,7 @@ std::vector<Case> cases() {
          true});
 
     // View
-    add({"view.iso", "", {{"view.top", ""}}, [](World& w) {
-             EXPECT_EQ(w.view().camera.preset, CameraPreset::iso);
-         }});
+    add({"view.iso", "", {{"view.top", ""}}, [](World& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::iso); }});
     add({"view.top", "", {{"view.zoom_in", ""}}, [](World& w) {
              EXPECT_EQ(w.view().camera.preset, CameraPreset::top);
              EXPECT_FALSE(w.view().camera.target);
@@ -206,12 +204,10 @@ std::vector<Case> cases() {
     });
     look("view.orbit_left", "", [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, 50, 1e-4); });
     look("view.orbit_right", "", [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, 40, 1e-4); });
-    look("view.orbit_up", "", [](World& w) {
-        EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg - 5, 1e-4);
-    });
-    look("view.orbit_down", "", [](World& w) {
-        EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg + 5, 1e-4);
-    });
+    look("view.orbit_up", "",
+         [](World& w) { EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg - 5, 1e-4); });
+    look("view.orbit_down", "",
+         [](World& w) { EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg + 5, 1e-4); });
     add({"view.pan", "100 0", {{"view.top", ""}, {"view.zoom", "1"}}, [](World& w) {
              const glm::dvec3 moved = *w.view().camera.target;
              run_command(w.session, "view.pan", "-100 0");
@@ -274,9 +270,8 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.scene().fit.tree, mobb::TreeKind::umobb);
         EXPECT_EQ(w.session.fitted().tree(0).options().tree, mobb::TreeKind::umobb);
     });
-    edit("tree.axes", "covariance", [](World& w) {
-        EXPECT_EQ(w.session.fitted().tree(0).options().axes, mobb::Axes::covariance);
-    });
+    edit("tree.axes", "covariance",
+         [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).options().axes, mobb::Axes::covariance); });
     edit("tree.leaf", "7", [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).options().leaf, 7); });
     edit("tree.levels", "2", [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).depth(), 2); });
     edit("tree.time_scale", "2.5", [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).time_scale(), 2.5); });
@@ -346,9 +341,7 @@ std::vector<Case> cases() {
     add({"step.forward", "", {kFirstQuery}, [](World& w) {
              EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1);
          }});
-    in_query("step.last", "", [](World& w) {
-        EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1);
-    });
+    in_query("step.last", "", [](World& w) { EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1); });
     in_query("step.to", "3", [](World& w) { EXPECT_EQ(w.session.step(), 3); });
     add({"step.next_separated", "", {{"query.select", "1"}, kFirstStep}, [](World& w) {
              EXPECT_EQ(outcome_now(w), mobb::Outcome::separated);

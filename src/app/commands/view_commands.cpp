@@ -143,6 +143,17 @@ void set_time_height(Session& session, const std::string& metres) {
     session.look([&](ViewState& view) { view.time_height = height; });
 }
 
+std::vector<std::string> color_names(const Session&) { return {"agent", "level"}; }
+
+void set_color_by(Session& session, const std::string& text) {
+    const ColorBy other = session.view().color_by == ColorBy::agent ? ColorBy::level : ColorBy::agent;
+    const std::optional<ColorBy> color_by = text.empty() ? other : color_by_from_name(text);
+    if (!color_by) throw std::invalid_argument("colours cannot be by " + in_quotes(text) + ": give agent or level");
+    session.look([&](ViewState& view) { view.color_by = *color_by; });
+}
+
+bool is_colored_by(const Session& session, const std::string& text) { return name(session.view().color_by) == text; }
+
 std::vector<std::string> theme_names(const Session&) { return {"dark", "light"}; }
 
 void set_theme(Session& session, const std::string& text) {
@@ -383,6 +394,15 @@ std::span<const Command> view_commands() {
          .doc = "Shows what colours and lines stand for.",
          .run = toggle<&ViewState::legend>,
          .checked = is_on<&ViewState::legend>},
+        {.id = "view.color_by",
+         .title = "Colour boxes by",
+         .menu = "View",
+         .shortcut = "C",
+         .argument = "[agent|level]",
+         .doc = "Colours the boxes of levels by whose they are, or by their level.",
+         .run = set_color_by,
+         .choices = color_names,
+         .chosen = is_colored_by},
         {.id = "view.level",
          .title = "Show levels",
          .argument = "N|A:B|leaves",

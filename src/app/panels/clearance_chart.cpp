@@ -32,33 +32,31 @@ struct Chart {
     }
 };
 
+/// The least of each column as a curve, and above it how much more there is in the column.
 void draw_curve(ImDrawList& list, const Look& look, const Chart& chart, const std::vector<ClearanceColumn>& columns) {
-    const ClearanceColumn* before = nullptr;
+    std::vector<ImVec2> curve;
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const ClearanceColumn& column = columns[k];
         if (!column.any) continue;
         const float x = chart.min.x + static_cast<float>(k);
-        // Joined to its neighbour, so that a steep curve has no holes.
-        const double high = before ? std::max(column.most, std::min(before->least, column.most)) : column.most;
-        const double low = before ? std::min(column.least, before->most) : column.least;
-        const double top = before ? std::max(high, std::min(before->least, high)) : high;
-        const bool contact = column.least < 0;
-        const ImU32 color = contact ? mark_color(look, EventMark::hit) : look.text;
-        const float line = std::max(1.5f * look.scale, chart.y(low) - chart.y(top));
-        list.AddRectFilled({x, chart.y(low) - line}, {x + 1, chart.y(low)}, color);
-        if (contact) {
-            list.AddRectFilled({x, chart.y(0)}, {x + 1, chart.y(column.least)},
-                               mark_color(look, EventMark::hit, 0.35f));
+        const float y = chart.y(column.least);
+        if (column.least < 0) {
+            list.AddRectFilled({x, chart.y(0)}, {x + 1, y}, mark_color(look, EventMark::hit, 0.4f));
         }
-        before = &column;
+        const float most = chart.y(column.most);
+        if (y - most > 1) list.AddRectFilled({x, most}, {x + 1, y}, to_im(with_alpha(look.palette.text, 0.35f)));
+        curve.push_back({x + 0.5f, y});
     }
+    list.AddPolyline(curve.data(), static_cast<int>(curve.size()), look.text, 0, 1.5f * look.scale);
 }
 
-/// Text that stays inside the chart.
+/// Text that stays inside the chart, on a ground that keeps it readable over the curve.
 void text_at(ImDrawList& list, const Look& look, const Chart& chart, ImVec2 at, ImU32 color, const std::string& text) {
-    ImFont* font = look.caption ? look.caption : ImGui::GetFont();
+    ImFont* font = look.caption;
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str());
     const float x = std::clamp(at.x, chart.min.x + 2, std::max(chart.min.x + 2, chart.max.x - size.x - 2));
+    list.AddRectFilled({x - 1, at.y}, {x + size.x + 1, at.y + size.y},
+                       (look.raised & ~IM_COL32_A_MASK) | 0xB0u << IM_COL32_A_SHIFT);
     list.AddText(font, font->FontSize, {x, at.y}, color, text.c_str());
 }
 
@@ -76,8 +74,11 @@ void time_ticks(ImDrawList& list, const Look& look, const Chart& chart) {
     for (const double t : ticks(chart.time.t0, chart.time.t1, step)) {
         const float x = chart.x(t);
         list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * look.scale}, look.quiet, look.scale);
-        text_at(list, look, chart, {x + 3 * look.scale, chart.max.y + look.scale}, look.quiet,
-                tick_text(t, step) + " s");
+        const std::string text = tick_text(t, step) + " s";
+        ImFont* font = look.caption;
+        const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str()).x;
+        if (x + 3 * look.scale + width > chart.max.x) continue;
+        list.AddText(font, font->FontSize, {x + 3 * look.scale, chart.max.y + look.scale}, look.quiet, text.c_str());
     }
 }
 
@@ -97,11 +98,10 @@ void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
         return;
     }
     const ClearancePiece& least = clearance.pieces[*clearance.least];
-    number_row(ui, least.clearance < 0 ? "deepest" : "least", signed_metres(least.clearance) + " m", least.clearance,
-               "m");
-    number_row(ui, "at", with_unit(least.t0, "s"), least.t0, "s");
+    const std::string when = (least.clearance < 0 ? "deepest at " : "least at ") + with_unit(least.t0, "s");
+    number_row(ui, when.c_str(), signed_metres(least.clearance) + " m", least.clearance, "m");
 
-    const float label = (ui.look.caption ? ui.look.caption : ImGui::GetFont())->FontSize + ui.px(4);
+    const float label = ui.look.caption->FontSize + ui.px(4);
     const int width = static_cast<int>(ImGui::GetContentRegionAvail().x);
     if (width < 8) return;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -128,11 +128,11 @@ void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
     const float zero = chart.y(0);
     dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.look, EventMark::hit), ui.look.scale,
                 ui.px(3));
+    draw_curve(list, ui.look, chart, columns);
     text_at(list, ui.look, chart, {chart.min.x + ui.px(3), zero - label + ui.px(2)}, mark_text(ui.look, EventMark::hit),
             "contact");
     text_at(list, ui.look, chart, {chart.min.x + ui.px(3), chart.min.y + ui.px(1)}, ui.look.quiet,
             with_unit(most, "m"));
-    draw_curve(list, ui.look, chart, columns);
     least_mark(list, ui.look, chart, least);
     time_ticks(list, ui.look, chart);
     if (const auto& time = ui.session.view().time; time && *time >= chart.time.t0 && *time <= chart.time.t1) {

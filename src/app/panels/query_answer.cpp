@@ -36,10 +36,12 @@ void expectation(Ui& ui) {
     command_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
 }
 
-void contact_rows(Ui& ui, const mobb::Contact& contact) {
+void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& contact) {
     number_row(ui, "Contact at", with_unit(contact.time, "s"), contact.time, "s");
-    number_row(ui, "Sample of A", std::to_string(contact.a_sample), contact.a_sample, "");
-    number_row(ui, "Sample of B", std::to_string(contact.b_sample), contact.b_sample, "");
+    number_row(ui, ("Sample of " + findings.sides[0].label).c_str(), std::to_string(contact.a_sample), contact.a_sample,
+               "");
+    number_row(ui, ("Sample of " + findings.sides[1].label).c_str(), std::to_string(contact.b_sample), contact.b_sample,
+               "");
     number_row(ui, "Distance", with_unit(contact.distance, "m"), contact.distance, "m");
     number_row(ui, "Sum of radii", with_unit(contact.radii, "m"), contact.radii, "m");
     number_row(ui, "How deep", with_unit(contact.radii - contact.distance, "m"), contact.radii - contact.distance, "m");
@@ -61,7 +63,7 @@ void query_answer(Ui& ui, const QueryFindings& findings) {
     });
     ui.mark("query.answer");
     if (const auto& contact = ui.session.recorded()->contact) {
-        contact_rows(ui, *contact);
+        contact_rows(ui, findings, *contact);
         command_button(ui, "Go to contact", "go.contact");
         flow(command_button_width("Expect this instead"));
     }

@@ -12,7 +12,11 @@ namespace {
 void query_header(Ui& ui) {
     const std::size_t count = ui.session.fitted().queries().size();
     const std::string which = std::to_string(*ui.session.view().query + 1) + " / " + std::to_string(count);
-    heading(ui, count == 1 ? "QUERY" : ("QUERY " + which).c_str());
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(1)});
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::TextUnformatted(count == 1 ? "Query" : ("Query " + which).c_str());
+    ImGui::PopStyleColor();
     if (count > 1) {
         flow(command_button_width("previous"));
         command_button(ui, "previous", "query.previous");
@@ -21,6 +25,7 @@ void query_header(Ui& ui) {
     }
     flow(command_button_width("close"));
     command_button(ui, "close", "query.none");
+    ImGui::PopStyleVar();
 }
 
 }  // namespace
@@ -42,13 +47,13 @@ void query_panel(Ui& ui) {
         current_test(ui, *findings);
         why_axes(ui, *findings);
         measured_pairs(ui, *findings);
+        query_counters(ui, *findings);
         heading(ui, "RECURSION: TIME OF A BY TIME OF B");
         recursion_square(ui, *findings);
         outcome_legend(ui);
     }
     heading(ui, "CLEARANCE OVER TIME");
     clearance_chart(ui, *findings, ui.px(110));
-    query_counters(ui, *findings);
 }
 
 }  // namespace mobbscope::app

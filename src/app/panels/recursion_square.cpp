@@ -42,7 +42,7 @@ void common_time(ImDrawList& list, const Look& look, const Square& square) {
 
 void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    ImFont* font = ui.look.caption ? ui.look.caption : ImGui::GetFont();
+    ImFont* font = ui.look.caption;
     const auto text = [&](ImVec2 at, ImU32 color, const std::string& words) {
         list.AddText(font, font->FontSize, at, color, words.c_str());
     };
@@ -67,7 +67,7 @@ void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
 
 void recursion_square(Ui& ui, const QueryFindings& findings) {
     const Recursion& recursion = findings.recursion;
-    const float caption = (ui.look.caption ? ui.look.caption : ImGui::GetFont())->FontSize;
+    const float caption = ui.look.caption->FontSize;
     const float label = caption + ui.px(5);
     const float side = std::floor(std::min(ImGui::GetContentRegionAvail().x, ui.px(340)));
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -109,9 +109,13 @@ void recursion_square(Ui& ui, const QueryFindings& findings) {
     }
     common_time(list, ui.look, square);
     const RecursionPair& now = recursion.pairs[static_cast<std::size_t>(present)];
-    const ImU32 outline = ui.look.text;
-    list.AddRect({square.x(now.time_a.t0) - ui.px(1), square.y(now.time_b.t1) - ui.px(1)},
-                 {square.x(now.time_a.t1) + ui.px(1), square.y(now.time_b.t0) + ui.px(1)}, outline, 0, 0, ui.px(2));
+    // However small the pair is, its outline is seen.
+    const ImVec2 middle{0.5f * (square.x(now.time_a.t0) + square.x(now.time_a.t1)),
+                        0.5f * (square.y(now.time_b.t0) + square.y(now.time_b.t1))};
+    const float half_x = std::max(ui.px(4), square.x(now.time_a.t1) - middle.x + ui.px(1));
+    const float half_y = std::max(ui.px(4), square.y(now.time_b.t0) - middle.y + ui.px(1));
+    list.AddRect({middle.x - half_x, middle.y - half_y}, {middle.x + half_x, middle.y + half_y}, ui.look.text, 0, 0,
+                 ui.px(2));
     axis_labels(ui, findings, square);
     ImGui::SetCursorScreenPos({at.x, square.max.y + label});
     ImGui::Dummy({0, 0});

@@ -28,7 +28,7 @@ void draw_icon(Ui& ui, bool forward, bool to_end, bool enabled) {
 
 void icon_button(Ui& ui, const char* id, bool forward, bool to_end) {
     // A blank label of a fixed width, under an id of its own.
-    command_button(ui, (std::string("      ##") + id).c_str(), id);
+    command_button(ui, (std::string("    ##") + id).c_str(), id);
     const Command* command = find_command(id);
     draw_icon(ui, forward, to_end, command && command->enabled(ui.session));
 }
@@ -45,8 +45,9 @@ void step_transport(Ui& ui) {
     int step = ui.session.step();
     heading(ui, "STEPS");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(4), ui.px(4)});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(4)});
     icon_button(ui, "step.first", false, true);
-    const float icon = command_button_width("      ");
+    const float icon = command_button_width("    ");
     flow(icon);
     icon_button(ui, "step.back", false, false);
     flow(icon);
@@ -62,17 +63,21 @@ void step_transport(Ui& ui) {
     text_button(ui, "separated", "step.next_separated");
     text_button(ui, "overlap", "step.next_overlap");
     text_button(ui, "hit", "step.next_hit");
-    ImGui::PopStyleVar();
+    ImGui::PopStyleVar(2);
 
     char format[48];
     std::snprintf(format, sizeof format, "step %%d / %d", last);
     ImGui::PushFont(ui.look.mono);
+    // The number stays readable under the grab.
+    ImGui::PushStyleColor(ImGuiCol_SliderGrab, to_im(with_alpha(ui.look.palette.accent, 0.45f)));
+    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, to_im(with_alpha(ui.look.palette.accent, 0.6f)));
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderInt("##step", &step, 0, last, format, ImGuiSliderFlags_AlwaysClamp)) {
         invoke(ui.session, "step.to", std::to_string(step));
     }
-    ImGui::PopFont();
     ui.mark("query.step");
+    ImGui::PopStyleColor(2);
+    ImGui::PopFont();
 }
 
 }  // namespace mobbscope::app

@@ -5,12 +5,15 @@
 #include <render/query_sentence.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 
 namespace {
 
+constexpr std::size_t kFewAxes = 3;
 constexpr float kWide = 300;      // pixels at scale 1 from which name, bars and number stand on one line
 constexpr float kBar = 5;         // height of a bar
 constexpr float kUntried = 0.4f;  // strength of axes that the test did not come to
@@ -108,6 +111,35 @@ Row time_row(Ui& ui, const QueryFindings& findings, const mobb::Trace::Event& ev
     return row;
 }
 
+Row axis_row(Ui& ui, const mobb::Trace::Event& event, const AxisInterval& axis, double span, bool tried) {
+    Row row;
+    row.name = axis.name;
+    row.a = {axis.a_min, axis.a_max};
+    row.b = {axis.b_min, axis.b_max};
+    row.span = span;
+    row.separating = axis.axis == event.axis;
+    row.strength = tried ? 1 : kUntried;
+    // The one that separates has the number that the test found.
+    row.value = row.separating ? event.gap : axis.gap;
+    row.shown = signed_metres(row.value);
+    row.color = row.separating ? mark_text(ui.look, EventMark::separated) : tried ? ui.look.text : ui.look.quiet;
+    return row;
+}
+
+/// Those behind the axis that separates; eleven of them are better asked for.
+void untried_axes(Ui& ui, const QueryFindings& findings, const mobb::Trace::Event& event,
+                  std::span<const AxisInterval> axes, double span) {
+    if (axes.empty()) return;
+    if (axes.size() > kFewAxes) {
+        const std::string label = std::to_string(axes.size()) + " axes not tried###untried";
+        const bool open = ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
+        ui.mark("query.untried");
+        if (!open) return;
+    }
+    for (const AxisInterval& axis : axes) draw_row(ui, findings, axis_row(ui, event, axis, span, false));
+    if (axes.size() <= kFewAxes) words(ui.look.quiet, "The fainter axes were not tried: one gap is enough.");
+}
+
 }  // namespace
 
 void why_axes(Ui& ui, const QueryFindings& findings) {
@@ -117,33 +149,17 @@ void why_axes(Ui& ui, const QueryFindings& findings) {
     const std::vector<AxisInterval> axes = axis_intervals(findings.sides, event);
     if (axes.empty()) return;
     heading(ui, "ALONG EACH AXIS", "gap, m");
+    // All to one scale, so that they can be compared.
     double span = 0;
     for (const AxisInterval& axis : axes) {
         span = std::max(span, std::max(axis.a_max, axis.b_max) - std::min(axis.a_min, axis.b_min));
     }
-    bool tried = true;
-    bool untried = false;  // axes come after the one that separates
-    for (const AxisInterval& axis : axes) {
-        Row row;
-        row.name = axis.name;
-        row.a = {axis.a_min, axis.a_max};
-        row.b = {axis.b_min, axis.b_max};
-        row.span = span;
-        row.separating = axis.axis == event.axis;
-        untried = untried || !tried;
-        row.strength = tried ? 1 : kUntried;
-        // The one that separates has the number that the test found.
-        row.value = row.separating ? event.gap : axis.gap;
-        row.shown = signed_metres(row.value);
-        row.color = row.separating ? mark_text(ui.look, EventMark::separated) : tried ? ui.look.text : ui.look.quiet;
-        draw_row(ui, findings, row);
-        if (row.separating) tried = false;
-    }
-    if (event.outcome == mobb::Outcome::separated) {
-        words(ui.look.quiet, untried ? "One gap is enough: the fainter axes were not tried." : "One gap is enough.");
-    } else {
-        words(ui.look.quiet, "No axis has a gap, so the boxes may meet.");
-    }
+    const auto separating =
+        std::find_if(axes.begin(), axes.end(), [&](const AxisInterval& axis) { return axis.axis == event.axis; });
+    const auto tried = static_cast<std::size_t>(separating - axes.begin()) + (separating == axes.end() ? 0 : 1);
+    for (std::size_t i = 0; i < tried; ++i) draw_row(ui, findings, axis_row(ui, event, axes[i], span, true));
+    untried_axes(ui, findings, event, std::span(axes).subspan(tried), span);
+    if (separating == axes.end()) words(ui.look.quiet, "No axis has a gap, so the boxes may meet.");
 }
 
 }  // namespace mobbscope::app

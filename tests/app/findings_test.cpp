@@ -1,0 +1,64 @@
+/// What is found out about a query is kept as long as it is true, and no longer.
+#include <app/session.h>
+#include <gtest/gtest.h>
+#include <scene/scene_edits.h>
+
+namespace mobbscope::app {
+namespace {
+
+/// Two agents on one clip, and the queries between them and a third.
+void add_three_agents(Scene& scene) {
+    std::vector<mobb::Disk> walk;
+    for (int i = 0; i < 60; ++i) walk.push_back({0.1 * i, 0, 0.2});
+    scene.clips.push_back({"walk", std::nullopt, {}, std::make_shared<const mobb::Clip>(0.1, walk)});
+    scene.agents.push_back({"A", 0, {}, std::nullopt});
+    scene.agents.push_back({"B", 0, {{0, 1}, 0, 0}, std::nullopt});
+    scene.agents.push_back({"C", 0, {{0, 2}, 0, 0}, std::nullopt});
+}
+
+TEST(Findings, AreNoneWithoutAQuery) {
+    Session session(false);
+    EXPECT_EQ(session.findings(), nullptr);
+    session.edit({"adding", ""}, add_three_agents);
+    EXPECT_EQ(session.findings(), nullptr);
+}
+
+TEST(Findings, StayWhileOneLooksAround) {
+    Session session(false);
+    session.edit({"adding", ""}, add_three_agents);
+    session.look([](ViewState& view) { view.query = 0; });
+    const auto before = session.findings();
+    ASSERT_NE(before, nullptr);
+    session.look([](ViewState& view) {
+        view.step = {Step::Unit::event, 0};
+        view.time = 1.0;
+        view.theme = Theme::light;
+    });
+    EXPECT_EQ(session.findings(), before);
+}
+
+TEST(Findings, FollowTheQueryAndTheScene) {
+    Session session(false);
+    session.edit({"adding", ""}, add_three_agents);
+    session.look([](ViewState& view) { view.query = 0; });
+    const auto first = session.findings();
+    EXPECT_FALSE(first->clearance.contact.has_value());
+    EXPECT_NEAR(first->clearance.pieces[*first->clearance.least].clearance, 0.6, 1e-9);
+    EXPECT_NEAR(first->floor.apart, 0.6, 1e-9);
+
+    session.look([](ViewState& view) { view.query = 1; });
+    const auto second = session.findings();
+    EXPECT_NE(second, first);
+    EXPECT_NEAR(second->clearance.pieces[*second->clearance.least].clearance, 1.6, 1e-9);
+
+    session.edit({"moving", ""}, [](Scene& scene) { place_agent(scene, 2, {{0, 0.1}, 0, 0}); });
+    const auto moved = session.findings();
+    EXPECT_NE(moved, second);
+    EXPECT_TRUE(moved->clearance.contact.has_value());
+    EXPECT_EQ(moved->recursion.total().tests, session.recorded()->tests);
+    // Who holds the old ones may still read them.
+    EXPECT_EQ(second->sides[1].name, "C");
+}
+
+}  // namespace
+}  // namespace mobbscope::app

@@ -1,0 +1,323 @@
+// Opening, saving, unsaved changes, undo and jobs.
+#include <scene/scene_edits.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::all_messages;
+using testing::CrossingFolder;
+using testing::refusal;
+
+/// A session that has the scene open, with agent A moved.
+struct Edited {
+    CrossingFolder folder;
+    Session session{false};
+
+    Edited() {
+        session.open({folder.scene});
+        move(4);
+    }
+    void move(double x) {
+        session.edit({"moving A", "drag A"}, [&](Scene& scene) { place_agent(scene, 0, {{x, 0}, 0, 0}); });
+    }
+    double x() const { return session.scene().agents[0].placement.translate.x; }
+};
+
+// --- undo
+
+TEST(Undo, OneInteractionIsTakenBackAtOnce) {
+    Edited e;
+    e.move(5);
+    e.move(6);
+    e.session.undo();
+    EXPECT_EQ(e.x(), 0);
+    EXPECT_FALSE(e.session.history().can_undo());
+    e.session.redo();
+    EXPECT_EQ(e.x(), 6);
+}
+
+TEST(Undo, InteractionsThatEndedStandApart) {
+    Edited e;
+    e.session.close_group();
+    e.move(5);
+    e.session.undo();
+    EXPECT_EQ(e.x(), 4);
+    e.move(7);
+    EXPECT_FALSE(e.session.history().can_redo()) << "what was undone is forgotten by another edit";
+    e.session.undo();
+    EXPECT_EQ(e.x(), 4) << "an edit after an undo is its own";
+}
+
+TEST(Undo, LookingAroundIsOneStepAndCostsNoRedo) {
+    Edited e;
+    run_command(e.session, "view.top");
+    run_command(e.session, "view.floor");
+    e.session.undo();
+    EXPECT_EQ(e.session.view().camera.preset, CameraPreset::iso);
+    EXPECT_TRUE(e.session.view().floor);
+    EXPECT_EQ(e.x(), 4);
+    e.session.undo();
+    run_command(e.session, "view.front");
+    EXPECT_TRUE(e.session.history().can_redo());
+    e.session.redo();
+    EXPECT_EQ(e.x(), 4);
+}
+
+TEST(Undo, GoesBackFiveHundredStatesAtMost) {
+    Edited e;
+    for (int i = 0; i < 600; ++i) {
+        e.session.close_group();
+        e.move(10 + i);
+    }
+    int undone = 0;
+    for (; e.session.history().can_undo(); ++undone) e.session.undo();
+    EXPECT_EQ(undone, 499);
+    EXPECT_EQ(e.x(), 10 + 599 - 499);
+}
+
+TEST(Undo, AFailedEditChangesNothing) {
+    Edited e;
+    const auto before = e.session.document().fitted;
+    EXPECT_THROW(e.session.edit({"leaf", ""}, [](Scene& scene) { scene.fit.leaf = 0; }), std::invalid_argument);
+    EXPECT_EQ(e.session.document().fitted, before);
+    EXPECT_TRUE(e.session.history().can_undo());
+}
+
+// --- opening
+
+TEST(Opening, ErrorsKeepWhatWasOpen) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    const auto before = session.document().fitted;
+    const std::filesystem::path broken = folder.write("broken.json", "{");
+    for (const auto& file : {broken, folder.file("none.csv"), folder.file("scene.txt")}) {
+        SCOPED_TRACE(file);
+        session.open({file});
+        EXPECT_EQ(session.document().fitted, before);
+        EXPECT_EQ(session.file(), folder.scene);
+        ASSERT_FALSE(session.messages().empty());
+        EXPECT_EQ(session.messages().back().level, Message::Level::error);
+        EXPECT_NE(session.messages().back().text.find(file.filename().string()), std::string::npos);
+        session.add({file});
+        EXPECT_EQ(session.document().fitted, before);
+    }
+}
+
+TEST(Opening, SeveralFilesAndFoldersBecomeOneScene) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    EXPECT_EQ(session.scene().clips.size(), 2u);
+    EXPECT_FALSE(session.file()) << "clips have no scene to save to";
+    session.open({folder.scene.parent_path()});
+    EXPECT_EQ(session.scene().clips.size(), 2u) << "a folder stands for its clips, not for its scenes";
+    EXPECT_TRUE(session.scene().agents.empty());
+    session.open({folder.file("stand.csv"), folder.scene});
+    EXPECT_EQ(session.scene().clips.size(), 3u);
+    EXPECT_EQ(session.scene().agents.size(), 4u) << "bare clips become agents next to agents";
+    EXPECT_EQ(session.file(), folder.scene);
+    session.open({folder.file("stand.csv"), folder.file("walk.csv")});
+    run_command(session, "file.reload");
+    EXPECT_EQ(session.scene().clips.size(), 2u) << "all that was opened is read again";
+    EXPECT_EQ(all_messages(session), "");
+}
+
+TEST(Opening, AnEmptyFolderIsRefused) {
+    CrossingFolder folder;
+    Session session(false);
+    std::filesystem::create_directory(folder.file("empty"));
+    session.open({folder.file("empty")});
+    EXPECT_NE(all_messages(session).find("there are no clips in this folder"), std::string::npos);
+}
+
+// --- saving
+
+TEST(Saving, ElsewhereKeepsTheSourcesAndReadsBackEqual) {
+    Edited e;
+    run_command(e.session, "view.top");
+    std::filesystem::create_directories(e.folder.file("deep/down"));
+    const std::filesystem::path there = e.folder.file("deep/down/copy.json");
+    e.session.save_as(there);
+    EXPECT_FALSE(e.session.modified());
+    EXPECT_EQ(e.session.file(), there);
+    Session other(false);
+    other.open({there});
+    EXPECT_EQ(all_messages(other), "");
+    EXPECT_EQ(to_json(other.scene(), true), to_json(e.session.scene(), true));
+    EXPECT_EQ(other.view(), e.session.view());
+    EXPECT_EQ(other.scene().clips[0].source, "../../walk.csv");
+    // And back up again.
+    e.session.save_as(e.folder.file("again.json"));
+    EXPECT_EQ(e.session.scene().clips[0].source, "walk.csv");
+}
+
+TEST(Saving, WhatCannotBeWrittenStaysUnsaved) {
+    Edited e;
+    EXPECT_NE(refusal(e.session, "file.save_as", (e.folder.file("none/x.json")).string()), "");
+    EXPECT_NE(refusal(e.session, "file.save_as", (e.folder.file("x.csv")).string()).find(".json"), std::string::npos);
+    EXPECT_TRUE(e.session.modified());
+    EXPECT_EQ(e.session.file(), e.folder.scene);
+    Session empty(false);
+    EXPECT_THROW(empty.save_as(e.folder.file("x.json")), InputError);
+}
+
+TEST(Saving, UndoneChangesAreNoChanges) {
+    Edited e;
+    EXPECT_TRUE(e.session.modified());
+    e.session.undo();
+    EXPECT_FALSE(e.session.modified());
+    e.session.redo();
+    e.session.save();
+    EXPECT_FALSE(e.session.modified());
+    e.session.undo();
+    EXPECT_TRUE(e.session.modified()) << "the file has the later state";
+}
+
+// --- unsaved changes
+
+TEST(Unsaved, DiscardGoesOn) {
+    Edited e;
+    run_command(e.session, "file.open", e.folder.file("walk.csv").string());
+    EXPECT_EQ(e.session.dialog, Dialog::unsaved);
+    EXPECT_EQ(e.x(), 4) << "nothing happens before the answer";
+    e.session.answer_unsaved(Session::Unsaved::discard);
+    EXPECT_EQ(e.session.dialog, Dialog::none);
+    EXPECT_EQ(e.session.title(), "walk");
+    EXPECT_EQ(load_scene(e.folder.scene).agents[0].placement.translate.x, 0);
+}
+
+TEST(Unsaved, CancelForgetsWhatWaited) {
+    Edited e;
+    run_command(e.session, "file.quit");
+    e.session.answer_unsaved(Session::Unsaved::cancel);
+    EXPECT_EQ(e.session.dialog, Dialog::none);
+    EXPECT_EQ(e.x(), 4);
+    e.session.save();
+    EXPECT_FALSE(e.session.closed()) << "a later save does not quit";
+}
+
+TEST(Unsaved, SaveWritesAndGoesOn) {
+    Edited e;
+    run_command(e.session, "file.quit");
+    e.session.answer_unsaved(Session::Unsaved::save);
+    EXPECT_TRUE(e.session.closed());
+    EXPECT_EQ(e.session.dialog, Dialog::none);
+    EXPECT_EQ(load_scene(e.folder.scene).agents[0].placement.translate.x, 4);
+}
+
+TEST(Unsaved, SaveWithoutAFileAsksForItAndGoesOnWhenItIsGiven) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    run_command(session, "go.agent", "walk");
+    run_command(session, "agent.nudge", "1 0");
+    run_command(session, "file.quit");
+    session.answer_unsaved(Session::Unsaved::save);
+    EXPECT_EQ(session.dialog, Dialog::save_as);
+    EXPECT_FALSE(session.closed());
+    // A name that cannot be had does not end it.
+    EXPECT_THROW(session.save_as(folder.file("none/x.json")), std::exception);
+    EXPECT_EQ(session.dialog, Dialog::save_as);
+    EXPECT_FALSE(session.closed());
+    session.save_as(folder.file("saved.json"));
+    EXPECT_TRUE(session.closed());
+    EXPECT_EQ(session.dialog, Dialog::none);
+}
+
+TEST(Unsaved, ANameThatIsNotGivenForgetsWhatWaited) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.file("walk.csv")});
+    run_command(session, "go.agent", "walk");
+    run_command(session, "agent.nudge", "1 0");
+    run_command(session, "file.quit");
+    session.answer_unsaved(Session::Unsaved::save);
+    session.close_dialog();
+    session.save_as(folder.file("saved.json"));
+    EXPECT_FALSE(session.closed());
+}
+
+TEST(Unsaved, ASaveThatFailsAsksOn) {
+    CrossingFolder folder;
+    Session session(false);
+    std::filesystem::create_directory(folder.file("sub"));
+    std::filesystem::rename(folder.scene, folder.file("sub/scene.json"));
+    std::filesystem::copy(folder.file("walk.csv"), folder.file("sub/walk.csv"));
+    std::filesystem::copy(folder.file("stand.csv"), folder.file("sub/stand.csv"));
+    session.open({folder.file("sub/scene.json")});
+    run_command(session, "go.agent", "A");
+    run_command(session, "agent.nudge", "1 0");
+    std::filesystem::remove_all(folder.file("sub"));
+    run_command(session, "file.quit");
+    EXPECT_THROW(session.answer_unsaved(Session::Unsaved::save), MachineError);
+    EXPECT_EQ(session.dialog, Dialog::unsaved);
+    EXPECT_FALSE(session.closed());
+    session.answer_unsaved(Session::Unsaved::discard);
+    EXPECT_TRUE(session.closed());
+}
+
+// --- jobs
+
+/// A scene whose tightest trees take long.
+std::filesystem::path long_walk(const CrossingFolder& folder) {
+    std::string text = "t,x,y,r\n";
+    for (int i = 0; i < 20'000; ++i) {
+        text += std::to_string(i / 30.0) + ',' + std::to_string(std::cos(0.01 * i)) + ',' +
+                std::to_string(std::sin(0.013 * i)) + ",0.4\n";
+    }
+    return folder.write("long.csv", text);
+}
+
+TEST(Jobs, ACancelledFitLeavesTheDocument) {
+    CrossingFolder folder;
+    long_walk(folder);
+    Session opened(true);
+    opened.open({folder.file("long.csv")});
+    while (opened.job()) opened.poll();
+    const auto before = opened.document().fitted;
+    run_command(opened, "tree.axes", "minarea");
+    ASSERT_TRUE(opened.job()) << "a window does not wait for it";
+    EXPECT_EQ(opened.job()->title(), "Fitting trees");
+    EXPECT_NE(refusal(opened, "tree.leaf", "5").find("wait for \"Fitting trees\""), std::string::npos);
+    EXPECT_FALSE(find_command("edit.undo")->enabled(opened));
+    opened.cancel_job();
+    EXPECT_FALSE(opened.job());
+    EXPECT_EQ(opened.document().fitted, before);
+    EXPECT_NE(all_messages(opened).find("Cancelled"), std::string::npos);
+    run_command(opened, "tree.leaf", "5");
+    while (opened.job()) opened.poll();
+    EXPECT_EQ(opened.scene().fit.leaf, 5);
+    EXPECT_EQ(opened.scene().fit.axes, mobb::Axes::endpoints);
+}
+
+TEST(Jobs, UnattendedTheyAreWaitedFor) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({long_walk(folder)});
+    EXPECT_FALSE(session.job());
+    EXPECT_EQ(session.scene().clips.size(), 1u);
+}
+
+// --- messages
+
+TEST(Messages, AreFewAndSaidOnce) {
+    Session session(false);
+    for (int i = 0; i < 9; ++i) session.tell(Message::Level::info, std::to_string(i % 7));
+    ASSERT_EQ(session.messages().size(), 5u);
+    EXPECT_EQ(session.messages().back().text, "1");
+    session.dismiss(4);
+    EXPECT_EQ(session.messages().back().text, "0");
+    session.dismiss(17);
+    EXPECT_EQ(session.messages().size(), 4u);
+}
+
+}  // namespace
+}  // namespace mobbscope::app
