@@ -15,7 +15,8 @@ void command_button(Ui& ui, const char* label, const char* id) {
     const bool enabled = command->enabled(ui.session);
     ImGui::BeginDisabled(!enabled);
     ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.look.raised : IM_COL32_BLACK_TRANS);
-    ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.look.text : ui.look.quiet);
+    // A toggle that is off steps back; what has no state does not.
+    ImGui::PushStyleColor(ImGuiCol_Text, on || !command->checked ? ui.look.text : ui.look.quiet);
     if (ImGui::Button(label)) invoke(ui.session, id);
     ImGui::PopStyleColor(2);
     ImGui::EndDisabled();

@@ -48,6 +48,9 @@ void add_paths(DrawList& list, std::span<const Subject> subjects, const Emphasis
     }
 }
 
+/// Where legend and map would shrink the scene to less than this they are left out.
+constexpr float kLeastShare = 0.62f;
+
 /// The lens, so that everything fits into what caption, labels and blocks leave, and the places of the blocks.
 Blocks aim(DrawList& list, const Stage& stage, const ViewState& view, const Metrics& metrics, float top,
            bool has_cursor, glm::vec2 map) {
@@ -69,7 +72,14 @@ Blocks aim(DrawList& list, const Stage& stage, const ViewState& view, const Metr
     const Lens lens_beside = lens_for(list, view, points, beside);
     const Lens lens_above = lens_for(list, view, points, above);
     const glm::vec3 middle = 0.5f * (points.front() + points.back());
-    list.lens = lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle) ? lens_beside : lens_above;
+    const Lens& larger =
+        lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle) ? lens_beside : lens_above;
+    if (larger.pixels_per_metre(middle) < kLeastShare * list.lens.pixels_per_metre(middle)) {
+        // The scene is what the picture is for.
+        list.legend.clear();
+        return place_blocks(area, glm::vec2(0), glm::vec2(0), {});
+    }
+    list.lens = larger;
     return place();
 }
 

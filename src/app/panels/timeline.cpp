@@ -82,16 +82,8 @@ void time_row(Ui& ui) {
 
 /// The second clock: where in the trace we stand.
 void step_row(Ui& ui) {
-    button(ui, "|<", "step.first");
-    ImGui::SameLine(0, ui.px(4));
-    button(ui, "<", "step.back");
-    ImGui::SameLine(0, ui.px(4));
-    button(ui, ">", "step.forward");
-    ImGui::SameLine(0, ui.px(4));
-    button(ui, ">|", "step.last");
-    ImGui::SameLine();
     char text[48];
-    std::snprintf(text, sizeof text, "%d / %d", ui.session.step(), ui.session.recorded()->trace.size() - 1);
+    std::snprintf(text, sizeof text, "step %d / %d", ui.session.step(), ui.session.recorded()->trace.size() - 1);
     ImGui::AlignTextToFramePadding();
     ImGui::PushFont(ui.look.mono);
     ImGui::TextUnformatted(text);
