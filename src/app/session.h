@@ -35,6 +35,7 @@ struct Hooks {
     std::function<void()> wake;                                        ///< from any thread: there is news, draw a frame
     std::function<void(const std::string&)> set_clipboard;             ///< UTF-8
     std::function<std::string()> clipboard;                            ///< likewise
+    std::function<double()> ui_scale;                                  ///< at which text and panels are drawn now
     std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
 };
 
