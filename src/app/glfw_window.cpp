@@ -164,11 +164,6 @@ PictureSize default_size(double scale) {
     return {std::max(size.width, kLeastSize.width), std::max(size.height, kLeastSize.height)};
 }
 
-double wanted_scale(const Session& session, const WindowOptions& options) {
-    if (options.ui_scale > 0) return options.ui_scale;
-    return session.settings.ui_scale > 0 ? session.settings.ui_scale : monitor_scale();
-}
-
 GLFWwindow* open_window(PictureSize size) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -195,11 +190,11 @@ bool has_display() {
 }
 
 struct GlfwWindow::State {
-    State(Session& of, const WindowOptions& options)
+    State(Session& of, std::optional<PictureSize> size)
         : session(of),
-          follows_monitor(options.ui_scale <= 0),
-          window(open_window(options.size.value_or(default_size(wanted_scale(of, options))))),
-          shell(std::make_unique<WindowContext>(window), of, wanted_scale(of, options)) {
+          window(open_window(
+              size.value_or(default_size(of.settings.ui_scale > 0 ? of.settings.ui_scale : monitor_scale())))),
+          shell(std::make_unique<WindowContext>(window), of, monitor_scale()) {
         glfwSwapInterval(1);
         glfwSetWindowSizeLimits(window, kLeastSize.width, kLeastSize.height, GLFW_DONT_CARE, GLFW_DONT_CARE);
         set_icon();
@@ -266,12 +261,8 @@ struct GlfwWindow::State {
             glfwSetWindowShouldClose(of, GLFW_FALSE);
             shell_of(of).feed(CloseRequest{});
         });
-        glfwSetWindowContentScaleCallback(window, [](GLFWwindow* of, float x, float) {
-            State& self = *static_cast<State*>(glfwGetWindowUserPointer(of));
-            if (self.follows_monitor && self.session.settings.ui_scale <= 0) {
-                self.shell.set_scale(static_cast<double>(x));
-            }
-        });
+        glfwSetWindowContentScaleCallback(
+            window, [](GLFWwindow* of, float x, float) { shell_of(of).set_scale(static_cast<double>(x)); });
     }
 
     bool is_seen() const {
@@ -329,7 +320,6 @@ struct GlfwWindow::State {
 
     Library library;
     Session& session;
-    bool follows_monitor;
     GLFWwindow* window;
     Shell shell;
     std::string title;
@@ -340,8 +330,8 @@ struct GlfwWindow::State {
     bool shown = false;
 };
 
-GlfwWindow::GlfwWindow(Session& session, const WindowOptions& options)
-    : state_(std::make_unique<State>(session, options)) {}
+GlfwWindow::GlfwWindow(Session& session, std::optional<PictureSize> size)
+    : state_(std::make_unique<State>(session, size)) {}
 
 GlfwWindow::~GlfwWindow() = default;
 

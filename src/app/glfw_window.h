@@ -8,19 +8,14 @@
 
 namespace mobbscope::app {
 
-struct WindowOptions {
-    std::optional<PictureSize> size;  ///< pixels; none: kDefaultSize, and at most what the monitor has room for
-    double ui_scale = 0;              ///< 0: the settings', and without one there the monitor's
-};
-
 /// Whether there is anything to open a window on: an X or Wayland display is named.
 bool has_display();
 
 class GlfwWindow final : public Stage {
   public:
-    /// Opens the window on the session, whose hooks it takes over. Throws MachineError if there is no display or no
-    /// OpenGL 3.3 on it. One at a time.
-    GlfwWindow(Session& session, const WindowOptions& options);
+    /// Opens the window on the session, whose hooks it takes over. `size` in pixels; none: kDefaultSize, and at most
+    /// what the monitor has room for. Throws MachineError if there is no display or no OpenGL 3.3 on it. One at a time.
+    GlfwWindow(Session& session, std::optional<PictureSize> size);
     ~GlfwWindow() override;
     GlfwWindow(const GlfwWindow&) = delete;
     GlfwWindow& operator=(const GlfwWindow&) = delete;

@@ -165,7 +165,8 @@ ScriptAction make_click(const ScriptLine& line) {
 ScriptAction make_drag(const ScriptLine& line) {
     Words words(line);
     const Place from = words.place();
-    const glm::vec2 to(words.number("where to"), words.number("where to"));
+    const double x = words.number("where to");
+    const glm::vec2 to(x, words.number("where to"));
     const int button = words.choice(std::array<std::string_view, 3>{"left", "right", "middle"});
     words.end();
     return [from, to, button](ScriptRun& run) {

@@ -48,8 +48,6 @@ std::unique_ptr<ImGuiContext, ImGuiContextDeleter> make_imgui() {
     return context;
 }
 
-double within_limits(double scale) { return std::clamp(scale, kLeastScale, kMostScale); }
-
 /// Keys that go on while they are held.
 bool repeats(const Chord& chord) {
     switch (chord.key) {
@@ -137,8 +135,7 @@ struct Shell::State {
           imgui(make_imgui()),
           renderer(std::move(context)),
           drawn(std::make_unique<Drawn>(renderer)),
-          scale(within_limits(wanted_scale)),
-          settings_scale(of.settings.ui_scale) {
+          own_scale(wanted_scale) {
         ImGuiIO& io = ImGui::GetIO();
         io.UserData = this;
         io.ClipboardUserData = this;
@@ -207,12 +204,13 @@ struct Shell::State {
         }
     }
 
+    double scale() const {
+        return std::clamp(session.settings.ui_scale > 0 ? session.settings.ui_scale : own_scale, kLeastScale,
+                          kMostScale);
+    }
+
     void follow_look() {
-        if (session.settings.ui_scale != settings_scale) {
-            settings_scale = session.settings.ui_scale;
-            if (settings_scale > 0) scale = within_limits(settings_scale);
-        }
-        const auto wanted = std::pair(session.view().theme, static_cast<float>(scale));
+        const auto wanted = std::pair(session.view().theme, static_cast<float>(scale()));
         if (look_made_for == wanted) return;
         look = make_look(wanted.first, wanted.second);
         drawn->ui.upload(*ImGui::GetIO().Fonts);
@@ -250,8 +248,7 @@ struct Shell::State {
     Marks marks;
     Look look{};
     std::optional<std::pair<Theme, float>> look_made_for;
-    double scale;
-    double settings_scale;
+    double own_scale;
     std::optional<double> time;
     std::string clipboard;
     int settling = kFramesToSettle;
@@ -263,9 +260,13 @@ struct Shell::State {
 Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale)
     : state_(std::make_unique<State>(std::move(context), session, scale)) {
     session.hooks.export_picture = [this](const std::filesystem::path& file) { write_png(file, viewport_picture()); };
+    session.hooks.ui_scale = [this] { return state_->scale(); };
 }
 
-Shell::~Shell() { state_->session.hooks.export_picture = nullptr; }
+Shell::~Shell() {
+    state_->session.hooks.export_picture = nullptr;
+    state_->session.hooks.ui_scale = nullptr;
+}
 
 void Shell::feed(const InputEvent& event) { state_->input.push(event); }
 
@@ -316,7 +317,7 @@ Image Shell::viewport_picture() {
     return state_->renderer.draw(*shown);
 }
 
-void Shell::set_scale(double scale) { state_->scale = within_limits(scale); }
+void Shell::set_scale(double scale) { state_->own_scale = scale; }
 
 ImGuiMouseCursor Shell::cursor() const { return state_->cursor; }
 

@@ -19,8 +19,8 @@ inline constexpr double kMostScale = 4;
 
 class Shell {
   public:
-    /// `scale`: of text and panels, until the settings say another; it is brought within kLeastScale..kMostScale.
-    /// Takes over the session's hook for exported pictures. Throws MachineError if OpenGL fails.
+    /// `scale`: of text and panels where the settings say none; either is brought within kLeastScale..kMostScale. Takes
+    /// over the session's hooks for exported pictures and the scale. Throws MachineError if OpenGL fails.
     Shell(std::unique_ptr<GlContext> context, Session& session, double scale);
     ~Shell();
     Shell(const Shell&) = delete;
@@ -43,6 +43,7 @@ class Shell {
     /// The viewport's picture, as `render` draws it. Throws std::invalid_argument if there is none yet.
     Image viewport_picture();
 
+    /// Of text and panels where the settings say none: another monitor has another.
     void set_scale(double scale);
     ImGuiMouseCursor cursor() const;
     /// A text field has the keys.

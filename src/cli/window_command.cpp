@@ -3,6 +3,7 @@
 #include <cli/options.h>
 #include <cli/window_command.h>
 
+#include <app/glfw_window.h>
 #include <app/headless_window.h>
 #include <app/load_files.h>
 #include <app/script.h>
@@ -42,13 +43,14 @@ Scene load_all(const CLI::App& program, const std::vector<std::filesystem::path>
 int run_script(const Scene& scene, const WindowArguments& arguments) {
     const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string());
     app::Session session(false);
+    // One scale everywhere, whatever the monitor's.
+    session.settings.ui_scale = arguments.ui_scale.value_or(1);
     const std::unique_ptr<app::Stage> stage = [&]() -> std::unique_ptr<app::Stage> {
         if (!arguments.headless && app::has_display()) {
-            return std::make_unique<app::GlfwWindow>(session, arguments.window);
+            return std::make_unique<app::GlfwWindow>(session, arguments.size);
         }
-        const double scale = arguments.window.ui_scale > 0 ? arguments.window.ui_scale : 1;
         return std::make_unique<app::HeadlessWindow>(GlContext::open(Backend::automatic), session,
-                                                     arguments.window.size.value_or(app::kDefaultSize), scale);
+                                                     arguments.size.value_or(app::kDefaultSize), 1);
     }();
     session.open_scene(scene, arguments.files);
     try {
@@ -66,8 +68,8 @@ int run_script(const Scene& scene, const WindowArguments& arguments) {
 
 void add_window_options(CLI::App& program, WindowArguments& arguments) {
     program.add_option("FILE", arguments.files, "Scenes, captures or clips to open in the window, as one scene");
-    add_parsed(program, "--size", arguments.window.size, parse_size, "The window's size in pixels", "WxH");
-    add_parsed(program, "--ui-scale", arguments.window.ui_scale, number_within(app::kLeastScale, app::kMostScale),
+    add_parsed(program, "--size", arguments.size, parse_size, "The window's size in pixels", "WxH");
+    add_parsed(program, "--ui-scale", arguments.ui_scale, number_within(app::kLeastScale, app::kMostScale),
                "Size of text and panels, 0.5 to 4; default: the monitor's", "X");
     program.add_option("--script", arguments.script, "Run commands and input from this file, then end")
         ->type_name("SCRIPT");
@@ -93,12 +95,16 @@ int open_window(const CLI::App& program, const WindowArguments& arguments) {
     }
     const Scene scene = load_all(program, arguments.files);
     if (!arguments.script.empty()) return run_script(scene, arguments);
-    const std::filesystem::path settings = app::settings_file();
-    app::Session session(true, app::load_settings(settings));
-    app::GlfwWindow window(session, arguments.window);
+    const std::filesystem::path file = app::settings_file();
+    app::Session session(true, app::load_settings(file));
+    const double usual_scale = session.settings.ui_scale;
+    if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
+    app::GlfwWindow window(session, arguments.size);
     session.open_scene(scene, arguments.files);
     window.run();
-    app::save_settings(settings, session.settings);
+    // What the command line asked for holds this once.
+    if (session.settings.ui_scale == arguments.ui_scale) session.settings.ui_scale = usual_scale;
+    app::save_settings(file, session.settings);
     return kDone;
 }
 

@@ -1,18 +1,20 @@
 /// `mobbscope [FILE...]`: the window.
 #pragma once
 
-#include <app/glfw_window.h>
+#include <render/image.h>
 
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace mobbscope::cli {
 
 struct WindowArguments {
     std::vector<std::filesystem::path> files;
-    app::WindowOptions window;
+    std::optional<PictureSize> size;
+    std::optional<double> ui_scale;
     std::filesystem::path script;  ///< empty: none
     bool headless = false;         ///< the script runs without a window
 };

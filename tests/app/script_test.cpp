@@ -1,0 +1,51 @@
+// Scripts that are none.
+#include <app/script.h>
+#include <import/error.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+namespace {
+
+TEST(Script, WhatIsNoStatementNamesFileAndLine) {
+    for (const auto& [script, says] : std::vector<std::pair<std::string, std::string>>{
+             {"\n\nclik 1 2", "s: line 3: 'clik' is no statement (did you mean 'click'?)"},
+             {"click", "line 1: \"click\" needs a place"},
+             {"click 1", "needs Y behind X"},
+             {"click 1 2 up", "'up' is none of left, right, middle, double"},
+             {"click 1 2 left 3", "'3' is too much here"},
+             {"# fine\nmove 1 2\nkey Ctrl+", "line 3: 'Ctrl+' is no chord"},
+             {"frames -1", "'-1' is no whole number"},
+             {"frames", "needs a number of frames"},
+             {"size 10x10", "10x10"},
+             {"picture a.jpg", "must end in .png"},
+             {"picture", "needs a file name"},
+             {"state a.txt", "must end in .json"},
+             {"expect /a", "'' is no JSON"},
+             {"expect a 1", "'a' is no JSON pointer"},
+             {"expect /a yes", "'yes' is no JSON"},
+             {"expect /a ~ 1", "needs a tolerance"},
+             {"run no.such.command", "there is no command 'no.such.command'"},
+             {"wait -1", "from 0 to 3600"},
+             {"move \"a", "a quote is not closed"},
+             {"type", "needs a text"}}) {
+        try {
+            Script::parse(script, "s");
+            ADD_FAILURE() << script;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(Script, BlankLinesCommentsAndQuotesAreRead) {
+    Script::parse("\r\n  # nothing\n\tmove \"a b\" # there\nclick a double\nexpect /x \"#1\"\ndrag a 1 2 middle\n",
+                  "s");
+}
+
+}  // namespace
+}  // namespace mobbscope::app

@@ -1,0 +1,191 @@
+// The window without its frame, on every backend.
+#include <app/headless_window.h>
+#include <app/script.h>
+#include <app/ui_pass.h>
+#include <app/window_target.h>
+#include <import/error.h>
+#include <render/png.h>
+#include <scene/demo_scene.h>
+
+#include <support/temp_folder.h>
+
+#include "render/backends.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::TempFolder;
+
+constexpr PictureSize kSize{800, 500};
+
+class ShellTest : public ::testing::TestWithParam<Backend> {
+  protected:
+    void SetUp() override {
+        if (!testing::open_or_skip(GetParam())) return;
+        window = std::make_unique<HeadlessWindow>(GlContext::open(GetParam()), session, kSize, 1);
+        session.open_demo();
+        window->settle();
+    }
+
+    std::string run(const std::string& script) {
+        std::ostringstream out;
+        Script::parse(script, "test").run(session, *window, out);
+        return out.str();
+    }
+
+    Session session{false};
+    std::unique_ptr<HeadlessWindow> window;
+};
+
+TEST_P(ShellTest, AFrameIsDrawn) {
+    const Image image = window->shell().read_back();
+    ASSERT_EQ(image.width, kSize.width);
+    std::set<std::uint32_t> colors;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const std::uint8_t* pixel = image.at(x, y);
+            ASSERT_EQ(pixel[3], 255) << x << ' ' << y;
+            colors.insert((pixel[0] << 16) | (pixel[1] << 8) | pixel[2]);
+        }
+    }
+    EXPECT_GE(colors.size(), 2u);
+    EXPECT_GT(window->shell().marks().all().size(), 2u);
+}
+
+TEST_P(ShellTest, TheThemeIsTheViews) {
+    const auto brightness = [&] {
+        const Image image = window->shell().read_back();
+        return static_cast<int>(*image.at(2, image.height - 2));
+    };
+    EXPECT_LT(brightness(), 60);
+    session.look([](ViewState& view) { view.theme = Theme::light; });
+    window->settle();
+    EXPECT_GT(brightness(), 200);
+}
+
+TEST_P(ShellTest, ADragOfAWidgetByNameMovesIt) {
+    const double before = session.settings.left_width;
+    run("drag splitter.left 40 0");
+    EXPECT_NEAR(session.settings.left_width, before + 40, 1.5);
+}
+
+TEST_P(ShellTest, APressAndReleaseInOneBatchAreBothSeen) {
+    const Rect rect = window->shell().marks().all().at("splitter.left");
+    Shell& shell = window->shell();
+    shell.feed(MouseMove{rect.center()});
+    shell.feed(MouseButton{0, true});
+    shell.feed(MouseMove{rect.center() + glm::vec2(30, 0)});
+    shell.feed(MouseButton{0, false});
+    shell.feed(MouseMove{rect.center() + glm::vec2(300, 0)});
+    const double before = session.settings.left_width;
+    window->settle();
+    EXPECT_NEAR(session.settings.left_width, before + 30, 1.5);
+}
+
+TEST_P(ShellTest, NoFrameIsWantedWhenNothingHappens) {
+    Shell& shell = window->shell();
+    shell.feed(MouseMove{{5, 5}});
+    EXPECT_EQ(shell.frame(kSize, 1000), 0);
+    double next = 0;
+    for (int i = 1; i < 200 && next < 1e9; ++i) next = shell.frame(kSize, 1000 + i);
+    EXPECT_GT(next, 1e9);
+}
+
+TEST_P(ShellTest, TheCloseButtonEndsTheSession) {
+    window->shell().feed(CloseRequest{});
+    window->settle();
+    EXPECT_TRUE(session.closed());
+}
+
+TEST_P(ShellTest, WhatIsDroppedIsOpened) {
+    const TempFolder folder;
+    window->shell().feed(Drop{{folder.write("a.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")}});
+    window->settle();
+    EXPECT_EQ(session.scene().clips.size(), 1u) << "a clip replaces the demo";
+    window->shell().feed(Drop{{folder.write("b.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")}});
+    window->settle();
+    EXPECT_EQ(session.scene().clips.size(), 2u) << "and joins what a person opened";
+    window->shell().feed(Drop{{demo_scene_file()}});
+    window->shell().feed(Drop{{folder.path() / "none.csv"}});
+    window->settle();
+    EXPECT_FALSE(session.messages().empty());
+}
+
+TEST_P(ShellTest, ScriptsSeeTheStateAndTakePictures) {
+    const TempFolder folder;
+    const std::string picture = folder.path() / "window.png";
+    const std::string out = run("size 700x450\npicture " + picture +
+                                "\nexpect /title \"crossing\"\nexpect /scene/agents/0/start 0\n"
+                                "expect /scene/agents/1/start ~ 0.8 0.11\nexpect /scene/agents/1/start != 0.8\n"
+                                "expect /no/such/thing null\nexpect /scene/agents/0/color \"#E69F00\" # a comment\n"
+                                "marks\nwait 0.05\nframes 2\nmove 10 10\nscroll 10 10 1\nkey Escape\n");
+    EXPECT_EQ(read_png(picture).width, 700);
+    EXPECT_NE(out.find("splitter.left"), std::string::npos);
+}
+
+TEST_P(ShellTest, AnExpectationThatFailsNamesItsLine) {
+    for (const auto& [script, says] : std::vector<std::pair<std::string, std::string>>{
+             {"\n# two\nexpect /title \"other\"", "test: line 3: /title is \"crossing\", expected \"other\""},
+             {"expect /modified != false", "line 1: /modified is false, expected anything but false"},
+             {"expect /scene/agents/1/start ~ 0.8 0.01",
+              "line 1: /scene/agents/1/start is 0.9, expected 0.8 within 0.01"},
+             {"expect /scene/agents {}", "line 1: /scene/agents is ["}}) {
+        try {
+            run(script);
+            ADD_FAILURE() << script;
+        } catch (const ExpectationError& error) {
+            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_THROW(run("click no.such.widget"), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+
+class UiPassTest : public ::testing::TestWithParam<Backend> {};
+
+TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
+    const std::unique_ptr<Renderer> renderer = testing::open_or_skip(GetParam());
+    if (!renderer) return;
+    ImGuiContext* imgui = ImGui::CreateContext();
+    ImGui::SetCurrentContext(imgui);
+    constexpr PictureSize size{100, 60};
+    ImGui::GetIO().DisplaySize = {size.width, size.height};
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    make_look(Theme::dark, 1);
+    UiPass pass(renderer->context());
+    pass.upload(*ImGui::GetIO().Fonts);
+    const WindowTarget target(size);
+    target.clear(Rgba(0, 0, 0, 1));
+    ImGui::NewFrame();
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.PushClipRect({10, 5}, {40, 25});
+    list.AddRectFilled({0, 0}, {100, 60}, IM_COL32(255, 0, 0, 255));
+    list.PopClipRect();
+    list.AddRectFilled({60, 30}, {80, 50}, IM_COL32(0, 0, 255, 128));
+    ImGui::Render();
+    pass.draw(*ImGui::GetDrawData(), size);
+    const Image image = target.read();
+    renderer->context().check("testing");
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const bool inside = x >= 10 && x < 40 && y >= 5 && y < 25;
+            EXPECT_EQ(image.at(x, y)[0], inside ? 255 : 0) << x << ' ' << y;
+            EXPECT_EQ(image.at(x, y)[3], 255);
+        }
+    }
+    EXPECT_NEAR(image.at(70, 40)[2], 128, 1);
+    ImGui::DestroyContext(imgui);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, UiPassTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+
+}  // namespace
+}  // namespace mobbscope::app
