@@ -183,7 +183,8 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
 void Session::open_scene(const Scene& scene, const std::optional<std::filesystem::path>& file) {
     after_asking([this, scene, file] {
         load(
-            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, file);
+            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; },
+            file ? std::vector{*file} : std::vector<std::filesystem::path>{});
         if (attended_ && !scene.file.empty()) settings.remember(scene.file);
     });
 }
@@ -274,7 +275,7 @@ void Session::close_dialog() {
 void Session::tell(Message::Level level, const std::string& text) {
     // Twice the same says nothing new.
     std::erase_if(messages_, [&](const Message& message) { return message.text == text; });
-    messages_.push_back({level, text});
+    messages_.push_back({level, text, {}});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
 }
 

@@ -175,7 +175,8 @@ struct Shell::State {
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return false;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return false;
-        invoke(session, command->id);
+        // A key that has nothing to do now says nothing.
+        if (command->enabled(session)) invoke(session, command->id);
         return true;
     }
 
@@ -262,10 +263,14 @@ struct Shell::State {
 
 Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale)
     : state_(std::make_unique<State>(std::move(context), session, scale)) {
+    session.hooks.ui_scale = [this] { return state_->scale; };
     session.hooks.export_picture = [this](const std::filesystem::path& file) { write_png(file, viewport_picture()); };
 }
 
-Shell::~Shell() { state_->session.hooks.export_picture = nullptr; }
+Shell::~Shell() {
+    state_->session.hooks.ui_scale = nullptr;
+    state_->session.hooks.export_picture = nullptr;
+}
 
 void Shell::feed(const InputEvent& event) { state_->input.push(event); }
 
