@@ -283,7 +283,7 @@ void Session::close_dialog() {
 void Session::tell(Message::Level level, const std::string& text) {
     // Twice the same says nothing new.
     std::erase_if(messages_, [&](const Message& message) { return message.text == text; });
-    messages_.push_back({level, text});
+    messages_.push_back({level, text, {}});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
 }
 

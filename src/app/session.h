@@ -30,6 +30,7 @@ struct Message {
     enum class Level { info, warning, error };
     Level level = Level::info;
     std::string text;
+    std::optional<double> shown_at{};  ///< when the window showed it first
 };
 
 /// How the window's surroundings are reached; all may be empty.
@@ -46,9 +47,19 @@ struct Hooks {
 /// What was put into the open dialog so far; the dialog says what it means by it.
 struct DialogInput {
     std::string text;
-    std::string command;      ///< the palette asks for the argument of this one; empty: it lists all
+    std::string command{};    ///< the palette asks for the argument of this one; empty: it lists all
     int picked = 0;           ///< of a list
     bool confirming = false;  ///< asks whether to overwrite
+    int generation = 0;       ///< the field shows another text from without: see set_text
+    bool fresh = true;        ///< the field waits for the keyboard
+
+    void set_text(std::string to) {
+        text = std::move(to);
+        picked = 0;
+        confirming = false;
+        ++generation;
+        fresh = true;
+    }
 };
 
 class Session {
@@ -137,6 +148,7 @@ class Session {
     void tell(Message::Level level, const std::string& text);
     const std::vector<Message>& messages() const { return messages_; }
     void dismiss(std::size_t message);
+    void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
 
     // Jobs.
     /// The work under way; null if none. The document cannot be edited meanwhile.

@@ -172,7 +172,8 @@ struct Shell::State {
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return false;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return false;
-        invoke(session, command->id);
+        // A key that has nothing to do now says nothing.
+        if (command->enabled(session)) invoke(session, command->id);
         return true;
     }
 

@@ -178,7 +178,7 @@ std::vector<Case> cases() {
     add({"view.frame", "", {{"view.zoom_in", ""}}, [](World& w) { EXPECT_FALSE(w.view().camera.target); }});
     add({"view.frame_all", "", {{"view.orbit", "10 5"}}, [](World& w) {
              EXPECT_FALSE(w.view().camera.target);
-             EXPECT_NEAR(w.view().camera.yaw_deg, 35, 1e-4) << "the direction stays";
+             EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 10, 1e-4) << "the direction stays";
          }});
     add({"view.zoom", "2", {{"view.zoom", "1"}}, [](World& w) {
              const double near_by = w.view().camera.distance;
@@ -198,12 +198,14 @@ std::vector<Case> cases() {
          }});
     look("view.orbit", "10 -5", [](World& w) {
         EXPECT_EQ(w.view().camera.preset, CameraPreset::free);
-        EXPECT_NEAR(w.view().camera.yaw_deg, 35, 1e-4);
+        EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 10, 1e-4);
         EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg - 5, 1e-4);
         EXPECT_GT(w.view().time_height, 0) << "the target is measured in it";
     });
-    look("view.orbit_left", "", [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, 50, 1e-4); });
-    look("view.orbit_right", "", [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, 40, 1e-4); });
+    look("view.orbit_left", "",
+         [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg + 5, 1e-4); });
+    look("view.orbit_right", "",
+         [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 5, 1e-4); });
     look("view.orbit_up", "",
          [](World& w) { EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg - 5, 1e-4); });
     look("view.orbit_down", "",
@@ -219,6 +221,8 @@ std::vector<Case> cases() {
     look("view.time_axis", "", [](World& w) { EXPECT_FALSE(w.view().time_axis); });
     look("view.labels", "", [](World& w) { EXPECT_FALSE(w.view().labels); });
     look("view.legend", "", [](World& w) { EXPECT_FALSE(w.view().legend); });
+    look("view.color_by", "", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::level); });
+    look("view.color_by", "agent", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::agent); });
     in_query("view.level", "1:3", [](World& w) {
         EXPECT_EQ(w.view().levels, (LevelRange{1, 3, false}));
         EXPECT_FALSE(w.view().query);

@@ -28,7 +28,13 @@ void select(Session& session, const std::string& text) {
     show_query(session, whole_number_in(text, "the query", 0, query_total(session) - 1));
 }
 
+bool stays(const Message& message) { return message.level != Message::Level::info; }
+
+/// One thing after the other, what lies in front first.
 void leave(Session& session, const std::string&) {
+    const auto& messages = session.messages();
+    const auto last = std::find_if(messages.rbegin(), messages.rend(), stays);
+    if (last != messages.rend()) return session.dismiss(static_cast<std::size_t>(messages.rend() - last) - 1);
     if (!in_query(session)) return session.select({});
     session.look([](ViewState& view) { view.query.reset(); });
 }
@@ -196,13 +202,14 @@ std::span<const Command> query_commands() {
          .enabled = [](const Session& session) { return session.view().query.value_or(query_total(session)) > 0; },
          .run = previous},
         {.id = "query.none",
-         .title = "Leave the query",
+         .title = "Back",
          .menu = "Query",
          .shortcut = "Escape",
-         .doc = "Shows the levels of all trees again; where they are shown already, selects nothing.",
+         .doc = "Dismisses a message; else leaves the query in view for the levels of all trees; else selects nothing.",
          .enabled =
              [](const Session& session) {
-                 return in_query(session) || session.selection.kind != Selection::Kind::none;
+                 return in_query(session) || session.selection.kind != Selection::Kind::none ||
+                    std::any_of(session.messages().begin(), session.messages().end(), stays);
              },
          .run = leave},
         {.id = "query.add",

@@ -56,6 +56,7 @@ std::string view_options(const ViewState& file, const ViewState& now) {
         out += " --time-height " + short_double(now.time_height);
     }
     if (now.theme != file.theme) out += " --theme " + std::string(name(now.theme));
+    if (now.color_by != file.color_by) out += " --color-by " + std::string(name(now.color_by));
     // The rest has no options.
     ViewState reached = now;
     reached.disks = file.disks;
@@ -84,9 +85,10 @@ std::string render_line(const Session& session) {
         session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
     if (session.modified() || !one_file || file.empty()) ask_to_save();
     const PictureSize size = viewport_size(session);
+    const std::string scale = session.hooks.ui_scale ? " --scale " + short_double(session.hooks.ui_scale()) : "";
     // Of an unchanged scene, its `view` is the one in the file.
     return "mobbscope render " + shell_quoted(file.string()) + view_options(session.scene().view, session.view()) +
-           " --size " + std::to_string(size.width) + 'x' + std::to_string(size.height) + " -o picture.png";
+           " --size " + std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";
 }
 
 }  // namespace mobbscope::app

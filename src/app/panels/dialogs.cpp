@@ -1,7 +1,71 @@
+#include <app/key.h>
 #include <app/panels.h>
+#include <app/panels/dialog_frame.h>
+#include <app/panels/dialogs.h>
+
+#include <exception>
+#include <string>
 
 namespace mobbscope::app {
 
-void dialogs(Ui& ui) { static_cast<void>(ui); }
+namespace {
+
+void answer(Ui& ui, Session::Unsaved choice) {
+    try {
+        ui.session.answer_unsaved(choice);
+    } catch (const std::exception& error) {
+        ui.session.tell(Message::Level::error, error.what());
+    }
+}
+
+void unsaved(Ui& ui) {
+    begin_dialog(ui, "unsaved", {440, 150});
+    dialog_title(ui, "Save the changes?");
+    ImGui::TextWrapped("%s has changes that are not saved. They are lost if you go on without saving.",
+                       ui.session.title().c_str());
+    ImGui::Dummy({0, ui.px(6)});
+    if (marked_button(ui, "Save", "unsaved.save", true) || pressed(ImGuiKey_Enter)) {
+        answer(ui, Session::Unsaved::save);
+    }
+    ImGui::SameLine();
+    if (marked_button(ui, "Discard", "unsaved.discard") || ImGui::IsKeyPressed(static_cast<int>(Key::d), false)) {
+        answer(ui, Session::Unsaved::discard);
+    }
+    ImGui::SameLine();
+    if (marked_button(ui, "Cancel", "unsaved.cancel")) answer(ui, Session::Unsaved::cancel);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("Enter, D or Escape");
+    end_dialog();
+}
+
+}  // namespace
+
+void dialogs(Ui& ui) {
+    Session& session = ui.session;
+    switch (session.dialog) {
+        case Dialog::none:
+            return;
+        case Dialog::open:
+        case Dialog::add:
+        case Dialog::save_as:
+        case Dialog::export_picture:
+            file_dialog(ui);
+            break;
+        case Dialog::unsaved:
+            unsaved(ui);
+            break;
+        case Dialog::palette:
+            palette(ui);
+            break;
+        case Dialog::help:
+            help_sheet(ui);
+            break;
+        case Dialog::about:
+            about(ui);
+            break;
+    }
+    if (session.dialog != Dialog::none && pressed(ImGuiKey_Escape)) session.close_dialog();
+}
 
 }  // namespace mobbscope::app

@@ -1,7 +1,163 @@
+#include <app/command.h>
 #include <app/panels.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
 
 namespace mobbscope::app {
 
-void menu_bar(Ui& ui) { static_cast<void>(ui); }
+namespace {
+
+constexpr std::array<const char*, 7> kMenus{"File", "Edit", "View", "Tree", "Query", "Go", "Help"};
+constexpr float kSearchWidth = 360;       // pixels at scale 1
+constexpr float kLeastSearchWidth = 110;  // below, it only costs room
+constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
+    return out;
+}
+
+/// "Undo moving A".
+std::string title_of(const Session& session, const Command& command) {
+    std::string title(command.title);
+    if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
+    if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
+    return title;
+}
+
+std::string mark_of(const Command& command) { return "menu." + std::string(command.id); }
+
+void ask_argument(Session& session, const Command& command) {
+    session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+}
+
+void choices(Ui& ui, const Command& command) {
+    Session& session = ui.session;
+    const std::vector<std::string> all = command.choices(session);
+    const bool open = ImGui::BeginMenu(title_of(session, command).c_str(), command.enabled(session) && !all.empty());
+    ui.mark(mark_of(command));
+    if (!open) return;
+    for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
+        const bool chosen = command.chosen && command.chosen(session, all[i]);
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::MenuItem(all[i].c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
+        ImGui::PopID();
+        ui.mark(mark_of(command) + '.' + all[i]);
+    }
+    if (all.size() > kMostChoices && ImGui::MenuItem("More...")) ask_argument(session, command);
+    ImGui::EndMenu();
+}
+
+void item(Ui& ui, const Command& command) {
+    Session& session = ui.session;
+    if (command.choices) return choices(ui, command);
+    const std::string shortcut(first_shortcut(command));
+    const bool checked = command.checked && command.checked(session);
+    if (ImGui::MenuItem(title_of(session, command).c_str(), shortcut.c_str(), checked, command.enabled(session))) {
+        command.needs_argument() ? ask_argument(session, command) : invoke(session, command.id);
+    }
+    ui.mark(mark_of(command));
+}
+
+std::string_view group_of(const Command& command) { return command.id.substr(0, command.id.find('.')); }
+
+void items(Ui& ui, const std::string& menu) {
+    std::string_view group;
+    std::vector<std::string_view> submenus;
+    for (const Command& command : commands()) {
+        if (command.menu == menu) {
+            if (!group.empty() && group != group_of(command)) ImGui::Separator();
+            group = group_of(command);
+            item(ui, command);
+        } else if (command.menu.starts_with(menu + '/') &&
+                   std::find(submenus.begin(), submenus.end(), command.menu) == submenus.end()) {
+            submenus.push_back(command.menu);
+        }
+    }
+    if (!submenus.empty()) ImGui::Separator();
+    for (const std::string_view submenu : submenus) {
+        const std::string name(submenu.substr(menu.size() + 1));
+        const bool open = ImGui::BeginMenu(name.c_str());
+        ui.mark("menu." + lower(menu) + '.' + lower(name));
+        if (!open) continue;
+        items(ui, std::string(submenu));
+        ImGui::EndMenu();
+    }
+}
+
+/// What looks like a field and opens the palette; it takes what room there is between the menus and the title.
+void search(Ui& ui, float left, float right) {
+    const float gap = ui.px(16);
+    const float room = right - left - 2 * gap;
+    if (room < ui.px(kLeastSearchWidth)) return;
+    const float width = std::min(room, ui.px(kSearchWidth));
+    const float middle = ImGui::GetWindowWidth() / 2;
+    const float x = std::clamp(middle - width / 2, left + gap, right - gap - width);
+    const float height = ImGui::GetFrameHeight() - ui.px(4);
+    ImGui::SetCursorPos({x, ui.px(2)});
+    if (ImGui::InvisibleButton("##search", {width, height})) invoke(ui.session, "go.palette");
+    ui.mark("menu.search");
+    const ImVec2 min = ImGui::GetItemRectMin();
+    const ImVec2 max = ImGui::GetItemRectMax();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(min, max, ui.look.panel, ui.px(4));
+    draw.AddRect(min, max, ImGui::IsItemHovered() ? ui.look.accent : ui.look.border, ui.px(4));
+    const float pad = ui.px(10);
+    const std::string key(first_shortcut(*find_command("go.palette")));
+    const float key_width = ui.look.mono->CalcTextSizeA(ui.look.mono->FontSize, 1e6f, 0, key.c_str()).x;
+    const float y = (min.y + max.y - ui.look.body->FontSize) / 2;
+    for (const char* text : {"Search commands, agents, nodes", "Search commands", "Search"}) {
+        if (ImGui::CalcTextSize(text).x + key_width + 3 * pad > width) continue;
+        draw.AddText({min.x + pad, y}, ui.look.quiet, text);
+        break;
+    }
+    draw.AddText(ui.look.mono, ui.look.mono->FontSize, {max.x - pad - key_width, y}, ui.look.quiet, key.c_str());
+}
+
+/// The file's name at the right, with a dot when it is not saved; returns where it begins. A long name loses its end.
+float file_title(Ui& ui, float left) {
+    const Session& session = ui.session;
+    const std::string title = session.title();
+    const float pad = ui.px(12);
+    const float dot = session.modified() ? ui.px(14) : 0;
+    const float room = ImGui::GetWindowWidth() - left - 2 * pad - dot;
+    const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, std::max(room, ui.px(40)));
+    const float x = ImGui::GetWindowWidth() - pad - width;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float middle = ImGui::GetFrameHeight() / 2;
+    if (session.modified()) draw.AddCircleFilled({x - dot + ui.px(4), middle}, ui.px(3.5f), ui.look.warning);
+    ImGui::SetCursorPos({x - dot, 0});
+    ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
+    ui.mark("menu.title");
+    if (ImGui::IsItemHovered()) {
+        const std::string file = session.file() ? session.file()->string() : title;
+        ImGui::SetTooltip("%s%s", file.c_str(), session.modified() ? "\nnot saved" : "");
+    }
+    draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);
+    draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.look.quiet, title.c_str());
+    draw.PopClipRect();
+    return x - dot;
+}
+
+}  // namespace
+
+void menu_bar(Ui& ui) {
+    if (!ImGui::BeginMainMenuBar()) return;
+    for (const char* menu : kMenus) {
+        const bool open = ImGui::BeginMenu(menu);
+        ui.mark("menu." + lower(menu));
+        if (!open) continue;
+        items(ui, menu);
+        ImGui::EndMenu();
+    }
+    const float left = ImGui::GetCursorPosX();
+    const float right = file_title(ui, left);
+    search(ui, left, right);
+    ImGui::EndMainMenuBar();
+}
 
 }  // namespace mobbscope::app

@@ -1,0 +1,13 @@
+/// How well a few letters stand for a longer text.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace mobbscope::app {
+
+/// The letters of `word` must stand in `text` in their order, whatever their case; starts of words and runs count more,
+/// and a match of letters strewn about is none. Higher is better; 0 for an empty word.
+std::optional<double> fuzzy_score(std::string_view word, std::string_view text);
+
+}  // namespace mobbscope::app

@@ -1,0 +1,113 @@
+#include <app/command.h>
+#include <app/panels/dialog_frame.h>
+#include <app/panels/dialogs.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr float kColumn = 300;  // pixels at scale 1
+
+struct Line {
+    std::string keys, what;
+    bool heading = false;
+};
+
+constexpr std::array<std::pair<const char*, const char*>, 6> kMouse{{
+    {"Left drag", "Turn the scene"},
+    {"Right drag", "Shift the scene"},
+    {"Wheel", "Go nearer, or away"},
+    {"Click", "Select"},
+    {"Drop files", "Open or add them"},
+    {"Hover", "Say what is there"},
+}};
+
+std::string spoken(std::string_view shortcuts) {
+    std::string out(shortcuts);
+    for (std::size_t blank = out.find(' '); blank != std::string::npos; blank = out.find(' ', blank + 3)) {
+        out.replace(blank, 1, ", ");
+    }
+    return out;
+}
+
+/// All shortcuts by menu, then the mouse.
+std::vector<Line> lines() {
+    std::vector<Line> out;
+    std::string_view menu;
+    for (const Command& command : commands()) {
+        if (command.shortcut.empty()) continue;
+        const std::string_view of = command.menu.substr(0, command.menu.find('/'));
+        if (of != menu) out.push_back({"", std::string(of), true});
+        menu = of;
+        std::string what(command.title);
+        if (what.ends_with("...")) what.resize(what.size() - 3);
+        out.push_back({spoken(command.shortcut), std::move(what), false});
+    }
+    out.push_back({"", "Mouse", true});
+    for (const auto& [keys, what] : kMouse) out.push_back({keys, what, false});
+    return out;
+}
+
+void draw_line(Ui& ui, const Line& line, float keys_width) {
+    if (line.heading) {
+        ImGui::PushFont(ui.look.caption);
+        ImGui::TextDisabled("%s", line.what.c_str());
+        ImGui::PopFont();
+        return;
+    }
+    const float x = ImGui::GetCursorPosX();
+    ImGui::PushFont(ui.look.mono);
+    ImGui::TextUnformatted(line.keys.c_str());
+    ImGui::PopFont();
+    ImGui::SameLine(x + keys_width);
+    ImGui::TextUnformatted(line.what.c_str());
+}
+
+}  // namespace
+
+void help_sheet(Ui& ui) {
+    begin_dialog(ui, "help", {980, 640});
+    dialog_title(ui, "Shortcuts");
+    const std::vector<Line> all = lines();
+    float keys_width = 0, what_width = 0;
+    for (const Line& line : all) {
+        const ImFont& mono = *ui.look.mono;
+        keys_width = std::max(keys_width, mono.CalcTextSizeA(mono.FontSize, 1e6f, 0, line.keys.c_str()).x);
+        what_width = std::max(what_width, ImGui::CalcTextSize(line.what.c_str()).x);
+    }
+    keys_width += ui.px(12);
+    ImGui::BeginChild("keys", {0, -ImGui::GetFrameHeightWithSpacing() - ui.px(4)});
+    const float width = std::max(ui.px(kColumn), keys_width + what_width + ui.px(16));
+    const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / width), 1, 3);
+    const auto per_column = static_cast<std::size_t>(std::ceil(static_cast<double>(all.size()) / columns));
+    const float top = ImGui::GetCursorPosY();
+    std::size_t line = 0;
+    for (int column = 0; column < columns; ++column) {
+        ImGui::SetCursorPos({static_cast<float>(column) * width, top});
+        ImGui::BeginGroup();
+        // A heading does not stay behind alone at the foot of a column.
+        const std::size_t end = (static_cast<std::size_t>(column) + 1) * per_column;
+        for (; line < all.size() && (line < end || column + 1 == columns); ++line) {
+            if (all[line].heading && line + 1 == end) break;
+            draw_line(ui, all[line], keys_width);
+        }
+        ImGui::EndGroup();
+    }
+    if (pressed(ImGuiKey_DownArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() + ui.px(60));
+    if (pressed(ImGuiKey_UpArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() - ui.px(60));
+    ImGui::EndChild();
+    if (marked_button(ui, "Close", "help.close", true) || pressed(ImGuiKey_Enter)) ui.session.close_dialog();
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("Ctrl+P finds everything else by a few letters.");
+    end_dialog();
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,126 @@
+#include <app/palette_entries.h>
+#include <app/panels/dialog_frame.h>
+#include <app/panels/dialogs.h>
+#include <app/panels/text_field.h>
+
+#include <string>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// One line of the list: what it is, and to the right what it belongs to and its key.
+bool row(Ui& ui, int index, bool picked, const std::string& text, const std::string& detail, const std::string& key,
+         bool enabled) {
+    const float height = ImGui::GetTextLineHeight() + ui.px(8);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::PushID(index);
+    const bool clicked = ImGui::Selectable("##row", picked, 0, {0, height});
+    ImGui::PopID();
+    ui.mark("palette." + std::to_string(index));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float y = at.y + (height - ImGui::GetFontSize()) / 2;
+    const float pad = ui.px(8);
+    float right = at.x + width - pad;
+    const auto put = [&](ImFont* font, const std::string& what) {
+        if (what.empty()) return;
+        right -= font->CalcTextSizeA(font->FontSize, 1e6f, 0, what.c_str()).x;
+        draw.AddText(font, font->FontSize, {right, y + (ImGui::GetFontSize() - font->FontSize) / 2}, ui.look.quiet,
+                     what.c_str());
+        right -= 2 * pad;
+    };
+    put(ui.look.mono, key);
+    put(ui.look.caption, detail);
+    draw.PushClipRect(at, {right, at.y + height}, true);
+    draw.AddText({at.x + pad, y}, enabled ? ui.look.text : ui.look.quiet, text.c_str());
+    draw.PopClipRect();
+    return clicked;
+}
+
+void run(Session& session, const Command& command, const std::string& argument) {
+    if (argument.empty() && (command.needs_argument() || command.choices)) {
+        session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+        return;
+    }
+    session.close_dialog();
+    invoke(session, command.id, argument);
+}
+
+/// A list of `count` lines that follows the keys; `draw` draws one and says whether it was clicked. Returns the line
+/// that was taken, or -1.
+template <class Draw>
+int pick_from_list(DialogInput& input, int count, bool entered, const Draw& draw) {
+    const bool moved = move_picked(input.picked, count);
+    int taken = entered && count > 0 ? input.picked : -1;
+    ImGui::BeginChild("list");
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    for (int i = 0; i < count; ++i) {
+        if (draw(i, i == input.picked)) taken = i;
+        if (moved && i == input.picked) ImGui::SetScrollHereY();
+    }
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+    return taken;
+}
+
+void all(Ui& ui) {
+    Session& session = ui.session;
+    DialogInput& input = session.input;
+    const bool entered = text_field("Search commands, agents, clips, queries, nodes (A 2.1)", input).entered;
+    ui.mark("palette.input");
+    ImGui::Dummy({0, ui.px(2)});
+    const std::vector<PaletteEntry> entries = palette_entries(session, input.text);
+    if (entries.empty()) ImGui::TextDisabled("Nothing is called so.");
+    const auto draw = [&](int i, bool picked) {
+        const PaletteEntry& entry = entries[static_cast<std::size_t>(i)];
+        const std::string detail = entry.why_not.empty() ? entry.detail : entry.why_not;
+        const bool clicked = row(ui, i, picked, entry.title, detail, entry.shortcut, entry.why_not.empty());
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(entry.command->doc).c_str());
+        return clicked;
+    };
+    const int taken = pick_from_list(input, static_cast<int>(entries.size()), entered, draw);
+    if (taken < 0 || !entries[static_cast<std::size_t>(taken)].why_not.empty()) {
+        if (entered) input.fresh = true;
+        return;
+    }
+    const PaletteEntry entry = entries[static_cast<std::size_t>(taken)];
+    run(session, *entry.command, entry.argument);
+}
+
+/// The second step: what the command is to be done with.
+void argument(Ui& ui, const Command& command) {
+    Session& session = ui.session;
+    DialogInput& input = session.input;
+    ImGui::TextUnformatted(std::string(command.title).c_str());
+    const bool entered = text_field(std::string(command.argument).c_str(), input).entered;
+    ui.mark("palette.input");
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::TextWrapped("%s", std::string(command.doc).c_str());
+    ImGui::PopStyleColor();
+    const std::vector<std::string> choices = matching_choices(session, command, input.text);
+    const auto draw = [&](int i, bool picked) {
+        const std::string& choice = choices[static_cast<std::size_t>(i)];
+        const bool chosen = command.chosen && command.chosen(session, choice);
+        return row(ui, i, picked, choice, chosen ? "now" : "", "", true);
+    };
+    const int taken = pick_from_list(input, static_cast<int>(choices.size()), entered, draw);
+    if (taken >= 0) return run(session, command, std::string(choices[static_cast<std::size_t>(taken)]));
+    if (!entered) return;
+    if (input.text.empty()) {
+        input.fresh = true;
+        return;
+    }
+    run(session, command, std::string(input.text));
+}
+
+}  // namespace
+
+void palette(Ui& ui) {
+    begin_dialog(ui, "palette", {560, 420}, 0.25f);
+    const Command* command = find_command(ui.session.input.command);
+    command ? argument(ui, *command) : all(ui);
+    end_dialog();
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,124 @@
+// What the palette finds.
+#include <app/fuzzy.h>
+#include <app/palette_entries.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::CrossingFolder;
+
+struct Palette {
+    CrossingFolder folder;
+    Session session{false};
+
+    Palette() { session.open({folder.scene}); }
+    PaletteEntry first(const std::string& text) const {
+        const auto entries = palette_entries(session, text);
+        return entries.empty() ? PaletteEntry{} : entries.front();
+    }
+    std::string first_id(const std::string& text) const {
+        const PaletteEntry entry = first(text);
+        return entry.command ? std::string(entry.command->id) : "";
+    }
+};
+
+TEST(Fuzzy, LettersStandInTheirOrder) {
+    EXPECT_TRUE(fuzzy_score("tk", "Tree kind"));
+    EXPECT_TRUE(fuzzy_score("TREE", "tree kind"));
+    EXPECT_FALSE(fuzzy_score("kt", "Tree kind"));
+    EXPECT_FALSE(fuzzy_score("eid", "Tree kind")) << "strewn about";
+    EXPECT_FALSE(fuzzy_score("a", ""));
+    EXPECT_EQ(fuzzy_score("", "anything"), 0);
+}
+
+TEST(Fuzzy, StartsOfWordsAndRunsCountMore) {
+    EXPECT_GT(fuzzy_score("top", "view.top"), fuzzy_score("top", "Theme of pictures"));
+    EXPECT_GT(fuzzy_score("kind", "Tree kind"), fuzzy_score("ree", "Tree kind"));
+    EXPECT_GT(fuzzy_score("open", "Open"), fuzzy_score("open", "Open the demo"));
+}
+
+TEST(PaletteEntries, WithoutTextAreAllCommandsThatCanBeDoneFirst) {
+    const Palette p;
+    const auto entries = palette_entries(p.session, "");
+    ASSERT_EQ(entries.size(), commands().size());
+    EXPECT_EQ(entries.front().command->id, "file.open");
+    const auto first_not =
+        std::find_if(entries.begin(), entries.end(), [](const auto& e) { return !e.why_not.empty(); });
+    EXPECT_TRUE(std::all_of(first_not, entries.end(), [](const auto& e) { return !e.why_not.empty(); }));
+    EXPECT_NE(first_not, entries.end());
+}
+
+TEST(PaletteEntries, CommandsAreFoundByAFewLetters) {
+    const Palette p;
+    EXPECT_EQ(p.first_id("tree kind"), "tree.kind");
+    EXPECT_EQ(p.first_id("kind tree"), "tree.kind");
+    EXPECT_EQ(p.first_id("above"), "view.top");
+    EXPECT_EQ(p.first_id("view.top"), "view.top");
+    EXPECT_EQ(p.first_id("map"), "view.top") << "by what the explanation says";
+    EXPECT_EQ(p.first_id("undo"), "edit.undo");
+    EXPECT_EQ(p.first_id("export"), "file.export_picture");
+    EXPECT_EQ(p.first_id("theme"), "view.theme");
+    EXPECT_EQ(p.first_id("step forward"), "step.forward");
+    EXPECT_EQ(p.first_id("zzqx"), "");
+}
+
+TEST(PaletteEntries, ChoicesAreFoundWithTheirCommand) {
+    const Palette p;
+    const PaletteEntry kind = p.first("tk umobb");
+    EXPECT_EQ(kind.command->id, "tree.kind");
+    EXPECT_EQ(kind.argument, "umobb");
+    EXPECT_EQ(kind.title, "Tree kind: umobb");
+    EXPECT_EQ(p.first("light").command->id, "view.theme");
+    EXPECT_EQ(p.first("light").argument, "light");
+}
+
+TEST(PaletteEntries, AgentsClipsQueriesAndNodesAreFound) {
+    const Palette p;
+    EXPECT_EQ(p.first("stand").argument, "stand");
+    const PaletteEntry query = p.first("a against c");
+    EXPECT_EQ(query.command->id, "query.select");
+    EXPECT_EQ(query.argument, "1");
+    const PaletteEntry node = p.first("b 2.1");
+    EXPECT_EQ(node.command->id, "go.node");
+    EXPECT_EQ(node.title, "B 2.1");
+    const auto agents = palette_entries(p.session, "agent B");
+    EXPECT_TRUE(std::any_of(agents.begin(), agents.end(),
+                            [](const auto& e) { return e.command->id == "go.agent" && e.argument == "B"; }));
+    EXPECT_NE(p.first_id("b 99.1"), "go.node");
+}
+
+TEST(PaletteEntries, WhatCannotBeDoneSaysWhy) {
+    const Palette p;
+    EXPECT_EQ(p.first("duplicate").why_not, "no agent is selected");
+    EXPECT_EQ(p.first("step over").why_not, "no query is shown");
+    const Session empty(false);
+    EXPECT_EQ(palette_entries(empty, "view from above").front().why_not, "nothing is open");
+}
+
+TEST(PaletteEntries, WhatIsOfferedCanBeRun) {
+    CrossingFolder folder;
+    for (const char* text : {"umobb", "walk", "against", "A 1.0", "level"}) {
+        Session session(false);
+        session.open({folder.scene});
+        for (const PaletteEntry& entry : palette_entries(session, text)) {
+            if (!entry.why_not.empty() || (entry.argument.empty() && entry.command->needs_argument())) continue;
+            if (entry.command->id.starts_with("file.")) continue;
+            EXPECT_NO_THROW(run_command(session, entry.command->id, entry.argument)) << entry.title;
+        }
+    }
+}
+
+TEST(PaletteEntries, ChoicesOfOneCommand) {
+    const Palette p;
+    const Command& kind = *find_command("tree.kind");
+    EXPECT_EQ(matching_choices(p.session, kind, "").size(), 4u);
+    EXPECT_EQ(matching_choices(p.session, kind, "um"), std::vector<std::string>{"umobb"});
+    EXPECT_TRUE(matching_choices(p.session, *find_command("tree.leaf"), "").empty());
+}
+
+}  // namespace
+}  // namespace mobbscope::app
