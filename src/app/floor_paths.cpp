@@ -83,8 +83,8 @@ double apart(const Range& a, const Range& b) {
 template <class Bound, class Value>
 class Least {
   public:
-    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, const Bound& bound, const Value& value)
-        : a_(a), b_(b), visits_(visits), bound_(bound), value_(value) {
+    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, const Bound& bound, const Value& value_of)
+        : a_(a), b_(b), visits_(visits), bound_(bound), value_of_(value_of) {
         visit(0, 0, bound_(a_[0], b_[0]));
     }
 
@@ -101,7 +101,7 @@ class Least {
             visits_ -= static_cast<std::int64_t>(a.end - a.first) * (b.end - b.first);
             for (int p = a.first; p < a.end; ++p) {
                 for (int q = b.first; q < b.end; ++q) {
-                    const double found = value_(p, q);
+                    const double found = value_of_(p, q);
                     if (found < value) value = found, i = p, j = q;
                 }
             }
@@ -124,7 +124,7 @@ class Least {
     const Ranges& b_;
     std::int64_t& visits_;
     const Bound& bound_;
-    const Value& value_;
+    const Value& value_of_;
 };
 
 }  // namespace

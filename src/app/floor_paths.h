@@ -24,6 +24,6 @@ struct FloorPaths {
 };
 
 /// Visits at most so many pairs of samples or ranges of samples, a few nanoseconds each.
-FloorPaths floor_paths(const mobb::PlacedClip& a, const mobb::PlacedClip& b, std::int64_t most_visits = 2'000'000);
+FloorPaths floor_paths(const mobb::PlacedClip& a, const mobb::PlacedClip& b, std::int64_t most_visits = 1'000'000);
 
 }  // namespace mobbscope::app

@@ -55,7 +55,9 @@ TEST(Clearance, IsThatOfAllPairsThatShareTime) {
             least = std::min(least, found.pieces[k].clearance);
         }
         EXPECT_EQ(found.least.has_value(), !expected.empty());
-        if (found.least) EXPECT_EQ(found.pieces[*found.least].clearance, least);
+        if (found.least) {
+            EXPECT_EQ(found.pieces[*found.least].clearance, least);
+        }
         without_time += expected.empty();
 
         // Contact: where the query says, and nowhere else.

@@ -18,7 +18,7 @@ TEST(RecursionPicture, AStripHoldsEveryEventOnce) {
     int merged = 0;
     for (int round = 0; round < 200; ++round) {
         const test::RandomQuery asked = test::random_query(random);
-        const int width = random.integer(1, 300);
+        const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
         const auto cells = strip_cells(asked.trace, width);
         MarkCounts counts{};
         int next = 0;
@@ -54,7 +54,7 @@ TEST(RecursionPicture, ASquareShowsEveryPairThatWasDecided) {
     for (int round = 0; round < 200; ++round) {
         const test::RandomQuery asked = test::random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
-        const int size = random.integer(1, 200);
+        const int size = random.integer(1, random.chance(0.5) ? 8 : 200);
         const auto& root = recursion.pairs.front();
         const auto cells = square_cells(recursion, root.time_a, root.time_b, size, size);
         int decided = 0;
@@ -91,7 +91,7 @@ TEST(RecursionPicture, AnIcicleHoldsEveryPairOnceAndLosesNoHit) {
     for (int round = 0; round < 200; ++round) {
         const test::RandomQuery asked = test::random_query(random);
         const Recursion recursion = recursion_of(asked.trace, asked.a(), asked.b());
-        const int width = random.integer(1, 300);
+        const int width = random.integer(1, random.chance(0.5) ? 12 : 300);
         const auto cells = icicle_cells(recursion, width, 10);
         std::size_t pairs = 0;
         bool hit = false;

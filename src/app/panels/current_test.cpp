@@ -3,6 +3,8 @@
 #include <app/panels/section.h>
 #include <render/query_sentence.h>
 
+#include <cctype>
+
 namespace mobbscope::app {
 
 namespace {
@@ -54,7 +56,9 @@ void current_test(Ui& ui, const QueryFindings& findings) {
         ImGui::Dummy({side, ImGui::GetTextLineHeight()});
         ImGui::SameLine(0, ui.px(7));
         words(mark_text(ui.look, mark), headline(mark));
-        words(ui.look.text, outcome_text(findings.sides, event));
+        std::string sentence = outcome_text(findings.sides, event) + ".";
+        sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+        words(ui.look.text, sentence);
     });
     ui.mark("query.test");
     node_line(ui, findings, 0, event.a);

@@ -3,6 +3,7 @@
 #include <app/panels/query_parts.h>
 #include <app/panels/section.h>
 #include <render/query_sentence.h>
+#include <render/subject.h>
 
 #include <algorithm>
 
@@ -11,6 +12,16 @@ namespace mobbscope::app {
 namespace {
 
 constexpr int kMostRows = 12;  // a longer list scrolls by itself
+
+/// "A against B", the names shortened until it fits; the tooltip has them in full.
+std::string pair_that_fits(const SceneQuery& query, float room) {
+    std::string pair;
+    for (int most = 40; most >= 5; --most) {
+        pair = shortened(query.a.name, most) + " against " + shortened(query.b.name, most);
+        if (ImGui::CalcTextSize(pair.c_str()).x <= room) break;
+    }
+    return pair;
+}
 
 void query_row(Ui& ui, std::size_t index, float height) {
     const SceneQuery query = ui.session.fitted().queries()[index];
@@ -23,7 +34,6 @@ void query_row(Ui& ui, std::size_t index, float height) {
         invoke(ui.session, "query.select", std::to_string(index));
     }
     ui.mark("query.row." + std::to_string(index));
-    const std::string pair = query.a.name + " against " + query.b.name;
     if (ImGui::IsItemHovered()) {
         ui.session.hovered = {Selection::Kind::query, {}, static_cast<int>(index)};
         ImGui::SetTooltip("%s", sentence(query, answer.contact).c_str());
@@ -34,11 +44,9 @@ void query_row(Ui& ui, std::size_t index, float height) {
     const ImVec2 cell{at.x + ui.px(2), at.y + 0.5f * (line - side) + ui.px(2)};
     outcome_cell(list, ui.look, cell, {cell.x + side, cell.y + side}, mark, 1);
     const float left = cell.x + side + ui.px(7);
-    list.PushClipRect(at, {at.x + width, at.y + height}, true);
-    list.AddText({left, at.y + ui.px(2)}, ui.look.text, pair.c_str());
+    list.AddText({left, at.y + ui.px(2)}, ui.look.text, pair_that_fits(query, at.x + width - left).c_str());
     const std::string found = answer.contact ? "hit at " + with_unit(answer.contact->time, "s") : "never collide";
     list.AddText({left, at.y + ui.px(3) + line}, mark_text(ui.look, mark), found.c_str());
-    list.PopClipRect();
     ImGui::PopID();
 }
 

@@ -1,10 +1,34 @@
 #include <app/command.h>
 #include <app/panels/section.h>
 
+#include <imgui_internal.h>
+
+#include <cctype>
 #include <cstdio>
+#include <sstream>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope::app {
+
+namespace {
+
+/// The words of a text; a number and its unit are one.
+std::vector<std::string> unbroken_words(const std::string& text) {
+    std::vector<std::string> out;
+    std::istringstream in(text);
+    for (std::string word; in >> word;) {
+        const bool unit = (word[0] == 'm' || word[0] == 's') && (word.size() == 1 || std::ispunct(word[1]) != 0);
+        if (unit && word.size() <= 2 && !out.empty()) {
+            out.back() += ' ' + word;
+        } else {
+            out.push_back(word);
+        }
+    }
+    return out;
+}
+
+}  // namespace
 
 void heading(Ui& ui, const char* text, const std::string& right) {
     ImGui::Dummy({0, ui.px(6)});
@@ -23,8 +47,23 @@ void heading(Ui& ui, const char* text, const std::string& right) {
 }
 
 void words(ImU32 color, const std::string& text) {
+    const float wrap = ImGui::GetCurrentWindowRead()->DC.TextWrapPos;
+    const float room = wrap > 0 ? wrap - ImGui::GetCursorPosX() : ImGui::GetContentRegionAvail().x;
+    std::string lines;
+    std::string line;
+    for (const std::string& word : unbroken_words(text)) {
+        const std::string longer = line.empty() ? word : line + ' ' + word;
+        if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > room) {
+            lines += line + '\n';
+            line = word;
+        } else {
+            line = longer;
+        }
+    }
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PushTextWrapPos(-1);
+    ImGui::TextUnformatted((lines + line).c_str());
+    ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
 }
 

@@ -11,7 +11,7 @@ namespace mobbscope::app {
 /// A quiet heading with room above it; `right` stands at the other end of its line if there is room.
 void heading(Ui& ui, const char* text, const std::string& right = "");
 
-/// Wrapped text in a colour.
+/// Text in a colour, wrapped between words: ImGui would break numbers at their points.
 void words(ImU32 color, const std::string& text);
 
 /// A number as shown; the tooltip has all its digits, and a click copies them.

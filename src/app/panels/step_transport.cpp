@@ -18,8 +18,15 @@ void draw_icon(Ui& ui, bool forward, bool to_end, bool enabled) {
     const ImU32 color = enabled ? ui.look.text : ui.look.border;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float shift = to_end ? -0.3f * r * way : 0;
-    list.AddTriangleFilled({middle.x + shift + way * r, middle.y}, {middle.x + shift - way * 0.8f * r, middle.y - r},
-                           {middle.x + shift - way * 0.8f * r, middle.y + r}, color);
+    const ImVec2 tip{middle.x + shift + way * r, middle.y};
+    const ImVec2 upper{middle.x + shift - way * 0.8f * r, middle.y - r};
+    const ImVec2 lower{upper.x, middle.y + r};
+    // Clockwise, as ImGui's smooth edges need it.
+    if (forward) {
+        list.AddTriangleFilled(upper, tip, lower, color);
+    } else {
+        list.AddTriangleFilled(tip, upper, lower, color);
+    }
     if (to_end) {
         const float x = middle.x + shift + way * 1.3f * r;
         list.AddLine({x, middle.y - r}, {x, middle.y + r}, color, ui.px(1.8f));
