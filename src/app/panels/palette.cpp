@@ -117,8 +117,10 @@ void argument(Ui& ui, const Command& command) {
 }  // namespace
 
 void palette(Ui& ui) {
-    begin_dialog(ui, "palette", {560, 420}, 0.25f);
     const Command* command = find_command(ui.session.input.command);
+    // A number needs no list.
+    const bool has_list = !command || command->choices;
+    begin_dialog(ui, "palette", {560, has_list ? 420.0f : 130.0f}, 0.25f);
     command ? argument(ui, *command) : all(ui);
     end_dialog();
 }
