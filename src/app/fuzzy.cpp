@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLetter = 1;
 constexpr double kWordStart = 6;
-constexpr double kRun = 5;
+constexpr double kRun = 7;
 constexpr double kLeastPerLetter = 4;  // below, the letters are strewn about
 constexpr double kPerLength = 0.02;    // shorter texts say more of what was meant
 constexpr double kNone = -std::numeric_limits<double>::infinity();
@@ -45,6 +45,17 @@ std::optional<double> fuzzy_score(std::string_view word, std::string_view text) 
     const double score = text.empty() ? kNone : *std::max_element(best.begin(), best.end());
     if (score < kLeastPerLetter * static_cast<double>(word.size())) return std::nullopt;
     return score - kPerLength * static_cast<double>(text.size());
+}
+
+std::optional<double> word_score(std::string_view word, std::string_view text) {
+    for (std::size_t at = 0; at + word.size() <= text.size(); ++at) {
+        if (at > 0 && in_word(text[at - 1])) continue;
+        const std::string_view here = text.substr(at, word.size());
+        if (std::equal(word.begin(), word.end(), here.begin(), [](char a, char b) { return lower(a) == lower(b); })) {
+            return fuzzy_score(word, here);
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace mobbscope::app

@@ -10,4 +10,8 @@ namespace mobbscope::app {
 /// and a match of letters strewn about is none. Higher is better; 0 for an empty word.
 std::optional<double> fuzzy_score(std::string_view word, std::string_view text);
 
+/// The same where `word` is the beginning of a word of `text`, or all of it: for whole sentences, in which a few
+/// letters are found always.
+std::optional<double> word_score(std::string_view word, std::string_view text);
+
 }  // namespace mobbscope::app

@@ -28,6 +28,7 @@ std::vector<std::string> words_of(const std::string& text) {
 struct Field {
     std::string_view text;
     double share = 1;
+    bool sentence = false;
 };
 
 /// Every word must be found in some field, in any order.
@@ -36,7 +37,7 @@ std::optional<double> score(const std::vector<std::string>& words, std::initiali
     for (const std::string& word : words) {
         std::optional<double> best;
         for (const Field& field : fields) {
-            const auto found = fuzzy_score(word, field.text);
+            const auto found = field.sentence ? word_score(word, field.text) : fuzzy_score(word, field.text);
             if (found) best = std::max(best.value_or(0), *found * field.share);
         }
         if (!best) return std::nullopt;
@@ -99,7 +100,7 @@ class Collector {
 void add_command(Collector& out, const Session& session, const Command& command) {
     const std::string title(command.title);
     const std::string menu(command.menu);
-    out.add(command.id, "", title, menu, {{title}, {command.id, kIdShare}, {command.doc, kDocShare}});
+    out.add(command.id, "", title, menu, {{title}, {command.id, kIdShare}, {command.doc, kDocShare, true}});
     // Those of `go` are the things themselves.
     if (!out.has_words() || !command.choices || command.id.starts_with("go.")) return;
     for (const std::string& choice : command.choices(session)) {

@@ -168,7 +168,9 @@ struct Shell::State {
     /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
     bool press(const Chord& chord, bool repeated) {
         const Command* command = command_for(chord);
-        if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none) return false;
+        if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none || session.job()) {
+            return false;
+        }
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return false;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return false;

@@ -101,7 +101,7 @@ TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
         {"query.select", "3", "the query cannot be '3': give a whole number from 0 to 2"},
         {"query.add", "A", "an agent is not asked against itself"},
         {"go.node", "A", "the node cannot be 'A': give a name and a number, such as A 12"},
-        {"go.node", "Z 1", "there is no agent 'Z'"},
+        {"go.node", "Z 1", "there is no agent 'Z' (did you mean 'A'?)"},
         {"go.node", "A 9.0", "the level cannot be '9': give a whole number from 0 to 4"},
         {"go.sample", "A 60", "the sample cannot be '60': give a whole number from 0 to 59"},
         {"agent.move", "", "\"Place agent at\" needs X Y"},

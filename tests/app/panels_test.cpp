@@ -23,7 +23,7 @@ struct Window {
     PictureSize size;
 
     explicit Window(PictureSize of = {1024, 640}, double scale = 1)
-        : window(make_context(Backend::automatic), session, of, scale), size(of) {
+        : window(GlContext::open(Backend::automatic), session, of, scale), size(of) {
         session.open({folder.scene});
         window.settle();
     }
@@ -163,6 +163,7 @@ TEST(Panels, OverwritingAsks) {
     w.look("overwrite");
     EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
     w.key("Enter");
+    EXPECT_EQ(all_messages(w.session), "Saved " + w.folder.file("there.json").string() + "\n");
     EXPECT_EQ(w.session.dialog, Dialog::none);
     EXPECT_EQ(w.session.title(), "there.json");
 }

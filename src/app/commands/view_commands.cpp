@@ -464,7 +464,7 @@ std::span<const Command> view_commands() {
          .doc = "Makes text and panels smaller.",
          .run = smaller},
         {.id = "window.scale_reset",
-         .title = "Text as large as the monitor says",
+         .title = "Usual text size",
          .menu = "View/Window",
          .shortcut = "Ctrl+0",
          .doc = "Makes text and panels as large as the monitor's scale asks for.",

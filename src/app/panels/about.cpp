@@ -4,7 +4,7 @@
 namespace mobbscope::app {
 
 void about(Ui& ui) {
-    begin_dialog(ui, "about", {460, 230});
+    begin_dialog(ui, "about", {460, 200});
     dialog_title(ui, "Mobbscope " MOBBSCOPE_VERSION);
     ImGui::TextWrapped(
         "Shows bounding-volume trees in space-time, and every step of the question whether two paths collide.");

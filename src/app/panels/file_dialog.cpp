@@ -164,7 +164,7 @@ void file_dialog(Ui& ui) {
     dialog_title(ui, purpose.title);
     const auto complete = [&](const std::string& text) { return complete_path(text, purpose.extensions).completed; };
     const std::string prefix = purpose.prefix;
-    const FieldEvents events = text_field("A path; Tab completes it", input, complete);
+    const FieldEvents events = text_field(ui, "A path; Tab completes it", complete);
     ui.mark(prefix + ".path");
     const PathCompletion completion = complete_path(input.text, purpose.extensions);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,14 +30,6 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kMouse{{
     {"Hover", "Say what is there"},
 }};
 
-std::string spoken(std::string_view shortcuts) {
-    std::string out(shortcuts);
-    for (std::size_t blank = out.find(' '); blank != std::string::npos; blank = out.find(' ', blank + 3)) {
-        out.replace(blank, 1, ", ");
-    }
-    return out;
-}
-
 /// All shortcuts by menu, then the mouse.
 std::vector<Line> lines() {
     std::vector<Line> out;
@@ -48,7 +41,8 @@ std::vector<Line> lines() {
         menu = of;
         std::string what(command.title);
         if (what.ends_with("...")) what.resize(what.size() - 3);
-        out.push_back({spoken(command.shortcut), std::move(what), false});
+        std::istringstream chords{std::string(command.shortcut)};
+        for (std::string chord; chords >> chord;) out.push_back({chord, what, false});
     }
     out.push_back({"", "Mouse", true});
     for (const auto& [keys, what] : kMouse) out.push_back({keys, what, false});
@@ -66,7 +60,8 @@ void draw_line(Ui& ui, const Line& line, float keys_width) {
     ImGui::PushFont(ui.look.mono);
     ImGui::TextUnformatted(line.keys.c_str());
     ImGui::PopFont();
-    ImGui::SameLine(x + keys_width);
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(x + keys_width);
     ImGui::TextUnformatted(line.what.c_str());
 }
 
@@ -88,6 +83,7 @@ void help_sheet(Ui& ui) {
     const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / width), 1, 3);
     const auto per_column = static_cast<std::size_t>(std::ceil(static_cast<double>(all.size()) / columns));
     const float top = ImGui::GetCursorPosY();
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(3)});
     std::size_t line = 0;
     for (int column = 0; column < columns; ++column) {
         ImGui::SetCursorPos({static_cast<float>(column) * width, top});
@@ -100,6 +96,7 @@ void help_sheet(Ui& ui) {
         }
         ImGui::EndGroup();
     }
+    ImGui::PopStyleVar();
     if (pressed(ImGuiKey_DownArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() + ui.px(60));
     if (pressed(ImGuiKey_UpArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() - ui.px(60));
     ImGui::EndChild();

@@ -39,7 +39,9 @@ bool draw(Ui& ui, const Message& message, std::size_t index) {
                         : message.level == Message::Level::warning ? ui.look.warning
                                                                    : ui.look.accent;
     const std::string mark = "message." + std::to_string(index);
-    const float buttons = stays ? ui.px(74) : 0;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float words = ImGui::CalcTextSize("Copy").x + ImGui::CalcTextSize("x").x;
+    const float buttons = stays ? words + 4 * style.FramePadding.x + style.ItemSpacing.x + ui.px(8) : 0;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(index));
     ImGui::BeginGroup();

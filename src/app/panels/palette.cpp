@@ -67,7 +67,7 @@ int pick_from_list(DialogInput& input, int count, bool entered, const Draw& draw
 void all(Ui& ui) {
     Session& session = ui.session;
     DialogInput& input = session.input;
-    const bool entered = text_field("Search commands, agents, clips, queries, nodes (A 2.1)", input).entered;
+    const bool entered = text_field(ui, "Search commands, agents, clips, queries, nodes (A 2.1)").entered;
     ui.mark("palette.input");
     ImGui::Dummy({0, ui.px(2)});
     const std::vector<PaletteEntry> entries = palette_entries(session, input.text);
@@ -93,7 +93,7 @@ void argument(Ui& ui, const Command& command) {
     Session& session = ui.session;
     DialogInput& input = session.input;
     ImGui::TextUnformatted(std::string(command.title).c_str());
-    const bool entered = text_field(std::string(command.argument).c_str(), input).entered;
+    const bool entered = text_field(ui, std::string(command.argument).c_str()).entered;
     ui.mark("palette.input");
     ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
     ImGui::TextWrapped("%s", std::string(command.doc).c_str());
@@ -117,8 +117,10 @@ void argument(Ui& ui, const Command& command) {
 }  // namespace
 
 void palette(Ui& ui) {
-    begin_dialog(ui, "palette", {560, 420}, 0.25f);
     const Command* command = find_command(ui.session.input.command);
+    // A number needs no list.
+    const bool has_list = !command || command->choices;
+    begin_dialog(ui, "palette", {560, has_list ? 420.0f : 130.0f}, 0.25f);
     command ? argument(ui, *command) : all(ui);
     end_dialog();
 }

@@ -28,12 +28,15 @@ int on_event(ImGuiInputTextCallbackData* data) {
 
 }  // namespace
 
-FieldEvents text_field(const char* hint, DialogInput& input,
-                       const std::function<std::string(const std::string&)>& complete) {
+FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete) {
+    DialogInput& input = ui.session.input;
     Field field{input, complete};
     ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_EnterReturnsTrue;
     if (complete) flags |= ImGuiInputTextFlags_CallbackCompletion;
-    if (input.fresh) ImGui::SetKeyboardFocusHere();
+    if (input.fresh) {
+        ImGui::SetKeyboardFocusHere();
+        ui.want_frame_in(0);
+    }
     const std::string before = input.text;
     ImGui::PushID(input.generation);
     ImGui::SetNextItemWidth(-1);

@@ -1,19 +1,19 @@
 /// The field of a dialog: it has the keyboard from the start.
 #pragma once
 
-#include <app/session.h>
+#include <app/ui.h>
 
 #include <functional>
 #include <string>
 
 namespace mobbscope::app {
 
-/// Shows and edits `input.text`. `complete`: what Tab makes of the text; without it Tab goes to the next widget.
+/// Shows and edits the text of the session's `input`. `complete`: what Tab makes of the text; without it Tab goes to
+/// the next widget.
 struct FieldEvents {
     bool changed = false;
     bool entered = false;  ///< Enter was pressed
 };
-FieldEvents text_field(const char* hint, DialogInput& input,
-                       const std::function<std::string(const std::string&)>& complete = {});
+FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete = {});
 
 }  // namespace mobbscope::app
