@@ -51,13 +51,14 @@ void window_layout(Ui& ui, Viewport& viewport) {
     const float bar = ui.px(kSplitter);
     const ImVec2 room = ImGui::GetContentRegionAvail();
     // Each side gives way before the picture does.
-    const float most = std::max(ui.px(kLeastPanel), (room.x - ui.px(kLeastView) - 2 * bar) / 2);
-    const auto width = [&](double wanted) {
-        return std::clamp(ui.px(static_cast<float>(wanted)), ui.px(kLeastPanel), most);
-    };
+    const float least = std::min(ui.px(kLeastPanel), 0.3f * room.x);
+    const float most = std::max(least, (room.x - ui.px(kLeastView) - 2 * bar) / 2);
+    const auto width = [&](double wanted) { return std::clamp(ui.px(static_cast<float>(wanted)), least, most); };
     const float left = width(settings.left_width);
     const float right = width(settings.right_width);
-    const float bottom = std::clamp(ui.px(static_cast<float>(settings.bottom_height)), ui.px(90), 0.6f * room.y);
+    const float highest = 0.6f * room.y;
+    const float bottom =
+        std::clamp(ui.px(static_cast<float>(settings.bottom_height)), std::min(ui.px(90), highest), highest);
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
