@@ -45,6 +45,12 @@ ImVector<ImWchar> ranges_of(FontFace face) {
     return ranges;
 }
 
+/// From the top of a line to its base, as Dear ImGui rounds it.
+float base_line(FontFace face, float height) {
+    const Font& font = Font::of(face);
+    return std::floor(height * font.ascent(1) / (font.ascent(1) + font.descent(1))) + 1;
+}
+
 ImFont* add_font(FontFace face, float height, float scale) {
     // The atlas keeps the pointers.
     static const ImVector<ImWchar> text = ranges_of(FontFace::text);
@@ -61,6 +67,7 @@ ImFont* add_font(FontFace face, float height, float scale) {
     config.OversampleH = scale < 1.5f ? 3 : 2;
     // Digits of one width stand on whole pixels.
     config.PixelSnapH = face == FontFace::mono;
+    config.GlyphOffset.y = base_line(FontFace::text, config.SizePixels) - base_line(face, config.SizePixels);
     return ImGui::GetIO().Fonts->AddFont(&config);
 }
 
@@ -80,8 +87,9 @@ constexpr ImU32 hex(std::uint32_t rgb) { return IM_COL32((rgb >> 16) & 255u, (rg
 
 void set_colors(Look& look) {
     const bool dark = look.palette.dark;
-    look.window = hex(dark ? 0x14181D : 0xE9ECEF);
-    look.panel = hex(dark ? 0x1A2027 : 0xF7F8F9);
+    // The picture goes over into the window around it.
+    look.window = to_im(look.palette.background);
+    look.panel = hex(dark ? 0x1A2027 : 0xEDF0F3);
     look.raised = hex(dark ? 0x222A33 : 0xFFFFFF);
     look.border = hex(dark ? 0x2C343D : 0xD2D7DC);
     look.text = hex(dark ? 0xE7EAEE : 0x1D2329);

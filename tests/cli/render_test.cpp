@@ -56,6 +56,29 @@ class RenderTest : public ::testing::Test {
     }
 };
 
+TEST_F(RenderTest, TheWholeWindowIsDrawnFromTheSameScene) {
+    const Image window = picture(kCrossing, {"--ui", "--theme", "dark"});
+    const Image light = picture(kCrossing, {"--ui", "--theme", "light", "--ui-scale", "1.5"});
+    ASSERT_EQ(window.width, 320);
+    ASSERT_EQ(light.height, 240);
+    EXPECT_LT(*window.at(2, 238), 60);
+    EXPECT_GT(*light.at(2, 238), 200);
+    expect_refused(run_program(arguments(kCrossing, out, {"--ui-scale", "2"})), 2, "only with --ui");
+    expect_refused(run_program(arguments(kCrossing, out, {"--ui", "--ui-scale", "5"})), 2, "from 0.5 to 4");
+}
+
+TEST_F(RenderTest, AScriptRunsWithoutADisplay) {
+    const std::string good = folder.write("good", "expect /file \"" + kCrossing + "\"\nstate\n");
+    const Result done = run_program({kCrossing, "--script", good, "--headless"});
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_NE(done.out.find("\"agents\""), std::string::npos);
+    expect_refused(run_program({"--script", folder.write("fails", "expect /modified true"), "--headless"}), 1,
+                   "fails: line 1: /modified is false, expected true");
+    expect_refused(run_program({"--script", folder.write("bad", "\nclik"), "--headless"}), 2, "bad: line 2");
+    expect_refused(run_program({"--script", folder.path() / "none", "--headless"}), 2, "none");
+    expect_refused(run_program({"--headless"}), 2, "--script");
+}
+
 TEST_F(RenderTest, ABareNameIsAFileInTheWorkingFolder) {
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(folder.path());

@@ -24,8 +24,8 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 }
 
 template <class Draw>
-void panel(const char* name, ImVec2 size, const Draw& draw) {
-    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+void panel(const char* name, ImVec2 size, const Draw& draw, ImGuiWindowFlags more = 0) {
+    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | more);
     draw();
     ImGui::EndChild();
 }
@@ -41,21 +41,24 @@ void window_layout(Ui& ui, Viewport& viewport) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGui::Begin("##window", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse);
+                 // The shell has cleared to its colour: to fill it again is half the cost of a frame in software.
+                 ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar(2);
 
     Settings& settings = ui.session.settings;
     const float bar = ui.px(kSplitter);
     const ImVec2 room = ImGui::GetContentRegionAvail();
     // Each side gives way before the picture does.
-    const float most = std::max(ui.px(kLeastPanel), (room.x - ui.px(kLeastView) - 2 * bar) / 2);
-    const auto width = [&](double wanted) {
-        return std::clamp(ui.px(static_cast<float>(wanted)), ui.px(kLeastPanel), most);
-    };
+    const float least = std::min(ui.px(kLeastPanel), 0.3f * room.x);
+    const float most = std::max(least, (room.x - ui.px(kLeastView) - 2 * bar) / 2);
+    const auto width = [&](double wanted) { return std::clamp(ui.px(static_cast<float>(wanted)), least, most); };
     const float left = width(settings.left_width);
     const float right = width(settings.right_width);
-    const float bottom = std::clamp(ui.px(static_cast<float>(settings.bottom_height)), ui.px(90), 0.6f * room.y);
+    const float highest = 0.6f * room.y;
+    const float bottom =
+        std::clamp(ui.px(static_cast<float>(settings.bottom_height)), std::min(ui.px(90), highest), highest);
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
@@ -71,7 +74,8 @@ void window_layout(Ui& ui, Viewport& viewport) {
     ImGui::BeginGroup();
     const float middle = room.x - left - right - 2 * bar;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    panel("viewport", {middle, room.y - bottom - bar}, [&] { viewport.draw(ui); });
+    panel(
+        "viewport", {middle, room.y - bottom - bar}, [&] { viewport.draw(ui); }, ImGuiWindowFlags_NoBackground);
     ImGui::PopStyleVar();
     settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.look.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
