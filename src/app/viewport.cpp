@@ -26,6 +26,21 @@ constexpr double kZoomStep = 1.15;  // a notch of the wheel
 
 glm::vec2 mouse_pixel(const ShownPicture& picture) { return picture.pixel(ImGui::GetIO().MousePos); }
 
+/// What is under a pixel, nearest first; nodes that are only outlined, as they were tested before, come last: they
+/// stand around everything else.
+std::vector<Pick> picks(const DrawList& list, glm::vec2 pixel) {
+    std::vector<Pick> hits = pick(list, pixel);
+    const auto stands_out = [&](const Pick& hit) {
+        if (hit.id.kind == ObjectId::Kind::disk) return true;
+        const auto box = std::find_if(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) {
+            return b.pickable && b.id == hit.id && b.fill.a > 0;
+        });
+        return box != list.boxes.end();
+    };
+    std::stable_partition(hits.begin(), hits.end(), stands_out);
+    return hits;
+}
+
 /// Nothing is open: what to do.
 void welcome(Ui& ui) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -166,7 +181,9 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
         release(ui, pixel);
     }
     if (drag_ == Drag::none) {
-        if (over && list_) {
+        const auto held = over && list_ ? handles(ui, picture) : std::nullopt;
+        lit_ = held ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
+        if (over && list_ && lit_ == Handle::none) {
             hover(ui, pixel);
         } else if (place_) {
             place_.reset();
@@ -181,22 +198,29 @@ void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
     move_camera(ui, zoomed(settled_camera(), factor, pixel, list_->size));
 }
 
-std::optional<HandleDrag> Viewport::take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const {
+std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& picture) {
     const Session& session = ui.session;
     if (!session.selection.on_path()) return std::nullopt;
     const auto who = participant_of(session.fitted(), session.selection.path);
-    if (!who || who->agent < 0 || !index_in_view(session.fitted(), session.view(), session.selection.path))
-        return std::nullopt;
+    const bool in_view = index_in_view(session.fitted(), session.view(), session.selection.path).has_value();
+    if (!who || who->agent < 0 || !in_view) return std::nullopt;
     const mobb::PlacedTree placed = session.fitted().placed(*who);
-    const HandlePlaces places = handle_places(ui, picture, placed.placed_clip());
+    return Handles{*who, handle_places(ui, picture, placed.placed_clip())};
+}
+
+std::optional<HandleDrag> Viewport::take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const {
+    const Session& session = ui.session;
+    const auto held = handles(ui, picture);
+    if (!held) return std::nullopt;
+    const auto& [who, places] = *held;
     const Handle handle = handle_at(ui, places, ImGui::GetIO().MousePos);
-    if (handle != Handle::none) return HandleDrag{handle, who->agent, who->placement, places.pivot, places.time, pixel};
+    if (handle != Handle::none) return HandleDrag{handle, who.agent, who.placement, places.pivot, places.time, pixel};
     if (session.selection.kind != Selection::Kind::path) return std::nullopt;
     // The selected path itself moves on the floor, at the height where it is held.
     for (const Pick& hit : pick(*list_, pixel)) {
         if (hit.id.kind != ObjectId::Kind::disk) continue;
         if (path_in_view(session.fitted(), session.view(), hit.id.participant) != session.selection.path) break;
-        return HandleDrag{Handle::move, who->agent, who->placement, places.pivot, hit.place.z, pixel};
+        return HandleDrag{Handle::move, who.agent, who.placement, places.pivot, hit.place.z, pixel};
     }
     return std::nullopt;
 }
@@ -207,12 +231,14 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     last_ = pixel;
     moved_ = false;
     drag_ = Drag::orbit;
+    place_.reset();
+    ui.session.hovered = {};
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
     } else if (const auto hold = take_hold(ui, picture, pixel)) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;
-        // What can be dragged now stands still under the mouse: no framing, no rescaling of time while it moves.
+        lit_ = hold->handle;
     }
 }
 
@@ -253,7 +279,7 @@ void Viewport::release(Ui& ui, glm::vec2 pixel) {
 
 void Viewport::hover(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
-    const std::vector<Pick> hits = pick(*list_, pixel);
+    const std::vector<Pick> hits = picks(*list_, pixel);
     place_.reset();
     session.hovered = {};
     if (hits.empty()) return;
@@ -266,7 +292,7 @@ void Viewport::hover(Ui& ui, glm::vec2 pixel) {
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
 void Viewport::click(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
-    const std::vector<Pick> hits = pick(*list_, pixel);
+    const std::vector<Pick> hits = picks(*list_, pixel);
     const bool again = glm::length(pixel - clicked_at_) <= ui.px(kClickReach);
     depth_ = again ? depth_ + 1 : 0;
     clicked_at_ = pixel;
@@ -299,49 +325,50 @@ void Viewport::tooltip(Ui& ui) const {
     ImGui::EndTooltip();
 }
 
+void Viewport::handle_tooltip(Ui& ui, const mobb::Placement& placement) const {
+    if (drag_ != Drag::handle || !moved_) {
+        const char* words = lit_ == Handle::move   ? "Drag to move on the floor. Ctrl: in steps"
+                            : lit_ == Handle::turn ? "Drag to turn about the start. Ctrl: in steps"
+                                                   : "Drag to begin earlier or later. Ctrl: in steps";
+        ImGui::SetTooltip("%s", words);
+        return;
+    }
+    ImGui::BeginTooltip();
+    ImGui::PushFont(ui.look.mono);
+    if (lit_ == Handle::move) ImGui::Text("x %.2f  y %.2f m", placement.translate.x, placement.translate.y);
+    if (lit_ == Handle::turn) ImGui::Text("%.1f\u00B0", placement.rotate_deg);
+    if (lit_ == Handle::shift) ImGui::Text("starts at %.2f s", placement.start);
+    ImGui::PopFont();
+    ImGui::EndTooltip();
+}
+
 void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
     const Session& session = ui.session;
-    ImGui::GetWindowDrawList()->PushClipRect(picture.corner,
-                                             {picture.corner.x + static_cast<float>(list_->size.width),
-                                              picture.corner.y + static_cast<float>(list_->size.height)},
-                                             true);
+    const ImVec2 end{picture.corner.x + static_cast<float>(list_->size.width),
+                     picture.corner.y + static_cast<float>(list_->size.height)};
+    ImGui::GetWindowDrawList()->PushClipRect(picture.corner, end, true);
     draw_highlight(ui, picture, session.selection, ui.look.text, ui.px(2));
     if (session.hovered != session.selection) draw_highlight(ui, picture, session.hovered, ui.look.text, ui.px(1));
-    const auto who =
-        session.selection.on_path() ? participant_of(session.fitted(), session.selection.path) : std::nullopt;
-    if (who && who->agent >= 0 && index_in_view(session.fitted(), session.view(), session.selection.path)) {
-        const mobb::PlacedTree placed = session.fitted().placed(*who);
-        const HandlePlaces places = handle_places(ui, picture, placed.placed_clip());
-        const bool over = ImGui::IsItemHovered();
-        const Handle lit = drag_ == Drag::handle ? handle_drag_.handle
-                           : over                ? handle_at(ui, places, ImGui::GetIO().MousePos)
-                                                 : Handle::none;
-        draw_handles(ui, picture, places, lit);
+    const auto held = handles(ui, picture);
+    if (held) {
+        draw_handles(ui, picture, held->places, lit_);
         const auto mark = [&](const char* name, const std::optional<ImVec2>& at) {
             if (at) ui.marks.add(name, {{at->x - 4, at->y - 4}, {at->x + 4, at->y + 4}});
         };
-        mark("handle.move", places.move);
-        mark("handle.turn", places.turn);
-        mark("handle.shift", places.shift);
-        if (lit != Handle::none) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-        if (drag_ == Drag::handle && moved_) {
-            const mobb::Placement& p = who->placement;
-            ImGui::BeginTooltip();
-            ImGui::PushFont(ui.look.mono);
-            if (handle_drag_.handle == Handle::move) ImGui::Text("x %.2f  y %.2f m", p.translate.x, p.translate.y);
-            if (handle_drag_.handle == Handle::turn) ImGui::Text("%.1f\u00B0", p.rotate_deg);
-            if (handle_drag_.handle == Handle::shift) ImGui::Text("starts at %.2f s", p.start);
-            ImGui::PopFont();
-            ImGui::EndTooltip();
-        } else if (lit != Handle::none) {
-            const char* words = lit == Handle::move   ? "Drag to move on the floor. Ctrl: in steps"
-                                : lit == Handle::turn ? "Drag to turn about the start. Ctrl: in steps"
-                                                      : "Drag to begin earlier or later. Ctrl: in steps";
-            ImGui::SetTooltip("%s", words);
-        }
+        mark("handle.move", held->places.move);
+        mark("handle.turn", held->places.turn);
+        mark("handle.shift", held->places.shift);
     }
     ImGui::GetWindowDrawList()->PopClipRect();
-    if (drag_ == Drag::none && ImGui::IsItemHovered()) tooltip(ui);
+    // The picture has no padding, what is said of it has.
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(9), ui.px(7)});
+    if (held && lit_ != Handle::none) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+        handle_tooltip(ui, held->who.placement);
+    } else if (drag_ == Drag::none && ImGui::IsItemHovered()) {
+        tooltip(ui);
+    }
+    ImGui::PopStyleVar();
 }
 
 }  // namespace mobbscope::app

@@ -46,9 +46,16 @@ class Viewport {
     void hover(Ui& ui, glm::vec2 pixel);
     void click(Ui& ui, glm::vec2 pixel);
     void tooltip(Ui& ui) const;
+    void handle_tooltip(Ui& ui, const mobb::Placement& placement) const;
     void decorate(Ui& ui, const ShownPicture& picture);
     Camera settled_camera() const;
     void move_camera(Ui& ui, const Camera& camera);
+    /// The agent that can be dragged, as it is selected and in the picture.
+    struct Handles {
+        Participant who;
+        HandlePlaces places;
+    };
+    static std::optional<Handles> handles(Ui& ui, const ShownPicture& picture);
     std::optional<HandleDrag> take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const;
 
     std::optional<Key> key_;  ///< what the document asks for, a flight apart
@@ -62,6 +69,7 @@ class Viewport {
 
     Drag drag_ = Drag::none;
     HandleDrag handle_drag_;
+    Handle lit_ = Handle::none;  ///< under the mouse or held
     glm::vec2 pressed_at_{0};
     glm::vec2 last_{0};
     bool moved_ = false;     ///< since the button went down: no click

@@ -43,7 +43,6 @@ void query_panel(Ui& ui) {
     if (ui.session.findings() != findings) return;
     if (!findings->recursion.pairs.empty()) {
         step_transport(ui);
-        step_strip(ui, ImGui::GetContentRegionAvail().x, ui.px(22));
         current_test(ui, *findings);
         why_axes(ui, *findings);
         measured_pairs(ui, *findings);

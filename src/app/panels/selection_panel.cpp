@@ -9,7 +9,10 @@ void selection_panel(Ui& ui) {
     if (session.empty()) return;
     heading(ui, "SELECTION");
     if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
-        words(ui.look.quiet, "Click a disk, a box or a name. Click again for what lies behind.");
+        words(ui.look.quiet,
+              "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "
+              "to move it, "
+              "roll the wheel to zoom. F1 lists all keys.");
         return;
     }
     const Described what = describe(session.fitted(), session.selection);

@@ -5,6 +5,7 @@
 #include <import/text.h>
 #include <render/paths.h>
 #include <render/subject.h>
+#include <render/ticks.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +13,8 @@
 namespace mobbscope::app {
 
 namespace {
+
+constexpr float kMostBar = 26;  // height of a path's bar, pixels at scale 1
 
 void button(Ui& ui, const char* label, const char* id) {
     const Command* command = find_command(id);
@@ -21,6 +24,22 @@ void button(Ui& ui, const char* label, const char* id) {
     ui.mark(std::string("timeline.") + id);
     if (command && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
         ImGui::SetTooltip("%s  %s", std::string(command->title).c_str(), std::string(command->shortcut).c_str());
+    }
+}
+
+/// Seconds below the bars.
+void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImFont* mono = ui.look.mono;
+    const double length = std::max(span.t1 - span.t0, 1e-12);
+    const double step = nice_step(length, std::max(2.0f, width / ui.px(90)));
+    for (const double t : ticks(span.t0, span.t1, step)) {
+        const float x = corner.x + width * static_cast<float>((t - span.t0) / length);
+        draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.look.quiet);
+        const std::string text = tick_text(t, step) + " s";
+        const float wide = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text.c_str()).x;
+        const float left = std::clamp(x - 0.5f * wide, corner.x, corner.x + width - wide);
+        draw.AddText(mono, mono->FontSize, {left, corner.y + ui.px(5)}, ui.look.quiet, text.c_str());
     }
 }
 
@@ -43,11 +62,19 @@ void time_bars(Ui& ui, float width, float height) {
     const std::vector<Subject> paths = subjects(session.fitted(), session.view());
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
+    const float gap = std::min(ui.px(1.5f), 0.2f * each);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const float y = corner.y + each * static_cast<float>(i);
-        const float gap = std::min(ui.px(1.5f), 0.2f * each);
-        draw.AddRectFilled({x_of(paths[i].begin()), y + gap}, {x_of(paths[i].end()), y + each - gap},
-                           to_im(with_alpha(paths[i].color, 0.75f)), ui.px(2));
+        const float left = x_of(paths[i].begin());
+        const float right = x_of(paths[i].end());
+        draw.AddRectFilled({left, y + gap}, {right, y + each - gap}, to_im(with_alpha(paths[i].color, 0.75f)),
+                           ui.px(2));
+        const float font = ImGui::GetFontSize();
+        if (each < font + 2 * gap) continue;
+        const std::string name = fitted_text(paths[i].name, right - left - ui.px(12));
+        const Rgba ink =
+            contrast(paths[i].color, Rgba(0, 0, 0, 1)) > contrast(paths[i].color, Rgba(1)) ? Rgba(0, 0, 0, 1) : Rgba(1);
+        draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
     }
     if (const auto time = session.view().time; time && *time >= span.t0 && *time <= span.t1) {
         const float x = x_of(*time);
@@ -56,7 +83,8 @@ void time_bars(Ui& ui, float width, float height) {
     draw.AddRect(corner, {corner.x + width, corner.y + height}, ui.look.border, ui.px(3));
 }
 
-void time_row(Ui& ui) {
+/// The first clock. `tall`: nothing stands below it.
+void time_row(Ui& ui, bool tall) {
     Session& session = ui.session;
     const mobb::Interval span = session.time_span();
     button(ui, session.playing ? "Pause" : "Play", "time.play");
@@ -71,7 +99,15 @@ void time_row(Ui& ui) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
     ImGui::SameLine();
     const float clear = ImGui::GetFrameHeight();
-    time_bars(ui, std::max(ui.px(60), ImGui::GetContentRegionAvail().x - clear - ui.px(8)), ImGui::GetFrameHeight());
+    const float width = std::max(ui.px(60), ImGui::GetContentRegionAvail().x - clear - ui.px(8));
+    const float below = ui.px(24);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const auto paths = static_cast<float>(subjects(session.fitted(), session.view()).size());
+    const float most =
+        std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
+    const float height = tall ? most : clear;
+    time_bars(ui, width, height);
+    if (tall) time_ticks(ui, {corner.x, corner.y + height}, width, span);
     ImGui::SameLine();
     ImGui::BeginDisabled(!session.view().time);
     if (ImGui::Button("\u00D7", {clear, clear})) invoke(session, "time.clear");
@@ -97,8 +133,9 @@ void step_row(Ui& ui) {
 void timeline(Ui& ui) {
     if (ui.session.empty()) return;
     ImGui::PushID("timeline");
-    time_row(ui);
-    if (ui.session.recorded()) {
+    const bool steps = ui.session.recorded() != nullptr;
+    time_row(ui, !steps);
+    if (steps) {
         step_row(ui);
         const ImVec2 room = ImGui::GetContentRegionAvail();
         if (room.y > ui.px(24)) recursion_icicle(ui, room);
