@@ -83,10 +83,12 @@ class Words {
 
 std::string file_name(const ScriptLine& line, const char* extension) {
     if (line.rest.empty()) throw std::invalid_argument("\"" + line.words[0] + "\" needs a file name");
-    if (lower_extension(line.rest) != extension) {
-        throw std::invalid_argument(in_quotes(line.rest) + " must end in " + extension);
+    // A single word may have stood in quotes.
+    const std::string& name = line.words.size() == 2 ? line.words[1] : line.rest;
+    if (lower_extension(name) != extension) {
+        throw std::invalid_argument(in_quotes(name) + " must end in " + extension);
     }
-    return line.rest;
+    return name;
 }
 
 // --- mouse and keys
@@ -270,10 +272,15 @@ ScriptAction make_marks(const ScriptLine& line) {
 
 // --- the state
 
+/// File names may be no UTF-8.
+std::string text_of(const Json& json, int indent = -1) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 ScriptAction make_state(const ScriptLine& line) {
     const std::string file = line.rest.empty() ? "" : file_name(line, ".json");
     return [file](ScriptRun& run) {
-        const std::string text = state_json(run.session).dump(2) + '\n';
+        const std::string text = text_of(state_json(run.session), 2) + '\n';
         if (file.empty()) {
             run.out << text;
         } else {
@@ -313,7 +320,7 @@ Json parse_value(const std::string& text) {
 }
 
 [[noreturn]] void disappoint(const std::string& pointer, const Json& is, const std::string& expected) {
-    throw ExpectationError(pointer + " is " + shortened(is.dump(), 200) + ", expected " + expected);
+    throw ExpectationError(pointer + " is " + shortened(text_of(is), 200) + ", expected " + expected);
 }
 
 ScriptAction make_expect(const ScriptLine& line) {
