@@ -31,12 +31,12 @@ void History::change(Document document, const EditName& name) {
     open_ = true;
 }
 
-void History::look(ViewState view) {
+void History::look(const ViewState& view) {
     if (states_[now_].looked || can_redo()) {
-        states_[now_].document.view = std::move(view);
+        states_[now_].document.view = view;
         return;
     }
-    change({now().fitted, std::move(view)}, {"looking around", ""});
+    change({now().fitted, view}, {"looking around", ""});
     states_[now_].looked = true;
     open_ = false;
 }

@@ -37,7 +37,7 @@ class History {
     void change(Document document, const EditName& name);
     /// Only how it is seen has changed. All looking around between two edits is one state, and it costs nothing that
     /// could be redone.
-    void look(ViewState view);
+    void look(const ViewState& view);
     /// The present state is this instead; no edit of its own.
     void amend(Document document) { states_[now_].document = std::move(document); }
     /// The next edit starts a group of its own, even under the same name.

@@ -9,13 +9,14 @@ namespace mobbscope::app {
 
 namespace {
 
-std::atomic<int> running = 0;  // threads, those of dropped jobs too
+std::atomic<int> jobs = 0;
 
-struct Running {
-    Running() { ++running; }
-    ~Running() { --running; }
-    Running(const Running&) = delete;
-    Running& operator=(const Running&) = delete;
+/// Counts itself.
+struct Counted {
+    Counted() { ++jobs; }
+    ~Counted() { --jobs; }
+    Counted(const Counted&) = delete;
+    Counted& operator=(const Counted&) = delete;
 };
 
 }  // namespace
@@ -27,6 +28,7 @@ void JobControl::step(std::size_t done, std::size_t all) {
 
 /// Kept alive by whoever needs it longer, the window or the job's thread.
 struct Job::Shared {
+    Counted counted;  // first, so that it goes last
     JobControl control;
     std::mutex mutex;
     std::condition_variable changed;
@@ -39,7 +41,7 @@ struct Job::Shared {
 Job::Job(std::string title, Work work, std::function<void()> wake)
     : title_(std::move(title)), shared_(std::make_shared<Shared>()) {
     shared_->wake = std::move(wake);
-    std::thread([shared = shared_, work = std::move(work), running = std::make_unique<Running>()]() mutable {
+    std::thread([shared = shared_, work = std::move(work)]() mutable {
         Finish finish;
         std::exception_ptr error;
         try {
@@ -57,9 +59,6 @@ Job::Job(std::string title, Work work, std::function<void()> wake)
             if (shared->wake) shared->wake();
         }
         shared->changed.notify_all();
-        // A result that nobody waits for goes before the thread counts as ended.
-        shared.reset();
-        running.reset();
     }).detach();
 }
 
@@ -70,7 +69,7 @@ Job::~Job() {
     shared_->wake = nullptr;
 }
 
-bool Job::any_running() { return running > 0; }
+bool Job::any_left() { return jobs > 0; }
 
 double Job::progress() const { return shared_->control.progress(); }
 

@@ -46,8 +46,8 @@ class Job {
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
 
-    /// Whether the thread of any job, also of a dropped one, is still at work: then no static may be destroyed.
-    static bool any_running();
+    /// Whether there is any job, or a dropped one is still at work: then no static may be destroyed.
+    static bool any_left();
 
     const std::string& title() const { return title_; }
     double progress() const;

@@ -104,7 +104,8 @@ void add_command(Collector& out, const Session& session, const Command& command)
     // Those of `go` are the things themselves.
     if (!out.has_words() || !command.choices || command.id.starts_with("go.")) return;
     for (const std::string& choice : command.choices(session)) {
-        const std::string named = title + ": " + choice;
+        std::string named = title;
+        named.append(": ").append(choice);
         out.add(command.id, choice, named, menu, {{named}, {command.id, kIdShare}});
     }
 }

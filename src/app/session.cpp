@@ -27,8 +27,8 @@ constexpr std::size_t kMostMessages = 5;
 
 Document document_of(Scene scene, const FittedScene* previous, const Progress& progress = {}) {
     const mobb::FitOptions options = scene.fit;
-    ViewState view = scene.view;
-    return {std::make_shared<const FittedScene>(std::move(scene), options, previous, progress), std::move(view)};
+    const ViewState view = scene.view;
+    return {std::make_shared<const FittedScene>(std::move(scene), options, previous, progress), view};
 }
 
 /// Whether trees over these clips are made in an instant.
@@ -86,9 +86,9 @@ void Session::edit(const EditName& name, const std::function<void(Scene&)>& chan
 void Session::look(const std::function<void(ViewState&)>& change) {
     ViewState next = view();
     change(next);
-    next = fitting(std::move(next), fitted());
+    next = fitting(next, fitted());
     if (next == view()) return;
-    history_.look(std::move(next));
+    history_.look(next);
     changed();
 }
 
@@ -162,7 +162,7 @@ std::string Session::title() const {
 }
 
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
-    document.view = fitting(std::move(document.view), *document.fitted);
+    document.view = fitting(document.view, *document.fitted);
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
     opened_ = opened;

@@ -112,7 +112,7 @@ int open_window(const CLI::App& program, const WindowArguments& arguments) {
     if (!arguments.script.empty()) return run_script(scene, arguments);
     show_window(scene, arguments);
     // A job that was given up may still be at work, on what an ordinary end destroys.
-    if (app::Job::any_running()) {
+    if (app::Job::any_left()) {
         flush_results();
         std::quick_exit(kDone);
     }

@@ -331,9 +331,9 @@ TEST(Jobs, ADroppedOneWakesNobodyAndIsCountedUntilItEnds) {
             [&] { ++woken; });
         EXPECT_FALSE(job.done());
     }
-    EXPECT_TRUE(Job::any_running());
+    EXPECT_TRUE(Job::any_left());
     may_end = true;
-    while (Job::any_running()) std::this_thread::yield();
+    while (Job::any_left()) std::this_thread::yield();
     EXPECT_EQ(woken, 0);
 }
 

@@ -6,7 +6,7 @@
 namespace mobbscope::app {
 
 std::string fitted_text(const std::string& text, float room) {
-    const std::string line = cleaned(text);
+    std::string line = cleaned(text);
     if (ImGui::CalcTextSize(line.c_str()).x <= room) return line;
     const float left = std::max(room - ImGui::CalcTextSize("\u2026").x, 0.0f);
     const char* end = nullptr;

@@ -12,8 +12,10 @@ namespace {
 /// Diagonal lines inside a rectangle, rising to the right.
 void hatch(ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, float spacing, float width) {
     // Aligned to the window, not to the cell, so that neighbours go on in each other.
-    const float first = std::ceil((min.x + min.y) / spacing) * spacing;
-    for (float sum = first; sum < max.x + max.y; sum += spacing) {
+    const int first = static_cast<int>(std::ceil((min.x + min.y) / spacing));
+    const int end = static_cast<int>(std::ceil((max.x + max.y) / spacing));
+    for (int i = first; i < end; ++i) {
+        const float sum = static_cast<float>(i) * spacing;
         const float x0 = std::max(min.x, sum - max.y);
         const float x1 = std::min(max.x, sum - min.y);
         if (x1 > x0) list.AddLine({x0, sum - x0}, {x1, sum - x1}, color, width);
@@ -37,7 +39,9 @@ void dashed_line(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 color, float wi
     const float length = std::hypot(to.x - from.x, to.y - from.y);
     if (length <= 0) return;
     const ImVec2 along{(to.x - from.x) / length, (to.y - from.y) / length};
-    for (float at = 0; at < length; at += 2 * on) {
+    const int dashes = static_cast<int>(std::ceil(length / (2 * on)));
+    for (int i = 0; i < dashes; ++i) {
+        const float at = 2 * on * static_cast<float>(i);
         const float until = std::min(at + on, length);
         list.AddLine({from.x + along.x * at, from.y + along.y * at},
                      {from.x + along.x * until, from.y + along.y * until}, color, width);
