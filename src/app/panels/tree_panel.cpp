@@ -73,7 +73,7 @@ void time_scale(Ui& ui) {
     if (changed && std::isfinite(value)) invoke(ui.session, "tree.time_scale", short_double(value));
 }
 
-constexpr float kLeastCell = 13;  // pixels at scale 1: a level's number
+constexpr float kLeastCell = 10.5f;  // pixels at scale 1: a level's number
 
 /// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
