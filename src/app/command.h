@@ -5,6 +5,7 @@
 #include <app/key.h>
 #include <app/session.h>
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,7 +42,10 @@ const Command* find_command(std::string_view id);
 /// given an argument that it does not take or none where it needs one; and what the command throws.
 void run_command(Session& session, std::string_view id, const std::string& argument = "");
 
-/// The same for a person: what goes wrong becomes a message in the window.
+/// Does something for a person: what it throws becomes a message in the window.
+void attempt(Session& session, const std::function<void()>& something);
+
+/// Runs a command for a person.
 void invoke(Session& session, std::string_view id, const std::string& argument = "");
 
 /// The command that a chord calls; null if none.

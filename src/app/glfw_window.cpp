@@ -207,6 +207,7 @@ struct GlfwWindow::State {
         };
     }
     ~State() {
+        session.cancel_job();  // it would wake a window that is gone
         session.hooks.wake = nullptr;
         session.hooks.set_clipboard = nullptr;
         session.hooks.clipboard = nullptr;
@@ -259,6 +260,8 @@ struct GlfwWindow::State {
         });
         glfwSetWindowCloseCallback(window, [](GLFWwindow* of) {
             glfwSetWindowShouldClose(of, GLFW_FALSE);
+            // No frame is drawn of a minimised window, and it may have to ask about unsaved changes.
+            if (glfwGetWindowAttrib(of, GLFW_ICONIFIED)) glfwRestoreWindow(of);
             shell_of(of).feed(CloseRequest{});
         });
         glfwSetWindowContentScaleCallback(

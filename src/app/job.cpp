@@ -1,10 +1,24 @@
 #include <app/job.h>
 
 #include <condition_variable>
+#include <memory>
 #include <thread>
 #include <utility>
 
 namespace mobbscope::app {
+
+namespace {
+
+std::atomic<int> running = 0;  // threads, those of dropped jobs too
+
+struct Running {
+    Running() { ++running; }
+    ~Running() { --running; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+};
+
+}  // namespace
 
 void JobControl::step(std::size_t done, std::size_t all) {
     if (cancelled_) throw Cancelled();
@@ -19,11 +33,13 @@ struct Job::Shared {
     bool done = false;
     Finish finish;
     std::exception_ptr error;
+    std::function<void()> wake;  ///< empty when nobody waits any more
 };
 
 Job::Job(std::string title, Work work, std::function<void()> wake)
     : title_(std::move(title)), shared_(std::make_shared<Shared>()) {
-    std::thread([shared = shared_, work = std::move(work), wake = std::move(wake)]() mutable {
+    shared_->wake = std::move(wake);
+    std::thread([shared = shared_, work = std::move(work), running = std::make_unique<Running>()]() mutable {
         Finish finish;
         std::exception_ptr error;
         try {
@@ -38,13 +54,23 @@ Job::Job(std::string title, Work work, std::function<void()> wake)
             shared->finish = std::move(finish);
             shared->error = error;
             shared->done = true;
+            if (shared->wake) shared->wake();
         }
         shared->changed.notify_all();
-        if (wake) wake();
+        // A result that nobody waits for goes before the thread counts as ended.
+        shared.reset();
+        running.reset();
     }).detach();
 }
 
-Job::~Job() { cancel(); }
+Job::~Job() {
+    cancel();
+    // Who is to be woken may go now.
+    const std::scoped_lock lock(shared_->mutex);
+    shared_->wake = nullptr;
+}
+
+bool Job::any_running() { return running > 0; }
 
 double Job::progress() const { return shared_->control.progress(); }
 

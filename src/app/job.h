@@ -38,12 +38,16 @@ class Job {
     using Finish = std::function<void()>;
     using Work = std::function<Finish(JobControl&)>;
 
-    /// `wake` is called, from the job's thread, when the work is done.
+    /// `wake` is called, from the job's thread, when the work is done, unless the job is gone by then. It must not call
+    /// the job.
     Job(std::string title, Work work, std::function<void()> wake);
     /// Cancels. A job in the midst of a long step ends by itself later; its result is dropped.
     ~Job();
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
+
+    /// Whether the thread of any job, also of a dropped one, is still at work: then no static may be destroyed.
+    static bool any_running();
 
     const std::string& title() const { return title_; }
     double progress() const;

@@ -165,6 +165,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
     opened_ = opened;
+    if (attended_ && !opened.empty()) settings.remember(opened.front());
     selection = {};
     hovered = {};
     playing = false;
@@ -185,7 +186,6 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
         load(
             "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),
             [files](JobControl& control) { return load_files(files, control); }, files);
-        if (attended_ && !files.empty()) settings.remember(files.front());
     });
 }
 
@@ -193,7 +193,6 @@ void Session::open_scene(const Scene& scene, const std::vector<std::filesystem::
     after_asking([this, scene, files] {
         load(
             "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
-        if (attended_ && !files.empty()) settings.remember(files.front());
     });
 }
 
@@ -340,7 +339,8 @@ mobb::Interval Session::time_span() const {
 }
 
 void Session::advance(double seconds) {
-    if (!playing || empty()) return;
+    // What a job hands over is seen as it was when it began.
+    if (!playing || empty() || job_) return;
     const mobb::Interval span = time_span();
     double time = view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;

@@ -38,8 +38,8 @@ struct Hooks {
     std::function<void()> wake;                             ///< from any thread: there is news, draw a frame
     std::function<void(const std::string&)> set_clipboard;  ///< UTF-8
     std::function<std::string()> clipboard;                 ///< likewise
-    std::function<Camera()> settled_camera;                 ///< of the viewport's picture, see render/settle.h
     std::function<PictureSize()> viewport_size;             ///< of the viewport's picture
+    std::function<double()> viewport_scale;                 ///< of its text and lines, as build_draw_list takes it
     std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
     std::function<double()> ui_scale;                                  ///< at which text and panels are drawn now
 };
@@ -105,7 +105,7 @@ class Session {
     // What is pointed at.
     Selection selection;  ///< always of something that exists
     Selection hovered;    ///< under the mouse in any panel
-    void select(const Selection& selected) { selection = selected; }
+    void select(const Selection& selected) { selection = exists(fitted(), selected) ? selected : Selection{}; }
 
     // Files.
     /// Where Save writes; none: Save asks.

@@ -171,6 +171,8 @@ struct Shell::State {
         if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none || session.job()) {
             return false;
         }
+        // A drag ends on what it began on.
+        if (input.any_button_down()) return false;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return false;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return false;
@@ -183,11 +185,8 @@ struct Shell::State {
         if (dropped.paths.empty()) return;
         const bool clips = std::none_of(dropped.paths.begin(), dropped.paths.end(),
                                         [](const auto& path) { return lower_extension(path) == ".json"; });
-        try {
-            clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths);
-        } catch (const std::exception& error) {
-            session.tell(Message::Level::error, error.what());
-        }
+        attempt(session,
+                [&] { clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths); });
     }
 
     void feed() {
@@ -267,8 +266,11 @@ Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale)
 }
 
 Shell::~Shell() {
-    state_->session.hooks.export_picture = nullptr;
-    state_->session.hooks.ui_scale = nullptr;
+    Hooks& hooks = state_->session.hooks;
+    hooks.export_picture = nullptr;
+    hooks.ui_scale = nullptr;
+    hooks.viewport_size = nullptr;
+    hooks.viewport_scale = nullptr;
 }
 
 void Shell::feed(const InputEvent& event) { state_->input.push(event); }

@@ -20,7 +20,7 @@ inline constexpr double kMostScale = 4;
 class Shell {
   public:
     /// `scale`: of text and panels where the settings say none; either is brought within kLeastScale..kMostScale. Takes
-    /// over the session's hooks for exported pictures and the scale. Throws MachineError if OpenGL fails.
+    /// over the session's hooks about the picture and the scale. Throws MachineError if OpenGL fails.
     Shell(std::unique_ptr<GlContext> context, Session& session, double scale);
     ~Shell();
     Shell(const Shell&) = delete;

@@ -139,8 +139,8 @@ void Viewport::draw(Ui& ui) {
     }
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
-    ui.session.hooks.settled_camera = [this] { return settled_camera(); };
     ui.session.hooks.viewport_size = [size] { return size; };
+    ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
     if (!list_) {
         ImGui::TextWrapped("%s", why_not_.c_str());
         return;
@@ -255,19 +255,17 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
     if (!placement) return;
     const Camera camera = settled_camera();
     const double height = list_->space.time_height;
-    const std::string& name = ui.session.scene().agents[static_cast<std::size_t>(handle_drag_.agent)].name;
     const char* what = handle_drag_.handle == Handle::move   ? "moving "
                        : handle_drag_.handle == Handle::turn ? "turning "
                                                              : "shifting ";
-    try {
+    attempt(ui.session, [&] {
+        const std::string& name = ui.session.scene().agents.at(static_cast<std::size_t>(handle_drag_.agent)).name;
         ui.session.edit({what + name, "drag"}, [&](Scene& scene) {
             place_agent(scene, handle_drag_.agent, *placement);
             scene.view.camera = camera;
             scene.view.time_height = height;
         });
-    } catch (const std::exception& error) {
-        ui.session.tell(Message::Level::error, error.what());
-    }
+    });
 }
 
 void Viewport::release(Ui& ui, glm::vec2 pixel) {

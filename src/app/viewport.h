@@ -20,8 +20,6 @@ class Viewport {
 
     /// What it showed last, as `render` would draw it but for a flight under way; null for an empty scene.
     const DrawList* shown() const { return list_ ? &*list_ : nullptr; }
-    /// Its texture was drawn over: the next frame paints again.
-    void repaint() { painted_ = false; }
 
   private:
     /// All that the picture depends on.

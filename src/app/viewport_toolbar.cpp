@@ -1,4 +1,5 @@
 #include <app/command.h>
+#include <app/panels/command_button.h>
 #include <app/viewport.h>
 
 #include <array>
@@ -7,24 +8,15 @@ namespace mobbscope::app {
 
 namespace {
 
-/// A small button for a command; lit while the command says it is on.
-void command_button(Ui& ui, const char* label, const char* id) {
-    const Command* command = find_command(id);
-    if (!command) return;
-    const bool on = command->checked && command->checked(ui.session);
-    const bool enabled = command->enabled(ui.session);
-    ImGui::BeginDisabled(!enabled);
+/// Lit while the command says it is on.
+void toolbar_button(Ui& ui, const char* label, const char* id) {
+    const Command& command = *find_command(id);
+    const bool on = command.checked && command.checked(ui.session);
     ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.look.raised : IM_COL32_BLACK_TRANS);
     // A toggle that is off steps back; what has no state does not.
-    ImGui::PushStyleColor(ImGuiCol_Text, on || !command->checked ? ui.look.text : ui.look.quiet);
-    if (ImGui::Button(label)) invoke(ui.session, id);
+    ImGui::PushStyleColor(ImGuiCol_Text, on || !command.checked ? ui.look.text : ui.look.quiet);
+    command_button(ui, label, id, std::string("toolbar.") + id);
     ImGui::PopStyleColor(2);
-    ImGui::EndDisabled();
-    ui.mark(std::string("toolbar.") + id);
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-        ImGui::SetTooltip("%.*s  %.*s", static_cast<int>(command->title.size()), command->title.data(),
-                          static_cast<int>(command->shortcut.size()), command->shortcut.data());
-    }
 }
 
 }  // namespace
@@ -51,16 +43,14 @@ void viewport_toolbar(Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(8), ui.px(3)});
     ImGui::SetCursorPos({ui.px(6), ui.px(4)});
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
-    float widest = 0;
     for (const Item& item : kItems) {
         if (!item.label) {
             ImGui::SameLine(0, ui.px(14));
             continue;
         }
-        widest = ImGui::CalcTextSize(item.label).x + ui.px(16);
         // What has no room is still in the menus.
-        if (ImGui::GetCursorScreenPos().x + widest > right) break;
-        command_button(ui, item.label, item.id);
+        if (ImGui::GetCursorScreenPos().x + button_width(item.label) > right) break;
+        toolbar_button(ui, item.label, item.id);
         ImGui::SameLine();
     }
     ImGui::NewLine();

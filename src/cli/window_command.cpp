@@ -13,6 +13,7 @@
 #include <render/render.h>
 #include <scene/demo_scene.h>
 
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -64,6 +65,20 @@ int run_script(const Scene& scene, const WindowArguments& arguments) {
     return kDone;
 }
 
+/// Until it is closed.
+void show_window(const Scene& scene, const WindowArguments& arguments) {
+    const std::filesystem::path file = app::settings_file();
+    app::Session session(true, app::load_settings(file));
+    const double usual_scale = session.settings.ui_scale;
+    if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
+    app::GlfwWindow window(session, arguments.size);
+    session.open_scene(scene, arguments.files);
+    window.run();
+    // What the command line asked for holds this once.
+    if (session.settings.ui_scale == arguments.ui_scale) session.settings.ui_scale = usual_scale;
+    app::save_settings(file, session.settings);
+}
+
 }  // namespace
 
 void add_window_options(CLI::App& program, WindowArguments& arguments) {
@@ -95,16 +110,12 @@ int open_window(const CLI::App& program, const WindowArguments& arguments) {
     }
     const Scene scene = load_all(program, arguments.files);
     if (!arguments.script.empty()) return run_script(scene, arguments);
-    const std::filesystem::path file = app::settings_file();
-    app::Session session(true, app::load_settings(file));
-    const double usual_scale = session.settings.ui_scale;
-    if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
-    app::GlfwWindow window(session, arguments.size);
-    session.open_scene(scene, arguments.files);
-    window.run();
-    // What the command line asked for holds this once.
-    if (session.settings.ui_scale == arguments.ui_scale) session.settings.ui_scale = usual_scale;
-    app::save_settings(file, session.settings);
+    show_window(scene, arguments);
+    // A job that was given up may still be at work, on what an ordinary end destroys.
+    if (app::Job::any_running()) {
+        flush_results();
+        std::quick_exit(kDone);
+    }
     return kDone;
 }
 

@@ -50,6 +50,10 @@ SceneQuery query_at(const Scene& scene, std::size_t index) {
     return {participant_of(scene, a), participant_of(scene, b), {}, {}};
 }
 
+std::size_t query_of_pair(const Scene& scene, std::size_t a, std::size_t b) {
+    return pairs_before(a, scene.agents.size()) + (b - a - 1);
+}
+
 std::vector<Participant> participants(const Scene& scene) {
     std::vector<Participant> out;
     for (std::size_t agent = 0; agent < scene.agents.size(); ++agent) out.push_back(participant_of(scene, agent));

@@ -79,6 +79,8 @@ std::size_t query_count(const Scene& scene);
 /// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
 /// when asked for: the pairs of a crowd would fill the memory.
 SceneQuery query_at(const Scene& scene, std::size_t index);
+/// The index of the query that asks agent a against b > a where all pairs are asked.
+std::size_t query_of_pair(const Scene& scene, std::size_t a, std::size_t b);
 
 /// What is drawn and asked about: the agents, or without any, every clip where it is.
 std::vector<Participant> participants(const Scene& scene);

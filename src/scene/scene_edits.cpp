@@ -33,11 +33,43 @@ void change_sides(Scene& scene, int agent, const Change& change) {
     }
 }
 
+/// Where all pairs are asked the numbers of queries change with the agents. Made before they do, its `restore` shows
+/// the two that were shown again, or no query if one of them is gone.
+class PairInView {
+  public:
+    explicit PairInView(const Scene& scene) {
+        const std::optional<int> query = scene.view.query;
+        if (!query || !scene.queries.empty() || static_cast<std::size_t>(*query) >= query_count(scene)) return;
+        const SceneQuery shown = query_at(scene, static_cast<std::size_t>(*query));
+        agents_ = {shown.a.agent, shown.b.agent};
+    }
+
+    void agent_removed(int agent) {
+        if (!agents_) return;
+        gone_ = agents_->first == agent || agents_->second == agent;
+        agents_->first -= agents_->first > agent ? 1 : 0;
+        agents_->second -= agents_->second > agent ? 1 : 0;
+    }
+
+    void restore(Scene& scene) const {
+        if (!agents_) return;
+        scene.view.query.reset();
+        if (gone_) return;
+        scene.view.query = static_cast<int>(
+            query_of_pair(scene, static_cast<std::size_t>(agents_->first), static_cast<std::size_t>(agents_->second)));
+    }
+
+  private:
+    std::optional<std::pair<int, int>> agents_;
+    bool gone_ = false;
+};
+
 std::filesystem::path relative_source(const std::filesystem::path& source, const std::filesystem::path& from,
                                       const std::filesystem::path& to) {
     if (source.is_absolute()) return source;
-    const std::filesystem::path led = std::filesystem::absolute(from / source).lexically_normal();
-    const std::filesystem::path leads = led.lexically_proximate(std::filesystem::absolute(to).lexically_normal());
+    const std::filesystem::path here = std::filesystem::current_path();
+    const std::filesystem::path led = (here / from / source).lexically_normal();
+    const std::filesystem::path leads = led.lexically_proximate((here / to).lexically_normal());
     return leads.empty() ? led : leads;
 }
 
@@ -80,7 +112,9 @@ int add_agent(Scene& scene, int clip, const mobb::Placement& placement) {
     if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");
     add_agents_for_clips(scene);
     const std::string& wanted = scene.clips.at(static_cast<std::size_t>(clip)).name;
+    const PairInView shown(scene);
     scene.agents.push_back({unused_agent_name(scene, wanted), clip, placement, {}});
+    shown.restore(scene);
     return static_cast<int>(scene.agents.size()) - 1;
 }
 
@@ -88,24 +122,30 @@ int duplicate_agent(Scene& scene, int agent) {
     Agent copy = agent_at(scene, agent);
     copy.name = unused_agent_name(scene, copy.name);
     copy.color.reset();  // the palette tells the two apart
+    const PairInView shown(scene);
     scene.agents.push_back(std::move(copy));
+    shown.restore(scene);
     return static_cast<int>(scene.agents.size()) - 1;
 }
 
 void remove_agent(Scene& scene, int agent) {
     if (scene.agents.size() == 1) throw std::invalid_argument("the last agent stays: a scene needs one");
     agent_at(scene, agent);
+    PairInView shown(scene);
     scene.agents.erase(scene.agents.begin() + agent);
-    const bool explicit_queries = !scene.queries.empty();
-    std::erase_if(scene.queries,
-                  [&](const SceneQuery& query) { return query.a.agent == agent || query.b.agent == agent; });
+    shown.agent_removed(agent);
+    const auto is_about_it = [&](const SceneQuery& query) { return query.a.agent == agent || query.b.agent == agent; };
+    std::optional<int>& in_view = scene.view.query;
+    if (in_view && static_cast<std::size_t>(*in_view) < scene.queries.size()) {
+        const auto at = scene.queries.begin() + *in_view;
+        const auto before = std::count_if(scene.queries.begin(), at, is_about_it);
+        in_view = is_about_it(*at) ? std::nullopt : std::optional(*in_view - static_cast<int>(before));
+    }
+    std::erase_if(scene.queries, is_about_it);
     for (SceneQuery& query : scene.queries) {
         for (Participant* side : {&query.a, &query.b}) side->agent -= side->agent > agent ? 1 : 0;
     }
-    // With its last query gone the scene asks all pairs again, and the one in view may be past the end.
-    if (scene.view.query && (explicit_queries || static_cast<std::size_t>(*scene.view.query) >= query_count(scene))) {
-        scene.view.query.reset();
-    }
+    shown.restore(scene);
 }
 
 std::size_t add_query(Scene& scene, int a, int b) {
@@ -150,6 +190,7 @@ void merge(Scene& scene, Scene other) {
     }
     if (!other.queries.empty()) make_queries_explicit(scene);
     move_sources(other, other.file.parent_path(), scene.file.parent_path());
+    const PairInView shown(scene);
     const int first_clip = static_cast<int>(scene.clips.size());
     const int first_agent = static_cast<int>(scene.agents.size());
     for (SceneClip& clip : other.clips) {
@@ -170,6 +211,7 @@ void merge(Scene& scene, Scene other) {
         }
         scene.queries.push_back(std::move(query));
     }
+    shown.restore(scene);
 }
 
 void move_to_file(Scene& scene, const std::filesystem::path& file) {

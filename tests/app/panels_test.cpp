@@ -2,6 +2,7 @@
 #include <app/headless_window.h>
 #include <app/look.h>
 #include <render/gl_context.h>
+#include <render/lens.h>
 #include <render/png.h>
 
 #include "app/crossing_folder.h"
@@ -44,12 +45,12 @@ struct Window {
         window.settle();
     }
     bool has(const std::string& mark) { return window.shell().marks().all().contains(mark); }
-    void click(const std::string& mark) {
+    void click(const std::string& mark, int button = 0) {
         const auto at = window.shell().marks().all().find(mark);
         ASSERT_NE(at, window.shell().marks().all().end()) << mark;
         window.shell().feed(MouseMove{at->second.center()});
-        window.shell().feed(MouseButton{0, true});
-        window.shell().feed(MouseButton{0, false});
+        window.shell().feed(MouseButton{button, true});
+        window.shell().feed(MouseButton{button, false});
         window.settle();
     }
     /// A picture to look at, where MOBBSCOPE_LOOK names a folder.
@@ -65,6 +66,60 @@ struct Window {
         }
     }
 };
+
+TEST(Panels, ARowsMenuRemovesItsAgent) {
+    Window w;
+    for (const std::size_t left : {2u, 1u}) {
+        w.click("agent.0", 1);
+        w.click("agent.menu.agent.remove");
+        ASSERT_EQ(w.session.scene().agents.size(), left);
+        EXPECT_EQ(w.session.selection, Selection{});
+    }
+    EXPECT_EQ(w.session.scene().agents[0].name, "C");
+}
+
+TEST(Panels, KeysDoNothingToWhatIsBeingDragged) {
+    Window w;
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.duplicate");
+    w.window.settle();
+    Shell& shell = w.window.shell();
+    const glm::vec2 at = shell.marks().all().at("handle.move").center();
+    shell.feed(MouseMove{at});
+    shell.feed(MouseButton{0, true});
+    shell.feed(MouseMove{at + glm::vec2(40, 0)});
+    w.window.settle();
+    ASSERT_TRUE(w.session.history().undo_title().starts_with("moving"));
+    for (int i = 0; i < 3; ++i) w.key("Ctrl+Z");
+    EXPECT_EQ(w.session.scene().agents.size(), 4u);
+    shell.feed(MouseMove{at + glm::vec2(60, 0)});
+    shell.feed(MouseButton{0, false});
+    w.window.settle();
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.session.history().redo_title().substr(0, 6), "moving");
+    EXPECT_EQ(w.session.scene().agents.size(), 4u);
+}
+
+TEST(Panels, TheCameraGoesOnFromWhatKeysHaveMade) {
+    Window w;
+    w.window.shell().feed(KeyPress{Key::n2, true});
+    w.window.shell().feed(KeyPress{Key::equal, true});
+    w.window.settle();
+    EXPECT_NEAR(orientation(w.session.view().camera).pitch_deg, 90, 1e-9) << "from above, and nearer";
+}
+
+TEST(Panels, ALongNameIsKeptWhole) {
+    Window w;
+    const std::string name = "\u00E9" + std::string(300, 'x');
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.rename", name);
+    w.window.settle();
+    w.click("agent.name");
+    w.key("End");
+    w.type("!");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().agents[0].name, name + "!");
+}
 
 TEST(Panels, ThePaletteRunsWhatWasTyped) {
     Window w;

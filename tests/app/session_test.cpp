@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -82,6 +83,14 @@ TEST(Undo, GoesBackFiveHundredStatesAtMost) {
     EXPECT_EQ(e.x(), 10 + 599 - 499);
 }
 
+TEST(Undo, OneDragOfAFitOptionIsOneEdit) {
+    Edited e;
+    for (const char* scale : {"1.5", "1.6", "1.7"}) run_command(e.session, "tree.time_scale", scale);
+    e.session.undo();
+    EXPECT_EQ(e.session.scene().fit.time_scale, 1);
+    EXPECT_EQ(e.x(), 4);
+}
+
 TEST(Undo, AFailedEditChangesNothing) {
     Edited e;
     const auto before = e.session.document().fitted;
@@ -128,6 +137,17 @@ TEST(Opening, SeveralFilesAndFoldersBecomeOneScene) {
     run_command(session, "file.reload");
     EXPECT_EQ(session.scene().clips.size(), 2u) << "all that was opened is read again";
     EXPECT_EQ(all_messages(session), "");
+}
+
+TEST(Opening, OnlyWhatCouldBeOpenedIsRemembered) {
+    CrossingFolder folder;
+    Session session(true);
+    session.open({folder.file("none.csv")});
+    while (session.job()) session.poll();
+    EXPECT_TRUE(session.settings.recent.empty());
+    session.open({folder.scene});
+    while (session.job()) session.poll();
+    EXPECT_EQ(session.settings.recent, std::vector{folder.scene});
 }
 
 TEST(Opening, AnEmptyFolderIsRefused) {
@@ -296,6 +316,38 @@ TEST(Jobs, ACancelledFitLeavesTheDocument) {
     while (opened.job()) opened.poll();
     EXPECT_EQ(opened.scene().fit.leaf, 5);
     EXPECT_EQ(opened.scene().fit.axes, mobb::Axes::endpoints);
+}
+
+TEST(Jobs, ADroppedOneWakesNobodyAndIsCountedUntilItEnds) {
+    std::atomic<bool> may_end = false;
+    std::atomic<int> woken = 0;
+    {
+        const Job job(
+            "waiting",
+            [&](JobControl&) -> Job::Finish {
+                while (!may_end) std::this_thread::yield();
+                return nullptr;
+            },
+            [&] { ++woken; });
+        EXPECT_FALSE(job.done());
+    }
+    EXPECT_TRUE(Job::any_running());
+    may_end = true;
+    while (Job::any_running()) std::this_thread::yield();
+    EXPECT_EQ(woken, 0);
+}
+
+TEST(Jobs, WhatPlaysWaitsForThem) {
+    CrossingFolder folder;
+    Session session(true);
+    session.open({long_walk(folder)});
+    while (session.job()) session.poll();
+    run_command(session, "time.play");
+    run_command(session, "tree.axes", "minarea");
+    ASSERT_TRUE(session.job());
+    const ViewState before = session.view();
+    session.advance(0.1);
+    EXPECT_EQ(session.view(), before) << "the job would set it back";
 }
 
 TEST(Jobs, UnattendedTheyAreWaitedFor) {

@@ -78,11 +78,42 @@ TEST(SceneEdits, RemovingAnAgentRemovesItsQueries) {
     EXPECT_THROW(remove_agent(scene, 0), std::invalid_argument);
 }
 
-TEST(SceneEdits, TheQueryInViewIsOneThatThereIs) {
+/// What the query in view asks; empty if none is.
+std::string in_view(const Scene& scene) {
+    if (!scene.view.query) return "";
+    const SceneQuery query = query_at(scene, static_cast<std::size_t>(*scene.view.query));
+    return query.a.name + '-' + query.b.name;
+}
+
+TEST(SceneEdits, TheQueryInViewStaysWhenAgentsComeAndGo) {
+    for (const std::string& queries : {std::string(), kQueries}) {
+        Scene scene = parse(kAgents + queries);
+        scene.view.query = 2;
+        ASSERT_EQ(in_view(scene), "B-C");
+        add_agent(scene, 0);
+        EXPECT_EQ(in_view(scene), "B-C");
+        duplicate_agent(scene, 1);
+        EXPECT_EQ(in_view(scene), "B-C");
+        merge(scene, parse(kAgents));
+        EXPECT_EQ(in_view(scene), "B-C");
+        remove_agent(scene, 0);
+        EXPECT_EQ(in_view(scene), "B-C");
+        remove_agent(scene, 1);
+        EXPECT_EQ(in_view(scene), "") << "C is gone";
+    }
     Scene scene = parse(kAgents);
-    scene.view.query = 2;
+    scene.view.query = 0;
     remove_agent(scene, 0);
-    EXPECT_FALSE(scene.view.query) << "of three pairs one is left";
+    EXPECT_EQ(in_view(scene), "") << "not the next pair, which has its number now";
+}
+
+TEST(SceneEdits, SourcesOfAFileNamedWithoutItsFolderLeadWhereTheyLed) {
+    Scene scene = parse();
+    scene.clips[0].source = "clips/walk.csv";
+    move_to_file(scene, "deep/copy.json");
+    EXPECT_EQ(scene.clips[0].source, "../clips/walk.csv");
+    move_to_file(scene, "again.json");
+    EXPECT_EQ(scene.clips[0].source, "clips/walk.csv");
 }
 
 TEST(SceneEdits, NewAgentsHaveNamesOfTheirOwn) {

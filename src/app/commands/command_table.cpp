@@ -60,12 +60,16 @@ void run_command(Session& session, std::string_view id, const std::string& argum
     command->run(session, argument);
 }
 
-void invoke(Session& session, std::string_view id, const std::string& argument) {
+void attempt(Session& session, const std::function<void()>& something) {
     try {
-        run_command(session, id, argument);
+        something();
     } catch (const std::exception& error) {
         session.tell(Message::Level::error, error.what());
     }
+}
+
+void invoke(Session& session, std::string_view id, const std::string& argument) {
+    attempt(session, [&] { run_command(session, id, argument); });
 }
 
 const Command* command_for(const Chord& chord) {

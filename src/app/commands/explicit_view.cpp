@@ -44,14 +44,13 @@ double drawn_time_height(const Session& session) {
 
 void move_camera(Session& session, const std::function<Camera(const Camera&, PictureSize)>& move) {
     const PictureSize size = viewport_size(session);
-    const double time_height = drawn_time_height(session);
-    const Camera camera = session.hooks.settled_camera
-                              ? session.hooks.settled_camera()
-                              : settled(session.view().camera, build_draw_list(session.fitted(), session.view(), size));
+    const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
+    const DrawList list = build_draw_list(session.fitted(), session.view(), size, scale);
+    const Camera camera = settled(session.view().camera, list);
     const Camera moved = move(camera, size);
     session.look([&](ViewState& view) {
         view.camera = moved;
-        view.time_height = time_height;
+        view.time_height = list.space.time_height;
     });
 }
 

@@ -15,7 +15,7 @@ std::vector<std::string> as_strings(std::span<const std::string_view> names) { r
 
 template <class Change>
 void fit(Session& session, const std::string& doing, const Change& change) {
-    session.edit({doing, ""}, [&](Scene& scene) { change(scene.fit); });
+    session.edit({doing, doing}, [&](Scene& scene) { change(scene.fit); });
 }
 
 void set_kind(Session& session, const std::string& text) {

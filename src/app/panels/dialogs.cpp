@@ -1,9 +1,8 @@
-#include <app/key.h>
+#include <app/command.h>
 #include <app/panels.h>
 #include <app/panels/dialog_frame.h>
 #include <app/panels/dialogs.h>
 
-#include <exception>
 #include <string>
 
 namespace mobbscope::app {
@@ -11,11 +10,7 @@ namespace mobbscope::app {
 namespace {
 
 void answer(Ui& ui, Session::Unsaved choice) {
-    try {
-        ui.session.answer_unsaved(choice);
-    } catch (const std::exception& error) {
-        ui.session.tell(Message::Level::error, error.what());
-    }
+    attempt(ui.session, [&] { ui.session.answer_unsaved(choice); });
 }
 
 void unsaved(Ui& ui) {

@@ -1,12 +1,14 @@
 #include <app/command.h>
 #include <app/panels.h>
-#include <app/panels/parts.h>
+#include <app/panels/section.h>
 #include <scene/scene_edits.h>
+
+#include <imgui_stdlib.h>
 
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <stdexcept>
+#include <cstdint>
+#include <string>
 
 namespace mobbscope::app {
 
@@ -26,16 +28,13 @@ bool number(Ui& ui, const char* label, const char* name, double& value, float sp
 
 void rename(Ui& ui, int agent, const std::string& name) {
     form_label(ui, "Name", "What the agent is called in queries and pictures");
-    std::array<char, 256> text{};
-    std::strncpy(text.data(), name.c_str(), text.size() - 1);
-    ImGui::InputText("##agent.name", text.data(), text.size());
+    std::string text = name;
+    ImGui::InputText("##agent.name", &text);
     ui.mark("agent.name");
-    if (!ImGui::IsItemDeactivatedAfterEdit() || name == text.data()) return;
-    try {
-        ui.session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text.data()); });
-    } catch (const std::exception& error) {
-        ui.session.tell(Message::Level::error, error.what());
-    }
+    if (!ImGui::IsItemDeactivatedAfterEdit() || name == text) return;
+    attempt(ui.session, [&] {
+        ui.session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text); });
+    });
 }
 
 void color(Ui& ui, const Participant& who, int index) {
@@ -46,9 +45,11 @@ void color(Ui& ui, const Participant& who, int index) {
         ImGui::ColorEdit3("##agent.color", rgb.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
     ui.mark("agent.color");
     if (!changed) return;
-    ui.session.edit({"colouring " + who.name, "color"}, [&](Scene& scene) {
-        const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
-        scene.agents[static_cast<std::size_t>(who.agent)].color = Color{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
+    const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
+    const Color wanted{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
+    attempt(ui.session, [&] {
+        ui.session.edit({"colouring " + who.name, "color"},
+                        [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
     });
 }
 
@@ -59,7 +60,8 @@ void placement_panel(Ui& ui) {
     if (!session.selection.on_path()) return;
     const auto who = participant_of(session.fitted(), session.selection.path);
     if (!who || who->agent < 0) return;
-    ImGui::PushID("placement");
+    // Of this agent: what is half typed into a field is no other's.
+    ImGui::PushID(who->agent);
     heading(ui, "PLACEMENT");
     rename(ui, who->agent, who->name);
     mobb::Placement placement = who->placement;
@@ -71,12 +73,10 @@ void placement_panel(Ui& ui) {
                       "Global time at which the clip begins");
     color(ui, *who, session.selection.path.participant);
     if (changed) {
-        try {
+        attempt(session, [&] {
             session.edit({"placing " + who->name, "placement"},
                          [&](Scene& scene) { place_agent(scene, who->agent, placement); });
-        } catch (const std::exception& error) {
-            session.tell(Message::Level::error, error.what());
-        }
+        });
     }
     if (ImGui::SmallButton("Duplicate")) invoke(session, "agent.duplicate");
     ui.mark("agent.duplicate");

@@ -33,7 +33,7 @@ void expectation(Ui& ui) {
         }
         words(ui.look.warning, "Not as the scene expects: " + *wrong);
     }
-    command_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
+    query_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
 }
 
 void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& contact) {
@@ -64,7 +64,7 @@ void query_answer(Ui& ui, const QueryFindings& findings) {
     ui.mark("query.answer");
     if (const auto& contact = ui.session.recorded()->contact) {
         contact_rows(ui, findings, *contact);
-        command_button(ui, "Go to contact", "go.contact");
+        query_button(ui, "Go to contact", "go.contact");
     }
     expectation(ui);
 }

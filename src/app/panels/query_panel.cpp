@@ -18,17 +18,22 @@ void query_header(Ui& ui) {
     ImGui::TextUnformatted(count == 1 ? "Query" : ("Query " + which).c_str());
     ImGui::PopStyleColor();
     if (count > 1) {
-        flow(command_button_width("previous"));
-        command_button(ui, "previous", "query.previous");
-        flow(command_button_width("next"));
-        command_button(ui, "next", "query.next");
+        flow(button_width("previous"));
+        query_button(ui, "previous", "query.previous");
+        flow(button_width("next"));
+        query_button(ui, "next", "query.next");
     }
-    flow(command_button_width("close"));
-    command_button(ui, "close", "query.none");
+    flow(button_width("close"));
+    query_button(ui, "close", "query.none");
     ImGui::PopStyleVar();
 }
 
 }  // namespace
+
+void query_button(Ui& ui, const char* label, const char* command) {
+    const std::string id = command;
+    command_button(ui, label, command, "query." + id.substr(id.find('.') + 1));
+}
 
 void query_panel(Ui& ui) {
     const std::shared_ptr<const QueryFindings> findings = ui.session.findings();

@@ -2,10 +2,14 @@
 /// cursor of the current ImGui window.
 #pragma once
 
+#include <app/panels/command_button.h>
 #include <app/query_findings.h>
 #include <app/ui.h>
 
 namespace mobbscope::app {
+
+/// A button of this panel, marked "query.<the command's last word>".
+void query_button(Ui& ui, const char* label, const char* command);
 
 /// The scene's queries with their answers, each a click away.
 void query_list(Ui& ui);

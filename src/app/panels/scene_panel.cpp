@@ -1,6 +1,7 @@
 #include <app/command.h>
 #include <app/panels.h>
-#include <app/panels/parts.h>
+#include <app/panels/list_rows.h>
+#include <app/panels/section.h>
 #include <render/palette.h>
 
 #include <cstdio>
@@ -21,20 +22,19 @@ void agent_menu(Ui& ui, const Selection& self) {
     if (!ImGui::BeginPopupContextItem()) return;
     ui.session.select(self);
     for (const char* id : {"view.frame", "agent.duplicate", "agent.remove"}) {
-        const Command* command = find_command(id);
-        if (!command) continue;
-        const std::string title(command->title);
-        const std::string shortcut(command->shortcut);
-        if (ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command->enabled(ui.session)))
-            invoke(ui.session, id);
+        const Command& command = *find_command(id);
+        const std::string title(command.title);
+        const std::string shortcut(first_shortcut(command));
+        const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));
+        ui.mark(std::string("agent.menu.") + id);
+        if (chosen) invoke(ui.session, id);
     }
     ImGui::EndPopup();
 }
 
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
-void path_row(Ui& ui, int index) {
+void path_row(Ui& ui, const FittedScene& fitted, int index) {
     Session& session = ui.session;
-    const FittedScene& fitted = session.fitted();
     const Participant& who = fitted.participants()[static_cast<std::size_t>(index)];
     const Selection self{Selection::Kind::path, {index, -1, 0}, -1};
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
@@ -55,20 +55,20 @@ void path_row(Ui& ui, int index) {
 
 void agents(Ui& ui) {
     Session& session = ui.session;
-    const bool has_agents = !session.scene().agents.empty();
-    const auto count = static_cast<int>(session.fitted().participants().size());
+    // A row's menu may remove its agent: the others are drawn as they were.
+    const std::shared_ptr<const FittedScene> kept = session.document().fitted;
+    const bool has_agents = !kept->scene().agents.empty();
+    const auto count = static_cast<int>(kept->participants().size());
     heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
-    rows(ui, "##agents", count, kMostRows, [&](int i) { path_row(ui, i); });
+    rows(ui, "##agents", count, kMostRows, [&](int i) { path_row(ui, *kept, i); });
     if (ImGui::SmallButton("+ agent")) ImGui::OpenPopup("add agent");
     ui.mark("scene.add_agent");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add an agent that plays one of the clips");
     if (ImGui::BeginPopup("add agent")) {
-        for (const SceneClip& clip : session.scene().clips) {
-            // The scene changes under the loop when an agent is added.
-            const std::string name = clip.name;
-            if (!ImGui::MenuItem(name.c_str())) continue;
-            invoke(session, "agent.add", name);
-            break;
+        for (const SceneClip& clip : kept->scene().clips) {
+            ImGui::PushID(&clip);  // names may look alike to ImGui
+            if (ImGui::MenuItem(clip.name.c_str())) invoke(session, "agent.add", clip.name);
+            ImGui::PopID();
         }
         ImGui::EndPopup();
     }

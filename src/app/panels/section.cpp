@@ -1,12 +1,11 @@
-#include <app/command.h>
 #include <app/panels/section.h>
 
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <sstream>
-#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
@@ -93,6 +92,18 @@ void number_row(Ui& ui, const char* label, const std::string& shown, double valu
     number(ui, shown, value, unit, ui.look.text);
 }
 
+void form_label(Ui& ui, const char* label, const char* help) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
+    if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    // Below the longest label of all forms the columns still stand under one another.
+    const float column = ImGui::GetWindowContentRegionMin().x + ImGui::CalcTextSize("Leaf samples").x + ui.px(12);
+    ImGui::SameLine(std::max(column, 0.34f * ImGui::GetWindowContentRegionMax().x));
+    ImGui::SetNextItemWidth(-1);
+}
+
 void framed(Ui& ui, ImU32 fill, ImU32 border, const std::function<void()>& draw) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -119,25 +130,6 @@ void flow(float width) {
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
     if (ImGui::GetItemRectMax().x + spacing + width <= right) ImGui::SameLine();
-}
-
-float command_button_width(const char* label) {
-    return ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x;
-}
-
-void command_button(Ui& ui, const char* label, const char* id) {
-    const Command* command = find_command(id);
-    const bool enabled = command && command->enabled(ui.session);
-    ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(label);
-    ImGui::EndDisabled();
-    const std::string_view name = id;
-    ui.mark("query." + std::string(name.substr(name.find('.') + 1)));
-    if (command && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-        const std::string key = command->shortcut.empty() ? "" : "  (" + std::string(command->shortcut) + ")";
-        ImGui::SetTooltip("%s%s", std::string(command->doc).c_str(), key.c_str());
-    }
-    if (pressed) invoke(ui.session, id);
 }
 
 std::string signed_metres(double metres) {

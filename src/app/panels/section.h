@@ -20,18 +20,14 @@ void number(Ui& ui, const std::string& shown, double value, const char* unit, Im
 /// A label at the left and, at the right edge, a number.
 void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit);
 
+/// A row of a form: the label at the left, the next widget takes the rest. `help` is its tooltip; null: none.
+void form_label(Ui& ui, const char* label, const char* help);
+
 /// A frame around what `draw` draws, as wide as there is room.
 void framed(Ui& ui, ImU32 fill, ImU32 border, const std::function<void()>& draw);
 
 /// The next widget, `width` pixels wide, goes on the same line if it fits there.
 void flow(float width);
-
-/// A button that runs a command; its tooltip says what it does and by which key. Marked "query.<the command's last
-/// word>".
-void command_button(Ui& ui, const char* label, const char* command);
-
-/// Width of that button.
-float command_button_width(const char* label);
 
 /// "+0.183"
 std::string signed_metres(double metres);

@@ -1,5 +1,5 @@
 #include <app/panels.h>
-#include <app/panels/parts.h>
+#include <app/panels/section.h>
 #include <app/viewport_overlay.h>
 
 namespace mobbscope::app {

@@ -35,14 +35,14 @@ void draw_icon(Ui& ui, bool forward, bool to_end, bool enabled) {
 
 void icon_button(Ui& ui, const char* id, bool forward, bool to_end) {
     // A blank label of a fixed width, under an id of its own.
-    command_button(ui, (std::string("    ##") + id).c_str(), id);
+    query_button(ui, (std::string("    ##") + id).c_str(), id);
     const Command* command = find_command(id);
     draw_icon(ui, forward, to_end, command && command->enabled(ui.session));
 }
 
 void text_button(Ui& ui, const char* label, const char* id) {
-    flow(command_button_width(label));
-    command_button(ui, label, id);
+    flow(button_width(label));
+    query_button(ui, label, id);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ void step_transport(Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(4), ui.px(4)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(4)});
     icon_button(ui, "step.first", false, true);
-    const float icon = command_button_width("    ");
+    const float icon = button_width("    ");
     flow(icon);
     icon_button(ui, "step.back", false, false);
     flow(icon);

@@ -1,6 +1,7 @@
 #include <app/command.h>
 #include <app/panels.h>
-#include <app/panels/parts.h>
+#include <app/panels/command_button.h>
+#include <app/panels/list_rows.h>
 #include <app/panels/query_parts.h>
 #include <import/text.h>
 #include <render/paths.h>
@@ -15,17 +16,6 @@ namespace mobbscope::app {
 namespace {
 
 constexpr float kMostBar = 26;  // height of a path's bar, pixels at scale 1
-
-void button(Ui& ui, const char* label, const char* id) {
-    const Command* command = find_command(id);
-    ImGui::BeginDisabled(!command || !command->enabled(ui.session));
-    if (ImGui::Button(label)) invoke(ui.session, id);
-    ImGui::EndDisabled();
-    ui.mark(std::string("timeline.") + id);
-    if (command && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-        ImGui::SetTooltip("%s  %s", std::string(command->title).c_str(), std::string(command->shortcut).c_str());
-    }
-}
 
 /// Seconds below the bars.
 void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) {
@@ -87,7 +77,7 @@ void time_bars(Ui& ui, float width, float height) {
 void time_row(Ui& ui, bool tall) {
     Session& session = ui.session;
     const mobb::Interval span = session.time_span();
-    button(ui, session.playing ? "Pause" : "Play", "time.play");
+    command_button(ui, session.playing ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
     char text[64];
     std::snprintf(text, sizeof text, "%7.3f s", session.view().time.value_or(span.t0));

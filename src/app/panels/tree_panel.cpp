@@ -1,6 +1,6 @@
 #include <app/command.h>
 #include <app/panels.h>
-#include <app/panels/parts.h>
+#include <app/panels/section.h>
 #include <import/text.h>
 #include <render/level_boxes.h>
 
@@ -77,7 +77,7 @@ constexpr float kLeastCell = 10.5f;  // pixels at scale 1: a level's number
 
 /// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
-    const LevelRange& shown = ui.session.view().levels;
+    const LevelRange shown = ui.session.view().levels;
     form_label(ui, "Show", "Which boxes are drawn: click a level; drag over several, or Shift-click, for a range");
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
@@ -152,7 +152,7 @@ void level_bars(Ui& ui, int clip) {
         const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
         ui.mark("level." + std::to_string(i));
         const bool over = ImGui::IsItemHovered();
-        const LevelRange& shown = session.view().levels;
+        const LevelRange shown = session.view().levels;
         const bool drawn =
             !shown.leaves && !session.view().query && level.level >= shown.first && level.level <= shown.last;
         char text[64];

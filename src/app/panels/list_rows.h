@@ -1,15 +1,12 @@
-/// Pieces that panels are built from.
+/// Lists of things, a row each.
 #pragma once
 
-#include <app/panels/section.h>
+#include <app/ui.h>
 
 #include <functional>
 #include <string>
 
 namespace mobbscope::app {
-
-/// A row of a form: the label at the left, the next widget takes the rest.
-void form_label(Ui& ui, const char* label, const char* help);
 
 /// A text that fits `room` pixels in the present font: its end becomes an ellipsis.
 std::string fitted_text(const std::string& text, float room);

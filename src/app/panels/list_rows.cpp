@@ -1,20 +1,8 @@
-#include <app/panels/parts.h>
+#include <app/panels/list_rows.h>
 
 #include <algorithm>
 
 namespace mobbscope::app {
-
-void form_label(Ui& ui, const char* label, const char* help) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
-    ImGui::TextUnformatted(label);
-    ImGui::PopStyleColor();
-    if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
-    // Below the longest label of all forms the columns still stand under one another.
-    const float column = ImGui::GetWindowContentRegionMin().x + ImGui::CalcTextSize("Leaf samples").x + ui.px(12);
-    ImGui::SameLine(std::max(column, 0.34f * ImGui::GetWindowContentRegionMax().x));
-    ImGui::SetNextItemWidth(-1);
-}
 
 std::string fitted_text(const std::string& text, float room) {
     if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
