@@ -37,7 +37,9 @@ std::filesystem::path relative_source(const std::filesystem::path& source, const
                                       const std::filesystem::path& to) {
     if (source.is_absolute()) return source;
     const std::filesystem::path led = std::filesystem::absolute(from / source).lexically_normal();
-    const std::filesystem::path leads = led.lexically_proximate(std::filesystem::absolute(to).lexically_normal());
+    // The folder of a bare name is empty.
+    const std::filesystem::path folder = to.empty() ? std::filesystem::current_path() : std::filesystem::absolute(to);
+    const std::filesystem::path leads = led.lexically_proximate(folder.lexically_normal());
     return leads.empty() ? led : leads;
 }
 

@@ -65,7 +65,6 @@ void query_answer(Ui& ui, const QueryFindings& findings) {
     if (const auto& contact = ui.session.recorded()->contact) {
         contact_rows(ui, findings, *contact);
         command_button(ui, "Go to contact", "go.contact");
-        flow(command_button_width("Expect this instead"));
     }
     expectation(ui);
 }
