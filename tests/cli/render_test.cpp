@@ -77,7 +77,7 @@ TEST_F(RenderTest, AScriptRunsWithoutADisplay) {
     expect_refused(run_program({"--script", folder.write("bad", "\nclik"), "--headless"}), 2, "bad: line 2");
     expect_refused(run_program({"--script", folder.path() / "none", "--headless"}), 2, "none");
     expect_refused(run_program({"--headless"}), 2, "--script");
-    expect_refused(run_program({"--script", folder.path(), "--headless"}), 2, "folder");
+    expect_refused(run_program({"--script", folder.path(), "--headless"}), 2, "is a directory");
     expect_refused(run_program({"--script", folder.write("nul", std::string_view("state\nsta\0te", 12)), "--headless"}),
                    2, "nul: line 2");
     expect_refused(run_program({"--script", folder.write("many", "size 999999999x999999999"), "--headless"}), 2,
