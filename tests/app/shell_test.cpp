@@ -69,6 +69,25 @@ TEST_P(ShellTest, TheThemeIsTheViews) {
     EXPECT_GT(brightness(), 200);
 }
 
+TEST_P(ShellTest, UntilRunsFramesUntilItHolds) {
+    run("run time.play\nuntil 30 /time ~ 1 0.2\nrun time.play\nuntil 1 viewport\nuntil 0 /playing != true");
+    for (const char* script : {"until 0.2 /time -1", "until 0.2 no.widget"}) {
+        try {
+            run(script);
+            ADD_FAILURE() << script;
+        } catch (const ExpectationError& error) {
+            EXPECT_NE(std::string(error.what()).find("also after 0.2 s"), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST_P(ShellTest, MarksGoToAFile) {
+    const TempFolder folder;
+    const std::string file = folder.path() / "marks.txt";
+    EXPECT_EQ(run("marks " + file), "");
+    EXPECT_EQ(testing::slurp(file), run("marks"));
+}
+
 TEST_P(ShellTest, ADragOfAWidgetByNameMovesIt) {
     const double before = session.settings.left_width;
     run("drag splitter.left 40 0");

@@ -142,7 +142,9 @@ void level_bars(Ui& ui, int clip) {
     const Session& session = ui.session;
     const auto& figures = session.figures_of(clip);
     heading(ui, "VOLUME BY LEVEL", session.scene().clips[static_cast<std::size_t>(clip)].name);
-    const double most = std::max(figures.front().volume, 1e-300);
+    // Free boxes may take more room the finer they are: their fits overlap.
+    double most = 1e-300;
+    for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
     const ImFont* mono = ui.look.mono;
     const float height = ui.px(18);
     const auto draw_row = [&](int i) {
