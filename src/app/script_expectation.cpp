@@ -77,7 +77,7 @@ double take_number(std::string_view& text, const char* what) {
 }
 
 std::string instead(const std::string& pointer, const Json& is, const std::string& expected) {
-    return pointer + " is " + shortened(is.dump(), 200) + ", expected " + expected;
+    return pointer + " is " + shortened(state_text(is), 200) + ", expected " + expected;
 }
 
 }  // namespace

@@ -83,10 +83,12 @@ class Words {
 
 std::string file_name(const ScriptLine& line, const char* extension) {
     if (line.rest.empty()) throw std::invalid_argument("\"" + line.words[0] + "\" needs a file name");
-    if (lower_extension(line.rest) != extension) {
-        throw std::invalid_argument(in_quotes(line.rest) + " must end in " + extension);
+    // A single word may have stood in quotes.
+    const std::string& name = line.words.size() == 2 ? line.words[1] : line.rest;
+    if (lower_extension(name) != extension) {
+        throw std::invalid_argument(in_quotes(name) + " must end in " + extension);
     }
-    return line.rest;
+    return name;
 }
 
 // --- mouse and keys
@@ -302,7 +304,7 @@ ScriptAction make_marks(const ScriptLine& line) {
 
 ScriptAction make_state(const ScriptLine& line) {
     const std::string file = line.rest.empty() ? "" : file_name(line, ".json");
-    return [file](ScriptRun& run) { put(run, file, state_json(run.session).dump(2) + '\n'); };
+    return [file](ScriptRun& run) { put(run, file, state_text(state_json(run.session), 2) + '\n'); };
 }
 
 /// What is there instead, in words; none if it is as wanted.

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <new>
 #include <stdexcept>
+#include <unordered_set>
 #include <utility>
 
 namespace mobbscope::app {
@@ -32,13 +33,13 @@ Document document_of(Scene scene, const FittedScene* previous, const Progress& p
 
 /// Whether trees over these clips are made in an instant.
 bool quick_to_fit(const Scene& scene, const FittedScene& present) {
+    std::unordered_set<const mobb::Clip*> kept;
+    if (scene.fit == present.options()) {
+        for (const SceneClip& clip : present.scene().clips) kept.insert(clip.clip.get());
+    }
     std::size_t samples = 0;
     for (const SceneClip& clip : scene.clips) {
-        const auto& known = present.scene().clips;
-        const bool kept =
-            scene.fit == present.options() &&
-            std::any_of(known.begin(), known.end(), [&](const SceneClip& k) { return k.clip == clip.clip; });
-        if (!kept) samples += static_cast<std::size_t>(clip.clip->count());
+        if (!kept.contains(clip.clip.get())) samples += static_cast<std::size_t>(clip.clip->count());
     }
     return samples * (scene.fit.axes == mobb::Axes::minarea ? kSearchFactor : 1) < kQuickSamples;
 }

@@ -256,7 +256,6 @@ struct Shell::State {
     int settling = kFramesToSettle;
     bool was_playing = false;
     ImGuiMouseCursor cursor = ImGuiMouseCursor_Arrow;
-    bool wants_text = false;
 };
 
 Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale)
@@ -294,7 +293,6 @@ double Shell::frame(PictureSize size, double now) {
     s.draw(size);
     if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
     s.cursor = ImGui::GetMouseCursor();
-    s.wants_text = io.WantTextInput;
     if (s.settling > 0) --s.settling;
     return !s.input.empty() || s.settling > 0 ? 0 : std::max(wanted, 0.0);
 }
@@ -325,7 +323,5 @@ Image Shell::viewport_picture() {
 void Shell::set_scale(double scale) { state_->own_scale = scale; }
 
 ImGuiMouseCursor Shell::cursor() const { return state_->cursor; }
-
-bool Shell::wants_text() const { return state_->wants_text; }
 
 }  // namespace mobbscope::app

@@ -46,8 +46,6 @@ class Shell {
     /// Of text and panels where the settings say none: another monitor has another.
     void set_scale(double scale);
     ImGuiMouseCursor cursor() const;
-    /// A text field has the keys.
-    bool wants_text() const;
 
   private:
     struct State;

@@ -174,6 +174,14 @@ TEST_P(ShellTest, ScriptsSeeTheStateAndTakePictures) {
     EXPECT_NE(out.find("splitter.left"), std::string::npos);
 }
 
+TEST_P(ShellTest, FileNamesMayHaveBlanksAndBeNoText) {
+    const TempFolder folder;
+    run("picture \"" + (folder.path() / "my window.png").string() + "\"");
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "my window.png"));
+    session.open({folder.write("a\xff.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")});
+    EXPECT_NE(run("state").find("\"title\": \"a"), std::string::npos);
+}
+
 TEST_P(ShellTest, AnExpectationThatFailsNamesItsLine) {
     for (const auto& [script, says] : std::vector<std::pair<std::string, std::string>>{
              {"\n# two\nexpect /title \"other\"", "test: line 3: /title is \"crossing\", expected \"other\""},

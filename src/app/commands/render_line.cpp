@@ -69,8 +69,7 @@ std::string view_options(const ViewState& file, const ViewState& now) {
     return out;
 }
 
-}  // namespace
-
+/// A word as a POSIX shell takes it literally.
 std::string shell_quoted(const std::string& word) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
     if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
@@ -78,6 +77,8 @@ std::string shell_quoted(const std::string& word) {
     for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + '\'';
 }
+
+}  // namespace
 
 std::string render_line(const Session& session) {
     const std::filesystem::path& file = session.scene().file;

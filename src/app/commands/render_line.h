@@ -12,7 +12,4 @@ namespace mobbscope::app {
 /// the whole picture.
 std::string render_line(const Session& session);
 
-/// A word as a POSIX shell takes it literally.
-std::string shell_quoted(const std::string& word);
-
 }  // namespace mobbscope::app

@@ -1,18 +1,17 @@
 #include <app/panels/list_rows.h>
+#include <import/text.h>
 
 #include <algorithm>
 
 namespace mobbscope::app {
 
 std::string fitted_text(const std::string& text, float room) {
-    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
-    std::string cut = text;
-    while (!cut.empty() && ImGui::CalcTextSize((cut + "\u2026").c_str()).x > room) {
-        // Whole characters of UTF-8.
-        do cut.pop_back();
-        while (!cut.empty() && (static_cast<unsigned char>(text[cut.size()]) & 0xC0u) == 0x80u);
-    }
-    return cut + "\u2026";
+    const std::string line = cleaned(text);
+    if (ImGui::CalcTextSize(line.c_str()).x <= room) return line;
+    const float left = std::max(room - ImGui::CalcTextSize("\u2026").x, 0.0f);
+    const char* end = nullptr;
+    ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), left, 0, line.c_str(), nullptr, &end);
+    return line.substr(0, static_cast<std::size_t>(end - line.c_str())) + "\u2026";
 }
 
 void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw) {

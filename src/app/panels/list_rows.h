@@ -8,7 +8,7 @@
 
 namespace mobbscope::app {
 
-/// A text that fits `room` pixels in the present font: its end becomes an ellipsis.
+/// A text on one line that fits `room` pixels in the present font: its end becomes an ellipsis.
 std::string fitted_text(const std::string& text, float room);
 
 /// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.

@@ -55,9 +55,14 @@ int pick_from_list(DialogInput& input, int count, bool entered, const Draw& draw
     int taken = entered && count > 0 ? input.picked : -1;
     ImGui::BeginChild("list");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-    for (int i = 0; i < count; ++i) {
-        if (draw(i, i == input.picked)) taken = i;
-        if (moved && i == input.picked) ImGui::SetScrollHereY();
+    ImGuiListClipper clipper;
+    clipper.Begin(count);
+    if (moved) clipper.ForceDisplayRangeByIndices(input.picked, input.picked + 1);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            if (draw(i, i == input.picked)) taken = i;
+            if (moved && i == input.picked) ImGui::SetScrollHereY();
+        }
     }
     ImGui::PopStyleVar();
     ImGui::EndChild();

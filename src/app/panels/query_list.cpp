@@ -2,6 +2,7 @@
 #include <app/panels/outcome_cell.h>
 #include <app/panels/query_parts.h>
 #include <app/panels/section.h>
+#include <import/text.h>
 #include <render/query_sentence.h>
 #include <render/subject.h>
 
@@ -15,9 +16,11 @@ constexpr int kMostRows = 12;  // a longer list scrolls by itself
 
 /// "A against B", the names shortened until it fits; the tooltip has them in full.
 std::string pair_that_fits(const SceneQuery& query, float room) {
+    const std::string a = cleaned(query.a.name);
+    const std::string b = cleaned(query.b.name);
     std::string pair;
     for (int most = 40; most >= 5; --most) {
-        pair = shortened(query.a.name, most) + " against " + shortened(query.b.name, most);
+        pair = shortened(a, most) + " against " + shortened(b, most);
         if (ImGui::CalcTextSize(pair.c_str()).x <= room) break;
     }
     return pair;

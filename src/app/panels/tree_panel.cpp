@@ -34,8 +34,11 @@ void choose(Ui& ui, const char* label, const char* command, const std::array<Cho
             std::string_view now, const char* help) {
     form_label(ui, label, help);
     const auto at = std::find_if(choices.begin(), choices.end(), [&](const Choice& c) { return c.value == now; });
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
     const bool open = ImGui::BeginCombo((std::string("##") + command).c_str(), at == choices.end() ? "" : at->label);
-    ui.mark(command);
+    // Once it is open the last item is of its list.
+    ui.marks.add(command, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
     if (!open) return;
     for (const Choice& choice : choices) {
         if (ImGui::Selectable(choice.label, choice.value == now)) invoke(ui.session, command, choice.value);
