@@ -1,5 +1,5 @@
 /// What a frame of the window costs: a crowd on 30 x 40 m with boxes and disks, seen from another side each time.
-#include "walks.h"
+#include "crowd.h"
 
 #include <import/error.h>
 #include <render/build_draw_list.h>
@@ -14,20 +14,6 @@
 
 namespace mobbscope {
 namespace {
-
-/// Agents that walk for two seconds (60 samples), each its own way, and begin within eight seconds.
-FittedScene crowd(int agents) {
-    mobb::test::Random random(7);
-    Scene scene;
-    for (int i = 0; i < agents; ++i) {
-        scene.clips.push_back({"walk" + std::to_string(i), std::nullopt, {}, mobb::bench::walk(random, 2)});
-        const mobb::Placement somewhere{.translate = {random.real(0, 30), random.real(0, 40)},
-                                        .rotate_deg = random.real(0, 360),
-                                        .start = random.real(0, 8)};
-        scene.agents.push_back({"agent " + std::to_string(i), i, somewhere, std::nullopt});
-    }
-    return {std::move(scene), {}};
-}
 
 /// Once around in 120 frames.
 ViewState seen_from(std::size_t frame) {
@@ -47,7 +33,7 @@ struct Case {
 };
 
 void build(benchmark::State& state, const Case& what) {
-    const FittedScene fitted = crowd(what.agents);
+    const FittedScene fitted(bench::crowd(what.agents), {});
     std::size_t frame = 0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(build_draw_list(fitted, seen_from(frame++), what.size));
@@ -55,7 +41,7 @@ void build(benchmark::State& state, const Case& what) {
 }
 
 void paint(benchmark::State& state, const Case& what, Backend backend) {
-    const FittedScene fitted = crowd(what.agents);
+    const FittedScene fitted(bench::crowd(what.agents), {});
     Renderer renderer(backend);
     std::size_t frame = 0;
     for (auto _ : state) {
@@ -69,7 +55,7 @@ void paint(benchmark::State& state, const Case& what, Backend backend) {
 
 /// All that the window does to show the scene from another side.
 void frame(benchmark::State& state, const Case& what, Backend backend) {
-    const FittedScene fitted = crowd(what.agents);
+    const FittedScene fitted(bench::crowd(what.agents), {});
     Renderer renderer(backend);
     std::size_t frame = 0;
     for (auto _ : state) {

@@ -66,6 +66,14 @@ Scene load_files(const std::vector<std::filesystem::path>& files, JobControl& co
             merge(scene, std::move(loaded));
         }
     }
+    if (all.size() > 1 && !scene_file_of(files)) {
+        // It is named for all of them; sources go on leading from where they did.
+        const bool folder = files.size() == 1;
+        const std::filesystem::path name =
+            folder ? all.front().parent_path().filename()
+                   : std::filesystem::path(counted(static_cast<long long>(all.size()), "file", "files"));
+        scene.file = scene.file.parent_path() / name;
+    }
     return scene;
 }
 

@@ -10,6 +10,7 @@
 ///     scroll PLACE N                   notches; N > 0 is away from the person
 ///     key CHORD                        "Ctrl+Shift+S"
 ///     type TEXT                        the rest of the line
+///     drop FILE...                     files and folders onto the window
 ///     frames N
 ///     size WxH
 ///     picture FILE.png                 the whole window
@@ -18,7 +19,9 @@
 ///     expect POINTER VALUE             RFC 6901 into the state, and JSON; numbers agree to 1e-9 of their size. What is
 ///     expect POINTER != VALUE          not there is null
 ///     expect POINTER ~ NUMBER TOLERANCE
-///     marks                            names and rectangles of widgets, to standard output
+///     until SECONDS POINTER VALUE      like expect, but runs frames until it holds, at most so long; and with != and ~
+///     until SECONDS NAME               ... until there is a widget of that name
+///     marks [FILE.txt]                 names and rectangles of widgets, to standard output or a file
 ///     wait SECONDS
 #pragma once
 

@@ -1,9 +1,9 @@
 #include <app/command.h>
+#include <app/script_expectation.h>
 #include <app/script_statements.h>
 #include <app/state_json.h>
 #include <import/file.h>
 #include <import/text.h>
-#include <render/font.h>
 #include <render/png.h>
 #include <render/render.h>
 
@@ -14,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <variant>
 
@@ -21,12 +22,11 @@ namespace mobbscope::app {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// Two clicks further apart are no double click (ImGuiIO::MouseDoubleClickTime is 0.3 s).
 constexpr double kNoDoubleClick = 0.4;
 constexpr int kStepsOfDrag = 8;
-constexpr double kRelative = 1e-9;
+constexpr double kLookAgain = 0.05;  // seconds
+constexpr double kLongestWait = 3600;
 
 // --- reading
 
@@ -206,6 +206,18 @@ ScriptAction make_type(const ScriptLine& line) {
     };
 }
 
+ScriptAction make_drop(const ScriptLine& line) {
+    Words words(line);
+    Drop drop;
+    do {
+        drop.paths.emplace_back(words.next("files or folders"));
+    } while (!words.done());
+    return [drop](ScriptRun& run) {
+        run.stage.shell().feed(drop);
+        run.stage.settle();
+    };
+}
+
 // --- the window
 
 ScriptAction make_run(const ScriptLine& line) {
@@ -232,11 +244,18 @@ ScriptAction make_frames(const ScriptLine& line) {
     };
 }
 
+double seconds_in(const std::string& word) {
+    const std::optional<double> seconds = parse_double(word);
+    if (!seconds || !(*seconds >= 0 && *seconds <= kLongestWait)) {
+        throw std::invalid_argument(in_quotes(word) + " cannot be waited for: give from 0 to 3600 seconds");
+    }
+    return *seconds;
+}
+
 ScriptAction make_wait(const ScriptLine& line) {
     Words words(line);
-    const double seconds = words.number("seconds");
+    const double seconds = seconds_in(words.next("seconds"));
     words.end();
-    if (!(seconds >= 0 && seconds <= 3600)) throw std::invalid_argument("it can wait from 0 to 3600 seconds");
     return [seconds](ScriptRun& run) {
         run.stage.run_for(seconds);
         run.clicked = false;
@@ -261,96 +280,76 @@ ScriptAction make_viewport(const ScriptLine& line) {
     return [file = file_name(line, ".png")](ScriptRun& run) { write_png(file, run.stage.shell().viewport_picture()); };
 }
 
+/// To a file, or where the script prints.
+void put(ScriptRun& run, const std::string& file, const std::string& text) {
+    if (file.empty()) {
+        run.out << text;
+    } else {
+        write_file(file, text);
+    }
+}
+
 ScriptAction make_marks(const ScriptLine& line) {
-    Words(line).end();
-    return [](ScriptRun& run) {
+    const std::string file = line.rest.empty() ? "" : file_name(line, ".txt");
+    return [file](ScriptRun& run) {
+        std::ostringstream text;
         for (const auto& [name, rect] : run.stage.shell().marks().all()) {
-            run.out << name << ' ' << rect.min.x << ' ' << rect.min.y << ' ' << rect.max.x << ' ' << rect.max.y << '\n';
+            text << name << ' ' << rect.min.x << ' ' << rect.min.y << ' ' << rect.max.x << ' ' << rect.max.y << '\n';
         }
+        put(run, file, text.str());
     };
 }
 
 // --- the state
 
-/// File names may be no UTF-8.
-std::string text_of(const Json& json, int indent = -1) {
-    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 ScriptAction make_state(const ScriptLine& line) {
     const std::string file = line.rest.empty() ? "" : file_name(line, ".json");
-    return [file](ScriptRun& run) {
-        const std::string text = text_of(state_json(run.session), 2) + '\n';
-        if (file.empty()) {
-            run.out << text;
-        } else {
-            write_file(file, text);
-        }
+    return [file](ScriptRun& run) { put(run, file, state_text(state_json(run.session), 2) + '\n'); };
+}
+
+/// What is there instead, in words; none if it is as wanted.
+using Check = std::function<std::optional<std::string>(ScriptRun&)>;
+
+/// Frames until it is as wanted, for so many seconds.
+std::optional<std::string> await(ScriptRun& run, const Check& check, double seconds) {
+    run.clicked = false;
+    std::optional<std::string> instead = check(run);
+    for (double waited = 0; instead && waited < seconds && !run.session.closed(); waited += kLookAgain) {
+        run.stage.run_for(kLookAgain);
+        instead = check(run);
+    }
+    return instead;
+}
+
+/// That there is a widget of this name.
+Check widget_appears(const std::string& name) {
+    return [name](ScriptRun& run) -> std::optional<std::string> {
+        if (run.stage.shell().marks().all().contains(name)) return std::nullopt;
+        return "there is no " + in_quotes(name) + " in the window";
     };
 }
 
-bool agree(const Json& a, const Json& b) {
-    if (a.is_number() && b.is_number()) {
-        const double x = a.get<double>();
-        const double y = b.get<double>();
-        return std::abs(x - y) <= kRelative * std::max(std::abs(x), std::abs(y));
-    }
-    if (a.type() != b.type() || a.size() != b.size()) return false;
-    if (a.is_array()) return std::equal(a.begin(), a.end(), b.begin(), agree);
-    if (a.is_object()) {
-        return std::all_of(a.items().begin(), a.items().end(), [&](const auto& item) {
-            return b.contains(item.key()) && agree(item.value(), b[item.key()]);
-        });
-    }
-    return a == b;
-}
-
-/// Null if there is nothing.
-Json value_at(const Session& session, const Json::json_pointer& pointer) {
-    const Json state = state_json(session);
-    return state.contains(pointer) ? state.at(pointer) : Json(nullptr);
-}
-
-Json parse_value(const std::string& text) {
-    Json value = Json::parse(text, nullptr, false);
-    if (value.is_discarded()) {
-        throw std::invalid_argument(in_quotes(text) + " is no JSON; texts stand in double quotes");
-    }
-    return value;
-}
-
-[[noreturn]] void disappoint(const std::string& pointer, const Json& is, const std::string& expected) {
-    throw ExpectationError(pointer + " is " + shortened(text_of(is), 200) + ", expected " + expected);
-}
-
 ScriptAction make_expect(const ScriptLine& line) {
+    return [expected = parse_expectation(line.rest)](ScriptRun& run) {
+        if (const auto instead = expected(run.session)) throw ExpectationError(*instead);
+    };
+}
+
+ScriptAction make_until(const ScriptLine& line) {
     Words words(line);
-    const std::string text = words.next("a JSON pointer and a value");
-    Json::json_pointer pointer;
-    try {
-        pointer = Json::json_pointer(text);
-    } catch (const Json::exception&) {
-        throw std::invalid_argument(in_quotes(text) + " is no JSON pointer; write it like /query/collides");
+    const std::string for_so_long = words.next("seconds");
+    const double seconds = seconds_in(for_so_long);
+    const std::string_view rest = trimmed(std::string_view(line.rest).substr(for_so_long.size()));
+    Check check;
+    if (line.words.size() == 3 && !rest.starts_with('/') && !rest.starts_with('"')) {
+        check = widget_appears(line.words[2]);
+    } else {
+        check = [expected = parse_expectation(rest)](ScriptRun& run) { return expected(run.session); };
     }
-    std::string value(trimmed(std::string_view(line.rest).substr(line.rest.find(text) + text.size())));
-    // The pointer may have stood in quotes.
-    if (line.rest.starts_with('"') && value.starts_with('"')) value = trimmed(std::string_view(value).substr(1));
-    if (value.starts_with("~ ")) {
-        words.next("");
-        const double number = words.number("a number behind ~");
-        const double tolerance = words.number("a tolerance");
-        words.end();
-        return [=](ScriptRun& run) {
-            const Json is = value_at(run.session, pointer);
-            if (is.is_number() && std::abs(is.get<double>() - number) <= tolerance) return;
-            disappoint(text, is, brief(number) + " within " + brief(tolerance));
-        };
-    }
-    const bool other = value.starts_with("!= ");
-    const Json wanted = parse_value(other ? value.substr(3) : value);
-    return [=](ScriptRun& run) {
-        const Json is = value_at(run.session, pointer);
-        if (agree(is, wanted) == other) disappoint(text, is, (other ? "anything but " : "") + wanted.dump());
+    return [check, seconds, for_so_long](ScriptRun& run) {
+        if (const auto instead = await(run, check, seconds)) {
+            throw ExpectationError(*instead + ", also after " + for_so_long + " s");
+        }
     };
 }
 
@@ -359,19 +358,21 @@ struct Verb {
     ScriptAction (*make)(const ScriptLine& line);
 };
 
-constexpr std::array<Verb, 15> kVerbs{{{"run", make_run},
+constexpr std::array<Verb, 17> kVerbs{{{"run", make_run},
                                        {"move", make_move},
                                        {"click", make_click},
                                        {"drag", make_drag},
                                        {"scroll", make_scroll},
                                        {"key", make_key},
                                        {"type", make_type},
+                                       {"drop", make_drop},
                                        {"frames", make_frames},
                                        {"size", make_size},
                                        {"picture", make_picture},
                                        {"viewport", make_viewport},
                                        {"state", make_state},
                                        {"expect", make_expect},
+                                       {"until", make_until},
                                        {"marks", make_marks},
                                        {"wait", make_wait}}};
 

@@ -62,4 +62,15 @@ bool exists(const FittedScene& fitted, const Selection& selection) {
                                                           : static_cast<std::size_t>(tree.clip().count()));
 }
 
+Selection still(const Selection& selection, const FittedScene& before, const FittedScene& now) {
+    if (selection.kind == Selection::Kind::node) {
+        const auto was = participant_of(before, selection.path);
+        const auto is = participant_of(now, selection.path);
+        if (was && is && &before.tree(was->clip) != &now.tree(is->clip)) {
+            return {Selection::Kind::path, selection.path, -1};
+        }
+    }
+    return exists(now, selection) ? selection : Selection{};
+}
+
 }  // namespace mobbscope::app

@@ -38,4 +38,8 @@ std::optional<Participant> participant_of(const FittedScene& fitted, const PathR
 /// Whether the scene has it.
 bool exists(const FittedScene& fitted, const Selection& selection);
 
+/// What it is after a change of the scene: a node of a tree that was fitted anew is its path, as the number means
+/// another node now; what is gone is nothing.
+Selection still(const Selection& selection, const FittedScene& before, const FittedScene& now);
+
 }  // namespace mobbscope::app

@@ -56,6 +56,7 @@ Session::Session(bool attended, Settings settings_)
     : settings(std::move(settings_)),
       attended_(attended),
       history_(document_of({}, nullptr)),
+      pointed_into_(document().fitted),
       saved_(document().fitted) {}
 
 // --- the document
@@ -106,8 +107,9 @@ void Session::redo() {
 
 /// After every change of the document: nothing points at what is gone, and the step is one of the trace.
 void Session::changed() {
-    if (!exists(fitted(), selection)) selection = {};
-    if (!exists(fitted(), hovered)) hovered = {};
+    selection = still(selection, *pointed_into_, fitted());
+    hovered = still(hovered, *pointed_into_, fitted());
+    pointed_into_ = document().fitted;
     const RecordedQuery* query = recorded();
     if (query && view().step.unit == Step::Unit::event && view().step.value >= query->trace.size()) {
         Document next = document();

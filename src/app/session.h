@@ -175,6 +175,7 @@ class Session {
 
     bool attended_;
     History history_;
+    std::shared_ptr<const FittedScene> pointed_into_;  ///< what selection and hovered are of
     std::shared_ptr<const FittedScene> saved_;
     std::optional<std::filesystem::path> file_;
     std::vector<std::filesystem::path> opened_;

@@ -134,4 +134,8 @@ Json state_json(const Session& session) {
     return json;
 }
 
+std::string state_text(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace mobbscope::app

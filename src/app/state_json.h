@@ -15,8 +15,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
+
 namespace mobbscope::app {
 
 nlohmann::ordered_json state_json(const Session& session);
+
+/// It, or a part of it, as text; `indent` -1: on one line. File names may be no UTF-8: what is none is replaced.
+std::string state_text(const nlohmann::ordered_json& json, int indent = -1);
 
 }  // namespace mobbscope::app

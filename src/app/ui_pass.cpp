@@ -23,13 +23,26 @@ void fill(GLenum target, const ImVector<T>& with) {
     glBufferData(target, static_cast<GLsizeiptr>(with.size_in_bytes()), with.Data, GL_STREAM_DRAW);
 }
 
+/// How many of the command's first indices make triangles of plain colour, which take one texel all over.
+unsigned leading_plain(const ImDrawList& list, const ImDrawCmd& command) {
+    const auto texel = [&](unsigned i) {
+        const unsigned vertex = command.VtxOffset + list.IdxBuffer[static_cast<int>(command.IdxOffset + i)];
+        return list.VtxBuffer[static_cast<int>(vertex)].uv;
+    };
+    const ImVec2 white = ImGui::GetFontTexUvWhitePixel();
+    const auto is_plain = [&](unsigned i) { return texel(i).x == white.x && texel(i).y == white.y; };
+    unsigned count = 0;
+    while (count < command.ElemCount && is_plain(count)) ++count;
+    return count - count % 3;
+}
+
 }  // namespace
 
 ImTextureID texture_id(const Texture& texture) {
     return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name()));
 }
 
-UiPass::UiPass(GlContext& context) : program_(context, "ui") {
+UiPass::UiPass(GlContext& context) : textured_(context, "ui"), plain_(context, "ui", "ui_plain") {
     glBindVertexArray(array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
@@ -62,9 +75,11 @@ void UiPass::draw(const ImDrawData& data, PictureSize size) {
     glViewport(0, 0, size.width, size.height);
     blend_over();
     glEnable(GL_SCISSOR_TEST);
-    program_.use();
-    glUniform2f(program_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
-    glUniform1i(program_.uniform("picture"), 0);
+    for (const ShaderProgram* program : {&plain_, &textured_}) {
+        program->use();
+        glUniform2f(program->uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
+    }
+    glUniform1i(textured_.uniform("picture"), 0);
     glActiveTexture(GL_TEXTURE0);
     glBindVertexArray(array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
@@ -80,9 +95,23 @@ void UiPass::draw(const ImDrawData& data, PictureSize size) {
             // OpenGL counts rows from below.
             glScissor(static_cast<GLint>(clip.x), size.height - static_cast<GLint>(clip.w), width, height);
             glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
-            glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
-                                     at_byte(command.IdxOffset * sizeof(ImDrawIdx)),
-                                     static_cast<GLint>(command.VtxOffset));
+            const auto draw_indices = [&](unsigned first, unsigned count) {
+                glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_SHORT,
+                                         at_byte((command.IdxOffset + first) * sizeof(ImDrawIdx)),
+                                         static_cast<GLint>(command.VtxOffset));
+            };
+            const unsigned plain = leading_plain(list, command);
+            if (plain > 0) {
+                plain_.use();
+                draw_indices(0, plain);
+                textured_.use();
+            }
+            if (plain == command.ElemCount) continue;
+            // A picture hides what is behind it.
+            const bool is_picture = command.GetTexID() != texture_id(glyphs_);
+            if (is_picture) glDisable(GL_BLEND);
+            draw_indices(plain, command.ElemCount - plain);
+            if (is_picture) glEnable(GL_BLEND);
         }
     }
     glDisable(GL_SCISSOR_TEST);

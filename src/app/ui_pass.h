@@ -23,7 +23,7 @@ class UiPass {
     void draw(const ImDrawData& data, PictureSize size);
 
   private:
-    ShaderProgram program_;
+    ShaderProgram textured_, plain_;
     VertexArray array_;
     Buffer vertices_, indices_;
     Texture glyphs_;

@@ -100,16 +100,34 @@ void DiskPass::make_cylinder(int segments) {
     upload(indices_, indices, GL_ELEMENT_ARRAY_BUFFER);
 }
 
+/// Sides, and the one face of each disk that can be seen.
+void DiskPass::draw_single(const std::vector<Instance>& disks, Face face) {
+    if (disks.empty()) return;
+    upload(single_.instances, disks);
+    const GLsizei count = static_cast<GLsizei>(disks.size());
+    const GLsizei of_side = 6 * segments_;
+    const GLsizei of_face = 3 * segments_;
+    if (face == Face::upper) {
+        glDrawElementsInstanced(GL_TRIANGLES, of_side + of_face, GL_UNSIGNED_SHORT, nullptr, count);
+        return;
+    }
+    glDrawElementsInstanced(GL_TRIANGLES, of_side, GL_UNSIGNED_SHORT, nullptr, count);
+    const std::size_t begin = sizeof(GLushort) * static_cast<std::size_t>(of_side + of_face);
+    glDrawElementsInstanced(GL_TRIANGLES, of_face, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(begin), count);
+}
+
 void DiskPass::draw(const DrawList& list, Detail detail) {
     if (list.disks.empty()) return;
     DiskGroups groups;
     groups.single = in_order(list.disks);
     if (detail == Detail::coarse) groups = group_runs(groups.single, list.lens, tolerance(detail));
-    std::vector<Instance> single;
-    single.reserve(groups.single.size());
+    std::vector<Instance> above;
+    std::vector<Instance> below;
+    above.reserve(groups.single.size());
     for (const DiskInstance* disk : groups.single) {
         const glm::vec3 top = disk->base + glm::vec3(0, 0, disk->height);
-        single.push_back({disk->base, disk->radius, top, disk->radius, disk->color, {disk->id.r(), disk->id.g()}});
+        std::vector<Instance>& seen_from = list.lens.below(disk->base.z) ? below : above;
+        seen_from.push_back({disk->base, disk->radius, top, disk->radius, disk->color, {disk->id.r(), disk->id.g()}});
     }
     std::vector<Instance> runs;
     runs.reserve(groups.runs.size());
@@ -130,26 +148,17 @@ void DiskPass::draw(const DrawList& list, Detail detail) {
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    const GLsizei side = 6 * segments_;
-    const GLsizei face = 3 * segments_;
 
     glUniform1i(program_.uniform("runs"), 0);
-    upload(single_.instances, single);
-    const GLsizei count = static_cast<GLsizei>(single.size());
-    if (list.lens.back.z >= 0) {
-        glDrawElementsInstanced(GL_TRIANGLES, side + face, GL_UNSIGNED_SHORT, nullptr, count);
-    } else {
-        glDrawElementsInstanced(GL_TRIANGLES, side, GL_UNSIGNED_SHORT, nullptr, count);
-        const std::size_t lower_face = sizeof(GLushort) * static_cast<std::size_t>(side + face);
-        glDrawElementsInstanced(GL_TRIANGLES, face, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(lower_face),
-                                count);
-    }
+    draw_single(above, Face::upper);
+    draw_single(below, Face::lower);
     if (!runs.empty()) {
         glUniform1i(program_.uniform("runs"), 1);
         glBindVertexArray(runs_.array.name());
         upload(runs_.instances, runs);
         // Their ends lie within the path; its last disk is a single one.
-        glDrawElementsInstanced(GL_TRIANGLES, side, GL_UNSIGNED_SHORT, nullptr, static_cast<GLsizei>(runs.size()));
+        glDrawElementsInstanced(GL_TRIANGLES, 6 * segments_, GL_UNSIGNED_SHORT, nullptr,
+                                static_cast<GLsizei>(runs.size()));
     }
     glDisable(GL_CULL_FACE);
 }

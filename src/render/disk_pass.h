@@ -4,6 +4,8 @@
 #include <render/draw_list.h>
 #include <render/gl_objects.h>
 
+#include <vector>
+
 namespace mobbscope {
 
 /// How true to shape. `coarse` is off by less than half a pixel, as edges without multisampling are anyway.
@@ -25,6 +27,8 @@ class DiskPass {
     };
     void describe(const Batch& batch) const;
     void make_cylinder(int segments);
+    enum class Face { upper, lower };
+    void draw_single(const std::vector<Instance>& disks, Face face);
 
     ShaderProgram program_;
     Buffer vertices_;

@@ -74,6 +74,8 @@ DiskGroups group_runs(std::span<const DiskInstance* const> disks, const Lens& le
         }
         const DiskInstance& a = *disks[first];
         const DiskInstance& b = *disks[last];
+        // The run is open at its ends. The disk after the last closes the upper one, its first disk the lower one.
+        if (lens.below(a.base.z)) groups.single.push_back(&a);
         groups.runs.push_back({a.base, a.radius, b.base, b.radius, disks[(first + last) / 2]->color});
         first = last;
     }

@@ -18,7 +18,8 @@ struct DiskRun {
     Rgba color{1};  ///< of the middle disk
 };
 
-/// What is left to draw one by one, in order, and the runs.
+/// What is to draw one by one, in order, and the runs: every disk is in either, the first of a run that is seen from
+/// below in both, as runs have no faces.
 struct DiskGroups {
     std::vector<const DiskInstance*> single;
     std::vector<DiskRun> runs;

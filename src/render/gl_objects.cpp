@@ -73,8 +73,11 @@ void compile(GlContext& context, GLuint shader, const std::string& file, std::st
 
 }  // namespace
 
-ShaderProgram::ShaderProgram(GlContext& context, const std::string& name)
-    : ShaderProgram(context, name, render_assets::embedded(name + ".vert"), render_assets::embedded(name + ".frag")) {}
+ShaderProgram::ShaderProgram(GlContext& context, const std::string& name) : ShaderProgram(context, name, name) {}
+
+ShaderProgram::ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment)
+    : ShaderProgram(context, fragment, render_assets::embedded(vertex + ".vert"),
+                    render_assets::embedded(fragment + ".frag")) {}
 
 ShaderProgram::ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex,
                              std::string_view fragment) {

@@ -74,6 +74,8 @@ class ShaderProgram {
     /// From shaders/<name>.vert and .frag, which are part of the program. Throws MachineError with what the compiler
     /// says if it does not take them.
     ShaderProgram(GlContext& context, const std::string& name);
+    /// The same from two shaders of different names.
+    ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment);
     ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex, std::string_view fragment);
 
     void use() const;

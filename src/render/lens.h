@@ -45,6 +45,8 @@ struct Lens {
     /// The pixel (from the upper left corner, fractional) where a point is seen; none for one behind the eye, which the
     /// division would mirror, or nearer to it than anything is drawn.
     std::optional<glm::vec2> project(glm::vec3 point) const;
+    /// Whether what lies level at this height is seen from below.
+    bool below(float height) const { return perspective ? eye.z < height : back.z < 0; }
     /// The line of sight through a pixel: from the eye, or without perspective from before the nearest of the scene.
     Ray ray(glm::vec2 pixel) const;
     /// Distance along the line of sight.

@@ -280,5 +280,24 @@ TEST(Panels, NothingIsCutOffAtAnySize) {
     }
 }
 
+TEST(Panels, AnEmptyWindowSaysWhatToDo) {
+    Session session(false);
+    HeadlessWindow window(GlContext::open(Backend::automatic), session, {1024, 640}, 1);
+    window.settle();
+    for (const Key key : {Key::f5, Key::space, Key::f, Key::right, Key::d, Key::home}) {
+        window.shell().feed(KeyPress{key, true});
+        window.shell().feed(KeyPress{key, false});
+        window.settle();
+    }
+    EXPECT_EQ(all_messages(session), "");
+    const auto at = window.shell().marks().all().find("welcome.demo");
+    ASSERT_NE(at, window.shell().marks().all().end());
+    window.shell().feed(MouseMove{at->second.center()});
+    window.shell().feed(MouseButton{0, true});
+    window.shell().feed(MouseButton{0, false});
+    window.settle();
+    EXPECT_FALSE(session.empty());
+}
+
 }  // namespace
 }  // namespace mobbscope::app

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -60,6 +63,49 @@ TEST(RealWindow, FollowsTheDisplaysMouse) {
     }
     ASSERT_EQ(left.size(), 2u);
     EXPECT_NEAR(left[1] - left[0], 60, 2);
+}
+
+using Json = nlohmann::ordered_json;
+
+Json state(const std::filesystem::path& file) { return Json::parse(slurp(file)); }
+
+/// What the document is, whatever is selected or said.
+Json document(const Json& state) { return {state["title"], state["scene"], state["view"]}; }
+
+// The whole of a session by hand. real_person.script asserts each state; pictures of them stay in the build tree.
+TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
+    const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_person";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder / "assets", std::filesystem::copy_options::recursive);
+    const std::filesystem::path scene = folder / "assets/scenes/crossing.json";
+    const std::string before = slurp(scene);
+    const int status = under_xvfb("'" + kHere + "real_person.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "real_person.script' '" + folder.string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    ASSERT_EQ(status, 0);
+
+    const Json opened = state(folder / "opened.json");
+    const Json edited = state(folder / "edited.json");
+    EXPECT_NE(edited["scene"], opened["scene"]);
+    EXPECT_NE(edited["view"], opened["view"]);
+    EXPECT_LT(edited["scene"]["agents"][1]["start"], opened["scene"]["agents"][1]["start"]);
+    const Json undone = state(folder / "undone.json");
+    EXPECT_EQ(document(undone), document(opened)) << "undo brings back what was there";
+    EXPECT_EQ(undone["modified"], false);
+    EXPECT_EQ(document(state(folder / "redone.json")), document(edited)) << "and redo what was done";
+    const Json saved = state(folder / "saved.json");
+    EXPECT_EQ(document(saved), document(edited));
+    EXPECT_NE(slurp(scene), before);
+    EXPECT_EQ(document(state(folder / "reopened.json")), document(saved)) << "in the same window";
+
+    // And by a program that knows nothing but the file.
+    const std::string script = (folder / "anew.script").string();
+    std::ofstream(script) << "state " << (folder / "anew.json").string() << '\n';
+    ASSERT_EQ(
+        std::system(("'" MOBBSCOPE_PROGRAM "' '" + scene.string() + "' --headless --script '" + script + "'").c_str()),
+        0);
+    EXPECT_EQ(document(state(folder / "anew.json")), document(saved));
 }
 
 }  // namespace

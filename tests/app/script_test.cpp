@@ -31,6 +31,13 @@ TEST(Script, WhatIsNoStatementNamesFileAndLine) {
              {"expect /a ~ 1", "needs a tolerance"},
              {"run no.such.command", "there is no command 'no.such.command'"},
              {"wait -1", "from 0 to 3600"},
+             {"until 1", "needs a JSON pointer"},
+             {"until x /a 1", "'x' cannot be waited for"},
+             {"until 1 /a", "'' is no JSON"},
+             {"until 1 a b", "'a' is no JSON pointer"},
+             {"drop", "needs files or folders"},
+             {"marks a.json", "must end in .txt"},
+             {std::string("run view.top\nmo\0ve 1 2", 22), "line 2: 'mo?ve' is no statement"},
              {"move \"a", "a quote is not closed"},
              {"type", "needs a text"}}) {
         try {

@@ -80,5 +80,22 @@ TEST(Selection, IsDescribedByItsNumbers) {
     EXPECT_EQ(fact(sample, "time").substr(0, 5), "0.000");
 }
 
+TEST(Selection, ANodeOfATreeThatIsFittedAnewIsItsPath) {
+    const FittedScene before = fitted_demo();
+    Scene moved = before.scene();
+    place_agent(moved, 0, {{1, 2}, 3, 4});
+    const mobb::FitOptions same = moved.fit;
+    const FittedScene elsewhere(std::move(moved), same, &before);
+    const Selection node{Selection::Kind::node, {1, -1, 0}, 3};
+    EXPECT_EQ(still(node, before, elsewhere), node) << "a placement changes no tree";
+    mobb::FitOptions other = before.options();
+    other.leaf = 4;
+    const FittedScene refitted(before.scene(), other, &before);
+    EXPECT_EQ(still(node, before, refitted), (Selection{Selection::Kind::path, {1, -1, 0}, -1}));
+    const Selection sample{Selection::Kind::sample, {1, -1, 0}, 3};
+    EXPECT_EQ(still(sample, before, refitted), sample);
+    EXPECT_EQ(still({Selection::Kind::clip, {}, 99}, before, refitted), Selection{});
+}
+
 }  // namespace
 }  // namespace mobbscope::app

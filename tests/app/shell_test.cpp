@@ -4,7 +4,9 @@
 #include <app/ui_pass.h>
 #include <app/window_target.h>
 #include <import/error.h>
+#include <render/build_draw_list.h>
 #include <render/png.h>
+#include <render/renderer.h>
 #include <scene/demo_scene.h>
 
 #include <support/temp_folder.h>
@@ -13,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 #include <string>
@@ -69,6 +72,25 @@ TEST_P(ShellTest, TheThemeIsTheViews) {
     EXPECT_GT(brightness(), 200);
 }
 
+TEST_P(ShellTest, UntilRunsFramesUntilItHolds) {
+    run("run time.play\nuntil 30 /time ~ 1 0.2\nrun time.play\nuntil 1 viewport\nuntil 0 /playing != true");
+    for (const char* script : {"until 0.2 /time -1", "until 0.2 no.widget"}) {
+        try {
+            run(script);
+            ADD_FAILURE() << script;
+        } catch (const ExpectationError& error) {
+            EXPECT_NE(std::string(error.what()).find("also after 0.2 s"), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST_P(ShellTest, MarksGoToAFile) {
+    const TempFolder folder;
+    const std::string file = folder.path() / "marks.txt";
+    EXPECT_EQ(run("marks " + file), "");
+    EXPECT_EQ(testing::slurp(file), run("marks"));
+}
+
 TEST_P(ShellTest, ADragOfAWidgetByNameMovesIt) {
     const double before = session.settings.left_width;
     run("drag splitter.left 40 0");
@@ -95,6 +117,29 @@ TEST_P(ShellTest, NoFrameIsWantedWhenNothingHappens) {
     double next = 0;
     for (int i = 1; i < 200 && next < 1e9; ++i) next = shell.frame(kSize, 1000 + i);
     EXPECT_GT(next, 1e9);
+}
+
+TEST_P(ShellTest, ThePictureIsTheOneThatRenderDrawsOfTheSavedView) {
+    const TempFolder folder;
+    const std::string file = folder.path() / "saved.json";
+    // Turned, zoomed and panned; then the mouse leaves, as what is under it is marked in the window.
+    run("drag viewport 90 -35\nscroll viewport 2\nmove 5 5\nrun file.save_as " + file + "\n");
+    while (!session.messages().empty()) session.dismiss(0);
+    window->settle();
+    ASSERT_NE(session.view().camera, Camera{});
+    const Rect rect = window->shell().marks().all().at("viewport");
+    const PictureSize size{static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)};
+
+    const Scene saved = load_scene(file);
+    const Image rendered = Renderer(GetParam()).draw(build_draw_list(FittedScene(saved, saved.fit), saved.view, size));
+    EXPECT_EQ(window->shell().viewport_picture().rgba, rendered.rgba);
+    const Image shown = window->shell().read_back();
+    int differing = 0;
+    for (int y = 0; y < size.height; ++y) {
+        const std::uint8_t* row = shown.at(static_cast<int>(rect.min.x), static_cast<int>(rect.min.y) + y);
+        if (!std::equal(row, row + 4 * size.width, rendered.at(0, y))) ++differing;
+    }
+    EXPECT_EQ(differing, 0) << "of " << size.height << " rows";
 }
 
 TEST_P(ShellTest, TheCloseButtonEndsTheSession) {

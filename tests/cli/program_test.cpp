@@ -216,6 +216,11 @@ TEST(Program, OptionsOfTheWindowAreChecked) {
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--ui-scale", "0.4"},
                                                       {"--ui-scale", "4.1"},
                                                       {"--ui-scale", "big"},
+                                                      {"--ui-scale", "0"},
+                                                      {"--ui-scale", "nan"},
+                                                      {"--size", "0x0"},
+                                                      {"--size", "-1x100"},
+                                                      {"--size", "999999x999999"},
                                                       {"--size", "10x10"},
                                                       {"--size", "1280"},
                                                       {"--size", "800x600", "query", kScenes + "crossing.json"}}) {

@@ -77,6 +77,19 @@ TEST_F(RenderTest, AScriptRunsWithoutADisplay) {
     expect_refused(run_program({"--script", folder.write("bad", "\nclik"), "--headless"}), 2, "bad: line 2");
     expect_refused(run_program({"--script", folder.path() / "none", "--headless"}), 2, "none");
     expect_refused(run_program({"--headless"}), 2, "--script");
+    expect_refused(run_program({"--script", folder.path(), "--headless"}), 2, "is a directory");
+    expect_refused(run_program({"--script", folder.write("nul", std::string_view("state\nsta\0te", 12)), "--headless"}),
+                   2, "nul: line 2");
+    expect_refused(run_program({"--script", folder.write("many", "size 999999999x999999999"), "--headless"}), 2,
+                   "many: line 1");
+    expect_refused(run_program({"--script", folder.write("click", "click no.widget"), "--headless"}), 2,
+                   "there is no 'no.widget' in the window now");
+    expect_refused(run_program({"--script", folder.write("picture", "picture " + kCrossing + "/a.png"), "--headless"}),
+                   3, "cannot be written");
+    // What a script's command cannot do ends it: nothing is lost that a person could save.
+    expect_refused(
+        run_program({"--script", folder.write("save", "run file.save_as " + kCrossing + "/a.json"), "--headless"}), 3,
+        "save: line 1");
 }
 
 TEST_F(RenderTest, ABareNameIsAFileInTheWorkingFolder) {

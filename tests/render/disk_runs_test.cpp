@@ -14,14 +14,14 @@ namespace {
 constexpr float kTolerance = 0.45f;
 
 /// A camera from the side that shows so many pixels per metre.
-Lens lens_of(float pixels_per_metre) {
+Lens lens_of(float pixels_per_metre, double pitch_deg = 20) {
     const float half_width = 640 / pixels_per_metre;
     const std::vector<glm::vec3> points{{-half_width, -half_width, -half_width}, {half_width, half_width, half_width}};
     Camera camera;
     camera.preset = CameraPreset::free;
     camera.perspective = false;
     camera.yaw_deg = -90;
-    camera.pitch_deg = 20;
+    camera.pitch_deg = pitch_deg;
     const PictureSize size{1280, 12800};
     return make_lens(camera, points, nullptr, {{0, 0}, {1280, 12800}}, size);
 }
@@ -56,6 +56,15 @@ TEST(DiskRuns, FarDisksJoinUp) {
     // The last stays, as its upper face is seen.
     ASSERT_FALSE(groups.single.empty());
     EXPECT_EQ(groups.single.back(), &disks.back());
+}
+
+TEST(DiskRuns, TheFirstDiskStaysWhereItsLowerFaceIsSeen) {
+    const auto disks = path();
+    const DiskGroups groups = group(disks, lens_of(8, -20));
+    ASSERT_FALSE(groups.runs.empty());
+    ASSERT_FALSE(groups.single.empty());
+    EXPECT_EQ(groups.single.front(), &disks.front());
+    EXPECT_NE(group(disks, lens_of(8)).single.front(), &disks.front()) << "from above it is hidden";
 }
 
 TEST(DiskRuns, NearDisksStayAsTheyAre) {

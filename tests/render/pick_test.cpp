@@ -104,11 +104,10 @@ TEST_P(PickTest, AgreesWithThePicture) {
     }
 }
 
-TEST_P(PickTest, AgreesFromInsideABox) {
+TEST_P(PickTest, AgreesFromInsideABoxAmongDisks) {
     const FittedScene fitted = demo_scene("crossing");
     ViewState view = fitted.scene().view;
     view.levels = {0, 2, false};
-    view.disks = false;
     DrawList list = build_draw_list(fitted, view, kSize);
     view.camera = settled(view.camera, list);
     view.camera.fov_deg = 100;

@@ -56,6 +56,12 @@ bool marked_button(Ui& ui, const char* label, const char* mark, bool is_default)
 
 bool pressed(ImGuiKey key, bool repeat) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); }
 
+bool pressed(Key key) {
+    // An int up to ImGui 1.86, an enumeration later.
+    using Index = decltype(ImGui::GetKeyIndex(ImGuiKey_Enter));
+    return ImGui::IsKeyPressed(static_cast<Index>(key), false);
+}
+
 bool move_picked(int& picked, int count) {
     const int before = picked;
     if (pressed(ImGuiKey_DownArrow, true)) ++picked;

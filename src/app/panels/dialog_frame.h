@@ -1,6 +1,7 @@
 /// What all dialogs have in common: the window behind them steps back and takes no input.
 #pragma once
 
+#include <app/key.h>
 #include <app/ui.h>
 
 namespace mobbscope::app {
@@ -18,6 +19,8 @@ bool marked_button(Ui& ui, const char* label, const char* mark, bool is_default 
 
 /// Whether a key went down in this frame.
 bool pressed(ImGuiKey key, bool repeat = false);
+/// A key that Dear ImGui has no name for.
+bool pressed(Key key);
 
 /// Moves `picked` through a list of `count` with Up, Down, PageUp and PageDown; true if it moved.
 bool move_picked(int& picked, int count);

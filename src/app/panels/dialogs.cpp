@@ -23,7 +23,7 @@ void unsaved(Ui& ui) {
         answer(ui, Session::Unsaved::save);
     }
     ImGui::SameLine();
-    if (marked_button(ui, "Discard", "unsaved.discard") || ImGui::IsKeyPressed(static_cast<int>(Key::d), false)) {
+    if (marked_button(ui, "Discard", "unsaved.discard") || pressed(Key::d)) {
         answer(ui, Session::Unsaved::discard);
     }
     ImGui::SameLine();

@@ -104,7 +104,7 @@ void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, b
     DialogInput& input = ui.session.input;
     const int count = static_cast<int>(completion.entries.size());
     const bool moved = move_picked(input.picked, count);
-    if (completion.entries.empty()) ImGui::TextDisabled("There is nothing here that can be opened.");
+    if (completion.entries.empty()) ImGui::TextDisabled("There is nothing of this kind here.");
     for (int i = 0; i < count; ++i) {
         const PathEntry& entry = completion.entries[static_cast<std::size_t>(i)];
         const std::string name = entry.name + (entry.folder ? "/" : "");

@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfoSeconds = 4;
 constexpr float kWidest = 560;  // pixels at scale 1
 
-/// The lower left corner of the picture, and how wide it is.
+/// Where the lower left corner is, and how wide they are.
 struct Place {
     ImVec2 corner;
     float width;
@@ -22,6 +22,11 @@ struct Place {
 Place place_of(const Ui& ui) {
     const ImVec2 room = ImGui::GetIO().DisplaySize;
     const float gap = ui.px(12);
+    // Below what a dialog says and asks.
+    if (ui.session.dialog != Dialog::none) {
+        const float width = std::min(room.x - 2 * gap, ui.px(kWidest));
+        return {{(room.x - width) / 2, room.y - gap}, width};
+    }
     const auto& marks = ui.marks.all();
     const auto left = marks.find("splitter.left");
     const auto right = marks.find("splitter.right");

@@ -34,8 +34,11 @@ void choose(Ui& ui, const char* label, const char* command, const std::array<Cho
             std::string_view now, const char* help) {
     form_label(ui, label, help);
     const auto at = std::find_if(choices.begin(), choices.end(), [&](const Choice& c) { return c.value == now; });
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
     const bool open = ImGui::BeginCombo((std::string("##") + command).c_str(), at == choices.end() ? "" : at->label);
-    ui.mark(command);
+    // Once it is open the last item is of its list.
+    ui.marks.add(command, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
     if (!open) return;
     for (const Choice& choice : choices) {
         if (ImGui::Selectable(choice.label, choice.value == now)) invoke(ui.session, command, choice.value);
@@ -73,6 +76,8 @@ void time_scale(Ui& ui) {
     if (changed && std::isfinite(value)) invoke(ui.session, "tree.time_scale", short_double(value));
 }
 
+constexpr float kLeastCell = 10.5f;  // pixels at scale 1: a level's number
+
 /// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
     const LevelRange shown = ui.session.view().levels;
@@ -80,8 +85,9 @@ void shown_levels(Ui& ui, int depth) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
     const float leaves = ImGui::CalcTextSize("leaves").x + 2 * padding.x;
-    const ImVec2 size{std::max(ui.px(40), ImGui::GetContentRegionAvail().x - leaves - ui.px(6)),
-                      ImGui::GetFrameHeight()};
+    const float room = ImGui::GetContentRegionAvail().x;
+    const bool beside = (room - leaves - ui.px(6)) / static_cast<float>(depth) >= ui.px(kLeastCell);
+    const ImVec2 size{beside ? room - leaves - ui.px(6) : room, ImGui::GetFrameHeight()};
     ImGui::InvisibleButton("##levels", size);
     ui.mark("view.level");
     const float cell = size.x / static_cast<float>(depth);
@@ -113,7 +119,11 @@ void shown_levels(Ui& ui, int depth) {
                      lit ? ui.look.text : ui.look.quiet, label.c_str());
     }
     draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, ui.look.border, ui.px(4));
-    ImGui::SameLine(0, ui.px(6));
+    if (beside) {
+        ImGui::SameLine(0, ui.px(6));
+    } else {
+        ImGui::SetCursorScreenPos({corner.x, ImGui::GetCursorScreenPos().y});
+    }
     const bool on = shown.leaves && !ui.session.view().query;
     ImGui::PushStyleColor(ImGuiCol_Button, on ? to_im(with_alpha(ui.look.palette.accent, 0.45f)) : ui.look.window);
     if (ImGui::Button("leaves")) invoke(ui.session, "view.leaves");
@@ -135,7 +145,9 @@ void level_bars(Ui& ui, int clip) {
     const Session& session = ui.session;
     const auto& figures = session.figures_of(clip);
     heading(ui, "VOLUME BY LEVEL", session.scene().clips[static_cast<std::size_t>(clip)].name);
-    const double most = std::max(figures.front().volume, 1e-300);
+    // Free boxes may take more room the finer they are: their fits overlap.
+    double most = 1e-300;
+    for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
     const ImFont* mono = ui.look.mono;
     const float height = ui.px(18);
     const auto draw_row = [&](int i) {
@@ -149,10 +161,12 @@ void level_bars(Ui& ui, int clip) {
         const bool drawn =
             !shown.leaves && !session.view().query && level.level >= shown.first && level.level <= shown.last;
         char text[64];
-        std::snprintf(text, sizeof text, level.tightness ? "%.3g  %2.0f%%" : "%.3g", level.volume,
-                      100 * level.tightness.value_or(0));
+        const bool large = level.volume >= 100 && level.volume < 1e6;
+        const char* format = large ? (level.tightness ? "%.0f  %3.0f%%" : "%.0f      ")
+                                   : (level.tightness ? "%.3g  %3.0f%%" : "%.3g      ");
+        std::snprintf(text, sizeof text, format, level.volume, 100 * level.tightness.value_or(0));
         const float label = ui.px(26);
-        const float figure = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, "00.00  100%").x;
+        const float figure = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, "000000  100%").x;
         const float room = std::max(ui.px(20), width - label - figure - ui.px(8));
         const float long_bar = room * static_cast<float>(level.volume / most);
         ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -182,7 +196,7 @@ void level_bars(Ui& ui, int clip) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     for (int i = 0; i < static_cast<int>(figures.size()); ++i) draw_row(i);
     ImGui::PopStyleVar();
-    words(ui.look.quiet, "m\u00B2\u00B7s, and how much of it the disks fill");
+    words(ui.look.quiet, "m\u00B2\u00B7s, and how full of disks");
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 }
 
 template <class Draw>
-void panel(const char* name, ImVec2 size, const Draw& draw, ImGuiWindowFlags more = 0) {
-    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | more);
+void panel(const char* name, ImVec2 size, const Draw& draw) {
+    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
     draw();
     ImGui::EndChild();
 }
@@ -73,10 +73,10 @@ void window_layout(Ui& ui, Viewport& viewport) {
     spacing();
     ImGui::BeginGroup();
     const float middle = room.x - left - right - 2 * bar;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    panel(
-        "viewport", {middle, room.y - bottom - bar}, [&] { viewport.draw(ui); }, ImGuiWindowFlags_NoBackground);
-    ImGui::PopStyleVar();
+    // Up to its borders.
+    ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
+    viewport.draw(ui);
+    ImGui::EndChild();
     settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.look.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
     panel("timeline", {middle, bottom}, [&] { timeline(ui); });
