@@ -14,12 +14,11 @@ ScriptLine split(std::string_view line) {
     ScriptLine out;
     std::size_t at = 0;
     std::size_t behind_first = line.size();
-    std::size_t end = line.size();
     while (true) {
         while (at < line.size() && (line[at] == ' ' || line[at] == '\t')) ++at;
         if (at == line.size() || line[at] == '#') {
-            end = at;
-            break;
+            if (behind_first < at) out.rest = trimmed(line.substr(behind_first, at - behind_first));
+            return out;
         }
         std::string word;
         if (line[at] == '"') {
@@ -35,8 +34,6 @@ ScriptLine split(std::string_view line) {
         out.words.push_back(std::move(word));
         if (out.words.size() == 1) behind_first = at;
     }
-    if (behind_first < end) out.rest = trimmed(line.substr(behind_first, end - behind_first));
-    return out;
 }
 
 std::string place(int line) { return "line " + std::to_string(line); }
