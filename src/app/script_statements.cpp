@@ -314,7 +314,8 @@ using Check = std::function<std::optional<std::string>(ScriptRun&)>;
 std::optional<std::string> await(ScriptRun& run, const Check& check, double seconds) {
     run.clicked = false;
     std::optional<std::string> instead = check(run);
-    for (double waited = 0; instead && waited < seconds && !run.session.closed(); waited += kLookAgain) {
+    const int looks = static_cast<int>(std::ceil(seconds / kLookAgain));
+    for (int i = 0; i < looks && instead && !run.session.closed(); ++i) {
         run.stage.run_for(kLookAgain);
         instead = check(run);
     }
