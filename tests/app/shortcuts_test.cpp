@@ -5,6 +5,8 @@
 
 #include "app/crossing_folder.h"
 
+#include <imgui.h>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -157,7 +159,7 @@ TEST(Shortcuts, TextFieldsKeepTheirLetters) {
     world.window->shell().feed(MouseButton{0, true});
     world.window->shell().feed(MouseButton{0, false});
     world.window->settle();
-    ASSERT_TRUE(world.window->shell().wants_text());
+    ASSERT_TRUE(ImGui::GetIO().WantTextInput);
     world.press(*chord_from_name("Ctrl+A"));
     const Json before = world.outcome();
     std::string typed;

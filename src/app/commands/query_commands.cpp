@@ -209,7 +209,7 @@ std::span<const Command> query_commands() {
          .enabled =
              [](const Session& session) {
                  return in_query(session) || session.selection.kind != Selection::Kind::none ||
-                    std::any_of(session.messages().begin(), session.messages().end(), stays);
+                        std::any_of(session.messages().begin(), session.messages().end(), stays);
              },
          .run = leave},
         {.id = "query.add",
