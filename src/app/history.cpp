@@ -9,6 +9,20 @@ namespace {
 /// A person goes back a few; every state of a large scene costs memory.
 constexpr std::size_t kMostStates = 500;
 
+/// In words: looking around of one kind is taken back in one go, but not along with another.
+std::string what_changes(const ViewState& from, const ViewState& to) {
+    if (from.query != to.query) return "choosing what is asked";
+    const auto only = [&](auto... members) {
+        ViewState view = from;
+        ((view.*members = to.*members), ...);
+        return view == to;
+    };
+    if (only(&ViewState::camera, &ViewState::time_height)) return "moving the view";
+    if (only(&ViewState::step)) return "stepping";
+    if (only(&ViewState::time)) return "moving in time";
+    return "what is shown";
+}
+
 }  // namespace
 
 void History::reset(Document document) {
@@ -32,11 +46,12 @@ void History::change(Document document, const EditName& name) {
 }
 
 void History::look(const ViewState& view) {
-    if (states_[now_].looked || can_redo()) {
+    const std::string title = what_changes(now().view, view);
+    if ((states_[now_].looked && states_[now_].name.title == title) || can_redo()) {
         states_[now_].document.view = view;
         return;
     }
-    change({now().fitted, view}, {"looking around", ""});
+    change({now().fitted, view}, {title, ""});
     states_[now_].looked = true;
     open_ = false;
 }

@@ -35,8 +35,8 @@ class History {
     void reset(Document document);
     /// The document is now this; what was undone is forgotten.
     void change(Document document, const EditName& name);
-    /// Only how it is seen has changed. All looking around between two edits is one state, and it costs nothing that
-    /// could be redone.
+    /// Only how it is seen has changed. Looking around of one kind (moving the view, stepping ...) is one state, and it
+    /// costs nothing that could be redone.
     void look(const ViewState& view);
     /// The present state is this instead; no edit of its own.
     void amend(Document document) { states_[now_].document = std::move(document); }

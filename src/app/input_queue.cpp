@@ -15,6 +15,7 @@ struct InputQueue::Frame {
     std::array<bool, static_cast<std::size_t>(Key::count)> keys{};
     bool any_key = false;
     bool after_key = false;  ///< the last event was a key
+    bool in_text = false;    ///< a text field has the keys
 
     bool any_button() const { return buttons[0] || buttons[1] || buttons[2]; }
 };
@@ -29,7 +30,13 @@ bool InputQueue::any_button_down() const {
     return std::any_of(buttons_.begin(), buttons_.end(), [](bool down) { return down; });
 }
 
-bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) {
+bool InputQueue::is_letter(const KeyPress& key, const Frame& frame) const {
+    const bool types = (key.key >= Key::a && key.key <= Key::n9) || key.key == Key::space ||
+                       (key.key >= Key::comma && key.key <= Key::right_bracket);
+    return frame.in_text && types && !keys_[index_of(Key::ctrl)] && !keys_[index_of(Key::alt)];
+}
+
+bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) const {
     if (std::holds_alternative<MouseMove>(event)) return frame.any_button() || frame.turned;
     if (const auto* button = std::get_if<MouseButton>(&event)) {
         // What is under the mouse is known a frame after it got there.
@@ -37,6 +44,7 @@ bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) {
     }
     if (std::holds_alternative<Wheel>(event)) return frame.any_button();
     if (const auto* key = std::get_if<KeyPress>(&event)) {
+        if (is_letter(*key, frame)) return frame.any_button() || frame.any_key;
         return frame.keys[index_of(key->key)] || frame.any_button() || frame.typed;
     }
     // A letter belongs to the key right before it; any other key comes a frame earlier.
@@ -66,7 +74,8 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
         io.KeyShift = keys_[index_of(Key::shift)];
         io.KeyAlt = keys_[index_of(Key::alt)];
         io.KeySuper = keys_[index_of(Key::super)];
-        frame.keys[index_of(key->key)] = frame.any_key = frame.after_key = true;
+        frame.after_key = true;
+        if (!is_letter(*key, frame)) frame.keys[index_of(key->key)] = frame.any_key = true;
         typed_by_command_ = key->down && others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated);
     } else if (const auto* text = std::get_if<TypedText>(&event)) {
         if (!typed_by_command_) io.AddInputCharacter(static_cast<unsigned int>(text->code));
@@ -82,10 +91,13 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
 
 void InputQueue::feed(ImGuiIO& io, const Others& others) {
     Frame frame;
+    frame.in_text = io.WantTextInput;
     while (!waiting_.empty() && !must_wait(waiting_.front(), frame)) {
         const InputEvent event = std::move(waiting_.front());
         waiting_.pop_front();
         apply(event, frame, io, others);
+        // What a command opens takes the keys from the next frame on.
+        if (typed_by_command_ && (waiting_.empty() || !std::holds_alternative<TypedText>(waiting_.front()))) break;
     }
 }
 

@@ -34,7 +34,9 @@ class InputQueue {
 
   private:
     struct Frame;
-    static bool must_wait(const InputEvent& event, const Frame& frame);
+    /// A key that types a letter into the field that has the keys: of those a frame takes any number.
+    bool is_letter(const KeyPress& key, const Frame& frame) const;
+    bool must_wait(const InputEvent& event, const Frame& frame) const;
     void apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const Others& others);
 
     std::deque<InputEvent> waiting_;

@@ -172,6 +172,8 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     selection = {};
     hovered = {};
     playing = false;
+    // What was said of the last document is over.
+    messages_.clear();
     history_.reset(std::move(document));
     changed();
 }
@@ -185,6 +187,12 @@ void Session::load(std::string title, const LoadAll& load_all, const std::vector
 }
 
 void Session::open(const std::vector<std::filesystem::path>& files) {
+    for (const std::filesystem::path& file : files) {
+        // Nobody is asked about unsaved changes for nothing.
+        std::error_code ignored;
+        if (std::filesystem::exists(file, ignored)) continue;
+        return tell(Message::Level::error, file.string() + ": no such file; check the path");
+    }
     after_asking([this, files] {
         load(
             "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),

@@ -23,6 +23,8 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Dear ImGui lays out with sizes of the frame before, so what happens is seen whole after so many frames.
 constexpr int kFramesToSettle = 3;
+/// A field that has not taken the keys by then never will.
+constexpr int kFramesToFocus = 8;
 /// Half a period of a text field's blinking cursor.
 constexpr double kBlink = 0.4;
 /// Playing goes on where it was, however long the machine was busy.
@@ -189,8 +191,21 @@ struct Shell::State {
                 [&] { clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths); });
     }
 
+    /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
+    bool waits_for_field() {
+        const Dialog open = session.dialog;
+        const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
+                               open == Dialog::export_picture || open == Dialog::palette;
+        if (!has_field || !session.input.fresh || ImGui::GetIO().WantTextInput)
+            waited = 0;
+        else if (++waited <= kFramesToFocus)
+            return true;
+        return false;
+    }
+
     void feed() {
         if (!input.empty()) settling = kFramesToSettle;
+        if (waits_for_field()) return;
         input.feed(ImGui::GetIO(),
                    {[this](const Chord& chord, bool repeated) { return press(chord, repeated); },
                     [this](const Drop& dropped) { drop(dropped); }, [this] { session.request_close(); }});
@@ -254,6 +269,7 @@ struct Shell::State {
     std::optional<double> time;
     std::string clipboard;
     int settling = kFramesToSettle;
+    int waited = 0;  ///< frames for a field
     bool was_playing = false;
     ImGuiMouseCursor cursor = ImGuiMouseCursor_Arrow;
 };

@@ -67,5 +67,11 @@ TEST(PathCompletion, AnEntryTakesThePlaceOfItsBeginning) {
     EXPECT_EQ(with_entry("wa", {"walks", true, 0}), "walks/");
 }
 
+TEST(PathCompletion, APathMayBeginAnewBehindAnother) {
+    EXPECT_EQ(expanded("/home/someone//data/walk.bvh"), "/data/walk.bvh");
+    EXPECT_EQ(expanded("/data/walk.bvh"), "/data/walk.bvh");
+    EXPECT_EQ(expanded("/home/someone/~/clips"), expanded("~/clips"));
+}
+
 }  // namespace
 }  // namespace mobbscope::app

@@ -56,10 +56,10 @@ TEST(Undo, InteractionsThatEndedStandApart) {
     EXPECT_EQ(e.x(), 4) << "an edit after an undo is its own";
 }
 
-TEST(Undo, LookingAroundIsOneStepAndCostsNoRedo) {
+TEST(Undo, LookingAroundIsOneStepOfItsKindAndCostsNoRedo) {
     Edited e;
     run_command(e.session, "view.top");
-    run_command(e.session, "view.floor");
+    run_command(e.session, "view.side");
     e.session.undo();
     EXPECT_EQ(e.session.view().camera.preset, CameraPreset::iso);
     EXPECT_TRUE(e.session.view().floor);
@@ -97,6 +97,38 @@ TEST(Undo, AFailedEditChangesNothing) {
     EXPECT_THROW(e.session.edit({"leaf", ""}, [](Scene& scene) { scene.fit.leaf = 0; }), std::invalid_argument);
     EXPECT_EQ(e.session.document().fitted, before);
     EXPECT_TRUE(e.session.history().can_undo());
+}
+
+TEST(Session, UndoTakesBackOneKindOfLookingAtATime) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    const Camera camera = session.view().camera;
+    session.look([](ViewState& view) { view.query = 0; });
+    session.look([](ViewState& view) { view.step = {Step::Unit::event, 3}; });
+    session.look([](ViewState& view) { view.step = {Step::Unit::event, 5}; });
+    session.look([](ViewState& view) { view.camera.preset = CameraPreset::top; });
+    session.look([](ViewState& view) { view.camera.preset = CameraPreset::side; });
+    session.undo();
+    EXPECT_EQ(session.view().camera, camera);
+    EXPECT_EQ(session.view().step.value, 5) << "the steps are another matter";
+    session.undo();
+    EXPECT_EQ(session.view().step, Step{});
+    EXPECT_EQ(session.view().query, 0);
+    session.undo();
+    EXPECT_EQ(session.view().query, std::nullopt);
+    EXPECT_FALSE(session.history().can_undo());
+}
+
+TEST(Session, AFileThatIsNotThereAsksNothing) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    session.edit({"moving A", ""}, [](Scene& scene) { place_agent(scene, 0, {{1, 1}, 0, 0}); });
+    session.open({folder.file("none.csv")});
+    EXPECT_EQ(session.dialog, Dialog::none);
+    ASSERT_EQ(session.messages().size(), 1u);
+    EXPECT_NE(session.messages()[0].text.find("no such file"), std::string::npos);
 }
 
 // --- opening

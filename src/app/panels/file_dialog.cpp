@@ -104,7 +104,9 @@ void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, b
     DialogInput& input = ui.session.input;
     const int count = static_cast<int>(completion.entries.size());
     const bool moved = move_picked(input.picked, count);
-    if (completion.entries.empty()) ImGui::TextDisabled("There is nothing of this kind here.");
+    if (completion.entries.empty())
+        ImGui::TextDisabled(purpose.extension ? "No file here begins so."
+                                              : "There is nothing here that can be opened.");
     for (int i = 0; i < count; ++i) {
         const PathEntry& entry = completion.entries[static_cast<std::size_t>(i)];
         const std::string name = entry.name + (entry.folder ? "/" : "");
@@ -209,7 +211,7 @@ void file_dialog(Ui& ui) {
         ImGui::TextUnformatted("This file exists. Enter overwrites it.");
         ImGui::PopStyleColor();
     } else if (!purpose.extension) {
-        ImGui::TextDisabled("A folder stands for the clips in it.");
+        ImGui::TextDisabled("Enter goes into a folder; Open opens all clips in it.");
     }
     end_dialog();
     if (accepted) accept(ui, purpose);

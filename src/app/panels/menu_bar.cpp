@@ -1,5 +1,6 @@
 #include <app/command.h>
 #include <app/panels.h>
+#include <app/panels/dialog_frame.h>
 
 #include <algorithm>
 #include <array>
@@ -152,6 +153,7 @@ void menu_bar(Ui& ui) {
         ui.mark("menu." + lower(menu));
         if (!open) continue;
         items(ui, menu);
+        if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
         ImGui::EndMenu();
     }
     const float left = ImGui::GetCursorPosX();

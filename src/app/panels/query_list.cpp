@@ -61,8 +61,8 @@ void query_list(Ui& ui) {
     if (count == 0) {
         words(ui.look.quiet, ui.session.empty()
                                  ? "Open a scene to ask whether two agents collide."
-                                 : "A query asks whether two agents ever collide. Add a second agent: every pair of "
-                                   "agents is asked by itself.");
+                                 : "A query asks whether two agents ever collide. Add agents at the left (+ agent): "
+                                   "every pair of them is asked by itself.");
         return;
     }
     words(ui.look.quiet, "Choose one to see why.");

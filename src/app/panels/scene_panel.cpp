@@ -114,7 +114,9 @@ void queries(Ui& ui) {
         ui.mark("query." + std::to_string(i));
         if (unexpected && ImGui::IsItemHovered()) ImGui::SetTooltip("The scene expects the other answer");
     });
-    if (count == 0) words(ui.look.quiet, "needs two agents");
+    if (count == 0)
+        words(ui.look.quiet,
+              session.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");
 }
 
 }  // namespace
