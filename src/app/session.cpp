@@ -172,8 +172,8 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     selection = {};
     hovered = {};
     playing = false;
-    // What was said of the last document is over.
-    messages_.clear();
+    // What went wrong with the last document is over.
+    std::erase_if(messages_, [](const Message& message) { return message.level != Message::Level::info; });
     history_.reset(std::move(document));
     changed();
 }
