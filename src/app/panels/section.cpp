@@ -51,13 +51,12 @@ void words(ImU32 color, const std::string& text) {
     std::string lines;
     std::string line;
     for (const std::string& word : unbroken_words(text)) {
-        const std::string longer = line.empty() ? word : line + ' ' + word;
-        if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > room) {
-            lines += line + '\n';
-            line = word;
-        } else {
-            line = longer;
-        }
+        const std::size_t before = line.size();
+        if (before > 0) line += ' ';
+        line += word;
+        if (before == 0 || ImGui::CalcTextSize(line.c_str()).x <= room) continue;
+        lines.append(line, 0, before) += '\n';
+        line = word;
     }
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(-1);
