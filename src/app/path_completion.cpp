@@ -26,7 +26,7 @@ std::size_t common_length(const std::string& a, const std::string& b) {
 std::string expanded(const std::string& text) {
     // A path that begins anew behind another, as typed into a field that was filled in.
     const std::size_t anew = std::max(text.rfind("//") + 1, text.rfind("/~") + 1);
-    const std::string typed = anew > 0 ? text.substr(anew) : text;
+    std::string typed = anew > 0 ? text.substr(anew) : text;
     const char* home = std::getenv("HOME");
     if (!home || (typed != "~" && !typed.starts_with("~/"))) return typed;
     return home + typed.substr(1);
