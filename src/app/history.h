@@ -19,7 +19,7 @@ struct Document {
     ViewState view;
 };
 
-/// Groups what belongs together: one drag, one number typed, looking around.
+/// Groups what belongs together: one drag, one number typed.
 struct EditName {
     std::string title;  ///< "Move A", for the menu: "Undo Move A"
     std::string group;  ///< an edit joins the last one if both have this group and it is still open; empty: never

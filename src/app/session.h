@@ -84,7 +84,7 @@ class Session {
     /// std::invalid_argument for options out of range: nothing is changed then. Fits that take long become a job, and
     /// the document changes when it is done.
     void edit(const EditName& name, const std::function<void(Scene&)>& change);
-    /// Changes how it is seen; undo takes back all that was looked at since the last edit in one go.
+    /// Changes how it is seen; undo takes back looking of one kind (see History::look) in one go.
     void look(const std::function<void(ViewState&)>& change);
     /// An interaction has ended: what follows is undone apart from it.
     void close_group() { history_.close_group(); }
