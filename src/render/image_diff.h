@@ -1,28 +1,48 @@
-/// Are two pictures the same, up to what a software rasteriser differs by from one CPU maker to another?
+/// Are two pictures the same, up to what rasterisers differ by?
 #pragma once
 
 #include <render/image.h>
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 namespace mobbscope {
 
 struct DiffOptions {
-    int channel_tolerance = 3;      ///< a pixel differs if one of its channels does by more than this, 0..255
-    double pixel_fraction = 0.001;  ///< pictures differ if more than this share of their pixels does, 0..1
+    double channel_tolerance = 3;   ///< a pixel differs if one of its channels does by more than this, 0..255
+    double pixel_fraction = 0.001;  ///< pictures differ if more than this share of the compared pixels does, 0..1
+    /// Pixels (0 or 1) by which something may be elsewhere: a pixel differs only if it is unlike all pixels of the
+    /// other picture within that distance, in either direction; so a line that is missing is found, one that moved is
+    /// not.
+    int shift = 0;
+};
+
+/// Pixels x .. x + width - 1, y .. y + height - 1, from the upper left corner.
+struct PixelRect {
+    int x = 0, y = 0, width = 0, height = 0;
+    friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
 struct ImageDiff {
     bool same_size = false;
-    std::int64_t pixels = 0;     ///< of the picture
-    std::int64_t differing = 0;  ///< pixels beyond the tolerance
-    int largest = 0;             ///< largest difference of a channel, 0..255
     bool same = false;           ///< the verdict
-    Image heat;                  ///< grey where equal, black to yellow by difference; empty if the sizes differ
+    std::int64_t pixels = 0;     ///< compared: all, or those of the mask
+    std::int64_t differing = 0;  ///< of them beyond the tolerance
+    int largest = 0;             ///< largest difference of a channel, 0..255
+    double mean = 0;             ///< of the compared pixels' differences, 0..255
+    /// Compared pixels by their difference, the largest of their channels (with a shift: the least found).
+    std::array<std::int64_t, 256> histogram{};
+    std::optional<PixelRect> bounds{};  ///< of the differing pixels
+    Image heat;                         ///< grey where equal, black to yellow by difference; empty if the sizes differ
 
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
 };
 
-ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {});
+/// `mask`: of the same size; pixels that are black or transparent in it are not compared. Null: all are. Pixels that
+/// are wholly transparent in both pictures are equal. Throws std::invalid_argument if the mask has another size than
+/// the reference.
+ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {},
+               const Image* mask = nullptr);
 
 }  // namespace mobbscope

@@ -3,6 +3,7 @@
 #include <scene/view_json.h>
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -85,15 +86,18 @@ void write_camera(JsonWriter& out, const Camera& camera) {
 
 }  // namespace
 
-ViewState read_view(const JsonPlace& place) {
+ViewState read_view(const JsonPlace& place, ViewState view) {
     place.allow_only({"camera", "levels", "query", "step", "time", "time_height", "color_by", "theme", "disks", "boxes",
                       "floor", "time_axis", "labels", "legend"});
-    ViewState view;
     if (const auto camera = place.find("camera")) view.camera = read_camera(*camera);
     if (const auto levels = place.find("levels")) view.levels = read_number_or_text(*levels, parse_level_range);
-    if (const auto query = place.find("query")) view.query = query->integer(0, kMaxInt);
+    if (const auto query = place.find("query")) {
+        view.query = query->is_null() ? std::nullopt : std::optional(query->integer(0, kMaxInt));
+    }
     if (const auto step = place.find("step")) view.step = read_number_or_text(*step, parse_step);
-    if (const auto time = place.find("time")) view.time = time->number(-mobb::kMaxTime, mobb::kMaxTime);
+    if (const auto time = place.find("time")) {
+        view.time = time->is_null() ? std::nullopt : std::optional(time->number(-mobb::kMaxTime, mobb::kMaxTime));
+    }
     if (const auto height = place.find("time_height")) view.time_height = height->number(0, kMaxHeight);
     if (const auto color_by = place.find("color_by")) {
         const auto value = color_by_from_name(color_by->string());

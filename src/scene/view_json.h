@@ -15,8 +15,9 @@
 
 namespace mobbscope {
 
-/// Throws InputError.
-ViewState read_view(const JsonPlace& place);
+/// What the keys say, over `base`: a key that is not there keeps its value, a camera replaces the whole camera, and
+/// null takes a query or a time out. Throws InputError.
+ViewState read_view(const JsonPlace& place, ViewState base = {});
 
 /// An object with what differs from the default.
 void write_view(JsonWriter& out, const ViewState& view);

@@ -1,0 +1,28 @@
+/// Makes the pictures of shots, one after the other, with what can be shared between them.
+#pragma once
+
+#include <guard/shot.h>
+#include <render/image.h>
+#include <render/renderer.h>
+
+#include <optional>
+
+namespace mobbscope::guard {
+
+class PictureMaker {
+  public:
+    /// Throws MachineError if there is no such context.
+    explicit PictureMaker(Backend backend);
+
+    std::string_view backend() const { return renderer_.backend(); }
+
+    /// Throws InputError if the view cannot be drawn or the window's script fails, MachineError if OpenGL reports an
+    /// error or the shader compiler a warning.
+    Image make(const Shot& shot);
+
+  private:
+    Backend backend_;
+    Renderer renderer_;
+};
+
+}  // namespace mobbscope::guard

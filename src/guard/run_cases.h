@@ -1,0 +1,46 @@
+/// Draws cases and holds them against their goldens.
+#pragma once
+
+#include <guard/case_file.h>
+#include <guard/picture_maker.h>
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::guard {
+
+enum class Outcome {
+    passed,
+    different,       ///< the picture, or what is drawn, is not the golden's
+    missing_golden,  ///< there is a picture, but nothing to hold it against
+    failed,          ///< no picture: the case cannot be read or drawn
+    skipped,         ///< by the case, or as there is no OpenGL
+};
+std::string_view name(Outcome outcome);
+
+struct CaseResult {
+    CaseFile file;
+    Outcome outcome = Outcome::passed;
+    std::string message;  ///< one line: why it did not pass; empty for one that did
+    double seconds = 0;   ///< drawing and comparing
+    Tolerance tolerance = Tolerance::tight;
+    Image actual;                    ///< empty where there is none
+    Image golden;                    ///< likewise
+    std::optional<ImageDiff> image;  ///< where both exist
+};
+
+/// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped. Never throws for what is
+/// wrong with a case.
+CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl);
+
+struct Summary {
+    int passed = 0, different = 0, missing = 0, failed = 0, skipped = 0;
+    bool ok() const { return different + missing + failed == 0; }
+};
+Summary summary(std::span<const CaseResult> results);
+
+}  // namespace mobbscope::guard

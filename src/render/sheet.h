@@ -1,0 +1,28 @@
+/// Pictures side by side with titles over them: panels of a figure, contact sheets.
+#pragma once
+
+#include <render/image.h>
+#include <render/metrics.h>
+#include <render/palette.h>
+#include <render/renderer.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+struct SheetCell {
+    std::string title;  ///< UTF-8; where all are empty there is no room for titles
+    Image image;
+};
+
+/// The size of a cell's picture when `cells` of them in `columns` fill a sheet of this size, with or without titles.
+/// Throws std::invalid_argument if a cell would be smaller than a picture may be.
+PictureSize cell_size(PictureSize sheet, int cells, int columns, bool titles, const Metrics& metrics);
+
+/// Row by row; pictures keep their pixels and stand in the middle of their cells, which are as large as the largest.
+Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& palette, const Metrics& metrics,
+                 Renderer& renderer);
+
+}  // namespace mobbscope
