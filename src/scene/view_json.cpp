@@ -19,9 +19,13 @@ struct Toggle {
     const char* key;
     bool ViewState::*value;
 };
-constexpr Toggle kToggles[] = {{"disks", &ViewState::disks},   {"boxes", &ViewState::boxes},
-                               {"floor", &ViewState::floor},   {"time_axis", &ViewState::time_axis},
-                               {"labels", &ViewState::labels}, {"legend", &ViewState::legend}};
+constexpr Toggle kToggles[] = {{"tested_before", &ViewState::tested_before},
+                               {"disks", &ViewState::disks},
+                               {"boxes", &ViewState::boxes},
+                               {"floor", &ViewState::floor},
+                               {"time_axis", &ViewState::time_axis},
+                               {"labels", &ViewState::labels},
+                               {"legend", &ViewState::legend}};
 
 CameraPreset read_preset(const JsonPlace& place) {
     if (const auto preset = camera_preset(place.string())) return *preset;
@@ -52,6 +56,15 @@ Camera read_camera(const JsonPlace& place) {
         shift->fail("a shift needs a target; add one, or leave it out and the camera frames the scene");
     }
     return camera;
+}
+
+DiskProjection read_projection(const JsonPlace& place) {
+    place.allow_only({"participant", "node", "sample"});
+    DiskProjection projection;
+    if (const auto participant = place.find("participant")) projection.participant = participant->integer(0, kMaxInt);
+    if (const auto node = place.find("node")) projection.node = node->integer(0, kMaxInt);
+    if (const auto sample = place.find("sample")) projection.sample = sample->integer(0, kMaxInt);
+    return projection;
 }
 
 /// A whole number, or text that `parse` understands.
@@ -87,8 +100,13 @@ void write_camera(JsonWriter& out, const Camera& camera) {
 }  // namespace
 
 ViewState read_view(const JsonPlace& place, ViewState view) {
-    place.allow_only({"camera", "levels", "query", "step", "time", "time_height", "color_by", "theme", "disks", "boxes",
-                      "floor", "time_axis", "labels", "legend"});
+    place.allow_only({"show", "camera", "levels", "query", "step", "tested_before", "projection", "time", "time_height",
+                      "color_by", "theme", "disks", "boxes", "floor", "time_axis", "labels", "legend"});
+    if (const auto show = place.find("show")) {
+        const auto value = show_from_name(show->string());
+        if (!value) show->fail("a picture cannot show " + in_quotes(show->string()) + "; give space-time or moment");
+        view.show = *value;
+    }
     if (const auto camera = place.find("camera")) view.camera = read_camera(*camera);
     if (const auto levels = place.find("levels")) view.levels = read_number_or_text(*levels, parse_level_range);
     if (const auto query = place.find("query")) {
@@ -97,6 +115,9 @@ ViewState read_view(const JsonPlace& place, ViewState view) {
     if (const auto step = place.find("step")) view.step = read_number_or_text(*step, parse_step);
     if (const auto time = place.find("time")) {
         view.time = time->is_null() ? std::nullopt : std::optional(time->number(-mobb::kMaxTime, mobb::kMaxTime));
+    }
+    if (const auto projection = place.find("projection")) {
+        view.projection = projection->is_null() ? std::nullopt : std::optional(read_projection(*projection));
     }
     if (const auto height = place.find("time_height")) view.time_height = height->number(0, kMaxHeight);
     if (const auto color_by = place.find("color_by")) {
@@ -119,6 +140,7 @@ ViewState read_view(const JsonPlace& place, ViewState view) {
 void write_view(JsonWriter& out, const ViewState& view) {
     const ViewState standard;
     out.begin_object();
+    if (view.show != standard.show) out.member("show", name(view.show));
     if (view.camera != standard.camera) {
         out.key("camera");
         write_camera(out, view.camera);
@@ -126,6 +148,14 @@ void write_view(JsonWriter& out, const ViewState& view) {
     if (view.levels != standard.levels) out.member("levels", to_string(view.levels));
     if (view.query) out.member("query", *view.query);
     if (view.step != standard.step) out.member("step", to_string(view.step));
+    if (view.projection) {
+        out.key("projection");
+        out.begin_object(JsonWriter::Layout::row);
+        out.member("participant", view.projection->participant);
+        out.member("node", view.projection->node);
+        out.member("sample", view.projection->sample);
+        out.end_object();
+    }
     if (view.time) out.member("time", *view.time);
     if (view.time_height != standard.time_height) out.member("time_height", view.time_height);
     if (view.color_by != standard.color_by) out.member("color_by", name(view.color_by));

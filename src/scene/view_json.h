@@ -1,8 +1,10 @@
 /// The `view` of a scene file: every key is optional and has ViewState's name for it.
 ///
-///     {"camera": {"preset": "iso", "yaw_deg": 45, "pitch_deg": 25, "perspective": true, "fov_deg": 12,
+///     {"show": "space-time", "camera": {"preset": "iso", "yaw_deg": 45, "pitch_deg": 25, "perspective": true,
+///     "fov_deg": 12,
 ///                 "target": [0, 0, 1], "distance": 12, "shift": [0, 0.1]},
-///      "levels": "1:3", "query": 0, "step": "40%", "time": 1.5, "time_height": 2,
+///      "levels": "1:3", "query": 0, "step": "40%", "tested_before": true,
+///      "projection": {"participant": 0, "node": 0, "sample": 3}, "time": 1.5, "time_height": 2,
 ///      "color_by": "agent", "theme": "dark",
 ///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true}
 ///

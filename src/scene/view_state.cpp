@@ -101,4 +101,12 @@ std::optional<ColorBy> color_by_from_name(std::string_view text) {
     return std::nullopt;
 }
 
+std::string_view name(Show show) { return show == Show::space_time ? "space-time" : "moment"; }
+
+std::optional<Show> show_from_name(std::string_view text) {
+    if (text == "space-time") return Show::space_time;
+    if (text == "moment") return Show::moment;
+    return std::nullopt;
+}
+
 }  // namespace mobbscope

@@ -16,6 +16,18 @@ enum class Theme { dark, light };
 /// What the colour of a level's boxes says: whose they are, or which level.
 enum class ColorBy { agent, level };
 
+/// What a picture is of: the stacks and boxes in space-time, or the floor at one moment, with people in their
+/// cylinders.
+enum class Show { space_time, moment };
+
+/// One disk and how far it reaches along the axes of a box around it (the paper's Fig. 6).
+struct DiskProjection {
+    int participant = 0;  ///< index into what is drawn
+    int node = 0;         ///< of its tree
+    int sample = 0;       ///< of its clip
+    friend bool operator==(const DiskProjection&, const DiskProjection&) = default;
+};
+
 /// Degrees.
 inline constexpr double kLeastFov = 0.5;
 inline constexpr double kMostFov = 150;
@@ -55,10 +67,13 @@ struct Step {
 };
 
 struct ViewState {
+    Show show = Show::space_time;  ///< the moment is `time`, or the beginning
     Camera camera;
     LevelRange levels;
     std::optional<int> query;  ///< index into the effective queries: its state at `step` is drawn instead of the levels
     Step step;
+    bool tested_before = true;  ///< with a query: boxes of the pairs that were tested before the step's too
+    std::optional<DiskProjection> projection;  ///< drawn instead of the levels
     std::optional<double> time;  ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
     double time_height = 0;      ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
     ColorBy color_by = ColorBy::agent;  ///< of the boxes of levels; those of a query have their states' colours
@@ -84,6 +99,9 @@ std::string_view name(Theme theme);
 std::optional<Theme> theme_from_name(std::string_view name);
 std::string_view name(ColorBy color_by);
 std::optional<ColorBy> color_by_from_name(std::string_view name);
+/// "space-time" and "moment".
+std::string_view name(Show show);
+std::optional<Show> show_from_name(std::string_view name);
 /// What parse_level_range and parse_step read.
 std::string to_string(const LevelRange& levels);
 std::string to_string(const Step& step);
