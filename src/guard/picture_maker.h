@@ -5,7 +5,7 @@
 #include <render/image.h>
 #include <render/renderer.h>
 
-#include <optional>
+#include <string_view>
 
 namespace mobbscope::guard {
 
@@ -15,13 +15,13 @@ class PictureMaker {
     explicit PictureMaker(Backend backend);
 
     std::string_view backend() const { return renderer_.backend(); }
+    Renderer& renderer() { return renderer_; }
 
     /// Throws InputError if the view cannot be drawn or the window's script fails, MachineError if OpenGL reports an
     /// error or the shader compiler a warning.
     Image make(const Shot& shot);
 
   private:
-    Backend backend_;
     Renderer renderer_;
 };
 

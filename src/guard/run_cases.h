@@ -33,8 +33,8 @@ struct CaseResult {
     std::optional<ImageDiff> image;  ///< where both exist
 };
 
-/// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped. Never throws for what is
-/// wrong with a case.
+/// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
+/// throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl);
 
 struct Summary {
