@@ -61,6 +61,7 @@ Blocks aim(DrawList& list, const Stage& stage, const ViewState& view, const Metr
     const auto place = [&] { return place_blocks(area, legend, map, occupied(list, stage, view, metrics)); };
     const Frame frame = free_frame(list.size, top, stage, view, metrics);
     list.lens = lens_for(list, view, points, frame);
+    list.frame = frame;
     Blocks blocks = place();
     if (!blocks.covers || view.camera.target) return blocks;
     // No corner is free: the scene makes room, beside or below it, whichever costs it less.
@@ -72,14 +73,15 @@ Blocks aim(DrawList& list, const Stage& stage, const ViewState& view, const Metr
     const Lens lens_beside = lens_for(list, view, points, beside);
     const Lens lens_above = lens_for(list, view, points, above);
     const glm::vec3 middle = 0.5f * (points.front() + points.back());
-    const Lens& larger =
-        lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle) ? lens_beside : lens_above;
+    const bool fits_beside = lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle);
+    const Lens& larger = fits_beside ? lens_beside : lens_above;
     if (larger.pixels_per_metre(middle) < kLeastShare * list.lens.pixels_per_metre(middle)) {
         // The scene is what the picture is for.
         list.legend.clear();
         return place_blocks(area, glm::vec2(0), glm::vec2(0), {});
     }
     list.lens = larger;
+    list.frame = fits_beside ? beside : above;
     return place();
 }
 
@@ -98,6 +100,12 @@ void add_stage(DrawList& list, std::span<const Subject> subjects, const Stage& s
 }  // namespace
 
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
+    return build_draw_list(fitted, view, {.size = size, .scale = scale});
+}
+
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options) {
+    const PictureSize size = options.size;
+    const double scale = options.scale;
     if (scale != 0 && !(scale >= kLeastScale && scale <= kMostScale)) {
         throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
                                     short_double(kLeastScale) + " to " + short_double(kMostScale));
@@ -108,6 +116,8 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
     DrawList list;
     list.size = size;
     list.palette = palette(view.theme);
+    list.background = options.background;
+    if (options.background && options.background->a >= 1) list.palette.background = *options.background;
     for (const Subject& subject : paths) list.participants.push_back(subject.name);
 
     const Bounds bounds = bounds_of(paths);
