@@ -8,6 +8,7 @@
 #include <render/common_framing.h>
 #include <render/draw_list_json.h>
 #include <render/png.h>
+#include <render/renderer.h>
 
 #include <unistd.h>
 

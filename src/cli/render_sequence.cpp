@@ -39,9 +39,9 @@ Sequence turntable(const ViewState& view, int count) {
 }
 
 Sequence steps(const FittedScene& fitted, const ViewState& view) {
-    const int query = *view.query;
+    const auto query = static_cast<std::size_t>(*view.query);
     static_cast<void>(subjects(fitted, view));  // throws if there is no such query
-    const std::size_t count = record(fitted, fitted.queries()[static_cast<std::size_t>(query)]).trace.size();
+    const std::size_t count = record(fitted, fitted.queries()[query]).trace.size();
     const auto at = [view](int i) {
         ViewState out = view;
         out.step = {Step::Unit::event, static_cast<double>(i)};
