@@ -32,4 +32,7 @@ using ScriptAction = std::function<void(ScriptRun&)>;
 /// Throws std::invalid_argument, in words, if it is no statement.
 ScriptAction make_action(const ScriptLine& line);
 
+/// Whether it is a statement that writes a file or prints.
+bool writes_output(const ScriptLine& line);
+
 }  // namespace mobbscope::app

@@ -1,6 +1,6 @@
-#include <app/headless_window.h>
 #include <cli/messages.h>
 #include <cli/render_job.h>
+#include <guard/window_picture.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
@@ -21,19 +21,6 @@
 namespace mobbscope::cli {
 
 namespace {
-
-/// The whole window with the scene open in it: one frame of the real thing.
-Image window_picture(const RenderJob& job, const ViewState& view, Backend backend) {
-    Scene scene = job.fitted->scene();
-    scene.fit = job.fitted->options();
-    scene.view = view;
-    app::Session session(false);
-    session.open_scene(scene, {job.arguments.file});
-    app::HeadlessWindow window(GlContext::open(backend), session, job.arguments.picture.size,
-                               job.arguments.ui_scale.value_or(1));
-    window.settle();
-    return window.shell().read_back();
-}
 
 /// For a person who waits; a script's log stays empty.
 class Patience {
@@ -190,7 +177,9 @@ void RenderPlan::draw(Backend backend) const {
     for (const RenderJob& job : jobs_) {
         for (const RenderPicture& picture : job.pictures) {
             if (job.arguments.ui) {
-                write_png(picture.outputs.image, window_picture(job, picture.view, backend));
+                write_png(picture.outputs.image,
+                          guard::window_picture(*job.fitted, picture.view, job.arguments.file, backend,
+                                                job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
             } else {
                 draw_scene(job, picture, renderer ? &*renderer : nullptr);
             }

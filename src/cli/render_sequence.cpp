@@ -41,14 +41,14 @@ Sequence turntable(const ViewState& view, int count) {
 Sequence steps(const FittedScene& fitted, const ViewState& view) {
     const auto query = static_cast<std::size_t>(*view.query);
     static_cast<void>(subjects(fitted, view));  // throws if there is no such query
-    const std::size_t count = record(fitted, fitted.queries()[query]).trace.size();
+    const int count = record(fitted, fitted.queries()[query]).trace.size();
     const auto at = [view](int i) {
         ViewState out = view;
         out.step = {Step::Unit::event, static_cast<double>(i)};
         return out;
     };
-    return {static_cast<double>(count),
-            "query " + std::to_string(query) + " has " + counted(static_cast<long long>(count), "step", "steps"), at};
+    return {static_cast<double>(count), "query " + std::to_string(query) + " has " + counted(count, "step", "steps"),
+            at};
 }
 
 Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {

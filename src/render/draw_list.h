@@ -135,6 +135,7 @@ struct DrawList {
     DrawnSpace space;
     Lens lens;
     Frame frame;  ///< the part of the picture that is left for the scene; a camera with a target need not keep to it
+    std::optional<double> moment;           ///< global seconds: heights are metres and no times, for the floor then
     std::vector<std::string> participants;  ///< names of what ObjectId::participant counts
 
     std::vector<DiskInstance> disks;

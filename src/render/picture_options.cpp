@@ -8,6 +8,12 @@
 
 namespace mobbscope {
 
+Palette palette_for(Theme theme, const PictureOptions& options) {
+    Palette out = palette(theme);
+    if (options.background && options.background->a >= 1) out.background = *options.background;
+    return out;
+}
+
 int parse_samples(const std::string& text) {
     const std::optional<int> samples = parse_int(text);
     if (samples == 1 || samples == 2 || samples == 4 || samples == 8) return *samples;

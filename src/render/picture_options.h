@@ -19,6 +19,9 @@ struct PictureOptions {
     std::optional<Rgba> background{};  ///< instead of the theme's; opacity below 1: seen through where nothing is drawn
 };
 
+/// The theme's palette; an opaque background replaces its own.
+Palette palette_for(Theme theme, const PictureOptions& options);
+
 /// "1", "2", "4" or "8". Throws std::invalid_argument saying what is allowed.
 int parse_samples(const std::string& text);
 
