@@ -20,12 +20,6 @@ namespace {
 constexpr double kLeastDistance = 1e-6;  // metres
 constexpr double kMostRate = 1000;       // pictures per second
 
-template <class T>
-T required(std::optional<T> value, const std::string& text, const char* allowed) {
-    if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + allowed);
-    return *value;
-}
-
 /// "1,2.5" as numbers within [-most, most].
 template <std::size_t Count>
 std::array<double, Count> parse_numbers(const std::string& text, double most, const char* what) {
@@ -84,12 +78,6 @@ int parse_turntable(const std::string& text) {
     if (!count || *count < 1)
         throw std::invalid_argument(in_quotes(text) + " is no number of pictures: give 1 or more");
     return *count;
-}
-
-/// For text that stands for one of a few values.
-template <class Find>
-auto one_of(Find find, const char* allowed) {
-    return [find, allowed](const std::string& text) { return required(find(text), text, allowed); };
 }
 
 void add_camera_options(CLI::App& command, ViewArguments& view) {
