@@ -41,6 +41,7 @@ std::string camera_options(const Camera& file, const Camera& now) {
 
 std::string view_options(const ViewState& file, const ViewState& now) {
     std::string out = camera_options(file.camera, now.camera);
+    if (now.show != file.show) out += " --show " + std::string(name(now.show));
     if (now.query) {
         if (now.query != file.query) out += " --query " + std::to_string(*now.query);
         if (now.step != file.step) out += " --step " + to_string(now.step);
