@@ -16,11 +16,17 @@ std::string at_time(double time) {
     return text;
 }
 
+/// The tip of a bone has no name of its own.
+std::string joint_words(std::span<const Joint> joints, int index) {
+    const Joint& joint = joints[static_cast<std::size_t>(index)];
+    if (!joint.name.empty() || joint.parent < 0) return joint.name;
+    return "the end of " + joints[static_cast<std::size_t>(joint.parent)].name;
+}
+
 std::string radius(const Subject& subject, const Body& body) {
     const std::string text = "radius " + with_unit(body.disk.r, "m");
     if (!sets_radius(body)) return text;
-    return text + ": as far as " + subject.skeleton->joints[static_cast<std::size_t>(body.farthest->joint)].name +
-           " reaches";
+    return text + ": as far as " + joint_words(subject.skeleton->joints, body.farthest->joint) + " reaches";
 }
 
 constexpr std::size_t kMostPairs = 3;
