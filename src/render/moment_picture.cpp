@@ -86,7 +86,7 @@ void add_ways(DrawList& list, std::span<const Subject> subjects, const Moment& m
         if (subjects.size() > kMostPathsInFull) shown = samples_around(subject.clip(), moment.time, kWayOfMany);
         const Rgba ahead = with_alpha(subject.color, list.palette.dark ? 0.4f : 0.5f);
         if (!sample[i]) {
-            add_floor_trace(list, subject, shown, 0, with_alpha(ahead, 0.6f * ahead.a), scale);
+            add_floor_trace(list, subject, shown, 0, with_alpha(ahead, 0.8f * ahead.a), scale);
             continue;
         }
         const int now = std::clamp(*sample[i], shown.first, shown.end() - 1);
