@@ -40,7 +40,7 @@ std::string place(int line) { return "line " + std::to_string(line); }
 
 }  // namespace
 
-Script Script::parse(std::string_view text, const std::string& name) {
+Script Script::parse(std::string_view text, const std::string& name, ScriptOutput output) {
     Script script;
     script.name_ = name;
     for (int line = 1; !text.empty(); ++line) {
@@ -49,7 +49,13 @@ Script Script::parse(std::string_view text, const std::string& name) {
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         try {
             const ScriptLine words = split(one);
-            if (!words.words.empty()) script.statements_.push_back({line, make_action(words)});
+            if (words.words.empty()) continue;
+            if (output == ScriptOutput::refused && writes_output(words)) {
+                throw std::invalid_argument(in_quotes(words.words.front()) +
+                                            " has nowhere to write to here: the picture is the window at the script's "
+                                            "end; remove the line");
+            }
+            script.statements_.push_back({line, make_action(words)});
         } catch (const std::invalid_argument& error) {
             throw InputError(name, place(line), error.what());
         }

@@ -37,4 +37,7 @@ struct ScriptLine {
 /// Throws std::invalid_argument, in words, if it is no statement.
 ScriptAction make_action(const ScriptLine& line);
 
+/// Whether it is a statement that writes a file or prints.
+bool writes_output(const ScriptLine& line);
+
 }  // namespace mobbscope::app

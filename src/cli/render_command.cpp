@@ -1,7 +1,8 @@
-#include <app/headless_window.h>
+#include <app/shell.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
+#include <guard/window_picture.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
@@ -164,19 +165,6 @@ void warn_of_missing_glyphs(const DrawList& list) {
          " of this scene's names; boxes stand for them");
 }
 
-/// The whole window with the scene open in it: one frame of the real thing.
-Image window_picture(const FittedScene& fitted, const ViewState& view, const Arguments& arguments) {
-    Scene scene = fitted.scene();
-    scene.fit = fitted.options();
-    scene.view = view;
-    app::Session session(false);
-    session.open_scene(scene, {arguments.file});
-    app::HeadlessWindow window(GlContext::open(arguments.backend), session, arguments.size,
-                               arguments.ui_scale.value_or(1));
-    window.settle();
-    return window.shell().read_back();
-}
-
 void run(const Arguments& arguments) {
     check_output_name(arguments.output);
     check_together(arguments);
@@ -199,7 +187,8 @@ void run(const Arguments& arguments) {
     check_writable(arguments.output);
     warn_of_missing_glyphs(list);
     if (arguments.ui) {
-        write_png(arguments.output, window_picture(fitted, view, arguments));
+        write_png(arguments.output, guard::window_picture(fitted, view, arguments.file, arguments.backend,
+                                                          arguments.size, arguments.ui_scale.value_or(1)));
         return;
     }
     Renderer renderer(arguments.backend);

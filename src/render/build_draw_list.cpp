@@ -4,6 +4,7 @@
 #include <render/block_layout.h>
 #include <render/build_draw_list.h>
 #include <render/caption.h>
+#include <render/disk_projection.h>
 #include <render/emphasis.h>
 #include <render/floor_inset.h>
 #include <render/framing.h>
@@ -14,6 +15,7 @@
 #include <render/paths.h>
 #include <render/query_boxes.h>
 #include <render/query_progress.h>
+#include <render/time_intervals.h>
 #include <render/words.h>
 
 #include <stdexcept>
@@ -79,6 +81,10 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
     list.palette = palette(view.theme);
     for (const Subject& subject : paths) list.participants.push_back(subject.name);
 
+    if (view.projection) {
+        add_disk_projection(list, paths, *view.projection, view, metrics);
+        return list;
+    }
     const Bounds bounds = bounds_of(paths);
     list.space = space_for(bounds, view);
     std::optional<QueryAtStep> query;
@@ -87,7 +93,7 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
     const Emphasis emphasis = emphasis_of(view, paths, bounds.min.z, bounds.max.z, progress);
     const bool has_cursor = emphasis.cursor.has_value();
 
-    if (view.boxes && progress) add_query_boxes(list, paths, *progress, metrics.scale);
+    if (view.boxes && progress) add_query_boxes(list, paths, *progress, pair_outline(view), metrics.scale);
     const bool levels = view.boxes && !progress;
     if (levels) add_level_boxes(list, paths, view.levels, view.color_by, metrics.scale);
     if (view.disks) add_paths(list, paths, emphasis, progress, levels && view.color_by == ColorBy::level);
@@ -119,6 +125,9 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
     add_stage(list, paths, stage, view, metrics.scale);
     if (view.disks) {
         for (const Subject& subject : paths) add_thin_path(list, subject, 1.3f * metrics.scale);
+    }
+    if (progress && view.time_axis && pair_outline(view) == PairOutline::outcome) {
+        add_time_intervals(list, stage, paths, progress->event, metrics.scale);
     }
     if (emphasis.cursor) add_time_cursor(list, stage, *emphasis.cursor, metrics.scale);
     add_rings(list, paths, emphasis, metrics.scale);

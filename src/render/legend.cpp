@@ -81,11 +81,13 @@ void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::sp
 }
 
 void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> sides,
-               const QueryProgress& progress, std::vector<LegendEntry>& remarks) {
+               const QueryProgress& progress, PairOutline outline, std::vector<LegendEntry>& remarks) {
     for (const Subject& side : sides) {
         LegendEntry entry;
         entry.mark = LegendEntry::Mark::box;
-        entry.color = side.color;
+        entry.color = outline == PairOutline::owner
+                          ? side.color
+                          : pair_style(outline, side, progress.event.outcome, list.palette).color;
         entry.fill = with_alpha(side.color, 0.3f);
         entry.width = 2;
         entry.text = side.label + ", under test";
@@ -104,7 +106,7 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
         if (present(state) || box_state(progress.event.outcome) == state)
             entries.push_back(line_entry(outcome_style(state, list.palette), text));
     }
-    const bool earlier = !progress.nodes[0].empty() || !progress.nodes[1].empty();
+    const bool earlier = outline == PairOutline::owner && (!progress.nodes[0].empty() || !progress.nodes[1].empty());
     if (earlier) remarks.push_back(remark("fine boxes: the latest test of a node"));
 }
 
@@ -153,7 +155,7 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Su
     std::vector<LegendEntry> entries;
     std::vector<LegendEntry> remarks;
     if (progress) {
-        if (view.boxes) add_query(entries, list, subjects, *progress, remarks);
+        if (view.boxes) add_query(entries, list, subjects, *progress, pair_outline(view), remarks);
         if (!view.boxes && view.disks) entries = agent_entries(subjects);
         using Mark = LegendEntry::Mark;
         if (emphasis.dims) {

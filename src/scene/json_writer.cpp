@@ -10,6 +10,12 @@ namespace mobbscope {
 
 namespace {
 
+std::string few_digits(double number) {
+    const double rounded = std::abs(number) < 1e6 ? std::round(number * 1e6) / 1e6 : number;
+    // Adding zero takes the sign off a negative one.
+    return brief(rounded + 0.0);
+}
+
 bool is_plain(char c) { return c >= 0x20 && c < 0x7f && c != '"' && c != '\\'; }
 
 }  // namespace
@@ -24,7 +30,7 @@ void JsonWriter::key(std::string_view key) {
 void JsonWriter::value(double number) {
     if (!std::isfinite(number)) return null();
     separate();
-    out_ << format_double(number);
+    out_ << (digits_ == Digits::all ? format_double(number) : few_digits(number));
 }
 
 void JsonWriter::value(std::int64_t number) {

@@ -9,15 +9,19 @@
 
 namespace mobbscope {
 
-/// Calls must make one well-formed value: inside an object each value follows its key. Doubles have 17 significant
-/// digits; a number that is not finite becomes null. Bytes that are not UTF-8 become U+FFFD.
+/// Calls must make one well-formed value: inside an object each value follows its key. A number that is not finite
+/// becomes null. Bytes that are not UTF-8 become U+FFFD.
 class JsonWriter {
   public:
     /// Whether the elements of a container stand on lines of their own or all on one; what is inside a row is a row
     /// too.
     enum class Layout { lines, row };
 
-    explicit JsonWriter(std::ostream& out) : out_(out) {}
+    /// Of doubles: 17 significant ones, from which the same double is read; or for people six, and none that stand for
+    /// less than a millionth.
+    enum class Digits { all, few };
+
+    explicit JsonWriter(std::ostream& out, Digits digits = Digits::all) : out_(out), digits_(digits) {}
 
     void begin_object(Layout layout = Layout::lines) { begin('{', layout); }
     void end_object() { end('}'); }
@@ -59,6 +63,7 @@ class JsonWriter {
     void string(std::string_view text);
 
     std::ostream& out_;
+    Digits digits_;
     std::vector<Open> open_;
     bool after_key_ = false;
 };

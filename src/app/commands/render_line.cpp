@@ -1,5 +1,6 @@
 #include <app/commands/explicit_view.h>
 #include <app/commands/render_line.h>
+#include <import/shell_word.h>
 #include <import/text.h>
 #include <render/lens.h>
 
@@ -70,15 +71,6 @@ std::string view_options(const ViewState& file, const ViewState& now) {
     return out;
 }
 
-/// A word as a POSIX shell takes it literally.
-std::string shell_quoted(const std::string& word) {
-    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + '\'';
-}
-
 }  // namespace
 
 std::string render_line(const Session& session) {
@@ -89,7 +81,7 @@ std::string render_line(const Session& session) {
     const PictureSize size = viewport_size(session);
     const std::string scale = session.hooks.ui_scale ? " --scale " + short_double(session.hooks.ui_scale()) : "";
     // Of an unchanged scene, its `view` is the one in the file.
-    return "mobbscope render " + shell_quoted(file.string()) + view_options(session.scene().view, session.view()) +
+    return "mobbscope render " + shell_word(file.string()) + view_options(session.scene().view, session.view()) +
            " --size " + std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";
 }
 
