@@ -3,6 +3,7 @@
 
 #include <import/import.h>
 #include <mobb/tree.h>
+#include <render/gl_context.h>
 #include <scene/scene.h>
 
 #include <CLI/CLI.hpp>
@@ -38,6 +39,9 @@ void add_import_options(CLI::App& command, ImportOptions& options);
 
 /// Adds the FILE that a command works on: a scene or a clip.
 void add_scene_file(CLI::App& command, std::filesystem::path& file);
+
+/// Adds --backend. `backend` must live until the command has run.
+void add_backend_option(CLI::App& command, Backend& backend);
 
 /// Reads a finite number within [low, high]; throws std::invalid_argument.
 std::function<double(const std::string&)> number_within(double low, double high);

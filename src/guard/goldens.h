@@ -8,6 +8,9 @@
 
 namespace mobbscope::guard {
 
+/// Makes the folder that a file goes to, if need be. Throws MachineError.
+void make_folder_of(const std::filesystem::path& file);
+
 /// Writes the pictures of a case into a folder that is made if need be: NAME.actual.png, NAME.golden.png and
 /// NAME.heat.png, those that there are; what an earlier run left of the others goes. Returns what it wrote. Throws
 /// MachineError.

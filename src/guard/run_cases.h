@@ -31,6 +31,9 @@ struct CaseResult {
     Image actual;                    ///< empty where there is none
     Image golden;                    ///< likewise
     std::optional<ImageDiff> image;  ///< where both exist
+    /// What is drawn, where there is a NAME.draw.json, and whether it is what stands there.
+    std::string draw_lists;
+    bool draws_the_same = true;
 };
 
 /// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never

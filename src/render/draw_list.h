@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -130,6 +131,7 @@ struct DrawList {
     Palette palette;
     DrawnSpace space;
     Lens lens;
+    std::optional<double> moment;           ///< global seconds: heights are metres and no times, for the floor then
     std::vector<std::string> participants;  ///< names of what ObjectId::participant counts
 
     std::vector<DiskInstance> disks;

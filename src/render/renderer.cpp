@@ -25,13 +25,17 @@ void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
     }
 }
 
-/// The current context's, by the names of Mesa's, Google's and Microsoft's software renderers.
-bool draws_in_software() {
+/// The current context's.
+std::string device_name() {
     const GLubyte* name = glGetString(GL_RENDERER);
-    const std::string_view text = name ? reinterpret_cast<const char*>(name) : "";
+    return name ? reinterpret_cast<const char*>(name) : "";
+}
+
+/// By the names of Mesa's, Google's and Microsoft's software renderers.
+bool draws_in_software(std::string_view device) {
     for (const char* software :
          {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR", "GDI"}) {
-        if (text.find(software) != std::string_view::npos) return true;
+        if (device.find(software) != std::string_view::npos) return true;
     }
     return false;
 }
@@ -47,7 +51,8 @@ std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
 struct Renderer::State {
     explicit State(std::unique_ptr<GlContext> drawn_in)
         : context(made_current(std::move(drawn_in))),
-          software(draws_in_software()),
+          device(device_name()),
+          software(draws_in_software(device)),
           disks(*context),
           faces(*context),
           lines(*context),
@@ -79,6 +84,7 @@ struct Renderer::State {
     }
 
     std::unique_ptr<GlContext> context;
+    std::string device;
     bool software;
     DiskPass disks;
     FacePass faces;
@@ -99,6 +105,8 @@ Renderer::~Renderer() {
 }
 
 std::string_view Renderer::backend() const { return state_->context->name(); }
+
+const std::string& Renderer::device() const { return state_->device; }
 
 GlContext& Renderer::context() { return *state_->context; }
 

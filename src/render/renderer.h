@@ -35,9 +35,11 @@ class Renderer {
 
     /// The name of the context in use: "osmesa", "egl", or "window".
     std::string_view backend() const;
+    /// What OpenGL calls what draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& device() const;
     /// For what else draws in it.
     GlContext& context();
-    /// Whether the processor draws, by the name that OpenGL gives its renderer. Then multisampling is dear.
+    /// Whether the processor draws, by the device's name. Then multisampling is dear.
     bool is_software() const;
 
     /// What the shader compiler remarked.
