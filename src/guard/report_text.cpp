@@ -1,3 +1,4 @@
+#include <guard/goldens.h>
 #include <guard/report_words.h>
 #include <guard/reports.h>
 #include <import/text.h>
