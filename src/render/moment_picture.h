@@ -2,7 +2,7 @@
 #pragma once
 
 #include <render/draw_list.h>
-#include <render/metrics.h>
+#include <render/picture_options.h>
 #include <scene/fitted_scene.h>
 
 namespace mobbscope {
@@ -12,6 +12,6 @@ double moment_in(const FittedScene& fitted, const ViewState& view);
 
 /// What build_draw_list makes of a view that shows a moment. With a query in the view only its two sides are there. It
 /// is framed so that nothing moves but the people while time runs. Throws as build_draw_list.
-DrawList build_moment(const FittedScene& fitted, const ViewState& view, PictureSize size, const Metrics& metrics);
+DrawList build_moment(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
 
 }  // namespace mobbscope
