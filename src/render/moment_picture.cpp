@@ -138,6 +138,7 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, Picture
             if (*view.time < bounds.min.z || *view.time >= end)
                 mention_cursor_outside(caption, *view.time, bounds.min.z, end);
         }
+        if (!view.caption) caption = {};
         std::vector<LegendEntry> legend;
         if (view.legend) legend = moment_legend(list.palette, people, moment, view.floor, radii);
         Words words = words_that_fit(caption, std::move(legend), glm::vec2(0), size, metrics);

@@ -64,6 +64,7 @@ std::string view_options(const ViewState& file, const ViewState& now) {
     reached.floor = file.floor;
     reached.time_axis = file.time_axis;
     reached.labels = file.labels;
+    reached.caption = file.caption;
     reached.legend = file.legend;
     if (reached != now) ask_to_save();
     return out;
