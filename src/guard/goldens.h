@@ -8,13 +8,13 @@
 
 namespace mobbscope::guard {
 
+/// Makes the folder that a file goes to, if need be. Throws MachineError.
+void make_folder_of(const std::filesystem::path& file);
+
 /// Writes the pictures of a case into a folder that is made if need be: NAME.actual.png, NAME.golden.png and
 /// NAME.heat.png, those that there are; what an earlier run left of the others goes. Returns what it wrote. Throws
 /// MachineError.
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
-
-/// Whether there is a picture, and it is not the golden's.
-bool can_be_taken(const CaseResult& result);
 
 /// Makes the present picture the golden, after which the case has passed. Returns what it wrote. Throws MachineError.
 std::vector<std::filesystem::path> take(CaseResult& result);

@@ -3,9 +3,11 @@
 #include <guard/shader_warnings.h>
 #include <guard/window_picture.h>
 #include <import/error.h>
+#include <render/draw_list_json.h>
 #include <render/sheet.h>
 
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -32,11 +34,26 @@ Image PictureMaker::make(const Shot& shot) {
     refuse_warnings(renderer_.backend(), renderer_.warnings());
     if (shot.window) return picture_of_window(shot, *backend_from_name(renderer_.backend()));
     const std::vector<DrawList> lists = panel_lists(shot);
-    if (lists.size() == 1) return renderer_.draw(lists.front());
+    if (lists.size() == 1) return renderer_.draw(lists.front(), shot.picture.samples);
     std::vector<SheetCell> cells;
-    for (std::size_t i = 0; i < lists.size(); ++i) cells.push_back({shot.panels[i].title, renderer_.draw(lists[i])});
+    for (std::size_t i = 0; i < lists.size(); ++i)
+        cells.push_back({shot.panels[i].title, renderer_.draw(lists[i], shot.picture.samples)});
     return make_sheet(cells, shot.columns, lists.front().palette, metrics_of(shot.picture.size, shot.picture.scale),
                       renderer_, shot.picture.size);
+}
+
+std::string PictureMaker::draw_lists(const Shot& shot) {
+    if (shot.window) throw InputError("a window has no draw list to hold it against");
+    const std::vector<DrawList> lists = panel_lists(shot);
+    std::ostringstream out;
+    if (lists.size() > 1) out << "[\n";
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        if (i > 0) out << ",\n";
+        const IdImage ids = renderer_.draw_ids(lists[i]);
+        write_draw_list(out, lists[i], &ids);
+    }
+    if (lists.size() > 1) out << "]\n";
+    return out.str();
 }
 
 }  // namespace mobbscope::guard

@@ -5,6 +5,7 @@
 #include <render/image.h>
 #include <render/renderer.h>
 
+#include <string>
 #include <string_view>
 
 namespace mobbscope::guard {
@@ -20,6 +21,10 @@ class PictureMaker {
     /// Throws InputError if the view cannot be drawn or the window's script fails, MachineError if OpenGL reports an
     /// error or the shader compiler a warning.
     Image make(const Shot& shot);
+
+    /// What a shot draws, as JSON with the number of pixels of each object (draw_list_json.h): an object, or for
+    /// several panels an array of them. Throws as make does, and InputError for a window.
+    std::string draw_lists(const Shot& shot);
 
   private:
     Renderer renderer_;

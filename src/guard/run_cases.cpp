@@ -1,7 +1,9 @@
 #include <guard/run_cases.h>
 
 #include <import/error.h>
+#include <import/file.h>
 #include <import/text.h>
+#include <render/draw_list_json.h>
 #include <render/png.h>
 
 #include <chrono>
@@ -32,8 +34,8 @@ std::string difference(const Image& actual, const Image& golden, const ImageDiff
            ", by up to " + std::to_string(diff.largest) + "/255" + where;
 }
 
-/// Holds what was drawn against the golden.
-void compare(CaseResult& result) {
+/// Holds the picture against the golden.
+void compare_pictures(CaseResult& result) {
     const std::filesystem::path file = result.file.golden();
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
@@ -53,6 +55,25 @@ void compare(CaseResult& result) {
     result.outcome = result.message.empty() ? Outcome::passed : Outcome::different;
 }
 
+/// Holds what is drawn against NAME.draw.json, if there is one.
+void compare_draw_lists(CaseResult& result, const Shot& shot, PictureMaker& maker) {
+    const std::filesystem::path file = result.file.draw();
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return;
+    result.draw_lists = maker.draw_lists(shot);
+    std::string why;
+    try {
+        const auto found = first_difference(result.draw_lists, "the draw list", read_file(file), file.string());
+        if (!found) return;
+        why = file.filename().string() + ": " + *found;
+    } catch (const InputError& error) {
+        why = error.what();
+    }
+    result.draws_the_same = false;
+    if (result.outcome == Outcome::passed) result.outcome = Outcome::different;
+    result.message += (result.message.empty() ? "" : "; ") + why;
+}
+
 /// Reads and draws it, and compares.
 void run(CaseResult& result, PictureMaker& maker) {
     const Case tested = read_case(result.file.file);
@@ -63,7 +84,8 @@ void run(CaseResult& result, PictureMaker& maker) {
         return;
     }
     result.actual = maker.make(tested.shot);
-    compare(result);
+    compare_pictures(result);
+    compare_draw_lists(result, tested.shot, maker);
 }
 
 }  // namespace
@@ -98,9 +120,14 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     } catch (const std::exception& error) {
         result.outcome = Outcome::failed;
         result.message = error.what();
+        result.actual = {};
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
+}
+
+bool can_be_taken(const CaseResult& result) {
+    return result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
 }
 
 Summary summary(std::span<const CaseResult> results) {

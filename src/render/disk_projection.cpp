@@ -334,6 +334,7 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
         list.lines.clear();
         list.marks.clear();
         list.lens = lens_for(list, view, points_to_show(diagram, extents), within);
+        list.frame = within;
         draw(diagram, extents, list.lens, list.palette, subject.color);
     };
     draw_within(frame);
