@@ -130,6 +130,7 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
             ->group(kGroup);
     };
     toggle("--labels,!--no-labels", &ViewState::labels, "All text");
+    toggle("--caption,!--no-caption", &ViewState::caption, "The sentences at the top");
     toggle("--legend,!--no-legend", &ViewState::legend, "What colours and lines mean");
     toggle("--floor,!--no-floor", &ViewState::floor, "The grid, and the paths' traces on it");
     toggle("--time-axis,!--no-time-axis", &ViewState::time_axis, "Ticks in seconds");

@@ -110,12 +110,12 @@ TEST(RenderView, CamerasThatAreNoneAreRefused) {
 
 TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     const Image all = picture({kCrossing, "--query", "0", "--step", "40%"});
-    for (const char* off :
-         {"--no-labels", "--no-legend", "--no-floor", "--no-time-axis", "--no-boxes", "--no-disks", "--pair-only"}) {
-        if (std::string(off) == "--pair-only") continue;
+    for (const char* off : {"--no-labels", "--no-caption", "--no-legend", "--no-floor", "--no-time-axis", "--no-boxes",
+                            "--no-disks", "--pair-only"}) {
         EXPECT_NE(picture({kCrossing, "--query", "0", "--step", "40%", off}).rgba, all.rgba) << off;
     }
-    for (const char* on : {"--labels", "--legend", "--floor", "--time-axis", "--boxes", "--disks", "--tested-before"}) {
+    for (const char* on :
+         {"--labels", "--caption", "--legend", "--floor", "--time-axis", "--boxes", "--disks", "--tested-before"}) {
         EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", on}).rgba, all.rgba) << on;
     }
 }
