@@ -49,9 +49,9 @@ std::function<double(const std::string&)> number_within(double low, double high)
 /// Adds an option whose text goes through `parse`; the std::invalid_argument that it throws becomes bad usage. `target`
 /// must live until the command has run.
 template <class Parse, class T>
-void add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
-                const char* placeholder) {
-    command
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
+                        const char* placeholder) {
+    return command
         .add_option_function<std::string>(
             name,
             [name, &target, parse](const std::string& text) {

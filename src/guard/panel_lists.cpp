@@ -38,10 +38,11 @@ struct Standpoint {
 };
 
 std::vector<DrawList> lists_of(const Shot& shot) {
-    const PictureSize size = panel_size(shot);
+    PictureOptions options = shot.picture;
+    options.size = panel_size(shot);
     std::vector<DrawList> lists;
     for (const Panel& panel : shot.panels) {
-        lists.push_back(build_draw_list(*panel.fitted, panel.view, size, shot.picture.scale));
+        lists.push_back(build_draw_list(*panel.fitted, panel.view, options));
     }
     std::vector<Standpoint> from;
     for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -56,7 +57,7 @@ std::vector<DrawList> lists_of(const Shot& shot) {
         if (widest == i) continue;
         view.camera = from[widest].camera;
         view.time_height = from[widest].time_height;
-        lists[i] = build_draw_list(*shot.panels[i].fitted, view, size, shot.picture.scale);
+        lists[i] = build_draw_list(*shot.panels[i].fitted, view, options);
     }
     return lists;
 }

@@ -34,9 +34,10 @@ Image PictureMaker::make(const Shot& shot) {
     refuse_warnings(renderer_.backend(), renderer_.warnings());
     if (shot.window) return picture_of_window(shot, *backend_from_name(renderer_.backend()));
     const std::vector<DrawList> lists = panel_lists(shot);
-    if (lists.size() == 1) return renderer_.draw(lists.front());
+    if (lists.size() == 1) return renderer_.draw(lists.front(), shot.picture.samples);
     std::vector<SheetCell> cells;
-    for (std::size_t i = 0; i < lists.size(); ++i) cells.push_back({shot.panels[i].title, renderer_.draw(lists[i])});
+    for (std::size_t i = 0; i < lists.size(); ++i)
+        cells.push_back({shot.panels[i].title, renderer_.draw(lists[i], shot.picture.samples)});
     return make_sheet(cells, shot.columns, lists.front().palette, metrics_of(shot.picture.size, shot.picture.scale),
                       renderer_, shot.picture.size);
 }

@@ -95,9 +95,11 @@ WindowShot read_window(const JsonPlace& place, const std::filesystem::path& fold
     return window;
 }
 
-PictureSize read_size(const JsonPlace& place) {
+/// As the option of `render` reads it.
+template <class Parse>
+auto read_option(const JsonPlace& place, const Parse& parse, const std::string& text) {
     try {
-        return parse_size(place.string());
+        return parse(text);
     } catch (const std::invalid_argument& error) {
         place.fail(error.what());
     }
@@ -105,8 +107,14 @@ PictureSize read_size(const JsonPlace& place) {
 
 PictureOptions read_picture_options(const JsonPlace& place) {
     PictureOptions picture;
-    if (const auto size = place.find("size")) picture.size = read_size(*size);
+    if (const auto size = place.find("size")) picture.size = read_option(*size, parse_size, size->string());
     if (const auto scale = place.find("scale")) picture.scale = scale->number(kLeastScale, kMostScale);
+    if (const auto samples = place.find("samples")) {
+        picture.samples = read_option(*samples, parse_samples, std::to_string(samples->integer(1, 8)));
+    }
+    if (const auto background = place.find("background")) {
+        picture.background = read_option(*background, parse_background, background->string());
+    }
     return picture;
 }
 

@@ -21,6 +21,7 @@ Blocks aim(DrawList& list, std::span<const glm::vec3> points, const Stage& stage
     const auto place = [&] { return place_blocks(area, legend, map, busy()); };
     const Frame frame = free_frame(list.size, top, stage, view, metrics);
     list.lens = lens_for(list, view, points, frame);
+    list.frame = frame;
     Blocks blocks = place();
     if (!blocks.covers || view.camera.target) return blocks;
     // No corner is free: the scene makes room, beside or below it, whichever costs it less.
@@ -32,14 +33,15 @@ Blocks aim(DrawList& list, std::span<const glm::vec3> points, const Stage& stage
     const Lens lens_beside = lens_for(list, view, points, beside);
     const Lens lens_above = lens_for(list, view, points, above);
     const glm::vec3 middle = 0.5f * (points.front() + points.back());
-    const Lens& larger =
-        lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle) ? lens_beside : lens_above;
+    const bool fits_beside = lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle);
+    const Lens& larger = fits_beside ? lens_beside : lens_above;
     if (larger.pixels_per_metre(middle) < kLeastShare * list.lens.pixels_per_metre(middle)) {
         // The scene is what the picture is for.
         list.legend.clear();
         return place_blocks(area, glm::vec2(0), glm::vec2(0), {});
     }
     list.lens = larger;
+    list.frame = fits_beside ? beside : above;
     return place();
 }
 

@@ -68,17 +68,24 @@ void add_stage(DrawList& list, std::span<const Subject> subjects, const Stage& s
 }  // namespace
 
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
+    return build_draw_list(fitted, view, {.size = size, .scale = scale});
+}
+
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options) {
+    const PictureSize size = options.size;
+    const double scale = options.scale;
     if (scale != 0 && !(scale >= kLeastScale && scale <= kMostScale)) {
         throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
                                     short_double(kLeastScale) + " to " + short_double(kMostScale));
     }
-    if (view.show == Show::moment) return build_moment(fitted, view, size, metrics_of(size, scale));
+    if (view.show == Show::moment) return build_moment(fitted, view, options);
     const std::vector<Subject> paths = subjects(fitted, view);
     if (paths.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
     const Metrics metrics = metrics_of(size, scale);
     DrawList list;
     list.size = size;
-    list.palette = palette(view.theme);
+    list.palette = palette_for(view.theme, options);
+    list.background = options.background;
     for (const Subject& subject : paths) list.participants.push_back(subject.name);
 
     if (view.projection) {

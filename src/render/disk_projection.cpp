@@ -325,6 +325,7 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
     }
     Diagram diagram(list, extents, w, metrics.scale);
     list.lens = lens_for(list, view, points_to_show(diagram, extents), frame);
+    list.frame = frame;
     draw(diagram, extents, list.palette, subject.color);
     if (view.labels) add_labels(list, layout, diagram, extents, metrics.text);
 }

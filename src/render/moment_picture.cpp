@@ -98,7 +98,9 @@ void add_ways(DrawList& list, std::span<const Subject> subjects, const Moment& m
 
 }  // namespace
 
-DrawList build_moment(const FittedScene& fitted, const ViewState& asked, PictureSize size, const Metrics& metrics) {
+DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const PictureOptions& options) {
+    const PictureSize size = options.size;
+    const Metrics metrics = metrics_of(size, options.scale);
     // Time is no direction of this picture.
     ViewState view = asked;
     view.time_axis = false;
@@ -109,7 +111,8 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, Picture
 
     DrawList list;
     list.size = size;
-    list.palette = palette(view.theme);
+    list.palette = palette_for(view.theme, options);
+    list.background = options.background;
     list.moment = moment.time;
     for (const Subject& subject : people) list.participants.push_back(subject.name);
     const Bounds bounds = bounds_of(people);
