@@ -36,10 +36,6 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
     return written;
 }
 
-bool can_be_taken(const CaseResult& result) {
-    return result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
-}
-
 std::vector<std::filesystem::path> take(CaseResult& result) {
     std::vector<std::filesystem::path> written;
     if (!result.image || !result.image->same) {

@@ -16,9 +16,6 @@ void make_folder_of(const std::filesystem::path& file);
 /// MachineError.
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
 
-/// Whether there is a picture, and it is not the golden's.
-bool can_be_taken(const CaseResult& result);
-
 /// Makes the present picture the golden, after which the case has passed. Returns what it wrote. Throws MachineError.
 std::vector<std::filesystem::path> take(CaseResult& result);
 

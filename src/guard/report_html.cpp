@@ -1,3 +1,4 @@
+#include <guard/goldens.h>
 #include <guard/markup.h>
 #include <guard/report_words.h>
 #include <guard/reports.h>
@@ -144,7 +145,7 @@ void write_case(std::ostream& out, const RunFacts& facts, const CaseResult& resu
     out << "<section class=\"case\" id=\"case" << number << "\" tabindex=\"-1\">\n<h2>" << badge(result.outcome) << ' '
         << escaped(result.file.name) << "</h2>\n<p class=\"message\">" << escaped(result.message) << "</p>\n";
     write_pictures(out, result);
-    if (may_be_updated(result)) {
+    if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
         write_command(out, "If the picture is right:", update_command(facts, names));
     }
@@ -169,7 +170,7 @@ void write_header(std::ostream& out, const RunFacts& facts, std::span<const Case
     write_contents(out, open);
     std::vector<std::string_view> names;
     for (const CaseResult* result : open) {
-        if (may_be_updated(*result)) names.push_back(result->file.name);
+        if (can_be_taken(*result)) names.push_back(result->file.name);
     }
     if (names.size() > 1) write_command(out, "If all of these pictures are right:", update_command(facts, names));
     if (!open.empty()) {

@@ -1,3 +1,4 @@
+#include <guard/goldens.h>
 #include <guard/markup.h>
 #include <guard/report_words.h>
 #include <guard/reports.h>
@@ -29,7 +30,7 @@ void write_problem(std::ostream& out, const char* element, const RunFacts& facts
         << '>';
     out << escaped(result.message) << '\n';
     if (const std::string extent = extent_of(result); !extent.empty()) out << escaped(extent) << '\n';
-    if (may_be_updated(result)) {
+    if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
         out << "If the picture is right: " << escaped(update_command(facts, names)) << '\n';
     }

@@ -1,3 +1,4 @@
+#include <guard/goldens.h>
 #include <guard/report_words.h>
 #include <guard/reports.h>
 #include <import/text.h>
@@ -7,7 +8,7 @@ namespace mobbscope::guard {
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results) {
     std::vector<std::string_view> updatable;
     for (const CaseResult& result : results) {
-        if (may_be_updated(result)) updatable.push_back(result.file.name);
+        if (can_be_taken(result)) updatable.push_back(result.file.name);
         if (result.outcome == Outcome::passed) continue;
         out << name(result.outcome) << ": " << cleaned(result.file.name) << ": " << cleaned(result.message) << '\n';
     }

@@ -38,8 +38,4 @@ std::string update_command(const RunFacts& facts, std::span<const std::string_vi
     return out;
 }
 
-bool may_be_updated(const CaseResult& result) {
-    return result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
-}
-
 }  // namespace mobbscope::guard

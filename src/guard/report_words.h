@@ -23,7 +23,4 @@ std::string extent_of(const CaseResult& result);
 /// The command line that takes the pictures of these cases as their goldens, ready for a shell.
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names);
 
-/// Whether there is a picture that could become the golden.
-bool may_be_updated(const CaseResult& result);
-
 }  // namespace mobbscope::guard

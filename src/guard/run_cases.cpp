@@ -126,6 +126,10 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     return result;
 }
 
+bool can_be_taken(const CaseResult& result) {
+    return result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
+}
+
 Summary summary(std::span<const CaseResult> results) {
     Summary sum;
     for (const CaseResult& result : results) {

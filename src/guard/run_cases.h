@@ -40,6 +40,9 @@ struct CaseResult {
 /// throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl);
 
+/// Whether there is a picture, and it is not the golden's.
+bool can_be_taken(const CaseResult& result);
+
 struct Summary {
     int passed = 0, different = 0, missing = 0, failed = 0, skipped = 0;
     bool ok() const { return different + missing + failed == 0; }

@@ -41,7 +41,7 @@ TEST_P(BackendsAgreeTest, OnEveryCase) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, BackendsAgreeTest, ::testing::Values("tests/goldens"),
-                         [](const auto&) { return std::string("goldens"); });
+                         [](const auto& folder) { return std::filesystem::path(folder.param).filename().string(); });
 
 }  // namespace
 }  // namespace mobbscope::guard
