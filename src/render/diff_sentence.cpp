@@ -3,6 +3,7 @@
 #include <import/text.h>
 
 #include <charconv>
+#include <cmath>
 
 namespace mobbscope {
 
@@ -10,13 +11,12 @@ namespace {
 
 std::string in_words(PictureSize size) { return std::to_string(size.width) + 'x' + std::to_string(size.height); }
 
-/// "0.18 %", "12 %": two digits that tell.
+/// "0.18 %", "13.8 %"; 100 % only if it is all.
 std::string percent(double share) {
     const double value = 100 * share;
+    if (value >= 10) return brief(std::floor(10 * value) / 10) + " %";
     char buffer[32];
-    const auto [end, error] = value < 9.95
-                                  ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 2)
-                                  : std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 0);
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 2);
     return std::string(buffer, end) + " %";
 }
 

@@ -18,7 +18,7 @@ constexpr Color kWeak{255, 110, 0};
 constexpr Color kMedium{255, 214, 60};
 constexpr Color kStrong{255, 255, 255};
 constexpr Color kSkipped{14, 24, 62};
-constexpr float kGhost = 0.22f;  // brightness of the reference
+constexpr float kGhost = 0.28f;  // brightness of the reference
 constexpr float kHaloStrength = 0.7f;
 
 /// How far the halo of a pixel reaches: the same share of every picture.
