@@ -15,11 +15,15 @@ sys.dont_write_bytecode = True  # no __pycache__ beside the scripts
 from make_walkers import RATE, Path, turning
 
 
+def from_file(file):
+    return {"source": f"../clips/{file}.glb"}
+
+
 def write_scene(folder, name, clips, rest):
-    """clips: the name in the scene -> the name of a file in assets/clips/."""
+    """clips: the name in the scene -> the name of a file in assets/clips/, or all that the scene says of the clip."""
     lines = ['{', '  "mobbscope": 1,', '  "clips": {']
-    lines.append(",\n".join(f'    "{clip}": {json.dumps({"source": f"../clips/{file}.glb"})}'
-                            for clip, file in clips.items()))
+    lines.append(",\n".join(f'    "{clip}": {json.dumps(source if isinstance(source, dict) else from_file(source))}'
+                            for clip, source in clips.items()))
     lines.append("  },")
     lines.append(",\n".join(f'  "{key}": {json.dumps(value)}' for key, value in rest.items()))
     lines.append("}")

@@ -34,10 +34,14 @@
 
 namespace mobbscope::app {
 
+/// Whether a script may write: `picture`, `viewport`, `state` and `marks`.
+enum class ScriptOutput { allowed, refused };
+
 class Script {
   public:
-    /// `name` stands for the file in messages. Throws InputError naming the line of the first statement that is none.
-    static Script parse(std::string_view text, const std::string& name);
+    /// `name` stands for the file in messages. Throws InputError naming the line of the first statement that is none,
+    /// or is refused.
+    static Script parse(std::string_view text, const std::string& name, ScriptOutput output = ScriptOutput::allowed);
 
     /// Runs it to its end. Throws ExpectationError; InputError if a statement cannot be done; MachineError; each names
     /// the line.

@@ -357,6 +357,7 @@ ScriptAction make_until(const ScriptLine& line) {
 struct Verb {
     std::string_view name;
     ScriptAction (*make)(const ScriptLine& line);
+    bool writes = false;
 };
 
 constexpr std::array<Verb, 17> kVerbs{{{"run", make_run},
@@ -369,20 +370,29 @@ constexpr std::array<Verb, 17> kVerbs{{{"run", make_run},
                                        {"drop", make_drop},
                                        {"frames", make_frames},
                                        {"size", make_size},
-                                       {"picture", make_picture},
-                                       {"viewport", make_viewport},
-                                       {"state", make_state},
+                                       {"picture", make_picture, true},
+                                       {"viewport", make_viewport, true},
+                                       {"state", make_state, true},
                                        {"expect", make_expect},
                                        {"until", make_until},
-                                       {"marks", make_marks},
+                                       {"marks", make_marks, true},
                                        {"wait", make_wait}}};
+
+const Verb* find_verb(std::string_view name) {
+    const auto at = std::find_if(kVerbs.begin(), kVerbs.end(), [&](const Verb& verb) { return verb.name == name; });
+    return at == kVerbs.end() ? nullptr : &*at;
+}
 
 }  // namespace
 
+bool writes_output(const ScriptLine& line) {
+    const Verb* verb = find_verb(line.words.front());
+    return verb && verb->writes;
+}
+
 ScriptAction make_action(const ScriptLine& line) {
     const std::string& name = line.words.front();
-    const auto at = std::find_if(kVerbs.begin(), kVerbs.end(), [&](const Verb& verb) { return verb.name == name; });
-    if (at != kVerbs.end()) return at->make(line);
+    if (const Verb* verb = find_verb(name)) return verb->make(line);
     std::vector<std::string> names;
     for (const Verb& verb : kVerbs) names.emplace_back(verb.name);
     throw std::invalid_argument(in_quotes(name) + " is no statement" + did_you_mean(name, names));

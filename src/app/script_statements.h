@@ -1,6 +1,7 @@
 /// The statements of scripts, one maker each.
 #pragma once
 
+#include <app/script_line.h>
 #include <app/session.h>
 #include <app/stage.h>
 
@@ -28,13 +29,10 @@ struct ScriptRun {
 
 using ScriptAction = std::function<void(ScriptRun&)>;
 
-/// The words of a line, and what follows the first: for statements that take all of it as it stands.
-struct ScriptLine {
-    std::vector<std::string> words;
-    std::string rest;
-};
-
 /// Throws std::invalid_argument, in words, if it is no statement.
 ScriptAction make_action(const ScriptLine& line);
+
+/// Whether it is a statement that writes a file or prints.
+bool writes_output(const ScriptLine& line);
 
 }  // namespace mobbscope::app

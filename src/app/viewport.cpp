@@ -89,7 +89,10 @@ void Viewport::take_off(Ui& ui, const Key& next) {
     }
     const Camera from = settled(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
     const DrawList there = build_draw_list(*next.fitted, next.view, next.size, next.scale);
-    if (there.space.time_height != list_->space.time_height) return;
+    // Heights must mean the same all the way.
+    if (there.space.time_height != list_->space.time_height || there.moment.has_value() != list_->moment.has_value()) {
+        return;
+    }
     flight_.emplace(from, settled(next.view.camera, there), ui.now);
 }
 
@@ -161,11 +164,10 @@ void Viewport::draw(Ui& ui) {
 // --- the mouse
 
 void Viewport::move_camera(Ui& ui, const Camera& camera) {
-    const double height = list_->space.time_height;
     ui.session.look([&](ViewState& view) {
         view.camera = camera;
         // The camera stands in a scene whose time is drawn so high.
-        view.time_height = height;
+        if (!list_->moment) view.time_height = list_->space.time_height;
     });
     flight_.reset();
 }
@@ -200,7 +202,8 @@ void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
 
 std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& picture) {
     const Session& session = ui.session;
-    if (!session.selection.on_path()) return std::nullopt;
+    // They stand where a path begins, in space-time.
+    if (picture.list.moment || !session.selection.on_path()) return std::nullopt;
     const auto who = participant_of(session.fitted(), session.selection.path);
     const bool in_view = index_in_view(session.fitted(), session.view(), session.selection.path).has_value();
     if (!who || who->agent < 0 || !in_view) return std::nullopt;
@@ -317,7 +320,8 @@ void Viewport::tooltip(Ui& ui) const {
     for (const auto& [key, value] : what.facts) {
         if (key == "samples" || key == "time" || key == "radius") ImGui::Text("%-8s%s", key.c_str(), value.c_str());
     }
-    ImGui::Text("%-8s%.3f, %.3f m at %.3f s", "here", place_->x, place_->y, place_->z);
+    const char* here = list_->moment ? "%-8s%.3f, %.3f m, %.3f m high" : "%-8s%.3f, %.3f m at %.3f s";
+    ImGui::Text(here, "here", place_->x, place_->y, place_->z);
     ImGui::PopStyleColor();
     ImGui::PopFont();
     ImGui::EndTooltip();

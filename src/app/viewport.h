@@ -73,7 +73,7 @@ class Viewport {
     bool moved_ = false;     ///< since the button went down: no click
     std::size_t depth_ = 0;  ///< of the last click: another click at its place selects what lies behind
     glm::vec2 clicked_at_{-1e6f};
-    std::optional<glm::dvec3> place_;  ///< under the mouse: x, y, t
+    std::optional<glm::dvec3> place_;  ///< under the mouse: x, y, t; in the picture of a moment the height
 };
 
 /// Buttons above the picture: where from, what is shown.

@@ -1,6 +1,7 @@
 #include <app/viewport_overlay.h>
 #include <import/text.h>
 #include <render/box_corners.h>
+#include <render/paths.h>
 #include <render/query_sentence.h>
 #include <render/subject.h>
 #include <render/world_box.h>
@@ -132,6 +133,14 @@ void draw_highlight(Ui& ui, const ShownPicture& picture, const Selection& what, 
     const Subject subject = subject_of(session.fitted(), *who);
     const DrawnSpace& space = picture.list.space;
     const mobb::PlacedClip& clip = subject.clip();
+    if (picture.list.moment) {
+        const std::optional<int> then =
+            what.kind == Selection::Kind::sample ? what.index : sample_at(subject, *picture.list.moment);
+        // A node is no thing of one moment.
+        if (!then || what.kind == Selection::Kind::node) return;
+        draw_line(ui, picture, ring(space, clip.disk(*then), 0), true, color, width);
+        return;
+    }
     const auto middle = [&](int sample) { return 0.5 * (clip.time(sample) + clip.time(sample + 1)); };
     if (what.kind == Selection::Kind::node) {
         const auto corners = box_corners(node_box(subject, what.index, space));

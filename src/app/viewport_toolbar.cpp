@@ -26,7 +26,7 @@ void viewport_toolbar(Ui& ui) {
         const char* label;
         const char* id;  ///< null: a gap
     };
-    constexpr std::array<Item, 13> kItems{{{"Iso", "view.iso"},
+    constexpr std::array<Item, 15> kItems{{{"Iso", "view.iso"},
                                            {"Top", "view.top"},
                                            {"Front", "view.front"},
                                            {"Side", "view.side"},
@@ -38,7 +38,9 @@ void viewport_toolbar(Ui& ui) {
                                            {"Boxes", "view.boxes"},
                                            {"Floor", "view.floor"},
                                            {"Labels", "view.labels"},
-                                           {"Legend", "view.legend"}}};
+                                           {"Legend", "view.legend"},
+                                           {nullptr, nullptr},
+                                           {"Moment", "view.moment"}}};
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ui.px(4)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(8), ui.px(3)});
     ImGui::SetCursorPos({ui.px(6), ui.px(4)});

@@ -3,6 +3,7 @@
 
 #include <import/import.h>
 #include <mobb/tree.h>
+#include <render/gl_context.h>
 #include <scene/scene.h>
 
 #include <CLI/CLI.hpp>
@@ -39,15 +40,18 @@ void add_import_options(CLI::App& command, ImportOptions& options);
 /// Adds the FILE that a command works on: a scene or a clip.
 void add_scene_file(CLI::App& command, std::filesystem::path& file);
 
+/// Adds --backend. `backend` must live until the command has run.
+void add_backend_option(CLI::App& command, Backend& backend);
+
 /// Reads a finite number within [low, high]; throws std::invalid_argument.
 std::function<double(const std::string&)> number_within(double low, double high);
 
 /// Adds an option whose text goes through `parse`; the std::invalid_argument that it throws becomes bad usage. `target`
 /// must live until the command has run.
 template <class Parse, class T>
-void add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
-                const char* placeholder) {
-    command
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
+                        const char* placeholder) {
+    return command
         .add_option_function<std::string>(
             name,
             [name, &target, parse](const std::string& text) {

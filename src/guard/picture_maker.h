@@ -5,7 +5,8 @@
 #include <render/image.h>
 #include <render/renderer.h>
 
-#include <optional>
+#include <string>
+#include <string_view>
 
 namespace mobbscope::guard {
 
@@ -15,13 +16,17 @@ class PictureMaker {
     explicit PictureMaker(Backend backend);
 
     std::string_view backend() const { return renderer_.backend(); }
+    Renderer& renderer() { return renderer_; }
 
     /// Throws InputError if the view cannot be drawn or the window's script fails, MachineError if OpenGL reports an
     /// error or the shader compiler a warning.
     Image make(const Shot& shot);
 
+    /// What a shot draws, as JSON with the number of pixels of each object (draw_list_json.h): an object, or for
+    /// several panels an array of them. Throws as make does, and InputError for a window.
+    std::string draw_lists(const Shot& shot);
+
   private:
-    Backend backend_;
     Renderer renderer_;
 };
 

@@ -31,11 +31,17 @@ struct CaseResult {
     Image actual;                    ///< empty where there is none
     Image golden;                    ///< likewise
     std::optional<ImageDiff> image;  ///< where both exist
+    /// What is drawn, where there is a NAME.draw.json, and whether it is what stands there.
+    std::string draw_lists;
+    bool draws_the_same = true;
 };
 
-/// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped. Never throws for what is
-/// wrong with a case.
+/// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
+/// throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl);
+
+/// Whether there is a picture, and it is not the golden's.
+bool can_be_taken(const CaseResult& result);
 
 struct Summary {
     int passed = 0, different = 0, missing = 0, failed = 0, skipped = 0;

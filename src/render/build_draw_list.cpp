@@ -1,20 +1,22 @@
 #include <import/text.h>
+#include <render/aim.h>
 #include <render/annotations.h>
 #include <render/block_layout.h>
 #include <render/build_draw_list.h>
 #include <render/caption.h>
+#include <render/disk_projection.h>
 #include <render/emphasis.h>
 #include <render/floor_inset.h>
 #include <render/framing.h>
 #include <render/label_layout.h>
 #include <render/legend.h>
 #include <render/level_boxes.h>
+#include <render/moment_picture.h>
 #include <render/paths.h>
 #include <render/query_boxes.h>
 #include <render/query_progress.h>
+#include <render/time_intervals.h>
 #include <render/words.h>
-
-#include <glm/common.hpp>
 
 #include <stdexcept>
 
@@ -48,48 +50,16 @@ void add_paths(DrawList& list, std::span<const Subject> subjects, const Emphasis
     }
 }
 
-/// Where legend and map would shrink the scene to less than this they are left out.
-constexpr float kLeastShare = 0.62f;
-
-/// The lens, so that everything fits into what caption, labels and blocks leave, and the places of the blocks.
-Blocks aim(DrawList& list, const Stage& stage, const ViewState& view, const Metrics& metrics, float top,
-           bool has_cursor, glm::vec2 map) {
-    const std::vector<glm::vec3> points = points_to_show(list, stage, view, has_cursor);
-    const glm::vec2 legend = legend_size(list.legend, metrics.small);
-    const Rect area{{metrics.pad, top + 0.3f * metrics.pad},
-                    glm::vec2(list.size.width, list.size.height) - metrics.pad};
-    const auto place = [&] { return place_blocks(area, legend, map, occupied(list, stage, view, metrics)); };
-    const Frame frame = free_frame(list.size, top, stage, view, metrics);
-    list.lens = lens_for(list, view, points, frame);
-    Blocks blocks = place();
-    if (!blocks.covers || view.camera.target) return blocks;
-    // No corner is free: the scene makes room, beside or below it, whichever costs it less.
-    const glm::vec2 room = glm::max(legend, map) + metrics.pad;
-    Frame beside = frame;
-    beside.min.x += room.x;
-    Frame above = frame;
-    above.max.y -= room.y;
-    const Lens lens_beside = lens_for(list, view, points, beside);
-    const Lens lens_above = lens_for(list, view, points, above);
-    const glm::vec3 middle = 0.5f * (points.front() + points.back());
-    const Lens& larger =
-        lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle) ? lens_beside : lens_above;
-    if (larger.pixels_per_metre(middle) < kLeastShare * list.lens.pixels_per_metre(middle)) {
-        // The scene is what the picture is for.
-        list.legend.clear();
-        return place_blocks(area, glm::vec2(0), glm::vec2(0), {});
-    }
-    list.lens = larger;
-    return place();
-}
-
 void add_stage(DrawList& list, std::span<const Subject> subjects, const Stage& stage, const ViewState& view,
                float scale) {
     if (view.floor) {
         add_floor_grid(list, stage, scale);
         if (!floor_on_edge(list.lens)) {
             const float height = list.space.point(0, 0, stage.t0).z;
-            for (const Subject& subject : subjects) add_floor_trace(list, subject, height, 1.6f * scale);
+            for (const Subject& subject : subjects) {
+                add_floor_trace(list, subject, {0, subject.clip().count()}, height,
+                                floor_trace_color(subject, list.palette), 1.6f * scale);
+            }
         }
     }
     if (view.time_axis) add_time_axis(list, stage, scale);
@@ -98,18 +68,30 @@ void add_stage(DrawList& list, std::span<const Subject> subjects, const Stage& s
 }  // namespace
 
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
+    return build_draw_list(fitted, view, {.size = size, .scale = scale});
+}
+
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options) {
+    const PictureSize size = options.size;
+    const double scale = options.scale;
     if (scale != 0 && !(scale >= kLeastScale && scale <= kMostScale)) {
         throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
                                     short_double(kLeastScale) + " to " + short_double(kMostScale));
     }
+    if (view.show == Show::moment) return build_moment(fitted, view, options);
     const std::vector<Subject> paths = subjects(fitted, view);
     if (paths.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
     const Metrics metrics = metrics_of(size, scale);
     DrawList list;
     list.size = size;
-    list.palette = palette(view.theme);
+    list.palette = palette_for(view.theme, options);
+    list.background = options.background;
     for (const Subject& subject : paths) list.participants.push_back(subject.name);
 
+    if (view.projection) {
+        add_disk_projection(list, paths, *view.projection, view, metrics);
+        return list;
+    }
     const Bounds bounds = bounds_of(paths);
     list.space = space_for(bounds, view);
     std::optional<QueryAtStep> query;
@@ -118,7 +100,7 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
     const Emphasis emphasis = emphasis_of(view, paths, bounds.min.z, bounds.max.z, progress);
     const bool has_cursor = emphasis.cursor.has_value();
 
-    if (view.boxes && progress) add_query_boxes(list, paths, *progress, metrics.scale);
+    if (view.boxes && progress) add_query_boxes(list, paths, *progress, pair_outline(view), metrics.scale);
     const bool levels = view.boxes && !progress;
     if (levels) add_level_boxes(list, paths, view.levels, view.color_by, metrics.scale);
     if (view.disks) add_paths(list, paths, emphasis, progress, levels && view.color_by == ColorBy::level);
@@ -144,11 +126,15 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
     LabelLayout layout(size);
     for (const TextRun& run : list.texts) layout.reserve(run.box);
 
-    const Blocks blocks = aim(list, stage, view, metrics, top, has_cursor, map);
+    const Blocks blocks = aim(list, points_to_show(list, stage, view, has_cursor), stage, view, metrics, top, map,
+                              [&] { return occupied(list, stage, view, metrics); });
     refine_crowded_boxes(list, metrics.scale);
     add_stage(list, paths, stage, view, metrics.scale);
     if (view.disks) {
         for (const Subject& subject : paths) add_thin_path(list, subject, 1.3f * metrics.scale);
+    }
+    if (progress && view.time_axis && pair_outline(view) == PairOutline::outcome) {
+        add_time_intervals(list, stage, paths, progress->event, metrics.scale);
     }
     if (emphasis.cursor) add_time_cursor(list, stage, *emphasis.cursor, metrics.scale);
     add_rings(list, paths, emphasis, metrics.scale);

@@ -3,6 +3,7 @@
 
 #include <render/draw_list.h>
 #include <render/metrics.h>
+#include <render/picture_options.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
@@ -12,5 +13,8 @@ namespace mobbscope {
 /// std::invalid_argument, saying what is allowed, if the scale is another, the view names a query or a step that there
 /// is not, or the scene has nothing to draw.
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
+
+/// The same with a background: an opaque one replaces the palette's. The samples are the renderer's.
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
 
 }  // namespace mobbscope

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -128,8 +129,13 @@ struct LegendEntry {
 struct DrawList {
     PictureSize size;
     Palette palette;
+    /// Behind everything; none: the palette's, which is what steps back does so towards. With opacity below 1 the
+    /// picture is seen through where nothing is drawn.
+    std::optional<Rgba> background;
     DrawnSpace space;
     Lens lens;
+    Frame frame;  ///< the part of the picture that is left for the scene; a camera with a target need not keep to it
+    std::optional<double> moment;           ///< global seconds: heights are metres and no times, for the floor then
     std::vector<std::string> participants;  ///< names of what ObjectId::participant counts
 
     std::vector<DiskInstance> disks;

@@ -35,17 +35,6 @@ LegendEntry line_entry(const OutcomeStyle& style, std::string text) {
     return entry;
 }
 
-void add_agents(std::vector<LegendEntry>& entries, std::span<const Subject> subjects) {
-    const std::size_t shown = std::min(subjects.size(), kMostAgents);
-    for (const Subject& subject : subjects.first(shown)) {
-        entries.push_back(entry_of(LegendEntry::Mark::disk, subject.color, subject.label));
-    }
-    if (shown < subjects.size()) {
-        entries.push_back(
-            entry_of(LegendEntry::Mark::disk, Rgba(0), "and " + std::to_string(subjects.size() - shown) + " more"));
-    }
-}
-
 /// The levels that are drawn, coarsest first.
 std::vector<int> drawn_levels(const DrawList& list) {
     std::set<int> levels;
@@ -92,11 +81,13 @@ void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::sp
 }
 
 void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const Subject> sides,
-               const QueryProgress& progress, std::vector<LegendEntry>& remarks) {
+               const QueryProgress& progress, PairOutline outline, std::vector<LegendEntry>& remarks) {
     for (const Subject& side : sides) {
         LegendEntry entry;
         entry.mark = LegendEntry::Mark::box;
-        entry.color = side.color;
+        entry.color = outline == PairOutline::owner
+                          ? side.color
+                          : pair_style(outline, side, progress.event.outcome, list.palette).color;
         entry.fill = with_alpha(side.color, 0.3f);
         entry.width = 2;
         entry.text = side.label + ", under test";
@@ -115,7 +106,7 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
         if (present(state) || box_state(progress.event.outcome) == state)
             entries.push_back(line_entry(outcome_style(state, list.palette), text));
     }
-    const bool earlier = !progress.nodes[0].empty() || !progress.nodes[1].empty();
+    const bool earlier = outline == PairOutline::owner && (!progress.nodes[0].empty() || !progress.nodes[1].empty());
     if (earlier) remarks.push_back(remark("fine boxes: the latest test of a node"));
 }
 
@@ -146,13 +137,26 @@ struct Layout {
 
 }  // namespace
 
+std::vector<LegendEntry> agent_entries(std::span<const Subject> subjects) {
+    std::vector<LegendEntry> entries;
+    const std::size_t shown = std::min(subjects.size(), kMostAgents);
+    for (const Subject& subject : subjects.first(shown)) {
+        entries.push_back(entry_of(LegendEntry::Mark::disk, subject.color, subject.label));
+    }
+    if (shown < subjects.size()) {
+        entries.push_back(
+            entry_of(LegendEntry::Mark::disk, Rgba(0), "and " + std::to_string(subjects.size() - shown) + " more"));
+    }
+    return entries;
+}
+
 std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view,
                                         const Emphasis& emphasis, const QueryProgress* progress) {
     std::vector<LegendEntry> entries;
     std::vector<LegendEntry> remarks;
     if (progress) {
-        if (view.boxes) add_query(entries, list, subjects, *progress, remarks);
-        if (!view.boxes && view.disks) add_agents(entries, subjects);
+        if (view.boxes) add_query(entries, list, subjects, *progress, pair_outline(view), remarks);
+        if (!view.boxes && view.disks) entries = agent_entries(subjects);
         using Mark = LegendEntry::Mark;
         if (emphasis.dims) {
             const Rgba dim = mix_colors(list.palette.panel, list.palette.quiet_text, kOutOfFocus);
@@ -160,7 +164,7 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Su
         }
         if (emphasis.hits) entries.push_back(entry_of(Mark::double_ring, list.palette.hit, "samples that hit"));
     } else {
-        add_agents(entries, subjects);
+        entries = agent_entries(subjects);
         if (view.boxes && !list.boxes.empty()) {
             if (view.color_by == ColorBy::level) {
                 add_level_colors(entries, list, subjects);

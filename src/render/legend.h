@@ -14,6 +14,9 @@ namespace mobbscope {
 std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Subject> subjects, const ViewState& view,
                                         const Emphasis& emphasis, const QueryProgress* progress);
 
+/// The colours of the first few, and how many more there are.
+std::vector<LegendEntry> agent_entries(std::span<const Subject> subjects);
+
 /// How large the legend is, pixels.
 glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size);
 

@@ -56,7 +56,13 @@ void add_thin_path(DrawList& list, const Subject& subject, float width) {
     }
 }
 
-void add_floor_trace(DrawList& list, const Subject& subject, float floor, float width) {
+Rgba floor_trace_color(const Subject& subject, const Palette& palette) {
+    return with_alpha(subject.color, palette.dark ? 0.5f : 0.7f);
+}
+
+void add_floor_trace(DrawList& list, const Subject& subject, mobb::SampleRange range, float floor, Rgba color,
+                     float width) {
+    if (range.count < 2) return;
     const mobb::PlacedClip& clip = subject.clip();
     // Pieces shorter than a pixel or so would only darken one another.
     const float pixels = list.lens.pixels_per_metre(glm::vec3(0, 0, floor));
@@ -67,14 +73,14 @@ void add_floor_trace(DrawList& list, const Subject& subject, float floor, float 
         p.z = floor;
         return p;
     };
-    glm::vec3 from = on_floor(0);
-    for (int i = 1; i < clip.count(); ++i) {
+    glm::vec3 from = on_floor(range.first);
+    for (int i = range.first + 1; i < range.end(); ++i) {
         const glm::vec3 to = on_floor(i);
-        if (i + 1 < clip.count() && std::hypot(to.x - from.x, to.y - from.y) < shortest) continue;
+        if (i + 1 < range.end() && std::hypot(to.x - from.x, to.y - from.y) < shortest) continue;
         LineInstance line;
         line.from = from;
         line.to = to;
-        line.color = with_alpha(subject.color, list.palette.dark ? 0.5f : 0.7f);
+        line.color = color;
         line.width = width;
         line.order = {0, 1, (static_cast<std::int64_t>(subject.index) << 32) + i};
         list.lines.push_back(line);

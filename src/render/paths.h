@@ -27,8 +27,12 @@ void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus);
 /// The line of centres, where the disks are too small to be seen.
 void add_thin_path(DrawList& list, const Subject& subject, float width);
 
-/// The centres' path at height `floor` (drawn space).
-void add_floor_trace(DrawList& list, const Subject& subject, float floor, float width);
+/// How a path looks on the floor where nothing else is said of it.
+Rgba floor_trace_color(const Subject& subject, const Palette& palette);
+
+/// The way of the centres of some samples at height `floor` (drawn space). `width`: pixels.
+void add_floor_trace(DrawList& list, const Subject& subject, mobb::SampleRange range, float floor, Rgba color,
+                     float width);
 
 /// The outline of a sample's disk at half its height, seen through everything: one line for what the time cursor
 /// meets, a heavy and a fine one in the colour of hits for what collides.

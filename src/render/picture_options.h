@@ -3,11 +3,14 @@
 
 #include <render/image.h>
 #include <render/palette.h>
-#include <render/renderer.h>
 
 #include <optional>
+#include <string>
 
 namespace mobbscope {
+
+/// Samples per pixel of a picture's scene: smooth edges at a quarter of the cost of drawing it larger.
+inline constexpr int kPictureSamples = 4;
 
 struct PictureOptions {
     PictureSize size{1280, 720};
@@ -15,5 +18,14 @@ struct PictureOptions {
     int samples = kPictureSamples;     ///< per pixel of the scene: 1, 2, 4 or 8
     std::optional<Rgba> background{};  ///< instead of the theme's; opacity below 1: seen through where nothing is drawn
 };
+
+/// The theme's palette; an opaque background replaces its own.
+Palette palette_for(Theme theme, const PictureOptions& options);
+
+/// "1", "2", "4" or "8". Throws std::invalid_argument saying what is allowed.
+int parse_samples(const std::string& text);
+
+/// "#RRGGBB", "#RRGGBBAA" or "transparent". Throws std::invalid_argument saying what is allowed.
+Rgba parse_background(const std::string& text);
 
 }  // namespace mobbscope

@@ -32,7 +32,7 @@ std::vector<std::uint8_t> without_alpha(const Image& image) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, const Image& image) {
+std::string png_bytes(const Image& image) {
     // Opaque pictures, as all of ours are, do without alpha: a quarter less to write.
     bool opaque = true;
     for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
@@ -44,8 +44,13 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     };
     if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, channels,
                                 opaque ? rgb.data() : image.rgba.data(), image.width * channels)) {
-        throw MachineError(file.string() + ": the picture could not be packed as PNG");
+        throw MachineError("a picture could not be packed as PNG");
     }
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+    const std::string bytes = png_bytes(image);
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(file, ignored);
     const bool stream = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&

@@ -4,8 +4,12 @@
 #include <render/image.h>
 
 #include <filesystem>
+#include <string>
 
 namespace mobbscope {
+
+/// The bytes of a PNG file. Throws MachineError if there is no memory for them.
+std::string png_bytes(const Image& image);
 
 /// Whole or not at all, as write_file does; a pipe or a device that is there gets the bytes. Throws MachineError if
 /// that cannot be done.

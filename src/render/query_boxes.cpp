@@ -36,10 +36,25 @@ float strength(const NodeProgress& node, int step) {
 
 }  // namespace
 
-void add_query_boxes(DrawList& list, std::span<const Subject> sides, const QueryProgress& progress, float scale) {
+PairOutline pair_outline(const ViewState& view) {
+    return view.tested_before ? PairOutline::owner : PairOutline::outcome;
+}
+
+OutcomeStyle pair_style(PairOutline outline, const Subject& side, mobb::Outcome outcome, const Palette& palette) {
+    constexpr float kWidth = 2.2f;
+    if (outline == PairOutline::owner) return {outlining(side.color, palette), kSolid, kWidth};
+    OutcomeStyle style = outcome_style(box_state(outcome), palette);
+    style.width = kWidth;
+    return style;
+}
+
+void add_query_boxes(DrawList& list, std::span<const Subject> sides, const QueryProgress& progress, PairOutline outline,
+                     float scale) {
     for (std::size_t side = 0; side < 2; ++side) {
         const Subject& subject = sides[side];
-        for (const NodeProgress& node : progress.nodes[side]) {
+        const std::span<const NodeProgress> before =
+            outline == PairOutline::owner ? progress.nodes[side] : std::span<const NodeProgress>();
+        for (const NodeProgress& node : before) {
             const OutcomeStyle style = outcome_style(node.state, list.palette);
             BoxInstance box = node_box(subject, node.node, list.space);
             box.state = node.state;
@@ -52,8 +67,10 @@ void add_query_boxes(DrawList& list, std::span<const Subject> sides, const Query
         BoxInstance box = node_box(subject, side == 0 ? progress.event.a : progress.event.b, list.space);
         box.state = BoxState::under_test;
         box.fill = with_alpha(subject.color, 0.17f);
-        box.edge = outlining(subject.color, list.palette);
-        box.width = 2.2f * scale;
+        const OutcomeStyle style = pair_style(outline, subject, progress.event.outcome, list.palette);
+        box.edge = style.color;
+        box.width = style.width * scale;
+        box.dash = style.dash * scale;
         box.order.layer = 2;
         list.boxes.push_back(box);
     }

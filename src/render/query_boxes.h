@@ -17,7 +17,17 @@ struct OutcomeStyle {
 };
 OutcomeStyle outcome_style(BoxState state, const Palette& palette);
 
-/// `sides`: A and B. `scale`: of line widths.
-void add_query_boxes(DrawList& list, std::span<const Subject> sides, const QueryProgress& progress, float scale);
+/// How the boxes of the pair under test are outlined.
+enum class PairOutline {
+    owner,    ///< in their agents' colours: the outcomes' are those of the pairs before it
+    outcome,  ///< by how its test ended: there are no others
+};
+PairOutline pair_outline(const ViewState& view);
+/// Of one side's box, whose faces always have the agent's colour.
+OutcomeStyle pair_style(PairOutline outline, const Subject& side, mobb::Outcome outcome, const Palette& palette);
+
+/// `sides`: A and B. With PairOutline::outcome only the pair's. `scale`: of line widths.
+void add_query_boxes(DrawList& list, std::span<const Subject> sides, const QueryProgress& progress, PairOutline outline,
+                     float scale);
 
 }  // namespace mobbscope

@@ -1,10 +1,12 @@
 #include <render/renderer.h>
 
+#include <import/error.h>
 #include <render/disk_pass.h>
 #include <render/face_pass.h>
 #include <render/gl_state.h>
 #include <render/line_pass.h>
 #include <render/overlay_pass.h>
+#include <render/seen_through.h>
 #include <render/targets.h>
 
 #include <algorithm>
@@ -25,16 +27,24 @@ void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
     }
 }
 
-/// The current context's, by the names of Mesa's, Google's and Microsoft's software renderers.
-bool draws_in_software() {
+/// The current context's.
+std::string device_name() {
     const GLubyte* name = glGetString(GL_RENDERER);
-    const std::string_view text = name ? reinterpret_cast<const char*>(name) : "";
+    return name ? reinterpret_cast<const char*>(name) : "";
+}
+
+/// By the names of Mesa's, Google's and Microsoft's software renderers.
+bool draws_in_software(std::string_view device) {
     for (const char* software :
          {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR", "GDI"}) {
-        if (text.find(software) != std::string_view::npos) return true;
+        if (device.find(software) != std::string_view::npos) return true;
     }
     return false;
 }
+
+Rgba ground_of(const DrawList& list) { return list.background.value_or(list.palette.background); }
+
+bool is_seen_through(const DrawList& list) { return ground_of(list).a < 1; }
 
 std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
     context->make_current();
@@ -47,7 +57,8 @@ std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
 struct Renderer::State {
     explicit State(std::unique_ptr<GlContext> drawn_in)
         : context(made_current(std::move(drawn_in))),
-          software(draws_in_software()),
+          device(device_name()),
+          software(draws_in_software(device)),
           disks(*context),
           faces(*context),
           lines(*context),
@@ -61,9 +72,8 @@ struct Renderer::State {
         glViewport(0, 0, size.width, size.height);
     }
 
-    void draw_scene(const DrawList& list) {
+    void draw_scene(const DrawList& list, Rgba ground) {
         glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
-        const Rgba& ground = list.palette.background;
         glClearColor(ground.r, ground.g, ground.b, 1);
         glClearDepth(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -78,7 +88,42 @@ struct Renderer::State {
         lines.draw_scene(list);
     }
 
+    /// Into the result's framebuffer, on a ground that is taken for opaque.
+    void paint(const DrawList& list, int samples, Rgba ground) {
+        begin(list.size);
+        check_samples(samples);
+        if (!targets || targets->size() != list.size || targets->samples() != samples) {
+            targets.reset();
+            targets.emplace(list.size, samples);
+        }
+        draw_scene(list, ground);
+        targets->resolve();
+        glBindFramebuffer(GL_FRAMEBUFFER, targets->result().name());
+        overlay.draw_panels(list);
+        lines.draw_overlay(list);
+        overlay.draw_texts(list);
+        context->check("drawing");
+    }
+
+    Image draw(const DrawList& list, int samples, Rgba ground) {
+        paint(list, samples, ground);
+        Image image(list.size.width, list.size.height);
+        glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+        context->check("reading the picture");
+        flip_rows(image.rgba, image.width, image.height, 4);
+        return image;
+    }
+
+    void check_samples(int samples) const {
+        GLint most = 1;
+        glGetIntegerv(GL_MAX_SAMPLES, &most);
+        if (samples <= std::max(most, 1)) return;
+        throw MachineError("this OpenGL (" + std::string(context->name()) + ") draws at most " + std::to_string(most) +
+                           " samples a pixel, not " + std::to_string(samples));
+    }
+
     std::unique_ptr<GlContext> context;
+    std::string device;
     bool software;
     DiskPass disks;
     FacePass faces;
@@ -100,36 +145,31 @@ Renderer::~Renderer() {
 
 std::string_view Renderer::backend() const { return state_->context->name(); }
 
+const std::string& Renderer::device() const { return state_->device; }
+
 GlContext& Renderer::context() { return *state_->context; }
 
 bool Renderer::is_software() const { return state_->software; }
 
 const std::vector<std::string>& Renderer::warnings() const { return state_->context->warnings(); }
 
-const Texture& Renderer::paint(const DrawList& list, int samples) {
-    State& s = *state_;
-    s.begin(list.size);
-    if (!s.targets || s.targets->size() != list.size || s.targets->samples() != samples) {
-        s.targets.reset();
-        s.targets.emplace(list.size, samples);
-    }
-    s.draw_scene(list);
-    s.targets->resolve();
-    glBindFramebuffer(GL_FRAMEBUFFER, s.targets->result().name());
-    s.overlay.draw_panels(list);
-    s.lines.draw_overlay(list);
-    s.overlay.draw_texts(list);
-    s.context->check("drawing");
-    return s.targets->picture();
+void Renderer::check_samples(int samples) {
+    state_->context->make_current();
+    state_->check_samples(samples);
 }
 
-Image Renderer::draw(const DrawList& list) {
-    paint(list, kPictureSamples);
-    Image image(list.size.width, list.size.height);
-    glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-    state_->context->check("reading the picture");
-    flip_rows(image.rgba, image.width, image.height, 4);
-    return image;
+const Texture& Renderer::paint(const DrawList& list, int samples) {
+    state_->paint(list, samples, is_seen_through(list) ? list.palette.background : ground_of(list));
+    return state_->targets->picture();
+}
+
+Image Renderer::draw(const DrawList& list, int samples) {
+    if (!is_seen_through(list)) return state_->draw(list, samples, ground_of(list));
+    // What is drawn covers each pixel as much as it hides the difference of two grounds.
+    const Rgba ground = list.palette.background;
+    const Rgba other = list.palette.dark ? Rgba(1) : Rgba(0, 0, 0, 1);
+    const Image on_ground = state_->draw(list, samples, ground);
+    return seen_through({on_ground, ground}, {state_->draw(list, samples, other), other}, *list.background);
 }
 
 IdImage Renderer::draw_ids(const DrawList& list) {

@@ -6,6 +6,7 @@
 #include <render/gl_objects.h>
 #include <render/image.h>
 #include <render/object_id.h>
+#include <render/picture_options.h>
 
 #include <memory>
 #include <string>
@@ -18,9 +19,6 @@ namespace mobbscope {
 inline constexpr int kMinSide = 64;
 inline constexpr int kMaxSide = 8192;
 inline constexpr int kMaxPixels = 7680 * 4320;
-
-/// Samples per pixel of a picture's scene: smooth edges at a quarter of the cost of drawing it larger.
-inline constexpr int kPictureSamples = 4;
 
 /// Holds a context and what it keeps between pictures. Pictures depend on the draw list alone, and not on what others
 /// left switched on in the context; they leave it with a framebuffer of their own bound, and with state of their own.
@@ -35,21 +33,27 @@ class Renderer {
 
     /// The name of the context in use: "osmesa", "egl", or "window".
     std::string_view backend() const;
+    /// What OpenGL calls what draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& device() const;
     /// For what else draws in it.
     GlContext& context();
-    /// Whether the processor draws, by the name that OpenGL gives its renderer. Then multisampling is dear.
+    /// Whether the processor draws, by the device's name. Then multisampling is dear.
     bool is_software() const;
 
     /// What the shader compiler remarked.
     const std::vector<std::string>& warnings() const;
 
+    /// Throws MachineError, saying the most it can, if the context cannot draw so many samples per pixel.
+    void check_samples(int samples);
+
     /// Draws without reading back. `samples` per pixel of the scene (>= 1; 1 is no multisampling, and its cost). The
     /// texture is RGBA8 of the list's size, opaque, its first row the lowest; it holds the picture until the next paint
-    /// or draw. Throws MachineError if OpenGL reports an error.
+    /// or draw. A background that is seen through is drawn as the palette's. Throws MachineError if OpenGL reports an
+    /// error or cannot do the samples.
     const Texture& paint(const DrawList& list, int samples);
 
-    /// Paints with kPictureSamples and reads back. Throws MachineError if OpenGL reports an error.
-    Image draw(const DrawList& list);
+    /// Paints and reads back; has alpha if the list's background is seen through. Throws MachineError as paint does.
+    Image draw(const DrawList& list, int samples = kPictureSamples);
 
     /// What is nearest in each pixel: disks, and the boxes of nodes whether or not their faces are shown.
     IdImage draw_ids(const DrawList& list);

@@ -36,7 +36,10 @@ glm::dvec3 middle_of(const DrawList& list) {
 }  // namespace
 
 Camera settled(const Camera& camera, const DrawList& list) {
-    const Lens& lens = list.lens;
+    return settled(camera, list.lens, list.space, middle_of(list));
+}
+
+Camera settled(const Camera& camera, const Lens& lens, const DrawnSpace& space, glm::dvec3 middle) {
     const Orientation o = orientation(camera);
     Camera out = camera;
     out.preset = CameraPreset::free;
@@ -46,9 +49,9 @@ Camera settled(const Camera& camera, const DrawList& list) {
     if (camera.target) return out;
 
     const glm::dvec3 back(lens.back);
-    const double depth = glm::dot(glm::dvec3(lens.eye) - middle_of(list), back);
-    const glm::dvec3 place = list.space.place(glm::dvec3(lens.eye) - back * depth);
-    out.target = glm::dvec3(place.x, place.y, place.z * list.space.time_height);
+    const double depth = glm::dot(glm::dvec3(lens.eye) - middle, back);
+    const glm::dvec3 place = space.place(glm::dvec3(lens.eye) - back * depth);
+    out.target = glm::dvec3(place.x, place.y, place.z * space.time_height);
     out.shift = 0.5 * glm::dvec2(lens.middle);
     // Half of what the picture's height shows is tan(fov / 2) * distance.
     const double half_height = 1 / static_cast<double>(lens.scale.y);

@@ -12,4 +12,7 @@ namespace mobbscope {
 /// that has a target keeps it. A field of view beyond kMostFov, as a tiny picture may have, is cut to that.
 Camera settled(const Camera& camera, const DrawList& list);
 
+/// The same for a lens that framed `camera`; the target is as deep as `middle` (drawn space).
+Camera settled(const Camera& camera, const Lens& lens, const DrawnSpace& space, glm::dvec3 middle);
+
 }  // namespace mobbscope

@@ -11,8 +11,12 @@ namespace {
 constexpr int kLongestLabel = 24;
 
 Subject make_subject(const FittedScene& fitted, const Participant& participant, int index, int color_index) {
-    return {fitted.placed(participant), participant.name, shortened(participant.name, kLongestLabel),
-            agent_color(fitted.scene(), participant, color_index), index};
+    return {fitted.placed(participant),
+            participant.name,
+            shortened(participant.name, kLongestLabel),
+            agent_color(fitted.scene(), participant, color_index),
+            index,
+            fitted.scene().clips[static_cast<std::size_t>(participant.clip)].skeleton.get()};
 }
 
 /// Where each character of UTF-8 text begins, and its end.

@@ -15,7 +15,8 @@ struct Subject {
     std::string name;
     std::string label;  ///< the name as pictures say it: short enough to leave room for what is said of it
     Rgba color;
-    int index = 0;  ///< in DrawList::participants
+    int index = 0;                       ///< in DrawList::participants
+    const Skeleton* skeleton = nullptr;  ///< of the clip; null: none
 
     const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
     double begin() const { return clip().time(0); }

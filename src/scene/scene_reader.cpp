@@ -2,6 +2,7 @@
 #include <import/applicable.h>
 #include <import/file.h>
 #include <import/text.h>
+#include <scene/fit_json.h>
 #include <scene/json_place.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
@@ -20,9 +21,6 @@ namespace {
 
 constexpr int kVersion = 1;
 constexpr int kMaxInt = std::numeric_limits<int>::max();
-
-/// Trees of the contract that this version cannot build.
-bool is_planned(std::string_view tree) { return tree == "moving" || tree == "aabb" || tree == "production"; }
 
 /// Options over options: what `over` says wins.
 ImportOptions merged(ImportOptions base, const ImportOptions& over) {
@@ -275,31 +273,6 @@ class SceneReader {
         agent.placement = read_placement(place);
         if (const auto color = place.find("color")) agent.color = read_color(*color);
         return agent;
-    }
-
-    static mobb::FitOptions read_fit(const JsonPlace& place) {
-        place.allow_only({"tree", "leaf", "levels", "axes", "time_scale"});
-        mobb::FitOptions fit;
-        if (const auto tree = place.find("tree")) {
-            const auto kind = mobb::tree_kind_from_name(tree->string());
-            if (is_planned(tree->string()))
-                tree->fail(in_quotes(tree->string()) + " trees are not in this version yet");
-            if (!kind)
-                tree->fail(in_quotes(tree->string()) + " is no tree; give one of " + listed(mobb::tree_kind_names()));
-            fit.tree = *kind;
-        }
-        if (const auto leaf = place.find("leaf")) fit.leaf = leaf->integer(1, kMaxInt);
-        if (const auto levels = place.find("levels")) fit.levels = levels->integer(0, kMaxInt);
-        if (const auto axes = place.find("axes")) {
-            const auto value = mobb::axes_from_name(axes->string());
-            if (!value)
-                axes->fail(in_quotes(axes->string()) + " names no axes; give one of " + listed(mobb::axes_names()));
-            fit.axes = *value;
-        }
-        if (const auto scale = place.find("time_scale")) {
-            fit.time_scale = scale->number(1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
-        }
-        return fit;
     }
 
     SceneQuery read_query(const JsonPlace& place) {

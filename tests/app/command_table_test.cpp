@@ -237,12 +237,15 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     run_command(session, "view.iso");
     run_command(session, "view.perspective");
     EXPECT_EQ(options(), " --view iso --ortho --level 1:3 --time 0.1 --theme light --color-by level");
-    // What no option says must be in the file.
+    run_command(session, "time.clear");
     run_command(session, "view.floor");
-    EXPECT_NE(refusal(session, "file.copy_command").find("save the scene first"), std::string::npos);
-    run_command(session, "view.floor");
+    run_command(session, "view.labels");
+    EXPECT_EQ(options(),
+              " --view iso --ortho --level 1:3 --theme light --color-by level --no-labels --no-floor");
+    run_command(session, "view.front");
     run_command(session, "view.zoom_in");
-    EXPECT_NE(refusal(session, "file.copy_command").find("save the scene first"), std::string::npos);
+    EXPECT_NE(options().find("--view free --yaw -90 --pitch 0 --ortho --target "), std::string::npos) << copied;
+    EXPECT_NE(options().find(" --distance "), std::string::npos) << copied;
     run_command(session, "file.save");
     EXPECT_EQ(options(), "");
     run_command(session, "go.agent", "A");

@@ -1,11 +1,5 @@
-#include "run_program.h"
+#include "render_runs.h"
 
-#include <render/png.h>
-#include <support/temp_folder.h>
-
-#include "render/backends.h"
-
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -17,13 +11,14 @@
 namespace mobbscope {
 namespace {
 
+using testing::expect_refused;
 using testing::is_one_line;
+using testing::kCrossing;
 using testing::Result;
 using testing::run_program;
 using testing::slurp;
 using testing::TempFolder;
 
-const std::string kCrossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
 const std::string kSize = "320x240";
 
 /// The arguments of a small picture of a scene, and more.
@@ -32,13 +27,6 @@ std::vector<std::string> arguments(const std::string& scene, const std::string& 
     std::vector<std::string> all{"render", scene, "-o", out, "--size", kSize};
     all.insert(all.end(), more.begin(), more.end());
     return all;
-}
-
-void expect_refused(const Result& run, int status, const std::string& why) {
-    EXPECT_EQ(run.status, status) << run.err;
-    EXPECT_TRUE(is_one_line(run.err)) << run.err;
-    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
-    EXPECT_EQ(run.out, "");
 }
 
 /// Draws, which needs a context.

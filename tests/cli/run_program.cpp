@@ -22,6 +22,7 @@ Result run_program(const std::vector<std::string>& arguments, const std::filesys
 
     const pid_t child = ::fork();
     if (child == 0) {
+        ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
         ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
         ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
         ::execv(argv[0], argv.data());

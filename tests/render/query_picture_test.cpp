@@ -88,6 +88,55 @@ TEST(QueryPicture, ThePairUnderTestIsFilled) {
     }
 }
 
+TEST(QueryPicture, ThePairAloneSaysHowItsTestEnded) {
+    Query query(testing::miss_scene());
+    query.view.tested_before = false;
+    for (int step = 0; step < query.recorded.trace.size(); ++step) {
+        const DrawList list = query.at(step, {1280, 720});
+        const mobb::Trace::Event event = query.recorded.trace[step];
+        const OutcomeStyle style = outcome_style(box_state(event.outcome), list.palette);
+        int boxes = 0;
+        for (const BoxInstance& box : list.boxes) {
+            if (box.state == BoxState::annotation) continue;
+            ++boxes;
+            EXPECT_EQ(box.state, BoxState::under_test);
+            EXPECT_EQ(box.edge, style.color);
+            EXPECT_EQ(box.dash, style.dash);
+        }
+        EXPECT_EQ(boxes, 2) << "those tested before are not drawn";
+        for (const LegendEntry& entry : list.legend) EXPECT_EQ(entry.text.find("latest test"), std::string::npos);
+    }
+}
+
+TEST(QueryPicture, ThePairAloneHasItsTimesMarkedOnTheAxis) {
+    Query query(testing::miss_scene());
+    const int last = query.recorded.trace.size() - 1;
+    const auto bars = [&](int step) {
+        std::vector<LineInstance> out;
+        for (const LineInstance& line : query.at(step).lines) {
+            if (line.order.layer == 9 && line.order.level == 1) out.push_back(line);
+        }
+        return out;
+    };
+    EXPECT_TRUE(bars(last).empty()) << "with other pairs in the picture the axis stays as it is";
+    query.view.tested_before = false;
+    for (int step = 0; step <= last; ++step) {
+        const mobb::Trace::Event event = query.recorded.trace[step];
+        const std::vector<LineInstance> lines = bars(step);
+        const bool apart = event.outcome == mobb::Outcome::disjoint_in_time;
+        ASSERT_EQ(lines.size(), apart ? 3u : 2u);
+        const DrawnSpace space = query.at(step).space;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const mobb::PlacedTree& tree = query.sides[side].placed;
+            const mobb::Node& node = tree.node(side == 0 ? event.a : event.b);
+            EXPECT_NEAR(lines[side].from.z, space.point(0, 0, tree.begin(node)).z, 1e-5);
+            EXPECT_NEAR(lines[side].to.z, space.point(0, 0, tree.end(node)).z, 1e-5);
+        }
+    }
+    query.view.time_axis = false;
+    EXPECT_TRUE(bars(last).empty());
+}
+
 TEST(QueryPicture, OutcomesDifferInMoreThanColour) {
     const Palette& colors = palette(Theme::dark);
     const OutcomeStyle apart = outcome_style(BoxState::apart_in_time, colors);

@@ -1,6 +1,7 @@
 #include <app/commands/explicit_view.h>
 #include <render/build_draw_list.h>
 #include <render/framing.h>
+#include <render/moment.h>
 #include <render/settle.h>
 #include <render/world_box.h>
 
@@ -38,10 +39,6 @@ PictureSize viewport_size(const Session& session) {
     return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
 }
 
-double drawn_time_height(const Session& session) {
-    return space_for(bounds_of(subjects(session.fitted(), session.view())), session.view()).time_height;
-}
-
 void move_camera(Session& session, const std::function<Camera(const Camera&, PictureSize)>& move) {
     const PictureSize size = viewport_size(session);
     const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
@@ -50,13 +47,14 @@ void move_camera(Session& session, const std::function<Camera(const Camera&, Pic
     const Camera moved = move(camera, size);
     session.look([&](ViewState& view) {
         view.camera = moved;
-        view.time_height = list.space.time_height;
+        if (!list.moment) view.time_height = list.space.time_height;
     });
 }
 
 std::optional<SceneBox> box_of(const Session& session, const Selection& selected) {
     Bounds bounds;
-    for (const Subject& subject : subjects(session.fitted(), session.view())) {
+    const std::vector<Subject> shown = subjects(session.fitted(), session.view());
+    for (const Subject& subject : shown) {
         const mobb::PlacedClip& clip = subject.clip();
         const auto is_clip = [&](const auto& known) { return known.clip.get() == &clip.clip(); };
         const auto& clips = session.scene().clips;
@@ -71,6 +69,15 @@ std::optional<SceneBox> box_of(const Session& session, const Selection& selected
         }
     }
     if (bounds.min.x > bounds.max.x) return std::nullopt;
+    if (session.view().show == Show::moment) {
+        const std::vector<double> heights = cylinder_heights(shown);
+        bounds.min.z = 0;
+        bounds.max.z = *std::max_element(heights.begin(), heights.end());
+    } else {
+        const double time_height = space_for(bounds_of(shown), session.view()).time_height;
+        bounds.min.z *= time_height;
+        bounds.max.z *= time_height;
+    }
     return SceneBox{bounds.min, bounds.max};
 }
 

@@ -14,10 +14,8 @@ PictureSize viewport_size(const Session& session);
 /// as the camera's target is measured in it. Requires a scene.
 void move_camera(Session& session, const std::function<Camera(const Camera&, PictureSize)>& move);
 
-/// The height that time is drawn with in the present picture, metres per second. Requires a scene.
-double drawn_time_height(const Session& session);
-
-/// What `selected` covers in (x, y, t) of what the present picture shows; none if it is not in the picture.
+/// What `selected` covers of what the present picture shows, as cameras' targets are measured: world metres with time
+/// drawn as height, or in the picture of a moment real height. None if it is not in the picture.
 struct SceneBox {
     glm::dvec3 min{0}, max{0};
 };

@@ -1,8 +1,10 @@
 #include <app/commands/explicit_view.h>
 #include <app/commands/render_line.h>
+#include <import/shell_word.h>
 #include <import/text.h>
 #include <render/lens.h>
 
+#include <initializer_list>
 #include <stdexcept>
 
 namespace mobbscope::app {
@@ -14,11 +16,17 @@ namespace {
         "save the scene first (Ctrl+S): this picture shows more than its files and the options of a command say");
 }
 
+/// Numbers with commas between them.
+std::string listed(std::initializer_list<double> numbers) {
+    std::string out;
+    for (const double number : numbers) out += (out.empty() ? "" : ",") + short_double(number);
+    return out;
+}
+
 /// The options that lead from one camera to another; the file's is taken as it is.
 std::string camera_options(const Camera& file, const Camera& now) {
     if (now == file) return "";
     Camera reached = file;  // as `render` applies the options
-    reached.target.reset();
     reached.preset = now.preset;
     std::string out = " --view " + std::string(name(now.preset));
     if (now.preset == CameraPreset::free) {
@@ -26,56 +34,52 @@ std::string camera_options(const Camera& file, const Camera& now) {
         reached.pitch_deg = now.pitch_deg;
         out += " --yaw " + short_double(now.yaw_deg) + " --pitch " + short_double(now.pitch_deg);
     }
-    if (orientation(reached).perspective && !now.perspective) {
-        reached.perspective = false;
-        out += " --ortho";
+    if (orientation(now).perspective != orientation(reached).perspective) {
+        out += now.perspective ? " --perspective" : " --ortho";
     }
-    // What a named view does not look at does not count.
-    const Orientation seen = orientation(reached);
-    const Orientation wanted = orientation(now);
-    const bool same_angles = seen.yaw_deg == wanted.yaw_deg && seen.pitch_deg == wanted.pitch_deg;
-    const bool same_lens = seen.perspective == wanted.perspective && (!seen.perspective || file.fov_deg == now.fov_deg);
-    if (now.target || now.shift != file.shift || !same_angles || !same_lens) ask_to_save();
+    if (now.fov_deg != file.fov_deg && (orientation(now).perspective || now.target)) {
+        out += " --fov " + short_double(now.fov_deg);
+    }
+    if (!now.target) return out;
+    out += " --target " + listed({now.target->x, now.target->y, now.target->z});
+    out += " --distance " + short_double(now.distance);
+    if (now.shift != glm::dvec2(0)) out += " --shift " + listed({now.shift.x, now.shift.y});
     return out;
 }
 
+struct Toggle {
+    bool ViewState::*value;
+    const char* on;
+    const char* off;
+};
+constexpr Toggle kToggles[] = {{&ViewState::labels, " --labels", " --no-labels"},
+                               {&ViewState::legend, " --legend", " --no-legend"},
+                               {&ViewState::floor, " --floor", " --no-floor"},
+                               {&ViewState::time_axis, " --time-axis", " --no-time-axis"},
+                               {&ViewState::boxes, " --boxes", " --no-boxes"},
+                               {&ViewState::disks, " --disks", " --no-disks"},
+                               {&ViewState::tested_before, " --tested-before", " --pair-only"}};
+
 std::string view_options(const ViewState& file, const ViewState& now) {
     std::string out = camera_options(file.camera, now.camera);
+    if (now.show != file.show) out += " --show " + std::string(name(now.show));
     if (now.query) {
         if (now.query != file.query) out += " --query " + std::to_string(*now.query);
         if (now.step != file.step) out += " --step " + to_string(now.step);
     } else if (now.levels != file.levels || file.query) {
         out += " --level " + to_string(now.levels);
     }
-    if (now.time != file.time) {
-        if (!now.time) ask_to_save();
-        out += " --time " + short_double(*now.time);
-    }
+    if (now.projection != file.projection) ask_to_save();
+    if (now.time != file.time) out += " --time " + (now.time ? short_double(*now.time) : "none");
     if (now.time_height != file.time_height) {
-        if (now.time_height <= 0) ask_to_save();
-        out += " --time-height " + short_double(now.time_height);
+        out += " --time-height " + (now.time_height > 0 ? short_double(now.time_height) : "auto");
     }
     if (now.theme != file.theme) out += " --theme " + std::string(name(now.theme));
     if (now.color_by != file.color_by) out += " --color-by " + std::string(name(now.color_by));
-    // The rest has no options.
-    ViewState reached = now;
-    reached.disks = file.disks;
-    reached.boxes = file.boxes;
-    reached.floor = file.floor;
-    reached.time_axis = file.time_axis;
-    reached.labels = file.labels;
-    reached.legend = file.legend;
-    if (reached != now) ask_to_save();
+    for (const Toggle& toggle : kToggles) {
+        if (now.*toggle.value != file.*toggle.value) out += now.*toggle.value ? toggle.on : toggle.off;
+    }
     return out;
-}
-
-/// A word as a POSIX shell takes it literally.
-std::string shell_quoted(const std::string& word) {
-    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + '\'';
 }
 
 }  // namespace
@@ -88,7 +92,7 @@ std::string render_line(const Session& session) {
     const PictureSize size = viewport_size(session);
     const std::string scale = session.hooks.ui_scale ? " --scale " + short_double(session.hooks.ui_scale()) : "";
     // Of an unchanged scene, its `view` is the one in the file.
-    return "mobbscope render " + shell_quoted(file.string()) + view_options(session.scene().view, session.view()) +
+    return "mobbscope render " + shell_word(file.string()) + view_options(session.scene().view, session.view()) +
            " --size " + std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";
 }
 

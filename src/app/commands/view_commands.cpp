@@ -58,10 +58,8 @@ void frame_all(Session& session, const std::string&) {
 void frame_selection(Session& session, const std::string& none) {
     const std::optional<SceneBox> box = box_of(session, session.selection);
     if (!box) return frame_all(session, none);
-    const glm::dvec3 drawn(1, 1, drawn_time_height(session));
-    move_camera(session, [&](const Camera& camera, PictureSize size) {
-        return framing(camera, box->min * drawn, box->max * drawn, size);
-    });
+    move_camera(session,
+                [&](const Camera& camera, PictureSize size) { return framing(camera, box->min, box->max, size); });
 }
 
 void zoom(Session& session, double factor) {
@@ -94,6 +92,16 @@ void toggle(Session& session, const std::string&) {
 template <bool ViewState::*part>
 bool is_on(const Session& session) {
     return session.view().*part;
+}
+
+bool shows_moment(const Session& session) { return session.view().show == Show::moment; }
+
+/// Heights mean something else then, so the camera frames the scene anew.
+void toggle_moment(Session& session, const std::string&) {
+    session.look([](ViewState& view) {
+        view.show = view.show == Show::moment ? Show::space_time : Show::moment;
+        frame_by_itself(view.camera);
+    });
 }
 
 /// Levels of the deepest tree in the picture.
@@ -352,18 +360,26 @@ std::span<const Command> view_commands() {
                  move_camera(session,
                              [&](const Camera& camera, PictureSize size) { return panned(camera, pixels, size); });
              }},
+        {.id = "view.moment",
+         .title = "Show the moment",
+         .menu = "View",
+         .shortcut = "M",
+         .doc = "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
+         .enabled = has_scene,
+         .run = toggle_moment,
+         .checked = shows_moment},
         {.id = "view.disks",
          .title = "Disks",
          .menu = "View/Show",
          .shortcut = "D",
-         .doc = "Shows the samples: a disk for as long as it holds.",
+         .doc = "Shows the samples: a disk for as long as it holds; at a moment those on the floor.",
          .run = toggle<&ViewState::disks>,
          .checked = is_on<&ViewState::disks>},
         {.id = "view.boxes",
          .title = "Boxes",
          .menu = "View/Show",
          .shortcut = "B",
-         .doc = "Shows the boxes of the trees.",
+         .doc = "Shows the boxes of the trees; at a moment the walls of the cylinders.",
          .run = toggle<&ViewState::boxes>,
          .checked = is_on<&ViewState::boxes>},
         {.id = "view.floor",

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Makes the scenes of the paper's figures in assets/figures/: placements of the walkers of assets/clips/ at which a query
+goes the way that the figure tells of. Figures 1b, 1c and 8 are of scenes in assets/scenes/ (scripts/make_scenes.py).
+
+Nothing random: the same bytes every time.
+
+Usage: scripts/make_figures.py [FOLDER]    (default: assets/figures beside this script's folder)
+"""
+import math
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True  # no __pycache__ beside the scripts
+from make_scenes import from_file, write_scene
+
+ORANGE, SKY, PURPLE = "#E69F00", "#56B4E9", "#CC79A7"
+
+
+def slow_disks():
+    """A path so coarse that a disk has a height to be seen: 0.25 s a sample at 1 m/s, from y = 0 back to it."""
+    count, dt = 8, 0.25
+    return {"dt": dt, "samples": [[round(i * dt, 4), round(0.12 * math.sin(2 * math.pi * i / (count - 1)), 4),
+                                   round(0.42 + 0.05 * math.cos(1.3 * i), 4)] for i in range(count)]}
+
+
+def main():
+    default = pathlib.Path(__file__).resolve().parent.parent / "assets" / "figures"
+    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
+    folder.mkdir(parents=True, exist_ok=True)
+
+    # Fig. 1, left: one person at one moment.
+    write_scene(folder, "person", {"walk": "walk"}, {
+        "agents": [{"name": "A", "clip": "walk", "color": ORANGE}],
+        "fit": {"tree": "mobb", "leaf": 10},
+        "view": {"show": "moment", "time": 1.0, "theme": "light"},
+    })
+
+    # Figs. 2 and 5: a path with a bend, so that every level of boxes is tighter than the one before.
+    write_scene(folder, "levels", {"turn": "turn"}, {
+        "agents": [{"name": "A", "clip": "turn", "color": ORANGE}],
+        "fit": {"tree": "mobb", "leaf": 10},
+        "view": {"camera": {"preset": "iso"}, "levels": "1", "theme": "light"},
+    })
+
+    # Fig. 3: the roots overlap; of the four pairs of children the first is separated, the second apart in time, the
+    # third separated, and the last overlaps.
+    write_scene(folder, "inner_nodes", {"bend": "bend"}, {
+        "agents": [
+            {"name": "A", "clip": "bend", "start": 0, "color": ORANGE},
+            {"name": "B", "clip": "bend", "translate": [4.5, 4.8], "rotate_deg": 230, "start": 1.1, "color": SKY},
+        ],
+        "fit": {"tree": "mobb", "leaf": 20},
+        "queries": [{"a": "A", "b": "B", "expect": {"collides": False}}],
+        "view": {"query": 0, "step": 1, "tested_before": False, "theme": "light"},
+    })
+
+    # Fig. 4: B is so short that a leaf of it meets an inner node of A, whose first child is over before it begins.
+    write_scene(folder, "leaf", {"bend": "bend", "short": {**from_file("walk"), "trim": [0, 1.3]}}, {
+        "agents": [
+            {"name": "A", "clip": "bend", "start": 0, "color": ORANGE},
+            {"name": "B", "clip": "short", "translate": [7.2, 4.2], "rotate_deg": 255, "start": 3.8, "color": SKY},
+        ],
+        "fit": {"tree": "mobb", "leaf": 20},
+        "queries": [{"a": "A", "b": "B", "expect": {"collides": False}}],
+        "view": {"query": 0, "step": 7, "tested_before": False, "theme": "light"},
+    })
+
+    # Fig. 6: a disk in a free box that leans along +x, so that the front view looks along its axis 1.
+    write_scene(folder, "disk", {"slow": slow_disks()}, {
+        "agents": [{"name": "A", "clip": "slow", "color": ORANGE}],
+        "fit": {"tree": "umobb", "leaf": 8},
+        "view": {"camera": {"preset": "front"}, "projection": {"participant": 0, "node": 0, "sample": 3},
+                 "theme": "light"},
+    })
+
+
+if __name__ == "__main__":
+    main()

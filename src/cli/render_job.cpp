@@ -1,0 +1,191 @@
+#include <cli/messages.h>
+#include <cli/render_job.h>
+#include <guard/window_picture.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <render/build_draw_list.h>
+#include <render/common_framing.h>
+#include <render/draw_list_json.h>
+#include <render/png.h>
+#include <render/renderer.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace mobbscope::cli {
+
+namespace {
+
+/// For a person who waits; a script's log stays empty.
+class Patience {
+  public:
+    explicit Patience(std::size_t all) : all_(all) {}
+
+    void one_more() {
+        ++done_;
+        constexpr std::chrono::seconds kPause{4};
+        if (done_ == all_ || !watched_ || Clock::now() - said_ < kPause) return;
+        said_ = Clock::now();
+        complain(std::to_string(done_) + " of " + std::to_string(all_) + " pictures are written");
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::size_t all_;
+    std::size_t done_ = 0;
+    bool watched_ = ::isatty(STDERR_FILENO) == 1;
+    Clock::time_point said_ = Clock::now();
+};
+
+bool needs_renderer(const RenderJob& job) {
+    return !job.arguments.ui && !(job.arguments.outputs.image.empty() && job.arguments.outputs.ids.empty());
+}
+
+/// `renderer`: null where nothing of it needs OpenGL.
+void draw_scene(const RenderJob& job, const RenderPicture& picture, Renderer* renderer) {
+    const RenderOutputs& outputs = picture.outputs;
+    const DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+    if (!outputs.image.empty()) write_png(outputs.image, renderer->draw(list, job.arguments.picture.samples));
+    std::optional<IdImage> ids;
+    if (!outputs.ids.empty()) {
+        ids = renderer->draw_ids(list);
+        write_png(outputs.ids, id_picture(list, *ids));
+    }
+    if (outputs.draw_list.empty()) return;
+    std::ostringstream text;
+    write_draw_list(text, list, ids ? &*ids : nullptr);
+    write_file(outputs.draw_list, text.str());
+}
+
+/// One camera for all, so that none jumps.
+void frame_in_common(std::vector<RenderPicture>& pictures, const CommonFraming& framing, bool turns) {
+    const Camera camera =
+        turns ? framing.turning(pictures.front().view.camera) : framing.still(pictures.front().view.camera);
+    for (RenderPicture& picture : pictures) {
+        const double yaw = turns ? picture.view.camera.yaw_deg : camera.yaw_deg;
+        picture.view.camera = camera;
+        picture.view.camera.yaw_deg = yaw;
+    }
+}
+
+}  // namespace
+
+SceneStore::Loaded& SceneStore::loaded(const RenderArguments& arguments) {
+    for (const auto& known : scenes_) {
+        if (known->scene.file == arguments.file && known->options == arguments.import_options) return *known;
+    }
+    scenes_.push_back(
+        std::make_unique<Loaded>(Loaded{arguments.import_options, load(arguments.file, arguments.import_options), {}}));
+    return *scenes_.back();
+}
+
+std::shared_ptr<const FittedScene> SceneStore::fitted(const RenderArguments& arguments) {
+    Loaded& found = loaded(arguments);
+    const mobb::FitOptions options = arguments.fit.over(found.scene.fit);
+    for (const auto& known : found.fitted) {
+        if (known->options() == options) return known;
+    }
+    found.fitted.push_back(std::make_shared<const FittedScene>(found.scene, options));
+    return found.fitted.back();
+}
+
+std::vector<std::filesystem::path> SceneStore::sources() const {
+    std::vector<std::filesystem::path> out;
+    for (const auto& loaded : scenes_) {
+        out.push_back(loaded->scene.file);
+        for (const SceneClip& clip : loaded->scene.clips) {
+            if (clip.source) out.push_back(loaded->scene.file.parent_path() / *clip.source);
+        }
+    }
+    return out;
+}
+
+void RenderPlan::add(RenderArguments arguments) {
+    check_names(arguments.outputs);
+    check_together(arguments);
+    RenderJob job{std::move(arguments), nullptr, {}};
+    job.fitted = scenes_.fitted(job.arguments);
+    const ViewState view = view_over(job.fitted->scene().view, job.arguments.view);
+    try {
+        job.pictures = pictures_of(*job.fitted, view, job.arguments);
+        check_and_frame(job);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(job.arguments.file.string(), "", error.what());
+    }
+    jobs_.push_back(std::move(job));
+}
+
+void RenderPlan::check_and_frame(RenderJob& job) {
+    CommonFraming framing;
+    bool legends = true;
+    for (const RenderPicture& picture : job.pictures) {
+        const DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+        note_glyphs(list);
+        if (!job.arguments.sequence.any()) return;
+        framing.add(list);
+        legends = legends && !list.legend.empty();
+    }
+    if (job.pictures.front().view.camera.target) return;
+    frame_in_common(job.pictures, framing, job.arguments.sequence.turntable.has_value());
+    // A legend that one picture has no room for would come and go.
+    for (RenderPicture& picture : job.pictures) picture.view.legend = picture.view.legend && legends;
+}
+
+/// Names may hold characters that the fonts of pictures lack.
+void RenderPlan::note_glyphs(const DrawList& list) {
+    for (const TextRun& run : list.texts) {
+        for (const char32_t code : code_points(run.text)) {
+            if (!Font::of(run.face).has(code)) missing_glyphs_.insert(code);
+        }
+    }
+}
+
+OutputCheck RenderPlan::sources() const {
+    OutputCheck check;
+    for (const std::filesystem::path& source : scenes_.sources()) check.reads(source);
+    for (const RenderJob& job : jobs_) {
+        if (!job.arguments.view.state.empty()) check.reads(job.arguments.view.state);
+    }
+    return check;
+}
+
+void RenderPlan::check_outputs(const RenderJob& job, OutputCheck& outputs) {
+    for (const RenderPicture& picture : job.pictures) outputs.writes(picture.outputs);
+}
+
+void RenderPlan::draw(Backend backend) const {
+    if (!missing_glyphs_.empty()) {
+        warn("the fonts of pictures lack " +
+             counted(static_cast<long long>(missing_glyphs_.size()), "character", "characters") +
+             " of this scene's names; boxes stand for them");
+    }
+    std::optional<Renderer> renderer;
+    std::size_t all = 0;
+    for (const RenderJob& job : jobs_) {
+        all += job.pictures.size();
+        if (!needs_renderer(job)) continue;
+        if (!renderer) renderer.emplace(backend);
+        renderer->check_samples(job.arguments.picture.samples);
+    }
+    Patience patience(all);
+    for (const RenderJob& job : jobs_) {
+        for (const RenderPicture& picture : job.pictures) {
+            if (job.arguments.ui) {
+                write_png(picture.outputs.image,
+                          guard::window_picture(*job.fitted, picture.view, job.arguments.file, backend,
+                                                job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
+            } else {
+                draw_scene(job, picture, renderer ? &*renderer : nullptr);
+            }
+            patience.one_more();
+        }
+    }
+}
+
+}  // namespace mobbscope::cli

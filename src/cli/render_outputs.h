@@ -1,0 +1,43 @@
+/// The files that `render` writes, and that it writes nothing else.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace mobbscope::cli {
+
+/// What is made of one view; an empty name is not asked for.
+struct RenderOutputs {
+    std::filesystem::path image;      ///< the picture, .png
+    std::filesystem::path ids;        ///< object ids, .png
+    std::filesystem::path draw_list;  ///< what is drawn, .json
+
+    bool any() const { return !image.empty() || !ids.empty() || !draw_list.empty(); }
+    /// Those that are asked for.
+    std::vector<std::filesystem::path> all() const;
+};
+
+/// Throws InputError if a name is none for what is written there, before anything is read.
+void check_names(const RenderOutputs& outputs);
+
+/// "walk.png" as "walk_0012.png".
+RenderOutputs numbered(const RenderOutputs& outputs, int number, int digits);
+
+/// Watches over all files of a run, before the first is written.
+class OutputCheck {
+  public:
+    /// A file that is read, and must not be replaced.
+    void reads(const std::filesystem::path& file);
+
+    /// Throws InputError if a file is one that is read, or would be written twice; MachineError if it has nowhere to
+    /// go: better said before anything is drawn.
+    void writes(const RenderOutputs& outputs);
+
+  private:
+    std::vector<std::filesystem::path> sources_;
+    std::unordered_set<std::string> written_;
+};
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,258 @@
+#include <cli/commands.h>
+#include <cli/exit_status.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <cli/take_goldens.h>
+#include <guard/goldens.h>
+#include <guard/reports.h>
+#include <guard/run_cases.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <render/png.h>
+#include <render/sheet.h>
+
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path folder;
+    std::vector<std::string> names;  ///< exact or with wildcards; none: all
+    bool list = false;
+    Backend backend = Backend::automatic;
+    bool update = false;
+    std::vector<std::string> update_names;  ///< none: ask
+    std::filesystem::path output = "mobbscope-test";
+    bool json = false;
+    std::filesystem::path junit, html, contact_sheet;  ///< empty: none
+    std::optional<int> columns;                        ///< of the contact sheet
+};
+
+// --- which cases
+
+bool matches(const std::string& pattern, const std::string& name) {
+    return pattern == name || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
+    return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& p) { return matches(p, name); });
+}
+
+/// The cases that the patterns name; without patterns all. Throws InputError for a pattern that names none.
+std::vector<guard::CaseFile> chosen(const std::vector<guard::CaseFile>& cases,
+                                    const std::vector<std::string>& patterns) {
+    if (patterns.empty()) return cases;
+    std::vector<std::string> names;
+    for (const guard::CaseFile& file : cases) names.push_back(file.name);
+    for (const std::string& pattern : patterns) {
+        const auto is_named = [&](const std::string& name) { return matches(pattern, name); };
+        if (std::none_of(names.begin(), names.end(), is_named)) {
+            throw InputError("there is no case " + in_quotes(pattern) + did_you_mean(pattern, names));
+        }
+    }
+    std::vector<guard::CaseFile> out;
+    std::copy_if(cases.begin(), cases.end(), std::back_inserter(out),
+                 [&](const guard::CaseFile& file) { return matches_any(patterns, file.name); });
+    return out;
+}
+
+std::vector<guard::CaseFile> cases_of(const Arguments& arguments) {
+    std::vector<std::string> patterns = arguments.names;
+    patterns.insert(patterns.end(), arguments.update_names.begin(), arguments.update_names.end());
+    return chosen(guard::find_cases(arguments.folder), patterns);
+}
+
+// --- what is written
+
+/// Throws InputError if a report would replace a case or its golden, or has a name that its kind does not.
+void check_reports(const Arguments& arguments, const std::vector<guard::CaseFile>& cases) {
+    if (arguments.columns && arguments.contact_sheet.empty()) {
+        throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
+    }
+    if (!arguments.contact_sheet.empty() && lower_extension(arguments.contact_sheet) != ".png") {
+        throw InputError(arguments.contact_sheet.string(), "",
+                         "pictures are written as .png; rename the contact sheet");
+    }
+    for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet}) {
+        for (const guard::CaseFile& file : cases) {
+            for (const std::filesystem::path& kept : {file.file, file.golden(), file.draw()}) {
+                std::error_code ignored;
+                if (report.empty() || !std::filesystem::equivalent(report, kept, ignored)) continue;
+                throw InputError(
+                    report.string(), "",
+                    "the report would replace a part of the case " + in_quotes(file.name) + "; give another name");
+            }
+        }
+    }
+}
+
+using WriteReport = void (*)(std::ostream& out, const guard::RunFacts& facts,
+                             std::span<const guard::CaseResult> results);
+
+/// Into a file, whose folder is made if need be.
+void write_report(const std::filesystem::path& file, WriteReport write, const guard::RunFacts& facts,
+                  std::span<const guard::CaseResult> results) {
+    if (file.empty()) return;
+    std::ostringstream text;
+    write(text, facts, results);
+    guard::make_folder_of(file);
+    write_file(file, text.str());
+}
+
+/// All pictures of the run with their names.
+void write_contact_sheet(const Arguments& arguments, std::span<const guard::CaseResult> results, Renderer& renderer) {
+    std::vector<SheetCell> cells;
+    PictureSize all{1, 0};
+    for (const guard::CaseResult& result : results) {
+        if (result.actual.rgba.empty()) continue;
+        cells.push_back({result.file.name, result.actual});
+        all.width = std::max(all.width, result.actual.width);
+        all.height = std::max(all.height, result.actual.height);
+    }
+    if (cells.empty()) {
+        warn("there is no picture for a contact sheet");
+        return;
+    }
+    const int count = static_cast<int>(cells.size());
+    const int square = static_cast<int>(std::lround(std::sqrt(count)));
+    const int columns = std::min(count, arguments.columns.value_or(square));
+    // Letters grow with the whole, which is looked at smaller than its pictures are.
+    all = {all.width * columns, all.height * ((count + columns - 1) / columns)};
+    guard::make_folder_of(arguments.contact_sheet);
+    write_png(arguments.contact_sheet, make_sheet(cells, columns, palette(Theme::dark), metrics_of(all), renderer));
+}
+
+// --- the run
+
+/// The context, or why there is none.
+struct Drawer {
+    std::unique_ptr<guard::PictureMaker> maker;
+    std::string no_opengl;
+    guard::RunFacts facts;
+};
+
+Drawer open(const Arguments& arguments) {
+    Drawer out;
+    out.facts.folder = arguments.folder.string();
+    try {
+        out.maker = std::make_unique<guard::PictureMaker>(arguments.backend);
+        out.facts.backend = out.maker->backend();
+        out.facts.renderer = out.maker->renderer().device();
+    } catch (const MachineError& error) {
+        out.no_opengl = error.what();
+    }
+    return out;
+}
+
+/// What goes to standard output when it is all done.
+void print_results(const Arguments& arguments, const guard::RunFacts& facts,
+                   std::span<const guard::CaseResult> results) {
+    bool kept = false;
+    for (const guard::CaseResult& result : results) {
+        if (result.outcome == guard::Outcome::passed) continue;
+        kept = !keep_pictures(result, arguments.output).empty() || kept;
+    }
+    if (arguments.json) {
+        write_json(std::cout, facts, results);
+    } else {
+        write_text(std::cout, facts, results);
+        if (kept) std::cout << "Pictures of what did not pass: " << cleaned(arguments.output.string()) << '\n';
+    }
+    flush_results();
+}
+
+int run(const Arguments& arguments) {
+    const std::vector<guard::CaseFile> cases = cases_of(arguments);
+    if (arguments.list) {
+        for (const guard::CaseFile& file : cases) std::cout << cleaned(file.name) << '\n';
+        flush_results();
+        return kDone;
+    }
+    check_reports(arguments, cases);
+    const bool asks = arguments.update && arguments.update_names.empty();
+    if (asks && ::isatty(STDIN_FILENO) == 0) {
+        throw InputError("--update: there is no terminal to ask at; name the cases whose pictures to take, or all");
+    }
+
+    const Drawer drawer = open(arguments);
+    std::vector<guard::CaseResult> results;
+    for (const guard::CaseFile& file : cases) {
+        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl));
+    }
+    // Where standard output is a report, the rest goes beside it.
+    std::ostream& say = arguments.json ? std::cerr : std::cout;
+    if (asks) {
+        take_asked(results, arguments.output, std::cin, say);
+    } else if (arguments.update) {
+        const auto named = [&](const guard::CaseResult& result) {
+            return matches_any(arguments.update_names, result.file.name);
+        };
+        take_named(results, named, say);
+    }
+    print_results(arguments, drawer.facts, results);
+    write_report(arguments.junit, guard::write_junit, drawer.facts, results);
+    write_report(arguments.html, guard::write_html, drawer.facts, results);
+    if (!drawer.maker) throw MachineError(drawer.no_opengl);
+    if (!arguments.contact_sheet.empty()) write_contact_sheet(arguments, results, drawer.maker->renderer());
+    return guard::summary(results).ok() ? kDone : kFailed;
+}
+
+/// What "all" stands for among the names of --update.
+void widen(std::vector<std::string>& names) {
+    std::replace(names.begin(), names.end(), std::string("all"), std::string("*"));
+}
+
+}  // namespace
+
+void add_test_command(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand("test", "Draw picture tests and hold them against their goldens");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json")->required();
+    command->add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
+    command->add_flag("--list", arguments->list, "Only print the names of the cases");
+    add_backend_option(*command, arguments->backend);
+    CLI::Option* update = command->add_option(
+        "--update", arguments->update_names,
+        "Take the present pictures as goldens: of these cases, or all; without names, ask for each");
+    update->expected(0, -1)->type_name("NAME...");
+    command->add_option("--output", arguments->output, "Where the pictures of what did not pass go (mobbscope-test)")
+        ->type_name("FOLDER");
+    command->add_flag("--json", arguments->json, "The report as JSON on standard output");
+    command->add_option("--junit", arguments->junit, "The report for CI servers")->type_name("FILE");
+    command->add_option("--html", arguments->html, "The report as one page, with all pictures")->type_name("FILE");
+    command->add_option("--contact-sheet", arguments->contact_sheet, "All pictures of the run in one")
+        ->type_name("OUT.png");
+    add_parsed(
+        *command, "--columns", arguments->columns,
+        [](const std::string& text) {
+            const std::optional<int> columns = parse_int(text);
+            if (!columns || *columns < 1) throw std::invalid_argument(in_quotes(text) + " is no number of columns");
+            return *columns;
+        },
+        "Of the contact sheet", "N");
+    command->callback([arguments, update, &status] {
+        arguments->update = update->count() > 0;
+        std::erase(arguments->update_names, "");
+        widen(arguments->update_names);
+        status = run(*arguments);
+    });
+}
+
+}  // namespace mobbscope::cli

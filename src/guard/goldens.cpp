@@ -1,0 +1,56 @@
+#include <guard/goldens.h>
+
+#include <import/error.h>
+#include <import/file.h>
+#include <render/png.h>
+
+#include <system_error>
+
+namespace mobbscope::guard {
+
+void make_folder_of(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.parent_path();
+    if (folder.empty()) return;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw MachineError(folder.string() + ": cannot be made: " + error.message());
+}
+
+std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder) {
+    const std::filesystem::path stem = folder / result.file.name;
+    make_folder_of(stem);
+    std::vector<std::filesystem::path> written;
+    const auto keep = [&](const char* what, const Image* image) {
+        const std::filesystem::path file = stem.string() + "." + what + ".png";
+        if (!image || image->rgba.empty()) {
+            std::error_code ignored;
+            std::filesystem::remove(file, ignored);
+            return;
+        }
+        write_png(file, *image);
+        written.push_back(file);
+    };
+    keep("actual", &result.actual);
+    keep("golden", &result.golden);
+    keep("heat", result.image ? &result.image->heat : nullptr);
+    return written;
+}
+
+std::vector<std::filesystem::path> take(CaseResult& result) {
+    std::vector<std::filesystem::path> written;
+    if (!result.image || !result.image->same) {
+        write_png(result.file.golden(), result.actual);
+        written.push_back(result.file.golden());
+    }
+    if (!result.draws_the_same) {
+        write_file(result.file.draw(), result.draw_lists);
+        written.push_back(result.file.draw());
+    }
+    result.golden = result.actual;
+    result.draws_the_same = true;
+    result.outcome = Outcome::passed;
+    result.message.clear();
+    return written;
+}
+
+}  // namespace mobbscope::guard

@@ -1,0 +1,22 @@
+/// What a run leaves on the disk: pictures to look at, and goldens that were taken.
+#pragma once
+
+#include <guard/run_cases.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace mobbscope::guard {
+
+/// Makes the folder that a file goes to, if need be. Throws MachineError.
+void make_folder_of(const std::filesystem::path& file);
+
+/// Writes the pictures of a case into a folder that is made if need be: NAME.actual.png, NAME.golden.png and
+/// NAME.heat.png, those that there are; what an earlier run left of the others goes. Returns what it wrote. Throws
+/// MachineError.
+std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
+
+/// Makes the present picture the golden, after which the case has passed. Returns what it wrote. Throws MachineError.
+std::vector<std::filesystem::path> take(CaseResult& result);
+
+}  // namespace mobbscope::guard

@@ -1,0 +1,41 @@
+#include <guard/report_words.h>
+
+#include <import/shell_word.h>
+#include <import/text.h>
+
+namespace mobbscope::guard {
+
+std::string drawn_by(const RunFacts& facts) {
+    if (facts.backend.empty()) return "nothing: there is no OpenGL";
+    return facts.renderer.empty() ? facts.backend : facts.backend + ", " + facts.renderer;
+}
+
+std::string sum_of(const Summary& summary) {
+    std::string out;
+    const auto add = [&out](int count, const char* what) {
+        if (count > 0) out += (out.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
+    };
+    add(summary.passed, "passed");
+    add(summary.different, "different");
+    add(summary.missing, "without a golden");
+    add(summary.failed, "failed");
+    add(summary.skipped, "skipped");
+    return out.empty() ? "no cases" : out;
+}
+
+std::string extent_of(const CaseResult& result) {
+    if (!result.image || !result.image->same_size) return "";
+    const ImageDiff& diff = *result.image;
+    const DiffOptions allowed = diff_options(result.tolerance);
+    return std::to_string(diff.differing) + " of " + counted(diff.pixels, "pixel", "pixels") + " (" +
+           brief(100 * diff.fraction()) + " %) differ by more than " + brief(allowed.channel_tolerance) +
+           " of 255; allowed are " + brief(100 * allowed.pixel_fraction) + " %";
+}
+
+std::string update_command(const RunFacts& facts, std::span<const std::string_view> names) {
+    std::string out = "mobbscope test " + shell_word(facts.folder) + " --update";
+    for (const std::string_view name : names) out += ' ' + shell_word(std::string(name));
+    return out;
+}
+
+}  // namespace mobbscope::guard

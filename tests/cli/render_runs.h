@@ -1,0 +1,63 @@
+/// What tests of `render` have in common.
+#pragma once
+
+#include "run_program.h"
+
+#include <render/png.h>
+#include <support/temp_folder.h>
+
+#include "render/backends.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace mobbscope::testing {
+
+inline const std::string kCrossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
+
+inline void expect_refused(const Result& run, int status, const std::string& why) {
+    EXPECT_EQ(run.status, status) << run.err;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+}
+
+/// The arguments of small pictures: "render", then those given.
+inline Result render_small(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"--size", "320x240"});
+    return run_program(arguments);
+}
+
+inline std::set<std::string> files_in(const std::filesystem::path& folder) {
+    std::set<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) out.insert(entry.path().filename());
+    return out;
+}
+
+/// Draws, which needs a context.
+class DrawingTest : public ::testing::Test {
+  protected:
+    void SetUp() override { open_or_skip(Backend::automatic); }
+
+    const TempFolder folder;
+
+    /// The picture that a run wrote without a word.
+    Image picture(const std::vector<std::string>& arguments) {
+        const std::string out = folder.path() / "picture.png";
+        std::vector<std::string> all = arguments;
+        all.insert(all.end(), {"-o", out});
+        const Result run = render_small(all);
+        EXPECT_EQ(run.status, 0) << run.err;
+        EXPECT_EQ(run.out + run.err, "");
+        const Image image = run.status == 0 ? read_png(out) : Image();
+        std::filesystem::remove(out);
+        return image;
+    }
+};
+
+}  // namespace mobbscope::testing

@@ -1,0 +1,141 @@
+// Numbered pictures: --frames, --play, --turntable.
+#include "render_runs.h"
+
+#include <nlohmann/json.hpp>
+
+namespace mobbscope {
+namespace {
+
+using testing::expect_refused;
+using testing::files_in;
+using testing::kCrossing;
+using testing::render_small;
+using testing::TempFolder;
+
+using Names = std::set<std::string>;
+
+/// Two seconds of walking, four samples, and an agent who stands.
+std::string short_scene(const TempFolder& folder) {
+    return folder.write("s.json", R"({"clips": {"c": {"dt": 0.5, "samples": [[0,0,0.4],[1,0,0.4],[2,0,0.4],[3,0,0.4]]}},
+        "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [0, 3], "start": 1}]})");
+}
+
+class RenderSequenceTest : public testing::DrawingTest {
+  protected:
+    const TempFolder pictures;
+    const std::string scene = short_scene(folder);
+    const std::string out = pictures.path() / "walk.png";
+
+    void draw(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {scene, "-o", out});
+        const testing::Result run = render_small(arguments);
+        EXPECT_EQ(run.status, 0) << run.err;
+        EXPECT_EQ(run.out + run.err, "");
+    }
+    Image read(const char* name) const { return read_png(pictures.path() / name); }
+};
+
+TEST_F(RenderSequenceTest, PicturesOfTheMotionAreNumbered) {
+    draw({"--frames", "1:3", "--rate", "2"});
+    EXPECT_EQ(files_in(pictures.path()), (Names{"walk_0001.png", "walk_0002.png", "walk_0003.png"}));
+    // At half a second: the camera of the sequence apart, what --time 0.5 shows.
+    EXPECT_NE(read("walk_0001.png").rgba, read("walk_0002.png").rgba);
+}
+
+TEST_F(RenderSequenceTest, PlayIsFromBeginningToEnd) {
+    draw({"--play", "--rate", "2"});
+    EXPECT_EQ(files_in(pictures.path()).size(), 6u) << "from 0 to 3 s";
+    EXPECT_TRUE(files_in(pictures.path()).contains("walk_0005.png"));
+}
+
+TEST_F(RenderSequenceTest, StepsOfAQueryArePlayed) {
+    const testing::Result answer = testing::run_program({"query", scene, "--json", "--trace"});
+    const std::size_t steps = nlohmann::json::parse(answer.out)["results"][0]["trace"].size();
+    draw({"--query", "0", "--play"});
+    EXPECT_EQ(files_in(pictures.path()).size(), steps);
+    expect_refused(render_small({scene, "-o", out, "--query", "0", "--frames", "0:" + std::to_string(steps)}), 2,
+                   "query 0 has");
+}
+
+/// What never moves stays at its pixels.
+TEST_F(RenderSequenceTest, TheCameraStays) {
+    draw({"--play", "--rate", "2", "--no-labels"});
+    const Image first = read("walk_0000.png");
+    const Image last = read("walk_0005.png");
+    // Nothing but the time cursor differs: most pixels are equal, which a camera that moves would not leave.
+    std::size_t equal = 0;
+    for (std::size_t i = 0; i < first.rgba.size(); ++i) equal += first.rgba[i] == last.rgba[i] ? 1 : 0;
+    EXPECT_GT(equal, first.rgba.size() / 2);
+}
+
+TEST_F(RenderSequenceTest, ATurntableComesBackToWhereItBegan) {
+    draw({"--turntable", "4"});
+    EXPECT_EQ(files_in(pictures.path()), (Names{"walk_0000.png", "walk_0001.png", "walk_0002.png", "walk_0003.png"}));
+    const Image first = read("walk_0000.png");
+    const Image second = read("walk_0001.png");
+    EXPECT_NE(first.rgba, second.rgba);
+    draw({"--turntable", "8"});
+    EXPECT_EQ(read("walk_0000.png").rgba, first.rgba) << "the number of pictures does not move the camera";
+    EXPECT_EQ(read("walk_0002.png").rgba, second.rgba);
+}
+
+TEST_F(RenderSequenceTest, AnExplicitCameraTurnsAboutItsTarget) {
+    const std::vector<std::string> camera{"--pitch", "20", "--target", "1,1,1", "--distance", "40"};
+    std::vector<std::string> still{scene, "--view", "free", "--yaw", "100"};
+    still.insert(still.end(), camera.begin(), camera.end());
+    const Image turned = picture(still);
+    std::vector<std::string> turning{"--view", "free", "--yaw", "10", "--turntable", "4"};
+    turning.insert(turning.end(), camera.begin(), camera.end());
+    draw(turning);
+    EXPECT_EQ(read("walk_0001.png").rgba, turned.rgba);
+}
+
+TEST(RenderSequence, WhatIsNoSequenceIsRefusedBeforeAnythingIsWritten) {
+    const TempFolder folder;
+    const TempFolder pictures;
+    const std::string scene = short_scene(folder);
+    const struct {
+        std::vector<std::string> options;
+        std::string why;
+    } cases[] = {
+        {{"--frames", "3:1"}, "0:59"},
+        {{"--frames", "3"}, "0:59"},
+        {{"--frames", "-1:3"}, "--frames"},
+        {{"--frames", "0:9", "--rate", "2"}, "the motion has 6 pictures at 2 per second, counted from 0"},
+        {{"--frames", "0:1", "--play"}, "--frames and --play"},
+        {{"--turntable", "4", "--play"}, "--turntable and --play"},
+        {{"--turntable", "0"}, "1 or more"},
+        {{"--turntable", "100001"}, "at most 100000"},
+        {{"--play", "--rate", "0"}, "--rate"},
+        {{"--rate", "5"}, "--play or --frames"},
+        {{"--play", "--time", "1"}, "--play and --time"},
+        {{"--play", "--query", "0", "--step", "1"}, "--play and --step"},
+        {{"--play", "--query", "0", "--rate", "5"}, "--play and --rate"},
+        {{"--play", "--query", "9"}, "there is no query 9"},
+    };
+    for (const auto& [options, why] : cases) {
+        std::vector<std::string> all{scene, "-o", pictures.path() / "walk.png"};
+        all.insert(all.end(), options.begin(), options.end());
+        expect_refused(render_small(all), 2, why);
+    }
+    const std::string slow =
+        folder.write("slow.json", R"({"clips": {"c": {"dt": 1e4, "samples": [[0,0,1],[1,0,1]]}}})");
+    expect_refused(render_small({slow, "-o", pictures.path() / "walk.png", "--play"}), 2, "at most 100000");
+    std::filesystem::create_directory(pictures.path() / "walk_0003.png");
+    expect_refused(render_small({scene, "-o", pictures.path() / "walk.png", "--turntable", "4"}), 3, "is a folder");
+    EXPECT_EQ(files_in(pictures.path()), Names{"walk_0003.png"});
+}
+
+/// Without OpenGL too.
+TEST(RenderSequence, DrawListsAreNumberedAlike) {
+    const TempFolder folder;
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const testing::Result run =
+        render_small({short_scene(folder), "--draw-list", folder.path() / "w.json", "--turntable", "2"});
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(files_in(folder.path()), (Names{"s.json", "w_0000.json", "w_0001.json"}));
+}
+
+}  // namespace
+}  // namespace mobbscope

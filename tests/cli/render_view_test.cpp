@@ -1,0 +1,152 @@
+// What `render` shows: views from files, exact cameras, toggles, backgrounds.
+#include "render_runs.h"
+
+namespace mobbscope {
+namespace {
+
+using testing::expect_refused;
+using testing::kCrossing;
+using testing::render_small;
+using testing::TempFolder;
+
+class RenderViewTest : public testing::DrawingTest {};
+
+TEST_F(RenderViewTest, AViewStateGoesOverTheScenesAndOptionsOverBoth) {
+    const std::string state = folder.write("view.json", R"({"theme": "light", "levels": "1", "legend": false})");
+    const Image plain = picture({kCrossing});
+    const Image seen = picture({kCrossing, "--view-state", state});
+    EXPECT_NE(seen.rgba, plain.rgba);
+    EXPECT_EQ(picture({kCrossing, "--theme", "light", "--level", "1", "--no-legend"}).rgba, seen.rgba);
+    EXPECT_EQ(picture({kCrossing, "--view-state", state, "--theme", "dark"}).rgba,
+              picture({kCrossing, "--theme", "dark", "--level", "1", "--no-legend"}).rgba);
+}
+
+TEST_F(RenderViewTest, TheViewOfAnotherSceneIsTakenWhole) {
+    const std::string clip = R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,1,1],[3,1,1]]}})";
+    const std::string scene = folder.write("a.json", clip + R"(, "view": {"theme": "light", "floor": false}})");
+    const std::string other = folder.write("b.json", clip + R"(, "view": {"labels": false}})");
+    EXPECT_EQ(picture({scene, "--view-state", other}).rgba,
+              picture({scene, "--theme", "dark", "--floor", "--no-labels"}).rgba);
+    const std::string without = folder.write("c.json", clip + "}");
+    EXPECT_EQ(picture({scene, "--view-state", without}).rgba, picture({scene, "--theme", "dark", "--floor"}).rgba);
+}
+
+TEST(RenderView, ABadViewStateNamesItsPlace) {
+    const TempFolder folder;
+    const auto refused = [&](const char* text, const std::string& why) {
+        const std::string state = folder.write("view.json", text);
+        expect_refused(render_small({kCrossing, "--view-state", state, "-o", folder.path() / "o.png"}), 2, why);
+    };
+    refused("{", "view.json: line 1");
+    refused(R"({"theem": "dark"})", "view.json: line 1, /theem");
+    refused(R"({"camera": {"target": [0, 0, 0]}})", "/camera");
+    refused(R"({"query": 7})", "there is no query 7");
+    refused("[]", "view.json: line 1");
+    expect_refused(render_small({kCrossing, "--view-state", "none.json", "-o", folder.path() / "o.png"}), 2,
+                   "none.json");
+    // What is read must not be replaced, whatever it is called.
+    const std::string state = folder.write("state.png", "{}");
+    expect_refused(render_small({kCrossing, "--view-state", state, "-o", state}), 2, "would replace");
+    EXPECT_EQ(testing::files_in(folder.path()), (std::set<std::string>{"state.png", "view.json"}));
+}
+
+TEST_F(RenderViewTest, CamerasAreExact) {
+    const std::string state = folder.write("view.json", R"({"camera": {"preset": "free", "yaw_deg": 20, "pitch_deg": 30,
+        "fov_deg": 20, "target": [-1.5, 0.5, 2], "distance": 30, "shift": [0.1, -0.05]}})");
+    const std::vector<std::string> options{kCrossing,    "--view",     "free",  "--yaw",   "20",
+                                           "--pitch",    "30",         "--fov", "20",      "--target",
+                                           "-1.5,0.5,2", "--distance", "30",    "--shift", "0.1,-0.05"};
+    EXPECT_EQ(picture(options).rgba, picture({kCrossing, "--view-state", state}).rgba);
+    // Without perspective the field of view says how large the picture is.
+    const Image near = picture({kCrossing, "--view", "top", "--fov", "20", "--target", "0,0,0", "--distance", "30"});
+    const Image far = picture({kCrossing, "--view", "top", "--fov", "40", "--target", "0,0,0", "--distance", "30"});
+    EXPECT_NE(near.rgba, far.rgba);
+    EXPECT_NE(picture({kCrossing, "--ortho"}).rgba, picture({kCrossing}).rgba);
+    EXPECT_EQ(picture({kCrossing, "--perspective"}).rgba, picture({kCrossing}).rgba);
+    // A distance alone is of the scene's own target.
+    EXPECT_NE(picture({kCrossing, "--view-state", state, "--distance", "60"}).rgba,
+              picture({kCrossing, "--view-state", state}).rgba);
+}
+
+TEST(RenderView, CamerasThatAreNoneAreRefused) {
+    const TempFolder folder;
+    const struct {
+        std::vector<std::string> options;
+        std::string why;
+    } cases[] = {
+        {{"--target", "1,2,3"}, "--distance"},
+        {{"--distance", "5"}, "--target"},
+        {{"--shift", "0,0"}, "--target"},
+        {{"--view", "iso", "--distance", "5"}, "--view iso and --distance"},
+        {{"--target", "1,2", "--distance", "5"}, "X,Y,HEIGHT"},
+        {{"--target", "1,2,3,4", "--distance", "5"}, "X,Y,HEIGHT"},
+        {{"--target", "1,2,nan", "--distance", "5"}, "X,Y,HEIGHT"},
+        {{"--target", "1,,3", "--distance", "5"}, "X,Y,HEIGHT"},
+        {{"--target", "1,2,3", "--distance", "0"}, "--distance"},
+        {{"--target", "1,2,3", "--distance", "5", "--shift", "2,0"}, "from -1 to 1"},
+        {{"--view", "top", "--fov", "20"}, "--view top and --fov"},
+        {{"--show", "nothing"}, "space-time, moment"},
+        {{"--samples", "3"}, "1, 2, 4 or 8"},
+        {{"--background", "red"}, "#RRGGBB"},
+        {{"--ui", "--background", "#000000"}, "--ui and --background"},
+        {{"--ui", "--samples", "1"}, "--ui and --samples"},
+        {{"--ui", "--ids", "i.png"}, "--ui and --ids"},
+        {{"--ui", "--draw-list", "i.json"}, "--ui and --draw-list"},
+        {{"--ui", "--play"}, "--ui and --play"},
+        {{"--ids", "i.jpg"}, ".png"},
+        {{"--draw-list", "i.png"}, ".json"},
+        {{"--json"}, "--list-backends"},
+    };
+    for (const auto& [options, why] : cases) {
+        std::vector<std::string> all{kCrossing, "-o", folder.path() / "o.png"};
+        all.insert(all.end(), options.begin(), options.end());
+        expect_refused(render_small(all), 2, why);
+    }
+    EXPECT_TRUE(testing::files_in(folder.path()).empty());
+    expect_refused(render_small({kCrossing}), 2, "--output");
+    expect_refused(render_small({"-o", folder.path() / "o.png"}), 2, "FILE is required");
+    expect_refused(render_small({kCrossing, "--ui", "--draw-list", folder.path() / "o.json"}), 2, "--output");
+}
+
+TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
+    const Image all = picture({kCrossing, "--query", "0", "--step", "40%"});
+    for (const char* off :
+         {"--no-labels", "--no-legend", "--no-floor", "--no-time-axis", "--no-boxes", "--no-disks", "--pair-only"}) {
+        if (std::string(off) == "--pair-only") continue;
+        EXPECT_NE(picture({kCrossing, "--query", "0", "--step", "40%", off}).rgba, all.rgba) << off;
+    }
+    for (const char* on : {"--labels", "--legend", "--floor", "--time-axis", "--boxes", "--disks", "--tested-before"}) {
+        EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", on}).rgba, all.rgba) << on;
+    }
+}
+
+TEST_F(RenderViewTest, BackgroundsAndSamplesAreTaken) {
+    const Image clear = picture({kCrossing, "--background", "transparent"});
+    EXPECT_EQ(clear.at(1, 238)[3], 0);
+    const Image red = picture({kCrossing, "--background", "#FF0000"});
+    EXPECT_EQ(std::vector<int>(red.at(1, 238), red.at(1, 238) + 4), (std::vector<int>{255, 0, 0, 255}));
+    const Image usual = picture({kCrossing});
+    EXPECT_EQ(picture({kCrossing, "--samples", "4"}).rgba, usual.rgba);
+    EXPECT_NE(picture({kCrossing, "--samples", "1"}).rgba, usual.rgba);
+}
+
+TEST_F(RenderViewTest, BackendsAreListed) {
+    const testing::Result words = testing::run_program({"render", "--list-backends"});
+    EXPECT_EQ(words.status, 0) << words.err;
+    EXPECT_EQ(words.err, "");
+    EXPECT_NE(words.out.find("osmesa: "), std::string::npos);
+    EXPECT_NE(words.out.find("egl: "), std::string::npos);
+    EXPECT_NE(words.out.find("OpenGL "), std::string::npos);
+    const testing::Result json = testing::run_program({"render", "--list-backends", "--json"});
+    EXPECT_EQ(json.status, 0);
+    EXPECT_NE(json.out.find("\"works\": true"), std::string::npos) << json.out;
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const testing::Result none = testing::run_program({"render", "--list-backends"});
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+    EXPECT_EQ(none.status, 3);
+    EXPECT_NE(none.out.find("osmesa: not here: "), std::string::npos) << none.out;
+    EXPECT_TRUE(testing::is_one_line(none.err)) << none.err;
+}
+
+}  // namespace
+}  // namespace mobbscope

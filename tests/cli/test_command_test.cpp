@@ -1,0 +1,238 @@
+// mobbscope test: exit statuses, what is written, and what is said.
+#include "run_program.h"
+
+#include <render/png.h>
+
+#include "guard/case_folder.h"
+#include "render/backends.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+using testing::CaseFolder;
+using testing::is_one_line;
+using testing::Result;
+using testing::run_program;
+using testing::slurp;
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+void expect_refused(const Result& run, const std::string& why) {
+    EXPECT_EQ(run.status, 2) << run.err;
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_PRED2(says, run.err, why);
+    EXPECT_EQ(run.out, "");
+}
+
+/// Three cases: two views of one scene, and one that cannot be read.
+class TestCommandTest : public ::testing::Test {
+  protected:
+    TestCommandTest() {
+        cases.add("path");
+        std::filesystem::create_directory(cases.path() / "query");
+        cases.write("query/end", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "160x120",
+                                     "view": {"query": 0}})");
+    }
+
+    const CaseFolder cases;
+    const std::filesystem::path output = cases.path() / "out";
+
+    Result test(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> all{"test", cases.path().string(), "--output", output.string()};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_program(all);
+    }
+    bool exists(const std::string& file) const { return std::filesystem::exists(cases.path() / file); }
+};
+
+/// The same, drawn.
+class DrawnTestCommandTest : public TestCommandTest {
+  protected:
+    void SetUp() override {
+        if (!testing::open_or_skip(Backend::automatic)) return;
+    }
+    void take_all() const { ASSERT_EQ(test({"--update", "all"}).status, 0); }
+};
+
+TEST_F(TestCommandTest, ListsTheNames) {
+    EXPECT_EQ(test({"--list"}).out, "path\nquery/end\n");
+    EXPECT_EQ(test({"--list", "query/*"}).out, "query/end\n");
+    EXPECT_EQ(test({"--list", "path", "q*"}).out, "path\nquery/end\n");
+    EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
+    const CaseFolder none;
+    expect_refused(run_program({"test", none.path().string()}), "holds no case");
+    expect_refused(run_program({"test", (none.path() / "x").string()}), "cannot be searched");
+    expect_refused(test({"pth"}), "there is no case 'pth' (did you mean 'path'?)");
+    expect_refused(test({"--update", "pth"}), "there is no case 'pth'");
+    expect_refused(test({"--columns", "2"}), "--contact-sheet");
+    expect_refused(test({"--contact-sheet", "sheet.jpg"}), "sheet.jpg: pictures are written as .png");
+    expect_refused(test({"--backend", "vulkan"}), "'vulkan' is not one of auto, osmesa, egl");
+    expect_refused(test({"--html", (cases.path() / "path.case.json").string()}), "a part of the case 'path'");
+    EXPECT_EQ(run_program({"test"}).status, 2);
+}
+
+TEST_F(TestCommandTest, AsksOnlyAtATerminal) {
+    // Standard input of tests is none.
+    expect_refused(test({"--update"}), "--update: there is no terminal to ask at; name the cases");
+}
+
+TEST_F(TestCommandTest, WithoutOpenGLEveryCaseIsSkippedWithTheReason) {
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const Result run =
+        test({"--json", "--junit", (output / "junit.xml").string(), "--html", (output / "report.html").string()});
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+    EXPECT_EQ(run.status, 3);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_PRED2(says, run.err, "no OpenGL 3.3");
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    EXPECT_EQ(report["summary"]["skipped"], 2);
+    for (const auto& one : report["cases"]) EXPECT_PRED2(says, one["message"].get<std::string>(), "egl: ");
+    EXPECT_PRED2(says, slurp(output / "junit.xml"), "skipped");
+    EXPECT_PRED2(says, slurp(output / "report.html"), "egl: ");
+}
+
+TEST_F(DrawnTestCommandTest, MissingGoldensAreNamedAndKept) {
+    const Result run = test();
+    EXPECT_EQ(run.status, 1) << run.err;
+    EXPECT_PRED2(says, run.out, "missing golden: path:");
+    EXPECT_PRED2(says, run.out, "missing golden: query/end:");
+    EXPECT_TRUE(exists("out/path.actual.png"));
+    EXPECT_TRUE(exists("out/query/end.actual.png"));
+    EXPECT_FALSE(exists("out/path.golden.png"));
+    EXPECT_FALSE(exists("path.png")) << "nothing is taken that was not asked for";
+}
+
+TEST_F(DrawnTestCommandTest, PassesAndLeavesNothing) {
+    take_all();
+    const Result run = test();
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_PRED2(says, run.out, "2 passed");
+    EXPECT_EQ(run.err, "");
+    EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST_F(DrawnTestCommandTest, EveryOutcomeIsToldApart) {
+    take_all();
+    cases.add("path", R"("view": {"levels": 0})");
+    cases.add("new");
+    cases.add("broken", R"("veiw": {})");
+    cases.add("later", R"("skip": "waits for the crowd")");
+    const Result run = test({"--json"});
+    EXPECT_EQ(run.status, 1) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(run.out);
+    EXPECT_EQ(report["summary"]["passed"], 1);
+    EXPECT_EQ(report["summary"]["different"], 1);
+    EXPECT_EQ(report["summary"]["failed"], 1);
+    EXPECT_EQ(report["summary"]["skipped"], 1);
+    for (const char* what : {"actual", "golden", "heat"}) {
+        EXPECT_TRUE(exists(std::string("out/path.") + what + ".png")) << what;
+    }
+    EXPECT_TRUE(exists("out/new.actual.png"));
+    EXPECT_FALSE(exists("out/query/end.actual.png")) << "it passed";
+    EXPECT_PRED2(says, test().out, "failed: broken: ");
+    EXPECT_PRED2(says, test().out, "skipped: later: waits for the crowd");
+}
+
+TEST_F(DrawnTestCommandTest, UpdateTakesWhatIsNamedAndNothingElse) {
+    take_all();
+    const std::string before = slurp(cases.path() / "query" / "end.png");
+    cases.add("path", R"("view": {"levels": 0})");
+    cases.write("query/end", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "170x120"})");
+    const Result run = test({"--update", "path"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "path.png").string());
+    EXPECT_EQ(slurp(cases.path() / "query" / "end.png"), before);
+    EXPECT_EQ(test().status, 1);
+    EXPECT_EQ(test({"path"}).status, 0);
+}
+
+TEST_F(DrawnTestCommandTest, UpdateWritesOnlyWhatDiffers) {
+    take_all();
+    const auto time = std::filesystem::last_write_time(cases.path() / "path.png");
+    const Result run = test({"--update", "all"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_FALSE(says(run.out, "wrote")) << run.out;
+    EXPECT_EQ(std::filesystem::last_write_time(cases.path() / "path.png"), time);
+}
+
+TEST_F(DrawnTestCommandTest, AFailedPictureNeverTouchesItsGolden) {
+    take_all();
+    const std::string before = slurp(cases.path() / "path.png");
+    cases.add("path", R"("view": {"query": 9})");
+    EXPECT_EQ(test({"--update", "all"}).status, 1);
+    EXPECT_EQ(slurp(cases.path() / "path.png"), before);
+}
+
+TEST_F(DrawnTestCommandTest, DrawListsAreHeldAndTakenWhereTheirFileIs) {
+    take_all();
+    cases.folder().write("path.draw.json", "");
+    EXPECT_EQ(test({"path"}).status, 1);
+    const Result run = test({"--update", "path"});
+    EXPECT_PRED2(says, run.out, "wrote " + (cases.path() / "path.draw.json").string());
+    EXPECT_FALSE(says(run.out, "path.png")) << "the picture is the golden's";
+    EXPECT_EQ(test().status, 0);
+
+    nlohmann::json list = nlohmann::json::parse(slurp(cases.path() / "path.draw.json"));
+    list["boxes"][0]["color"] = "other";
+    list["disks"][1]["radius"] = 0.2;
+    cases.folder().write("path.draw.json", list.dump());
+    const Result differs = test({"path"});
+    EXPECT_EQ(differs.status, 1);
+    EXPECT_PRED2(says, differs.out, "different: path: path.draw.json: /");
+}
+
+TEST_F(DrawnTestCommandTest, AtATerminalItAsks) {
+    if (std::system("command -v script >/dev/null") != 0) GTEST_SKIP() << "there is no script(1) to make a terminal";
+    const auto answer = [&](const std::string& keys) {
+        const std::string command = "printf '" + keys + "' | script -qec \"'" MOBBSCOPE_PROGRAM "' test '" +
+                                    cases.path().string() + "' --output '" + output.string() +
+                                    "' --update\" /dev/null >'" + (cases.path() / "said").string() + "' 2>&1";
+        return WEXITSTATUS(std::system(command.c_str()));
+    };
+    EXPECT_EQ(answer("n\\ny\\n"), 1);
+    EXPECT_FALSE(exists("path.png"));
+    EXPECT_TRUE(exists("query/end.png"));
+    const std::string said = slurp(cases.path() / "said");
+    EXPECT_PRED2(says, said, "take it? [y/N/a/q]");
+    EXPECT_PRED2(says, said, "path.actual.png");
+    EXPECT_PRED2(says, said, "wrote ");
+
+    std::filesystem::remove(cases.path() / "query" / "end.png");
+    EXPECT_EQ(answer("q\\n"), 1);
+    EXPECT_FALSE(exists("path.png"));
+    EXPECT_FALSE(exists("query/end.png"));
+
+    EXPECT_EQ(answer("a\\n"), 0);
+    EXPECT_TRUE(exists("path.png"));
+    EXPECT_TRUE(exists("query/end.png"));
+}
+
+TEST_F(DrawnTestCommandTest, AllPicturesStandInOneSheet) {
+    const std::filesystem::path sheet = output / "deep" / "sheet.png";
+    EXPECT_EQ(test({"--contact-sheet", sheet.string(), "--columns", "2"}).status, 1);
+    const Image image = read_png(sheet);
+    EXPECT_GT(image.width, 320);
+    EXPECT_LT(image.width, 400);
+    EXPECT_GT(image.height, 120);
+    EXPECT_LT(image.height, 200);
+}
+
+TEST_F(DrawnTestCommandTest, BothBackendsDrawTheSamePicture) {
+    if (!testing::open_or_skip(Backend::osmesa) || !testing::open_or_skip(Backend::egl)) return;
+    EXPECT_EQ(test({"--backend", "osmesa", "--update", "all"}).status, 0);
+    EXPECT_EQ(test({"--backend", "egl"}).status, 0);
+}
+
+}  // namespace
+}  // namespace mobbscope

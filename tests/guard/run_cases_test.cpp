@@ -1,0 +1,150 @@
+// What becomes of a case: every outcome, told apart.
+#include <guard/goldens.h>
+#include <guard/run_cases.h>
+#include <render/png.h>
+#include <render/sheet.h>
+
+#include "guard/case_folder.h"
+#include "render/backends.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+namespace mobbscope::guard {
+namespace {
+
+using mobbscope::testing::CaseFolder;
+
+class RunCaseTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (mobbscope::testing::open_or_skip(Backend::automatic))
+            maker_ = std::make_unique<PictureMaker>(Backend::automatic);
+    }
+
+    CaseResult run(const CaseFile& file) { return run_case(file, maker_.get(), ""); }
+    /// Runs a case and takes its picture.
+    Image golden_of(const CaseFile& file) {
+        CaseResult result = run(file);
+        EXPECT_EQ(result.outcome, Outcome::missing_golden) << result.message;
+        take(result);
+        return result.actual;
+    }
+
+    const CaseFolder cases;
+    std::unique_ptr<PictureMaker> maker_;
+};
+
+TEST_F(RunCaseTest, WithoutAGoldenSaysSoAndHasThePicture) {
+    const CaseResult result = run(cases.add("a"));
+    EXPECT_EQ(result.outcome, Outcome::missing_golden);
+    EXPECT_NE(result.message.find("a.png"), std::string::npos) << result.message;
+    EXPECT_EQ(result.actual.width, 160);
+    EXPECT_TRUE(result.golden.rgba.empty());
+    EXPECT_FALSE(result.image);
+}
+
+TEST_F(RunCaseTest, PassesAgainstItsOwnPicture) {
+    const CaseFile file = cases.add("a");
+    golden_of(file);
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, Outcome::passed);
+    EXPECT_EQ(result.message, "");
+    EXPECT_EQ(result.image->largest, 0);
+    EXPECT_GT(result.seconds, 0);
+}
+
+TEST_F(RunCaseTest, IsDifferentWhenTheViewIsNotTheGoldens) {
+    golden_of(cases.add("a"));
+    const CaseResult result = run(cases.add("a", R"("view": {"levels": 0})"));
+    EXPECT_EQ(result.outcome, Outcome::different);
+    EXPECT_NE(result.message.find("pixels differ of 19200"), std::string::npos) << result.message;
+    EXPECT_FALSE(result.image->heat.rgba.empty());
+}
+
+TEST_F(RunCaseTest, IsDifferentWhenTheGoldenHasAnotherSize) {
+    golden_of(cases.add("a"));
+    const CaseFile larger = cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "200x120"})");
+    const CaseResult result = run(larger);
+    EXPECT_EQ(result.outcome, Outcome::different);
+    EXPECT_EQ(result.message, "the picture is 200x120, the golden 160x120");
+}
+
+TEST_F(RunCaseTest, IsDifferentFromAGoldenThatIsNoPicture) {
+    const CaseFile file = cases.add("a");
+    cases.folder().write("a.png", "no picture");
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, Outcome::different);
+    EXPECT_NE(result.message.find("the golden cannot be read"), std::string::npos) << result.message;
+}
+
+TEST_F(RunCaseTest, FailsWithTheReadersWords) {
+    const CaseResult unread = run(cases.add("a", R"("veiw": {})"));
+    EXPECT_EQ(unread.outcome, Outcome::failed);
+    EXPECT_NE(unread.message.find("a.case.json: line 1, /veiw: unknown key"), std::string::npos) << unread.message;
+    EXPECT_TRUE(unread.actual.rgba.empty());
+}
+
+TEST_F(RunCaseTest, FailsWhenTheViewCannotBeDrawn) {
+    const CaseResult result = run(cases.add("a", R"("view": {"query": 7})"));
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("scene.json: "), std::string::npos) << result.message;
+}
+
+TEST_F(RunCaseTest, FailsWhenTheScriptOfItsWindowExpectsSomethingElse) {
+    cases.folder().write("s.script", "expect /view/theme \"light\"\n");
+    const CaseResult result =
+        run(cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "window": {"script": "s.script"}})"));
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("s.script: line 1"), std::string::npos) << result.message;
+}
+
+TEST_F(RunCaseTest, IsSkippedForTheReasonThatItGives) {
+    const CaseResult result = run(cases.add("a", R"("skip": "waits for the crowd")"));
+    EXPECT_EQ(result.outcome, Outcome::skipped);
+    EXPECT_EQ(result.message, "waits for the crowd");
+}
+
+TEST(RunCase, IsSkippedWithoutOpenGL) {
+    const CaseFolder cases;
+    const CaseResult result = run_case(cases.add("a", R"("veiw": {})"), nullptr, "no OpenGL (osmesa: none)");
+    EXPECT_EQ(result.outcome, Outcome::skipped);
+    EXPECT_EQ(result.message, "no OpenGL (osmesa: none)");
+}
+
+TEST_F(RunCaseTest, PanelsFillTheirPicture) {
+    const CaseResult result = run(cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "401x203",
+        "panels": [{"title": "(a)", "view": {
+    "levels" : 0}}, {"title": "(b)"}, {"title": "(c)"}]
+})"));
+    EXPECT_EQ(result.outcome, Outcome::missing_golden) << result.message;
+EXPECT_EQ(result.actual.width, 401);
+EXPECT_EQ(result.actual.height, 203);
+}
+
+TEST_F(RunCaseTest, FailsWhenPanelsHaveNoRoom) {
+    const CaseResult result = run(cases.add("a", R"("panels": [{}, {}, {}])"));
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("3 pictures do not fit into 160x120"), std::string::npos) << result.message;
+}
+
+TEST(Summary, CountsEveryOutcome) {
+    std::vector<CaseResult> results(6);
+    results[1].outcome = Outcome::skipped;
+    EXPECT_TRUE(summary(results).ok());
+    results[2].outcome = Outcome::different;
+    results[3].outcome = Outcome::missing_golden;
+    results[4].outcome = Outcome::failed;
+    const Summary sum = summary(results);
+    EXPECT_EQ(sum.passed, 2);
+    EXPECT_EQ(sum.different, 1);
+    EXPECT_EQ(sum.missing, 1);
+    EXPECT_EQ(sum.failed, 1);
+    EXPECT_EQ(sum.skipped, 1);
+    EXPECT_FALSE(sum.ok());
+}
+
+}  // namespace
+}  // namespace mobbscope::guard
