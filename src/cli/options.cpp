@@ -144,15 +144,6 @@ void add_scene_file(CLI::App& command, std::filesystem::path& file) {
     command.add_option("FILE", file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)")->required();
 }
 
-void add_backend_option(CLI::App& command, Backend& backend) {
-    const auto parse = [](const std::string& text) {
-        const std::optional<Backend> found = backend_from_name(text);
-        if (!found) throw std::invalid_argument(in_quotes(text) + " is not one of auto, osmesa, egl");
-        return *found;
-    };
-    add_parsed(command, "--backend", backend, parse, "OpenGL without a display: auto, osmesa or egl", "NAME");
-}
-
 std::function<double(const std::string&)> number_within(double low, double high) {
     return [low, high](const std::string& text) {
         const std::optional<double> value = parse_double(text);

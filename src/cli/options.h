@@ -2,8 +2,8 @@
 #pragma once
 
 #include <import/import.h>
+#include <import/text.h>
 #include <mobb/tree.h>
-#include <render/gl_context.h>
 #include <scene/scene.h>
 
 #include <CLI/CLI.hpp>
@@ -40,11 +40,18 @@ void add_import_options(CLI::App& command, ImportOptions& options);
 /// Adds the FILE that a command works on: a scene or a clip.
 void add_scene_file(CLI::App& command, std::filesystem::path& file);
 
-/// Adds --backend. `backend` must live until the command has run.
-void add_backend_option(CLI::App& command, Backend& backend);
-
 /// Reads a finite number within [low, high]; throws std::invalid_argument.
 std::function<double(const std::string&)> number_within(double low, double high);
+
+/// Reads text that stands for one of a few values, as `find` finds it; throws std::invalid_argument.
+template <class Find>
+auto one_of(Find find, const char* allowed) {
+    return [find, allowed](const std::string& text) {
+        const auto value = find(text);
+        if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + allowed);
+        return *value;
+    };
+}
 
 /// Adds an option whose text goes through `parse`; the std::invalid_argument that it throws becomes bad usage. `target`
 /// must live until the command has run.

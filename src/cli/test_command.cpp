@@ -227,7 +227,8 @@ void add_test_command(CLI::App& program, int& status) {
     command->add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json")->required();
     command->add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
     command->add_flag("--list", arguments->list, "Only print the names of the cases");
-    add_backend_option(*command, arguments->backend);
+    add_parsed(*command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
+               "OpenGL without a display: auto, osmesa or egl", "NAME");
     CLI::Option* update = command->add_option(
         "--update", arguments->update_names,
         "Take the present pictures as goldens: of these cases, or all; without names, ask for each");

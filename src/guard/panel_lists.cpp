@@ -2,13 +2,11 @@
 
 #include <import/error.h>
 #include <render/build_draw_list.h>
-#include <render/settle.h>
+#include <render/common_framing.h>
 #include <render/sheet.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <stdexcept>
 
 namespace mobbscope::guard {
@@ -23,41 +21,34 @@ PictureSize panel_size(const Shot& shot) {
                      metrics_of(shot.picture.size, shot.picture.scale));
 }
 
-/// Whether two views are looked at from one place, wherever the scene's size puts that.
+/// Whether two panels are looked at from one place, wherever the scene's size puts that.
 bool seen_alike(const ViewState& a, const ViewState& b) {
-    return !a.camera.target && a.camera == b.camera && a.show == b.show && a.time_height == b.time_height;
+    const auto framed = [](const ViewState& view) { return !view.camera.target && !view.projection; };
+    return framed(a) && framed(b) && a.camera == b.camera && a.show == b.show && a.time_height == b.time_height;
 }
-
-/// The height in metres of what a settled camera sees at its target, halved.
-double reach(const Camera& camera) { return camera.distance * std::tan(0.5 * camera.fov_deg * std::numbers::pi / 180); }
-
-/// A place to look from that does not depend on what is drawn.
-struct Standpoint {
-    Camera camera;
-    double time_height = 0;
-};
 
 std::vector<DrawList> lists_of(const Shot& shot) {
     PictureOptions options = shot.picture;
     options.size = panel_size(shot);
+    std::vector<DrawList> alone;
+    for (const Panel& panel : shot.panels) alone.push_back(build_draw_list(*panel.fitted, panel.view, options));
     std::vector<DrawList> lists;
-    for (const Panel& panel : shot.panels) {
-        lists.push_back(build_draw_list(*panel.fitted, panel.view, options));
-    }
-    std::vector<Standpoint> from;
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-        from.push_back({settled(shot.panels[i].view.camera, lists[i]), lists[i].space.time_height});
-    }
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-        ViewState view = shot.panels[i].view;
-        std::size_t widest = i;
-        for (std::size_t j = 0; j < lists.size(); ++j) {
-            if (seen_alike(view, shot.panels[j].view) && reach(from[j].camera) > reach(from[widest].camera)) widest = j;
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        CommonFraming framing;
+        int alike = 0;
+        for (std::size_t j = 0; j < alone.size(); ++j) {
+            if (!seen_alike(shot.panels[i].view, shot.panels[j].view)) continue;
+            framing.add(alone[j]);
+            ++alike;
         }
-        if (widest == i) continue;
-        view.camera = from[widest].camera;
-        view.time_height = from[widest].time_height;
-        lists[i] = build_draw_list(*shot.panels[i].fitted, view, options);
+        if (alike < 2) {
+            lists.push_back(alone[i]);
+            continue;
+        }
+        ViewState view = shot.panels[i].view;
+        view.camera = framing.still(view.camera);
+        view.time_height = alone[i].space.time_height;
+        lists.push_back(build_draw_list(*shot.panels[i].fitted, view, options));
     }
     return lists;
 }

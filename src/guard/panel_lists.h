@@ -9,7 +9,7 @@
 namespace mobbscope::guard {
 
 /// By panel, each at its size in the picture. Panels that are seen in the same way by a camera that frames the scene
-/// by itself share the one that sees most. Throws InputError if a view cannot be drawn. The shot has no window.
+/// by itself share one that sees all of them. Throws InputError if a view cannot be drawn. The shot has no window.
 std::vector<DrawList> panel_lists(const Shot& shot);
 
 }  // namespace mobbscope::guard

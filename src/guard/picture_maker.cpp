@@ -34,12 +34,15 @@ Image PictureMaker::make(const Shot& shot) {
     refuse_warnings(renderer_.backend(), renderer_.warnings());
     if (shot.window) return picture_of_window(shot, *backend_from_name(renderer_.backend()));
     const std::vector<DrawList> lists = panel_lists(shot);
-    if (lists.size() == 1) return renderer_.draw(lists.front(), shot.picture.samples);
+    const PictureOptions& options = shot.picture;
+    if (lists.size() == 1) return renderer_.draw(lists.front(), options.samples);
     std::vector<SheetCell> cells;
-    for (std::size_t i = 0; i < lists.size(); ++i)
-        cells.push_back({shot.panels[i].title, renderer_.draw(lists[i], shot.picture.samples)});
-    return make_sheet(cells, shot.columns, lists.front().palette, metrics_of(shot.picture.size, shot.picture.scale),
-                      renderer_, shot.picture.size);
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        cells.push_back({shot.panels[i].title, renderer_.draw(lists[i], options.samples)});
+    }
+    Palette colors = lists.front().palette;
+    if (options.background) colors.background = *options.background;
+    return make_sheet(cells, shot.columns, colors, metrics_of(options.size, options.scale), renderer_, options.size);
 }
 
 std::string PictureMaker::draw_lists(const Shot& shot) {

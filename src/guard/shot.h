@@ -24,8 +24,8 @@
 
 namespace mobbscope::guard {
 
-/// One view of the scene. Panels whose camera frames the scene by itself all see it as the first of them does, so that
-/// what differs between them is what is drawn.
+/// One view of the scene. Panels with the same camera, where it frames the scene by itself, share one that sees all of
+/// them, so that what differs between them is what is drawn.
 struct Panel {
     std::string title;  ///< above it; empty where there is only one
     std::shared_ptr<const FittedScene> fitted;

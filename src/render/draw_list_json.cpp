@@ -284,7 +284,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     JsonWriter out(stream, JsonWriter::Digits::few);
     out.begin_object();
     vector(out, "size", glm::ivec2(list.size.width, list.size.height));
-    color(out, "background", list.palette.background);
+    color(out, "background", list.background.value_or(list.palette.background));
     out.key("participants");
     out.begin_array(Layout::row);
     for (const std::string& participant : list.participants) out.value(participant);

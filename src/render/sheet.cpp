@@ -52,6 +52,7 @@ Image title_picture(const std::string& title, PictureSize size, float text, cons
     DrawList list;
     list.size = size;
     list.palette = palette;
+    list.background = palette.background;
     TextRun run;
     run.text = fit_text(title, kFace, text, static_cast<float>(size.width));
     run.face = kFace;

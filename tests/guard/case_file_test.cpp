@@ -55,14 +55,17 @@ TEST(ReadCase, TakesTheSceneAsItIsWhereTheCaseSaysNothing) {
 
 TEST(ReadCase, EachLayerSaysWhatIsOtherThanInTheOneBelow) {
     const CaseFolder cases;
-    const Case read = read_case(cases
-                                    .add("a", R"("tolerance": "loose", "scale": 2,
+    const Case read =
+        read_case(cases
+                      .add("a", R"("tolerance": "loose", "scale": 2, "samples": 8, "background": "#ff000080",
         "fit": {"tree": "umobb"}, "view": {"query": 0},
         "panels": [{"title": "one"}, {"title": "two", "fit": {"leaf": 1}, "view": {"query": null, "levels": 0}},
                    {"fit": {"leaf": 1}}], "columns": 2)")
-                                    .file);
+                      .file);
     EXPECT_EQ(read.tolerance, Tolerance::loose);
     EXPECT_EQ(read.shot.picture.scale, 2);
+    EXPECT_EQ(read.shot.picture.samples, 8);
+    EXPECT_EQ(read.shot.picture.background->r, 1);
     EXPECT_EQ(read.shot.columns, 2);
     const std::vector<Panel>& panels = read.shot.panels;
     ASSERT_EQ(panels.size(), 3u);
@@ -114,6 +117,8 @@ TEST(ReadCase, SaysWhatIsWrongAndWhere) {
         {R"("scene": "scene.json", "size": "640"})", {"/size", "'640' is no size"}},
         {R"("scene": "scene.json", "size": [640, 360]})", {"/size", "expected a string"}},
         {R"("scene": "scene.json", "scale": 100})", {"/scale", "out of range"}},
+        {R"("scene": "scene.json", "samples": 3})", {"/samples", "1, 2, 4 or 8"}},
+        {R"("scene": "scene.json", "background": "red"})", {"/background", "'red' is no background"}},
         {R"("scene": "scene.json", "tolerance": "wide"})", {"/tolerance", "tight or loose"}},
         {R"("scene": "scene.json", "skip": ""})", {"/skip", "say why"}},
         {R"("scene": "scene.json", "skip": true})", {"/skip", "expected a string"}},

@@ -40,7 +40,7 @@ bool shows_all(const DrawList& list) {
     return true;
 }
 
-TEST(PanelLists, ShareTheCameraThatSeesMost) {
+TEST(PanelLists, ShareACameraThatSeesAllOfThem) {
     // The root's boxes are the largest, whichever panel they stand in.
     const std::vector<DrawList> lists =
         lists_of(R"("panels": [{"title": "a", "view": {"levels": "leaves"}}, {"view": {"levels": 0}}, {}])");

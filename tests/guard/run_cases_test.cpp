@@ -2,7 +2,6 @@
 #include <guard/goldens.h>
 #include <guard/run_cases.h>
 #include <render/png.h>
-#include <render/sheet.h>
 
 #include "guard/case_folder.h"
 #include "render/backends.h"
@@ -105,6 +104,62 @@ TEST_F(RunCaseTest, IsSkippedForTheReasonThatItGives) {
     const CaseResult result = run(cases.add("a", R"("skip": "waits for the crowd")"));
     EXPECT_EQ(result.outcome, Outcome::skipped);
     EXPECT_EQ(result.message, "waits for the crowd");
+}
+
+TEST_F(RunCaseTest, FailsWhenOpenGLReportsAnError) {
+    maker_->renderer().context().complain("no such texture");
+    const CaseResult result = run(cases.add("a"));
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("no such texture"), std::string::npos) << result.message;
+}
+
+TEST_F(RunCaseTest, FailsWhenTheShaderCompilerWarns) {
+    maker_->renderer().context().warn("a varying is never read");
+    const CaseResult result = run(cases.add("a"));
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("a varying is never read"), std::string::npos) << result.message;
+}
+
+TEST_F(RunCaseTest, HoldsWhatIsDrawnAgainstItsDrawList) {
+    const CaseFile two = cases.write("b", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "320x120",
+        "panels": [{"view": {"levels": 0}}, {}]})");
+    golden_of(two);
+    cases.folder().write("b.draw.json", "[]");
+    CaseResult result = run(two);
+    EXPECT_EQ(result.outcome, Outcome::different);
+    EXPECT_EQ(result.message, "b.draw.json: the whole: 2 elements instead of 0");
+    EXPECT_TRUE(result.image->same);
+    take(result);
+    EXPECT_EQ(run(two).outcome, Outcome::passed);
+
+    // The same picture within the tolerance, but not the same boxes.
+    std::string text = mobbscope::testing::slurp(two.draw());
+    const std::size_t radius = text.find("\"radius\": 0.4");
+    ASSERT_NE(radius, std::string::npos) << text.substr(0, 2000);
+    text.replace(radius, 13, "\"radius\": 0.41");
+    cases.folder().write("b.draw.json", text);
+    const CaseResult off = run(two);
+    EXPECT_EQ(off.outcome, Outcome::different);
+    EXPECT_NE(off.message.find("/radius: 0.4 instead of 0.41"), std::string::npos) << off.message;
+}
+
+TEST_F(RunCaseTest, AWindowHasNoDrawList) {
+    cases.folder().write("w.draw.json", "");
+    const CaseResult result =
+        run(cases.write("w", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x400", "window": {}})"));
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("draw list"), std::string::npos) << result.message;
+}
+
+TEST_F(RunCaseTest, PanelsAreSeenThroughWhereTheirBackgroundIs) {
+    const CaseResult result = run(cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "320x160",
+        "background": "transparent", "samples": 1, "panels": [{"title": "one"}, {"title": "two"}]})"));
+    EXPECT_EQ(result.outcome, Outcome::missing_golden) << result.message;
+    EXPECT_EQ(result.actual.at(0, 0)[3], 0) << "around the panels";
+    EXPECT_EQ(result.actual.at(160, 80)[3], 0) << "between them";
+    int opaque = 0;
+    for (std::size_t i = 3; i < result.actual.rgba.size(); i += 4) opaque += result.actual.rgba[i] == 255 ? 1 : 0;
+    EXPECT_GT(opaque, 500);
 }
 
 TEST(RunCase, IsSkippedWithoutOpenGL) {
