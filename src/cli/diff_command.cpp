@@ -2,8 +2,9 @@
 #include <cli/exit_status.h>
 #include <cli/messages.h>
 #include <cli/options.h>
-#include <cli/written_files.h>
+#include <cli/render_outputs.h>
 #include <import/error.h>
+#include <import/file.h>
 #include <import/text.h>
 #include <render/diff_json.h>
 #include <render/diff_sentence.h>
@@ -97,13 +98,19 @@ ImageDiff compare(const Arguments& arguments, const Image& a, const Image& b) {
     return found;
 }
 
+void check_picture_name(const std::optional<std::filesystem::path>& output) {
+    if (!output) return;
+    check_file_name(*output);
+    check_names({*output, {}, {}});
+}
+
 void check_outputs(const Arguments& arguments) {
-    WrittenFiles files;
+    OutputCheck files;
     files.reads(arguments.a);
     files.reads(arguments.b);
     if (arguments.mask) files.reads(*arguments.mask);
-    if (arguments.heat) files.writes(*arguments.heat);
-    if (arguments.strip) files.writes(*arguments.strip);
+    if (arguments.heat) files.writes({*arguments.heat, {}, {}});
+    if (arguments.strip) files.writes({*arguments.strip, {}, {}});
 }
 
 /// A, B and, where there is one, the heat map. Throws InputError if that is too large.
@@ -125,8 +132,8 @@ void write_pictures(const Arguments& arguments, const Image& a, const Image& b, 
 }
 
 int run(const Arguments& arguments) {
-    if (arguments.heat) check_picture_name(*arguments.heat);
-    if (arguments.strip) check_picture_name(*arguments.strip);
+    check_picture_name(arguments.heat);
+    check_picture_name(arguments.strip);
     const Image a = read_png(arguments.a);
     const Image b = read_png(arguments.b);
     const ImageDiff found = compare(arguments, a, b);
