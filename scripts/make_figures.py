@@ -40,7 +40,7 @@ def main():
     write_scene(folder, "levels", {"half": {**from_file("circle"), "trim": [0, 5]}}, {
         "agents": [{"name": "A", "clip": "half", "color": ORANGE}],
         "fit": {"tree": "mobb", "leaf": 10},
-        "view": {"camera": {"preset": "iso"}, "levels": "1", "time_height": 1, "theme": "light"},
+        "view": {"camera": {"preset": "iso", "perspective": False}, "levels": "1", "time_height": 1, "theme": "light"},
     })
 
     # Fig. 3: the roots overlap; of the four pairs of children the first is separated, the second apart in time, the
