@@ -1,4 +1,3 @@
-#include <guard/goldens.h>
 #include <guard/report_words.h>
 #include <guard/reports.h>
 #include <import/text.h>

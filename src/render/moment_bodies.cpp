@@ -18,7 +18,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kPlainBelow = 30;     // pixels of height at scale 1: nothing inside a smaller cylinder can be made out
+constexpr float kPlainBelow = 24;     // pixels of height at scale 1: nothing inside a smaller cylinder can be made out
 constexpr float kBone = 0.04f;        // metres across
 constexpr float kHead = 0.09f;        // metres, radius
 constexpr float kGlassFront = 0.02f;  // opacity of the wall where it is seen face on

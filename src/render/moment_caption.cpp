@@ -3,7 +3,7 @@
 #include <render/moment_caption.h>
 #include <render/query_sentence.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 
 namespace mobbscope {
@@ -16,17 +16,20 @@ std::string at_time(double time) {
     return text;
 }
 
-std::string how_many_are_there(std::size_t bodies, std::size_t subjects) {
-    if (bodies == subjects) return "";
-    return std::to_string(bodies) + " of " + std::to_string(subjects) + " are on the floor then";
+/// The tip of a bone has no name of its own.
+std::string joint_words(std::span<const Joint> joints, int index) {
+    const Joint& joint = joints[static_cast<std::size_t>(index)];
+    if (!joint.name.empty() || joint.parent < 0) return joint.name;
+    return "the end of " + joints[static_cast<std::size_t>(joint.parent)].name;
 }
 
-std::string reach(const Subject& subject, const Body& body) {
-    const std::string radius = "radius " + with_unit(body.disk.r, "m");
-    if (!sets_radius(body)) return radius;
-    return radius + ": as far as " + subject.skeleton->joints[static_cast<std::size_t>(body.farthest->joint)].name +
-           " reaches";
+std::string radius(const Subject& subject, const Body& body) {
+    const std::string text = "radius " + with_unit(body.disk.r, "m");
+    if (!sets_radius(body)) return text;
+    return text + ": as far as " + joint_words(subject.skeleton->joints, body.farthest->joint) + " reaches";
 }
+
+constexpr std::size_t kMostPairs = 3;
 
 }  // namespace
 
@@ -38,39 +41,54 @@ Caption moment_caption(const Palette& palette, std::span<const Subject> subjects
     };
     const auto both = [&](const BodyPair& pair) { return subject(pair.a).label + " and " + subject(pair.b).label; };
     const std::size_t count = moment.bodies.size();
-    out.detail = how_many_are_there(count, subjects.size());
-    const auto add_detail = [&](const std::string& text) { out.detail += (out.detail.empty() ? "" : ". ") + text; };
+    // There is always a detail, or the scene would jump while time runs.
+    const auto add_detail = [&](const std::string& text) {
+        out.detail += (out.detail.empty() ? "" : "  \u00B7  ") + text;
+    };
+    if (count < subjects.size()) {
+        add_detail(std::to_string(count) + " of " + std::to_string(subjects.size()) + " are on the floor then");
+    }
     if (count == 0) {
         out.headlines = {"Nobody is on the floor" + then};
-        out.detail.clear();
     } else if (count == 1) {
         out.headlines = {subject(0).label + then};
-        add_detail(reach(subject(0), moment.bodies.front()));
+        add_detail(radius(subject(0), moment.bodies.front()));
     } else if (moment.overlaps.size() > 1) {
-        const std::string pairs = std::to_string(moment.overlaps.size()) + " pairs of " + std::to_string(count);
-        out.headlines = {pairs + " agents overlap" + then, pairs + " overlap" + then};
+        const std::string pairs = std::to_string(moment.overlaps.size()) + " pairs";
+        out.headlines = {pairs + " of " + std::to_string(count) + " agents overlap" + then, pairs + " overlap" + then};
+        std::string names;
+        for (std::size_t i = 0; i < std::min(moment.overlaps.size(), kMostPairs); ++i) {
+            names += (i == 0 ? "" : ", ") + both(moment.overlaps[i]);
+        }
+        add_detail(names + (moment.overlaps.size() > kMostPairs ? " ..." : ""));
         out.mark = palette.hit;
-    } else if (!moment.overlaps.empty()) {
+    } else if (moment.overlaps.size() == 1) {
         const BodyPair& pair = moment.overlaps.front();
         out.headlines = {both(pair) + " overlap" + then + " by " + with_unit(-pair.clearance, "m"),
                          both(pair) + " overlap" + then};
         out.mark = palette.hit;
     } else {
         const std::string clearance = with_unit(moment.nearest->clearance, "m") + " of clearance";
+        const std::string all = std::to_string(count) + " agents" + then;
         if (count == 2) {
             out.headlines = {both(*moment.nearest) + then + "; " + clearance, clearance + then};
         } else {
-            const std::string all = std::to_string(count) + " agents" + then;
             out.headlines = {all + "; nobody overlaps", all};
-            add_detail("Nearest: " + both(*moment.nearest) + ", " + clearance);
+            add_detail("nearest: " + both(*moment.nearest) + ", " + clearance);
         }
         out.mark = palette.separated;
+    }
+    if (count == 2) {
+        add_detail("radii " + with_unit(moment.bodies[0].disk.r, "m") + " and " +
+                   with_unit(moment.bodies[1].disk.r, "m"));
+    } else if (out.detail.empty()) {
+        add_detail("all " + std::to_string(count) + " are on the floor then");
     }
     return out;
 }
 
-std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const Subject> subjects, const Moment& moment,
-                                       bool paths, bool radius) {
+std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const Subject> subjects,
+                                       const ViewState& view) {
     std::vector<LegendEntry> out;
     // A crowd's colours only keep neighbours apart.
     if (names_fit(subjects.size())) out = agent_entries(subjects);
@@ -81,13 +99,18 @@ std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const S
         entry.text = text;
         out.push_back(entry);
     };
-    if (!moment.overlaps.empty()) line(palette.hit, 3, "overlap at this moment");
-    if (radius) line(palette.text, 1.4f, "radius, to the farthest joint");
-    if (paths) {
+    if (view.disks && subjects.size() > 1) line(palette.hit, 3, "overlap");
+    if (view.disks && may_show_radii(subjects)) line(palette.text, 1.4f, "radius, to the farthest joint");
+    if (view.floor) {
         line(palette.quiet_text, 2.6f, "way so far");
         line(with_alpha(palette.quiet_text, 0.6f), 1.2f, "way ahead");
     }
     return out;
+}
+
+bool may_show_radii(std::span<const Subject> subjects) {
+    return subjects.size() <= 2 &&
+           std::any_of(subjects.begin(), subjects.end(), [](const Subject& s) { return s.skeleton != nullptr; });
 }
 
 }  // namespace mobbscope

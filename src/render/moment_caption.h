@@ -13,8 +13,11 @@ namespace mobbscope {
 /// Who is there, and who overlaps whom, or how near they come.
 Caption moment_caption(const Palette& palette, std::span<const Subject> subjects, const Moment& moment);
 
-/// What its colours and lines stand for. `radius`: that of a body is drawn as a line.
-std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const Subject> subjects, const Moment& moment,
-                                       bool paths, bool radius);
+/// Radii of few are drawn as lines; those of more would be told apart by nobody.
+bool may_show_radii(std::span<const Subject> subjects);
+
+/// What the picture's colours and lines stand for, whenever it is: the legend stays while time runs.
+std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const Subject> subjects,
+                                       const ViewState& view);
 
 }  // namespace mobbscope

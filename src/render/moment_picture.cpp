@@ -86,8 +86,7 @@ void add_ways(DrawList& list, std::span<const Subject> subjects, const Moment& m
         if (subjects.size() > kMostPathsInFull) shown = samples_around(subject.clip(), moment.time, kWayOfMany);
         const Rgba ahead = with_alpha(subject.color, list.palette.dark ? 0.4f : 0.5f);
         if (!sample[i]) {
-            if (subjects.size() <= kMostPathsInFull)
-                add_floor_trace(list, subject, shown, 0, with_alpha(ahead, 0.6f * ahead.a), scale);
+            add_floor_trace(list, subject, shown, 0, with_alpha(ahead, 0.8f * ahead.a), scale);
             continue;
         }
         const int now = std::clamp(*sample[i], shown.first, shown.end() - 1);
@@ -98,10 +97,6 @@ void add_ways(DrawList& list, std::span<const Subject> subjects, const Moment& m
 }
 
 }  // namespace
-
-double moment_in(const FittedScene& fitted, const ViewState& view) {
-    return view.time ? *view.time : beginning(subjects(fitted, view));
-}
 
 DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const PictureOptions& options) {
     const PictureSize size = options.size;
@@ -130,19 +125,15 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
     const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
     points.insert(points.end(), corners.begin(), corners.begin() + 4);
 
-    // More than one or two radii are told apart by nobody.
-    const bool radii =
-        view.disks && moment.bodies.size() <= 2 && std::any_of(moment.bodies.begin(), moment.bodies.end(), sets_radius);
     float top = metrics.pad;
     if (view.labels) {
         Caption caption = moment_caption(list.palette, people, moment);
-        if (view.time) {
-            const double end = bounds.max.z;
-            if (*view.time < bounds.min.z || *view.time >= end)
-                mention_cursor_outside(caption, *view.time, bounds.min.z, end);
+        if (moment.time < bounds.min.z || moment.time >= bounds.max.z) {
+            mention_cursor_outside(caption, moment.time, bounds.min.z, bounds.max.z);
         }
+        if (!view.caption) caption = {};
         std::vector<LegendEntry> legend;
-        if (view.legend) legend = moment_legend(list.palette, people, moment, view.floor, radii);
+        if (view.legend) legend = moment_legend(list.palette, people, view);
         Words words = words_that_fit(caption, std::move(legend), glm::vec2(0), size, metrics);
         list.legend = std::move(words.legend);
         top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
@@ -169,9 +160,12 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
         const auto body = [&](int i) -> const Body& { return moment.bodies[static_cast<std::size_t>(i)]; };
         add(add_clearance(list, body(moment.nearest->a), body(moment.nearest->b), metrics));
     }
-    if (radii) {
+    // Where two overlap, that is what the picture is about.
+    if (view.disks && may_show_radii(people) && moment.overlaps.empty()) {
         for (const Body& body : moment.bodies) {
-            if (sets_radius(body)) add(add_radius(list, people[static_cast<std::size_t>(body.subject)], body, metrics));
+            if (!sets_radius(body)) continue;
+            const auto length = add_radius(list, people[static_cast<std::size_t>(body.subject)], body, metrics);
+            if (moment.bodies.size() == 1) add(length);
         }
     }
 

@@ -7,11 +7,9 @@
 
 namespace mobbscope {
 
-/// When the picture of a moment is: the view's time, or when the first path in it begins. The scene must have clips.
-double moment_in(const FittedScene& fitted, const ViewState& view);
-
-/// What build_draw_list makes of a view that shows a moment. With a query in the view only its two sides are there. It
-/// is framed so that nothing moves but the people while time runs. Throws as build_draw_list.
+/// What build_draw_list makes of a view that shows a moment: its time, or without one when the first path in it begins.
+/// With a query in the view only its two sides are there. It is framed so that nothing moves but the people while time
+/// runs. Throws std::invalid_argument if the scene has nothing to draw, or no such query.
 DrawList build_moment(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
 
 }  // namespace mobbscope

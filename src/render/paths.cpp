@@ -62,6 +62,7 @@ Rgba floor_trace_color(const Subject& subject, const Palette& palette) {
 
 void add_floor_trace(DrawList& list, const Subject& subject, mobb::SampleRange range, float floor, Rgba color,
                      float width) {
+    if (range.count < 2) return;
     const mobb::PlacedClip& clip = subject.clip();
     // Pieces shorter than a pixel or so would only darken one another.
     const float pixels = list.lens.pixels_per_metre(glm::vec3(0, 0, floor));

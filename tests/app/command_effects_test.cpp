@@ -217,9 +217,27 @@ std::vector<Case> cases() {
          }});
     look("view.disks", "", [](World& w) { EXPECT_FALSE(w.view().disks); });
     look("view.boxes", "", [](World& w) { EXPECT_FALSE(w.view().boxes); });
+    add({"view.moment", "", {{"view.zoom_in", ""}}, [](World& w) {
+             EXPECT_EQ(w.view().show, Show::moment);
+             EXPECT_FALSE(w.view().camera.target) << "heights mean something else: the scene is framed anew";
+             const double time_height = w.view().time_height;
+             run_command(w.session, "view.zoom_in");
+             ASSERT_TRUE(w.view().camera.target);
+             EXPECT_EQ(w.view().time_height, time_height) << "a moment says nothing of time's height";
+             run_command(w.session, "go.agent", "C");
+             run_command(w.session, "view.frame");
+             EXPECT_NEAR(w.view().camera.target->x, 1, 0.1);
+             EXPECT_NEAR(w.view().camera.target->y, 9, 0.1);
+             EXPECT_NEAR(w.view().camera.target->z, 0.875, 0.01) << "half a person's height";
+             run_command(w.session, "view.moment");
+             EXPECT_EQ(w.view().show, Show::space_time);
+             EXPECT_FALSE(w.view().camera.target);
+             run_command(w.session, "view.moment");
+         }});
     look("view.floor", "", [](World& w) { EXPECT_FALSE(w.view().floor); });
     look("view.time_axis", "", [](World& w) { EXPECT_FALSE(w.view().time_axis); });
     look("view.labels", "", [](World& w) { EXPECT_FALSE(w.view().labels); });
+    look("view.caption", "", [](World& w) { EXPECT_FALSE(w.view().caption); });
     look("view.legend", "", [](World& w) { EXPECT_FALSE(w.view().legend); });
     look("view.color_by", "", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::level); });
     look("view.color_by", "agent", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::agent); });
