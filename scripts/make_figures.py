@@ -13,7 +13,7 @@ import sys
 sys.dont_write_bytecode = True  # no __pycache__ beside the scripts
 from make_scenes import from_file, write_scene
 
-ORANGE, SKY, PURPLE = "#E69F00", "#56B4E9", "#CC79A7"
+ORANGE, SKY = "#E69F00", "#56B4E9"
 
 
 def slow_disks():
@@ -29,40 +29,44 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
 
     # Fig. 1, left: one person at one moment.
-    write_scene(folder, "person", {"walk": "walk"}, {
-        "agents": [{"name": "A", "clip": "walk", "color": ORANGE}],
+    write_scene(folder, "person", {"steps": {**from_file("walk"), "trim": [0.4, 1.6]}}, {
+        "agents": [{"name": "A", "clip": "steps", "color": ORANGE}],
         "fit": {"tree": "mobb", "leaf": 10},
-        "view": {"show": "moment", "time": 1.0, "theme": "light"},
+        "view": {"show": "moment", "time": 0.6, "theme": "light"},
     })
 
-    # Figs. 2 and 5: a path with a bend, so that every level of boxes is tighter than the one before.
-    write_scene(folder, "levels", {"turn": "turn"}, {
-        "agents": [{"name": "A", "clip": "turn", "color": ORANGE}],
+    # Figs. 2 and 5: half a circle, so that every level of boxes is tighter than the one before. Time is drawn as high
+    # as free boxes are fitted with, so that they are seen with their right angles.
+    write_scene(folder, "levels", {"half": {**from_file("circle"), "trim": [0, 5]}}, {
+        "agents": [{"name": "A", "clip": "half", "color": ORANGE}],
         "fit": {"tree": "mobb", "leaf": 10},
-        "view": {"camera": {"preset": "iso"}, "levels": "1", "theme": "light"},
+        "view": {"camera": {"preset": "iso", "perspective": False}, "levels": "1", "time_height": 1, "theme": "light"},
     })
 
     # Fig. 3: the roots overlap; of the four pairs of children the first is separated, the second apart in time, the
     # third separated, and the last overlaps.
-    write_scene(folder, "inner_nodes", {"bend": "bend"}, {
+    write_scene(folder, "inner_nodes", {"bend": "bend", "straight": "walk"}, {
         "agents": [
             {"name": "A", "clip": "bend", "start": 0, "color": ORANGE},
-            {"name": "B", "clip": "bend", "translate": [4.5, 4.8], "rotate_deg": 230, "start": 1.1, "color": SKY},
+            {"name": "B", "clip": "straight", "translate": [9.8, -1.8], "rotate_deg": 160, "start": 1.5, "color": SKY},
         ],
         "fit": {"tree": "mobb", "leaf": 20},
         "queries": [{"a": "A", "b": "B", "expect": {"collides": False}}],
-        "view": {"query": 0, "step": 1, "tested_before": False, "theme": "light"},
+        "view": {"camera": {"preset": "free", "yaw_deg": -95, "pitch_deg": 20}, "query": 0, "step": 1,
+                 "time_height": 2.2, "tested_before": False, "theme": "light"},
     })
 
-    # Fig. 4: B is so short that a leaf of it meets an inner node of A, whose first child is over before it begins.
+    # Fig. 4: B is so short that a leaf of it meets an inner node of A. B goes where the first child of that node was,
+    # but when it is over.
     write_scene(folder, "leaf", {"bend": "bend", "short": {**from_file("walk"), "trim": [0, 1.3]}}, {
         "agents": [
             {"name": "A", "clip": "bend", "start": 0, "color": ORANGE},
-            {"name": "B", "clip": "short", "translate": [7.2, 4.2], "rotate_deg": 255, "start": 3.8, "color": SKY},
+            {"name": "B", "clip": "short", "translate": [4.6, -0.7], "rotate_deg": 120, "start": 3.5, "color": SKY},
         ],
         "fit": {"tree": "mobb", "leaf": 20},
         "queries": [{"a": "A", "b": "B", "expect": {"collides": False}}],
-        "view": {"query": 0, "step": 7, "tested_before": False, "theme": "light"},
+        "view": {"camera": {"preset": "free", "yaw_deg": -60, "pitch_deg": 20}, "query": 0, "step": 15,
+                 "time_height": 1.8, "tested_before": False, "theme": "light"},
     })
 
     # Fig. 6: a disk in a free box that leans along +x, so that the front view looks along its axis 1.

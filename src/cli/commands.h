@@ -7,6 +7,7 @@
 namespace mobbscope::cli {
 
 void add_convert_command(CLI::App& program);
+void add_diff_command(CLI::App& program, int& status);
 void add_fit_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_query_command(CLI::App& program, int& status);

@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
     add_window_options(program, window);
     int status = kDone;
     add_convert_command(program);
+    add_diff_command(program, status);
     add_fit_command(program);
     add_info_command(program);
     add_query_command(program, status);
@@ -53,7 +54,6 @@ int run(int argc, char** argv) {
     for (CLI::App* command : program.get_subcommands({})) {
         command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
     }
-    add_planned_command(program, "diff");
     add_planned_command(program, "bench");
     // Before any command runs: what stands in front of its name is no argument of it.
     program.parse_complete_callback([&program] { check_not_before_command(program); });

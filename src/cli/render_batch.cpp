@@ -59,12 +59,43 @@ std::vector<BatchLine> lines_of(std::string_view text, const std::string& name) 
     return out;
 }
 
+/// What a line says takes the place of all that stands beside the list about the same thing.
+void drop_contradicted(const CLI::App& line, RenderArguments& arguments) {
+    const auto says = [&](const char* option) { return line.count(option) > 0; };
+    const auto drop = [&](const char* option, auto& value) {
+        if (!says(option)) value = {};
+    };
+    ViewArguments& view = arguments.view;
+    if (says("--level")) {
+        drop("--query", view.query);
+        drop("--step", view.step);
+    }
+    if (says("--query")) drop("--level", view.levels);
+    if (says("--view") || says("--yaw") || says("--pitch")) drop("--view", view.preset);
+    if (says("--view")) {
+        drop("--yaw", view.yaw);
+        drop("--pitch", view.pitch);
+        drop("--fov", view.fov);
+        drop("--target", view.target);
+        drop("--distance", view.distance);
+        drop("--shift", view.shift);
+    }
+    SequenceArguments& sequence = arguments.sequence;
+    if (says("--frames") || says("--play") || says("--turntable")) {
+        drop("--frames", sequence.frames);
+        drop("--play", sequence.play);
+        drop("--turntable", sequence.turntable);
+        drop("--rate", sequence.rate);
+    }
+}
+
 RenderArguments parsed(std::vector<std::string> words, RenderArguments arguments) {
     CLI::App command;
     command.set_help_flag();
     add_render_options(command, arguments);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     command.parse(words);
+    drop_contradicted(command, arguments);
     if (arguments.backend) throw InputError("--backend: one context draws the whole list; give it beside --batch");
     return arguments;
 }

@@ -1,6 +1,7 @@
 #include <cli/commands.h>
 #include <cli/list_backends.h>
 #include <cli/render_batch.h>
+#include <cli/render_case.h>
 #include <cli/render_job.h>
 #include <cli/render_options.h>
 #include <import/error.h>
@@ -27,12 +28,14 @@ void render_one(const RenderArguments& arguments) {
     plan.draw(arguments.backend.value_or(Backend::automatic));
 }
 
-void run(const Arguments& arguments) {
+void run(const CLI::App& command, const Arguments& arguments) {
     if (arguments.json && !arguments.list_backends) throw InputError("--json: it is of --list-backends");
     if (arguments.list_backends) {
         list_backends(arguments.json);
     } else if (!arguments.batch.empty()) {
         render_batch(arguments.batch, arguments.render);
+    } else if (is_case(arguments.render.file)) {
+        render_case(command, arguments.render);
     } else {
         render_one(arguments.render);
     }
@@ -54,7 +57,7 @@ void add_render_command(CLI::App& program) {
         ->group(kGroup);
     command->add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
     command->add_flag("--json", arguments->json, "With --list-backends: as JSON");
-    command->callback([arguments] { run(*arguments); });
+    command->callback([command, arguments] { run(*command, *arguments); });
 }
 
 }  // namespace mobbscope::cli

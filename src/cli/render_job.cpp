@@ -1,4 +1,5 @@
 #include <cli/messages.h>
+#include <cli/render_case.h>
 #include <cli/render_job.h>
 #include <guard/window_picture.h>
 #include <import/error.h>
@@ -95,20 +96,14 @@ std::shared_ptr<const FittedScene> SceneStore::fitted(const RenderArguments& arg
     return found.fitted.back();
 }
 
-std::vector<std::filesystem::path> SceneStore::sources() const {
-    std::vector<std::filesystem::path> out;
-    for (const auto& loaded : scenes_) {
-        out.push_back(loaded->scene.file);
-        for (const SceneClip& clip : loaded->scene.clips) {
-            if (clip.source) out.push_back(loaded->scene.file.parent_path() / *clip.source);
-        }
-    }
-    return out;
+void SceneStore::note_sources(OutputCheck& check) const {
+    for (const auto& loaded : scenes_) check.reads(loaded->scene);
 }
 
 void RenderPlan::add(RenderArguments arguments) {
     check_names(arguments.outputs);
     check_together(arguments);
+    if (is_case(arguments.file)) throw InputError(arguments.file.string(), "", "a case is drawn alone, not in a batch");
     RenderJob job{std::move(arguments), nullptr, {}};
     job.fitted = scenes_.fitted(job.arguments);
     const ViewState view = view_over(job.fitted->scene().view, job.arguments.view);
@@ -148,7 +143,7 @@ void RenderPlan::note_glyphs(const DrawList& list) {
 
 OutputCheck RenderPlan::sources() const {
     OutputCheck check;
-    for (const std::filesystem::path& source : scenes_.sources()) check.reads(source);
+    scenes_.note_sources(check);
     for (const RenderJob& job : jobs_) {
         if (!job.arguments.view.state.empty()) check.reads(job.arguments.view.state);
     }

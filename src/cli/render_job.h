@@ -5,7 +5,6 @@
 #include <render/draw_list.h>
 #include <scene/fitted_scene.h>
 
-#include <filesystem>
 #include <memory>
 #include <set>
 #include <span>
@@ -20,8 +19,8 @@ class SceneStore {
     /// Warns of what loading warns of. Throws InputError.
     std::shared_ptr<const FittedScene> fitted(const RenderArguments& arguments);
 
-    /// The files that all of them came from.
-    std::vector<std::filesystem::path> sources() const;
+    /// Tells of the files that all of them came from.
+    void note_sources(OutputCheck& check) const;
 
   private:
     struct Loaded {

@@ -55,6 +55,11 @@ int parse_query(const std::string& text) {
     return *index;
 }
 
+std::filesystem::path parse_file_name(const std::string& text) {
+    if (text.empty()) throw std::invalid_argument("the name is empty; give a file");
+    return text;
+}
+
 std::optional<double> parse_time(const std::string& text) {
     if (text == "none") return std::nullopt;
     return number_within(-mobb::kMaxTime, mobb::kMaxTime)(text);
@@ -108,10 +113,8 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
     const auto add = [&](const char* name, auto& target, auto parse, const char* help, const char* placeholder) {
         add_parsed(command, name, target, parse, help, placeholder)->group(kGroup);
     };
-    command
-        .add_option("--view-state", view.state, "A view of its own: keys of a scene's view, or a scene's whole view")
-        ->type_name("FILE.json")
-        ->group(kGroup);
+    add("--view-state", view.state, parse_file_name,
+        "A view of its own: keys of a scene's view, or a scene's whole view", "FILE.json");
     add("--show", view.show, one_of(show_from_name, "space-time, moment"),
         "space-time, or the floor at one moment (--time)", "WHAT");
     add("--level", view.levels, parse_level_range, "Levels: N, A:B or leaves", "LEVELS");
@@ -130,6 +133,7 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
             ->group(kGroup);
     };
     toggle("--labels,!--no-labels", &ViewState::labels, "All text");
+    toggle("--caption,!--no-caption", &ViewState::caption, "The sentences at the top");
     toggle("--legend,!--no-legend", &ViewState::legend, "What colours and lines mean");
     toggle("--floor,!--no-floor", &ViewState::floor, "The grid, and the paths' traces on it");
     toggle("--time-axis,!--no-time-axis", &ViewState::time_axis, "Ticks in seconds");
@@ -257,11 +261,11 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("FILE", arguments.file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)");
-    command.add_option("-o,--output", arguments.outputs.image, "The picture, a PNG file")->type_name("OUT.png");
-    command.add_option("--ids", arguments.outputs.ids, "What is in each pixel: object ids as colours")
-        ->type_name("OUT.png");
-    command.add_option("--draw-list", arguments.outputs.draw_list, "What is drawn, as numbers; needs no OpenGL")
-        ->type_name("OUT.json");
+    add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name, "The picture, a PNG file", "OUT.png");
+    add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
+               "OUT.png");
+    add_parsed(command, "--draw-list", arguments.outputs.draw_list, parse_file_name,
+               "What is drawn, as numbers; needs no OpenGL", "OUT.json");
     add_parsed(command, "--size", arguments.picture.size, parse_size, "The picture's size in pixels (1280x720)", "WxH");
     add_parsed(command, "--scale", arguments.picture.scale, number_within(kLeastScale, kMostScale),
                "Of text and lines; 1 suits 1280x720, default: what suits the size", "X");

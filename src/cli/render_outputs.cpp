@@ -79,6 +79,13 @@ RenderOutputs numbered(const RenderOutputs& outputs, int number, int digits) {
 
 void OutputCheck::reads(const fs::path& file) { sources_.push_back(file); }
 
+void OutputCheck::reads(const Scene& scene) {
+    reads(scene.file);
+    for (const SceneClip& clip : scene.clips) {
+        if (clip.source) reads(scene.file.parent_path() / *clip.source);
+    }
+}
+
 void OutputCheck::writes(const RenderOutputs& outputs) {
     for (const fs::path& output : outputs.all()) {
         std::error_code ignored;

@@ -1,6 +1,8 @@
 /// The files that `render` writes, and that it writes nothing else.
 #pragma once
 
+#include <scene/scene.h>
+
 #include <filesystem>
 #include <string>
 #include <unordered_set>
@@ -30,6 +32,8 @@ class OutputCheck {
   public:
     /// A file that is read, and must not be replaced.
     void reads(const std::filesystem::path& file);
+    /// A scene's file, and those that its clips come from.
+    void reads(const Scene& scene);
 
     /// Throws InputError if a file is one that is read, or would be written twice; MachineError if it has nowhere to
     /// go: better said before anything is drawn.

@@ -52,28 +52,34 @@ document.querySelectorAll('.copy').forEach(button => button.addEventListener('cl
   }
 }));
 
-// The case that keys act on: the first that reaches below the upper third of the window.
+// The case that has the focus and is seen, or -1.
+function focused() {
+  const index = cases.indexOf(document.activeElement.closest('.case'));
+  if (index < 0) return -1;
+  const {top, bottom} = cases[index].getBoundingClientRect();
+  return bottom > 0 && top < innerHeight ? index : -1;
+}
+
+// The case that keys act on: else the first that reaches below the upper third of the window.
 function current() {
-  return Math.max(0, cases.findIndex(section => section.getBoundingClientRect().bottom > innerHeight / 3));
+  const below = cases.findIndex(section => section.getBoundingClientRect().bottom > innerHeight / 3);
+  return focused() >= 0 ? focused() : below;
+}
+
+function goTo(section) {
+  if (!section) return;
+  section.scrollIntoView();
+  section.focus({preventScroll: true});
 }
 
 addEventListener('keydown', event => {
-  if (event.ctrlKey || event.altKey || event.metaKey || cases.length === 0) return;
+  if (event.ctrlKey || event.altKey || event.metaKey) return;
   const section = cases[current()];
-  const mode = {1: 'side', 2: 'blink', 3: 'slide'}[event.key];
-  const way = {j: 1, k: -1}[event.key.toLowerCase()];
-  if (mode) {
-    setMode(section, mode);
-  } else if (way) {
-    const inside = section.getBoundingClientRect().top < innerHeight / 3;
-    const next = cases[current() + (way > 0 && !inside ? 0 : way)];
-    if (next) {
-      next.scrollIntoView();
-      next.focus({preventScroll: true});
-    }
-  } else if (event.key === ' ' && section.querySelector('[data-mode=blink].pictures') &&
-             !event.target.closest('button, summary, input')) {
-    swapByHand(section);
-    event.preventDefault();
-  }
+  if (!section) return;
+  const key = event.key.toLowerCase();
+  const mode = {1: 'side', 2: 'blink', 3: 'slide'}[key];
+  if (mode) setMode(section, mode);
+  if (key === 'j') goTo(focused() >= 0 ? cases[focused() + 1] : section);
+  if (key === 'k') goTo(cases[current() - 1]);
+  if (key === 's' && section.querySelector('.pictures[data-mode=blink]')) swapByHand(section);
 });

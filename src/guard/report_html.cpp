@@ -82,7 +82,7 @@ void write_modes(std::ostream& out) {
         << "<button type=\"button\" data-mode=\"side\" aria-pressed=\"true\">Side by side <kbd>1</kbd></button>"
         << "<button type=\"button\" data-mode=\"blink\" aria-pressed=\"false\">Blink <kbd>2</kbd></button>"
         << "<button type=\"button\" data-mode=\"slide\" aria-pressed=\"false\">Slide <kbd>3</kbd></button>"
-        << "<button type=\"button\" class=\"swap\" hidden>Swap by hand <kbd>Space</kbd></button>"
+        << "<button type=\"button\" class=\"swap\" hidden>Swap by hand <kbd>S</kbd></button>"
         << "<label class=\"slider\" hidden>Actual <input type=\"range\" min=\"0\" max=\"100\" value=\"50\"> "
            "Golden</label></div>\n";
 }
@@ -174,7 +174,7 @@ void write_header(std::ostream& out, const RunFacts& facts, std::span<const Case
     if (names.size() > 1) write_command(out, "If all of these pictures are right:", update_command(facts, names));
     if (!open.empty()) {
         out << "<p class=\"keys\" hidden><kbd>J</kbd> next case, <kbd>K</kbd> the one before; <kbd>1</kbd> side by "
-               "side, <kbd>2</kbd> blink, <kbd>3</kbd> slide; <kbd>Space</kbd> swaps while blinking</p>\n";
+               "side, <kbd>2</kbd> blink, <kbd>3</kbd> slide; <kbd>S</kbd> swaps while blinking</p>\n";
     }
     out << "</header>\n";
 }

@@ -11,9 +11,9 @@
 namespace mobbscope::guard {
 
 /// One frame of the real thing with the scene open in it, after a script (or none) has worked it. It knows no settings
-/// of a person. `file`: where the scene is from. `scale`: of text and panels, app::kLeastScale..kMostScale. Throws
-/// MachineError if there is no such context, OpenGL reports an error or the shader compiler a warning; what Script::run
-/// throws.
+/// of a person, and its working folder is the scene's. `file`: where the scene is from. `scale`: of text and panels,
+/// app::kLeastScale..kMostScale. Throws MachineError if there is no such context, OpenGL reports an error or the shader
+/// compiler a warning; what Script::run throws.
 Image window_picture(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
                      Backend backend, PictureSize size, double scale, const app::Script* script = nullptr);
 

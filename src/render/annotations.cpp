@@ -46,6 +46,7 @@ void add_name(DrawList& list, LabelLayout& layout, const Subject& subject, float
     label.directions = {{0, -1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}};
     const float radius = static_cast<float>(last.r) * list.lens.pixels_per_metre(top);
     label.pill = true;
+    label.border = with_alpha(list.palette.panel, 0);
     label.distance = radius * std::max(std::abs(list.lens.back.z), 0.1f) + 0.4f * text_size;
     layout.place(label, list);
 }

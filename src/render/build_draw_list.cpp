@@ -115,6 +115,7 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const
         Caption caption = query ? query_caption(list.palette, paths, query->recorded, progress->step)
                                 : scene_caption(fitted, paths, view);
         if (view.time && !has_cursor) mention_cursor_outside(caption, *view.time, stage.t0, stage.t1);
+        if (!view.caption) caption = {};
         std::vector<LegendEntry> legend;
         if (view.legend) legend = legend_entries(list, paths, view, emphasis, progress);
         Words words = words_that_fit(caption, std::move(legend),

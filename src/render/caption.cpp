@@ -136,6 +136,7 @@ glm::vec2 caption_size(const CaptionLines& lines, bool marked, float scale) {
 }
 
 float add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, float margin, float scale) {
+    if (caption.headlines.empty()) return margin;
     const Sizes sizes(scale);
     list.headline = caption.headlines.front();
     const bool marked = caption.mark.a > 0 && !lines.headline.empty();

@@ -11,7 +11,7 @@
 namespace mobbscope {
 
 struct Caption {
-    std::vector<std::string> headlines;  ///< the sentence that answers what is seen, in fewer and fewer words
+    std::vector<std::string> headlines;  ///< the sentence that answers what is seen, in fewer and fewer words; or none
     std::string detail;                  ///< read second
     Rgba mark{0};                        ///< colour of the dot before the headline; opacity 0: none
 };

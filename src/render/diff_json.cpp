@@ -2,33 +2,51 @@
 
 namespace mobbscope {
 
-void write_diff(JsonWriter& json, const ImageDiff& diff) {
-    json.begin_object();
-    json.member("same", diff.same);
-    json.member("same_size", diff.same_size);
-    json.member("pixels", diff.pixels);
-    json.member("failing", diff.differing);
-    json.member("fraction", diff.fraction());
-    json.member("maximum", diff.largest);
-    json.member("mean", diff.mean);
-    json.key("bounds");
-    if (diff.bounds) {
-        json.begin_object(JsonWriter::Layout::row);
-        json.member("x", diff.bounds->x);
-        json.member("y", diff.bounds->y);
-        json.member("width", diff.bounds->width);
-        json.member("height", diff.bounds->height);
-        json.end_object();
-    } else {
-        json.null();
-    }
-    json.key("histogram");
-    json.begin_array(JsonWriter::Layout::row);
-    if (diff.same_size) {
-        for (const std::int64_t count : diff.histogram) json.value(count);
-    }
-    json.end_array();
-    json.end_object();
+namespace {
+
+using Layout = JsonWriter::Layout;
+
+void write_size(JsonWriter& out, const char* key, PictureSize size) {
+    out.key(key);
+    out.begin_array(Layout::row);
+    out.value(size.width);
+    out.value(size.height);
+    out.end_array();
+}
+
+void write_bounds(JsonWriter& out, const std::optional<PixelRect>& bounds) {
+    out.key("bounds");
+    if (!bounds) return out.null();
+    out.begin_object(Layout::row);
+    out.member("x", bounds->x);
+    out.member("y", bounds->y);
+    out.member("width", bounds->width);
+    out.member("height", bounds->height);
+    out.end_object();
+}
+
+}  // namespace
+
+void write_diff(JsonWriter& out, const ImageDiff& diff) {
+    out.begin_object();
+    out.member("same", diff.same);
+    out.member("same_size", diff.same_size);
+    write_size(out, "size_a", diff.actual_size);
+    write_size(out, "size_b", diff.reference_size);
+    out.member("pixels", diff.pixels);
+    out.member("failing", diff.differing);
+    out.member("fraction", diff.fraction());
+    out.member("maximum", diff.largest);
+    out.member("mean", diff.mean);
+    write_bounds(out, diff.bounds);
+    out.key("histogram");
+    out.begin_array(Layout::row);
+    for (const std::int64_t count : diff.histogram) out.value(count);
+    out.end_array();
+    out.member("threshold", diff.options.channel_tolerance);
+    out.member("allowed", diff.options.pixel_fraction);
+    out.member("shift", diff.options.shift);
+    out.end_object();
 }
 
 }  // namespace mobbscope

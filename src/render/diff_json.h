@@ -1,7 +1,4 @@
-/// The difference of two pictures as JSON.
-///
-///     {"same": false, "same_size": true, "pixels": 230400, "failing": 512, "fraction": 0.00222, "maximum": 214,
-///      "mean": 0.31, "bounds": {"x": 40, "y": 12, "width": 90, "height": 7} or null, "histogram": [256 counts]}
+/// What comparing two pictures found, as JSON.
 #pragma once
 
 #include <render/image_diff.h>
@@ -9,7 +6,10 @@
 
 namespace mobbscope {
 
-/// As one value, where the writer stands; the histogram is empty if the sizes differ.
-void write_diff(JsonWriter& json, const ImageDiff& diff);
+/// {"same", "same_size", "size_a": [w, h], "size_b", "pixels", "failing", "fraction", "maximum", "mean",
+/// "bounds": null | {"x", "y", "width", "height"}, "histogram": [256], "threshold", "allowed", "shift"}: A is the
+/// actual picture, B the reference; differences are 0..255, shares 0..1; the rest as in ImageDiff. Of pictures whose
+/// sizes differ no pixels are compared.
+void write_diff(JsonWriter& out, const ImageDiff& diff);
 
 }  // namespace mobbscope

@@ -8,6 +8,7 @@
 #include <render/words.h>
 #include <render/world_box.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -118,7 +119,7 @@ glm::dvec3 axis_end(const AxisExtent& axis, double radius) { return axis.directi
 
 /// Where the height is marked: left of the disk, its middle.
 glm::dvec3 beside_disk(const DiskExtents& extents) {
-    return -(1 + kAside) * extents.radius * extents.heading + glm::dvec3(0, 0, 0.5 * extents.height);
+    return -(1 + 1.6 * kAside) * extents.radius * extents.heading + glm::dvec3(0, 0, 0.5 * extents.height);
 }
 
 /// From the mark on the axis to the disk's corner and a little beyond both; along the other axis where the two are one
@@ -150,14 +151,17 @@ std::vector<glm::vec3> points_to_show(const Diagram& diagram, const DiskExtents&
     return out;
 }
 
-void draw(Diagram& diagram, const DiskExtents& extents, const Palette& palette, Rgba disk) {
+void draw(Diagram& diagram, const DiskExtents& extents, const Lens& lens, const Palette& palette, Rgba disk) {
     const glm::dvec3 r = extents.radius * extents.heading;
     const glm::dvec3 height(0, 0, extents.height);
     const Rgba rim = outlining(disk, palette);
-    diagram.circle(glm::dvec3(0), rim, 1.2f);
-    diagram.circle(height, rim, 1.2f);
-    diagram.line(-r, -r + height, rim, 1.2f);
-    diagram.line(r, r + height, rim, 1.2f);
+    if (!floor_on_edge(lens)) {
+        diagram.circle(glm::dvec3(0), rim, 1.2f);
+        diagram.circle(height, rim, 1.2f);
+    }
+    // The upright section through p that the radius vector lies in.
+    const glm::dvec3 section[] = {-r, r, r + height, -r + height};
+    for (std::size_t i = 0; i < 4; ++i) diagram.line(section[i], section[(i + 1) % 4], rim, 1.2f);
     for (std::size_t i = 0; i < 2; ++i) {
         const AxisExtent& axis = extents.along[i];
         const glm::dvec3 other = extents.along[1 - i].direction;
@@ -171,8 +175,24 @@ void draw(Diagram& diagram, const DiskExtents& extents, const Palette& palette, 
     }
     diagram.arrow(glm::dvec3(0), r, palette.text, 2.2f);
     const glm::dvec3 beside = beside_disk(extents);
-    diagram.line(beside - 0.5 * height, beside + 0.5 * height, palette.text, 1.4f);
+    const glm::dvec3 serif = 0.5 * kAside * extents.radius * extents.heading;
+    diagram.line(beside - 0.5 * height, beside + 0.5 * height, palette.text, 1.2f);
+    for (const double end : {-0.5, 0.5}) {
+        diagram.line(beside + end * height - serif, beside + end * height + serif, palette.text, 1.2f);
+    }
     diagram.dot(glm::dvec3(0), palette.text, 3.6f);
+}
+
+/// Whether something of the drawing would lie behind a rectangle.
+bool covers_lines(const Rect& rect, const DrawList& list) {
+    return std::any_of(list.lines.begin(), list.lines.end(), [&](const LineInstance& line) {
+        constexpr int kPieces = 24;
+        for (int i = 0; i <= kPieces; ++i) {
+            const auto at = list.lens.project(glm::mix(line.from, line.to, static_cast<float>(i) / kPieces));
+            if (at && Rect{*at, *at}.grown(0.5f).overlaps(rect)) return true;
+        }
+        return false;
+    });
 }
 
 std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palette, Rgba disk, int sample, double dt) {
@@ -188,8 +208,8 @@ std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palet
         "sample " + std::to_string(sample) + ": r " + with_unit(extents.radius, "m") + ", dt " + with_unit(dt, "s"));
     for (const AxisExtent& axis : extents.along) {
         add(LegendEntry::Mark::line, palette.accent,
-            axis_name("min", axis.axis) + ' ' + with_unit(axis.min, "m") + ", " + axis_name("max", axis.axis) + ' ' +
-                with_unit(axis.max, "m"));
+            axis_name("min", axis.axis) + " \u2212" + with_unit(-axis.min, "m") + ", " + axis_name("max", axis.axis) +
+                ' ' + with_unit(axis.max, "m"));
         out.back().width = 5;
     }
     add(LegendEntry::Mark::remark, Rgba(0), "lengths along the axes, from p");
@@ -210,7 +230,7 @@ void add_label(DrawList& list, LabelLayout& layout, const Diagram& diagram, glm:
     const glm::vec2 away = glm::length(way) > 1e-3f ? glm::normalize(way) : glm::vec2(0, -1);
     const glm::vec2 aside(-away.y, away.x);
     label.directions = {away, away + aside, away - aside, aside, -aside, -away};
-    label.distance = 0.6f * text_size;
+    label.distance = 0.35f * text_size;
     layout.place(label, list);
 }
 
@@ -222,13 +242,11 @@ void add_labels(DrawList& list, LabelLayout& layout, const Diagram& diagram, con
         const glm::dvec3 end = axis_end(axis, extents.radius);
         add_label(list, layout, diagram, end, axis.direction, axis_name("a", axis.axis), palette.text,
                   1.15f * text_size);
+        const glm::dvec3 other = extents.along[axis.axis == extents.along[0].axis ? 1 : 0].direction;
         const auto mark = [&](const char* word, double value, glm::dvec3 corner) {
-            const glm::dvec3 place = axis.direction * value;
-            // On the side that the perpendicular does not come from.
-            const glm::dvec3 way = place - corner;
-            const glm::dvec3 out =
-                glm::length(way) > 1e-9 * extents.radius ? way : axis.direction * (value < 0 ? -1.0 : 1.0);
-            add_label(list, layout, diagram, place, glm::normalize(out), axis_name(word, axis.axis),
+            // Beyond the end of the perpendicular, clear of the disk.
+            const Perpendicular line = perpendicular(axis, value, corner, other, extents.radius);
+            add_label(list, layout, diagram, line.from, glm::normalize(line.from - line.to), axis_name(word, axis.axis),
                       readable(palette.accent, palette), 1.15f * text_size);
         };
         mark("min", axis.min, axis.min_corner);
@@ -292,9 +310,10 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
     float top = metrics.pad;
     if (view.labels) {
         Caption caption;
-        caption.headlines = {"how far sample " + std::to_string(projection.sample) + " reaches in " +
-                                 node_name(subject, projection.node),
-                             "sample " + std::to_string(projection.sample)};
+        if (view.caption) {
+            const std::string who = "how far sample " + std::to_string(projection.sample) + " reaches";
+            caption.headlines = {who + " along the axes of " + node_name(subject, projection.node), who};
+        }
         std::vector<LegendEntry> entries;
         if (view.legend) entries = legend(extents, list.palette, subject.color, projection.sample, dt);
         Words words = words_that_fit(caption, std::move(entries), glm::vec2(0), list.size, metrics);
@@ -307,13 +326,23 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
     Frame frame{glm::vec2(metrics.pad, top), glm::vec2(list.size.width, list.size.height) - metrics.pad};
     if (view.labels) {
         // Names stand beyond the ends of the axes.
-        frame.min += glm::vec2(2.5f, 1.2f) * metrics.text;
-        frame.max -= glm::vec2(2.5f, 1.2f) * metrics.text;
+        frame.min += glm::vec2(2, 1.4f) * metrics.text;
+        frame.max -= glm::vec2(2, 1.4f) * metrics.text;
+    }
+    Diagram diagram(list, extents, w, metrics.scale);
+    const auto draw_within = [&](const Frame& within) {
+        list.lines.clear();
+        list.marks.clear();
+        list.lens = lens_for(list, view, points_to_show(diagram, extents), within);
+        list.frame = within;
+        draw(diagram, extents, list.lens, list.palette, subject.color);
+    };
+    draw_within(frame);
+    if (!list.legend.empty()) {
         const glm::vec2 block = legend_size(list.legend, metrics.small);
         const glm::vec2 corner(metrics.pad, static_cast<float>(list.size.height) - metrics.pad - block.y);
-        if (!list.legend.empty()) {
-            add_legend(list, corner, metrics.small);
-            layout.reserve({corner, corner + block});
+        const Rect place{corner, corner + block};
+        if (covers_lines(place.grown(metrics.text), list)) {
             // Beside or above the legend, wherever more is left.
             const glm::vec2 left = frame.max - frame.min - block;
             if (left.x > left.y) {
@@ -321,12 +350,11 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
             } else {
                 frame.max.y -= block.y;
             }
+            draw_within(frame);
         }
+        add_legend(list, corner, metrics.small);
+        layout.reserve(place);
     }
-    Diagram diagram(list, extents, w, metrics.scale);
-    list.lens = lens_for(list, view, points_to_show(diagram, extents), frame);
-    list.frame = frame;
-    draw(diagram, extents, list.palette, subject.color);
     if (view.labels) add_labels(list, layout, diagram, extents, metrics.text);
 }
 

@@ -56,7 +56,7 @@ struct BoxInstance {
     float width = 1;  ///< of the edges, pixels
     Dash dash = kSolid;
     ObjectId id;
-    bool pickable = true;  ///< stands for a node
+    bool pickable = true;  ///< stands for what `id` names: a node, or as a cylinder's wall a sample
     DrawOrder order;
 };
 

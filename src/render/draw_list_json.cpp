@@ -257,7 +257,8 @@ std::vector<BoxInstance> sorted(std::vector<BoxInstance> boxes) {
     std::sort(boxes.begin(), boxes.end(), [](const BoxInstance& a, const BoxInstance& b) {
         if (a.pickable != b.pickable) return a.pickable;
         if (a.pickable && a.id != b.id) return before(a.id, b.id);
-        return std::tie(a.order, a.state) < std::tie(b.order, b.state);
+        return std::tie(a.order, a.state, a.center.x, a.center.y, a.center.z) <
+               std::tie(b.order, b.state, b.center.x, b.center.y, b.center.z);
     });
     return boxes;
 }
@@ -269,8 +270,10 @@ std::vector<DiskInstance> sorted(std::vector<DiskInstance> disks) {
 }
 
 std::vector<LineInstance> sorted(std::vector<LineInstance> lines) {
-    std::sort(lines.begin(), lines.end(),
-              [](const LineInstance& a, const LineInstance& b) { return a.order < b.order; });
+    std::sort(lines.begin(), lines.end(), [](const LineInstance& a, const LineInstance& b) {
+        return std::tie(a.order, a.from.x, a.from.y, a.from.z, a.to.x, a.to.y, a.to.z) <
+               std::tie(b.order, b.from.x, b.from.y, b.from.z, b.to.x, b.to.y, b.to.z);
+    });
     return lines;
 }
 
@@ -281,7 +284,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     JsonWriter out(stream, JsonWriter::Digits::few);
     out.begin_object();
     vector(out, "size", glm::ivec2(list.size.width, list.size.height));
-    color(out, "background", list.palette.background);
+    color(out, "background", list.background.value_or(list.palette.background));
     out.key("participants");
     out.begin_array(Layout::row);
     for (const std::string& participant : list.participants) out.value(participant);

@@ -70,10 +70,11 @@ std::vector<glm::vec3> points_to_show(const DrawList& list, const Stage& stage, 
         for (const glm::vec3& corner : box_corners(box)) out.push_back(corner);
     }
     const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
-    out.insert(out.end(), corners.begin(), corners.begin() + (has_cursor ? 8 : 4));
+    if (view.floor || has_cursor || out.empty())
+        out.insert(out.end(), corners.begin(), corners.begin() + (has_cursor ? 8 : 4));
     if (view.time_axis) {
         const glm::dvec2 foot = axis_corner(stage, glm::vec3(directions(view.camera).right));
-        out.push_back(list.space.point(foot.x, foot.y, stage.t1));
+        for (const double t : {stage.t0, stage.t1}) out.push_back(list.space.point(foot.x, foot.y, t));
     }
     return out;
 }

@@ -1,18 +1,25 @@
 #include <render/image_diff.h>
 
+#include <render/heat_map.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
 
 namespace mobbscope {
 
 namespace {
 
-/// The largest difference of their channels, 0..255. Colour that nobody sees is no difference.
+/// What a channel adds to what is seen, 0..255; opacity itself is the fourth.
+int seen(const std::uint8_t* pixel, int channel) {
+    return channel == 3 || pixel[3] == 255 ? pixel[channel] : (pixel[channel] * pixel[3] + 127) / 255;
+}
+
+/// The largest difference of their channels, 0..255.
 int difference(const std::uint8_t* a, const std::uint8_t* b) {
-    if (a[3] == 0 && b[3] == 0) return 0;
     int largest = 0;
-    for (int c = 0; c < 4; ++c) largest = std::max(largest, std::abs(int{a[c]} - int{b[c]}));
+    for (int c = 0; c < 4; ++c) largest = std::max(largest, std::abs(seen(a, c) - seen(b, c)));
     return largest;
 }
 
@@ -25,16 +32,6 @@ int least_difference(const std::uint8_t* pixel, const Image& other, int x, int y
         }
     }
     return least;
-}
-
-/// Equal pixels keep a ghost of the reference, so that the eye finds its place; others glow red to yellow.
-void paint_heat(std::uint8_t* out, const std::uint8_t* reference, int difference, bool differs) {
-    const int grey = (reference[0] + reference[1] + reference[2]) / 12;
-    const int glow = differs ? std::min(255, 96 + 2 * difference) : 0;
-    out[0] = static_cast<std::uint8_t>(differs ? 255 : grey);
-    out[1] = static_cast<std::uint8_t>(differs ? glow : grey);
-    out[2] = static_cast<std::uint8_t>(differs ? 0 : grey);
-    out[3] = 255;
 }
 
 void grow(std::optional<PixelRect>& rect, int x, int y) {
@@ -56,41 +53,45 @@ bool is_compared(const Image* mask, int x, int y) {
 }  // namespace
 
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options, const Image* mask) {
+    ImageDiff result;
+    result.options = options;
+    result.actual_size = {actual.width, actual.height};
+    result.reference_size = {reference.width, reference.height};
+    result.same_size = result.actual_size == result.reference_size;
+    if (!result.same_size) return result;
     if (mask && (mask->width != reference.width || mask->height != reference.height)) {
         throw std::invalid_argument("the mask has another size than the picture");
     }
-    ImageDiff result;
-    result.same_size = actual.width == reference.width && actual.height == reference.height;
-    if (!result.same_size) return result;
-    result.heat = Image(reference.width, reference.height);
+    std::vector<std::int16_t> differences;
+    differences.reserve(reference.rgba.size() / 4);
     std::int64_t sum = 0;
     for (int y = 0; y < reference.height; ++y) {
         for (int x = 0; x < reference.width; ++x) {
-            const std::uint8_t* there = reference.at(x, y);
             if (!is_compared(mask, x, y)) {
-                paint_heat(result.heat.at(x, y), there, 0, false);
+                differences.push_back(kNotCompared);
                 continue;
             }
             const std::uint8_t* here = actual.at(x, y);
+            const std::uint8_t* there = reference.at(x, y);
             int found = difference(here, there);
             if (options.shift > 0 && found > options.channel_tolerance) {
                 found = std::max(least_difference(here, reference, x, y, options.shift),
                                  least_difference(there, actual, x, y, options.shift));
             }
-            const bool differs = found > options.channel_tolerance;
+            differences.push_back(static_cast<std::int16_t>(found));
             ++result.pixels;
             ++result.histogram[static_cast<std::size_t>(found)];
             sum += found;
             result.largest = std::max(result.largest, found);
-            if (differs) {
+            if (found > options.channel_tolerance) {
                 ++result.differing;
                 grow(result.bounds, x, y);
             }
-            paint_heat(result.heat.at(x, y), there, found, differs);
         }
     }
     if (result.pixels > 0) result.mean = static_cast<double>(sum) / static_cast<double>(result.pixels);
-    result.same = static_cast<double>(result.differing) <= options.pixel_fraction * static_cast<double>(result.pixels);
+    result.same = result.differing <= result.allowed();
+    result.heat = heat_map(reference, differences, options.channel_tolerance);
     return result;
 }
 

@@ -25,6 +25,9 @@ struct PixelRect {
 };
 
 struct ImageDiff {
+    DiffOptions options;        ///< what was asked for
+    PictureSize actual_size{};  ///< of the two pictures
+    PictureSize reference_size{};
     bool same_size = false;
     bool same = false;           ///< the verdict
     std::int64_t pixels = 0;     ///< compared: all, or those of the mask
@@ -34,14 +37,19 @@ struct ImageDiff {
     /// Compared pixels by their difference, the largest of their channels (with a shift: the least found).
     std::array<std::int64_t, 256> histogram{};
     std::optional<PixelRect> bounds{};  ///< of the differing pixels
-    Image heat;                         ///< grey where equal, black to yellow by difference; empty if the sizes differ
+    Image heat;                         ///< where they differ, see heat_map.h; empty if the sizes differ
 
     double fraction() const { return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0; }
+    /// The most pixels that may differ.
+    std::int64_t allowed() const {
+        // Rounding must not take a pixel off what is a whole number.
+        return static_cast<std::int64_t>(options.pixel_fraction * static_cast<double>(pixels) + 1e-6);
+    }
 };
 
-/// `mask`: of the same size; pixels that are black or transparent in it are not compared. Null: all are. Pixels that
-/// are wholly transparent in both pictures are equal. Throws std::invalid_argument if the mask has another size than
-/// the reference.
+/// Colours count by their opacity, as they are seen: under a transparent pixel none does. `mask`: of the same size;
+/// pixels that are black or transparent in it are not compared. Null: all are. Throws std::invalid_argument if the
+/// pictures have one size and the mask another.
 ImageDiff diff(const Image& actual, const Image& reference, const DiffOptions& options = {},
                const Image* mask = nullptr);
 

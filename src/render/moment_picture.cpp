@@ -131,6 +131,7 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
         if (moment.time < bounds.min.z || moment.time >= bounds.max.z) {
             mention_cursor_outside(caption, moment.time, bounds.min.z, bounds.max.z);
         }
+        if (!view.caption) caption = {};
         std::vector<LegendEntry> legend;
         if (view.legend) legend = moment_legend(list.palette, people, view);
         Words words = words_that_fit(caption, std::move(legend), glm::vec2(0), size, metrics);

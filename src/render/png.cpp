@@ -2,6 +2,7 @@
 
 #include <import/error.h>
 #include <import/file.h>
+#include <render/png_chunks.h>
 
 #include <stb_image.h>
 #include <stb_image_write.h>
@@ -9,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -62,14 +64,22 @@ void write_png(const std::filesystem::path& file, const Image& image) {
 }
 
 Image read_png(const std::filesystem::path& file) {
+    const std::string bytes = read_file(file);
+    check_png(bytes, file.string());
+    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        throw InputError(file.string(), "", "is 2 GiB large; write it smaller");
+    }
     int width = 0;
     int height = 0;
     int channels = 0;
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 4),
-                                                           stbi_image_free);
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &width,
+                              &height, &channels, 4),
+        stbi_image_free);
     if (!pixels) {
-        throw InputError(file.string(), "",
-                         std::string("cannot be read as a PNG picture (") + stbi_failure_reason() + ")");
+        throw InputError(
+            file.string(), "",
+            std::string("cannot be read as a PNG picture (") + stbi_failure_reason() + "); write it again");
     }
     Image image(width, height);
     std::memcpy(image.rgba.data(), pixels.get(), image.rgba.size());

@@ -15,7 +15,8 @@ std::string png_bytes(const Image& image);
 /// that cannot be done.
 void write_png(const std::filesystem::path& file, const Image& image);
 
-/// Throws InputError if the file is missing or no PNG.
+/// Grey, palettes and 16 bits (their upper 8) become RGBA; what a file says of its colours' gamma is ignored. Throws
+/// InputError if the file is missing, no PNG, damaged, cut short or absurdly large (png_chunks.h).
 Image read_png(const std::filesystem::path& file);
 
 }  // namespace mobbscope

@@ -44,7 +44,9 @@ void add_time_intervals(DrawList& list, const Stage& stage, std::span<const Subj
         begin = std::max(begin, tree.begin(node));
     }
     if (event.outcome != mobb::Outcome::disjoint_in_time) return;
-    add(kFirst + 0.5f * kNext, end, begin, outcome_style(BoxState::apart_in_time, list.palette));
+    // In the text's colour, as the gap in the scene is: a thin grey line between the bars is not seen.
+    const Dash dash = outcome_style(BoxState::apart_in_time, list.palette).dash;
+    add(kFirst + 0.5f * kNext, end, begin, {list.palette.text, dash, 1.8f});
 }
 
 }  // namespace mobbscope

@@ -29,6 +29,7 @@ Words words_that_fit(const Caption& caption, std::vector<LegendEntry> legend, gl
     if (fits()) return words;
     words.caption.detail.clear();
     if (fits()) return words;
+    if (caption.headlines.empty()) return words;
     words.caption.headline = caption_lines(caption, room, metrics.scale, 1).headline;
     // A line that breaks off before the outcome says nothing.
     const bool whole = words.caption.headline == std::vector<std::string>{caption.headlines.back()};

@@ -25,6 +25,7 @@ constexpr Toggle kToggles[] = {{"tested_before", &ViewState::tested_before},
                                {"floor", &ViewState::floor},
                                {"time_axis", &ViewState::time_axis},
                                {"labels", &ViewState::labels},
+                               {"caption", &ViewState::caption},
                                {"legend", &ViewState::legend}};
 
 CameraPreset read_preset(const JsonPlace& place) {
@@ -101,7 +102,7 @@ void write_camera(JsonWriter& out, const Camera& camera) {
 
 ViewState read_view(const JsonPlace& place, ViewState view) {
     place.allow_only({"show", "camera", "levels", "query", "step", "tested_before", "projection", "time", "time_height",
-                      "color_by", "theme", "disks", "boxes", "floor", "time_axis", "labels", "legend"});
+                      "color_by", "theme", "disks", "boxes", "floor", "time_axis", "labels", "caption", "legend"});
     if (const auto show = place.find("show")) {
         const auto value = show_from_name(show->string());
         if (!value) show->fail("a picture cannot show " + in_quotes(show->string()) + "; give space-time or moment");

@@ -72,8 +72,10 @@ struct ViewState {
     LevelRange levels;
     std::optional<int> query;  ///< index into the effective queries: its state at `step` is drawn instead of the levels
     Step step;
-    bool tested_before = true;  ///< with a query: boxes of the pairs that were tested before the step's too
-    std::optional<DiskProjection> projection;  ///< drawn instead of the levels
+    /// With a query: boxes of the pairs that were tested before the step's too. Without them the pair's own say by colour
+    /// and line how its test ended, and the time axis when its nodes take place.
+    bool tested_before = true;
+    std::optional<DiskProjection> projection;  ///< drawn instead of all else
     std::optional<double> time;  ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
     double time_height = 0;      ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
     ColorBy color_by = ColorBy::agent;  ///< of the boxes of levels; those of a query have their states' colours
@@ -83,6 +85,7 @@ struct ViewState {
     bool floor = true;      ///< grid in metres, and the paths' traces on it
     bool time_axis = true;  ///< ticks in seconds
     bool labels = true;     ///< all text
+    bool caption = true;    ///< the sentences at the top; where a title says it they are not needed
     bool legend = true;
     friend bool operator==(const ViewState&, const ViewState&) = default;
 };

@@ -237,6 +237,7 @@ std::vector<Case> cases() {
     look("view.floor", "", [](World& w) { EXPECT_FALSE(w.view().floor); });
     look("view.time_axis", "", [](World& w) { EXPECT_FALSE(w.view().time_axis); });
     look("view.labels", "", [](World& w) { EXPECT_FALSE(w.view().labels); });
+    look("view.caption", "", [](World& w) { EXPECT_FALSE(w.view().caption); });
     look("view.legend", "", [](World& w) { EXPECT_FALSE(w.view().legend); });
     look("view.color_by", "", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::level); });
     look("view.color_by", "agent", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::agent); });

@@ -1,6 +1,7 @@
 // Menus, palette, dialogs and messages in the window, by keys and clicks.
 #include <app/headless_window.h>
 #include <app/look.h>
+#include <render/build_draw_list.h>
 #include <render/gl_context.h>
 #include <render/lens.h>
 #include <render/png.h>
@@ -98,6 +99,44 @@ TEST(Panels, KeysDoNothingToWhatIsBeingDragged) {
     w.key("Ctrl+Z");
     EXPECT_EQ(w.session.history().redo_title().substr(0, 6), "moving");
     EXPECT_EQ(w.session.scene().agents.size(), 4u);
+}
+
+TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
+    Window w;
+    run_command(w.session, "go.agent", "A");
+    w.window.settle();
+    ASSERT_TRUE(w.has("handle.move"));
+    w.key("M");
+    ASSERT_EQ(w.session.view().show, Show::moment);
+    EXPECT_FALSE(w.has("handle.move")) << "they stand where a path begins, in space-time";
+    // What the viewport shows is what is picked: a click on a wall selects the sample that holds then.
+    run_command(w.session, "time.at", "1.2");
+    w.window.settle();
+    w.look("moment");
+    const DrawList list = build_draw_list(w.session.fitted(), w.session.view(), w.session.hooks.viewport_size());
+    ASSERT_FALSE(list.disks.empty());
+    const DiskInstance& disk = list.disks.front();
+    const auto pixel = list.lens.project(disk.base + glm::vec3(0, 0, 0.9f));
+    ASSERT_TRUE(pixel);
+    const glm::vec2 at = w.window.shell().marks().all().at("viewport").min + *pixel;
+    w.window.shell().feed(MouseMove{at});
+    w.window.shell().feed(MouseButton{0, true});
+    w.window.shell().feed(MouseButton{0, false});
+    w.window.settle();
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::sample);
+    EXPECT_EQ(w.session.selection.index, disk.id.index);
+    // Dragging turns the camera; time keeps the height that it has in space-time.
+    const double time_height = w.session.view().time_height;
+    w.window.shell().feed(MouseMove{at});
+    w.window.shell().feed(MouseButton{0, true});
+    w.window.shell().feed(MouseMove{at + glm::vec2(60, 20)});
+    w.window.shell().feed(MouseButton{0, false});
+    w.window.settle();
+    EXPECT_TRUE(w.session.view().camera.target);
+    EXPECT_EQ(w.session.view().time_height, time_height);
+    w.key("M");
+    EXPECT_EQ(w.session.view().show, Show::space_time);
+    EXPECT_FALSE(w.session.view().camera.target);
 }
 
 TEST(Panels, TheCameraGoesOnFromWhatKeysHaveMade) {

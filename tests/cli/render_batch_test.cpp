@@ -39,6 +39,19 @@ TEST_F(RenderBatchTest, TheSceneMayStandBesideTheList) {
     EXPECT_EQ(read_png(folder.path() / "a.png").rgba, picture({kCrossing}).rgba);
 }
 
+TEST_F(RenderBatchTest, WhatALineSaysTakesThePlaceOfWhatContradictsIt) {
+    const std::string path = folder.path();
+    const std::string list = folder.write("list", "--level 1 -o " + path + "/level.png\n--yaw 10 -o " + path +
+                                                      "/yaw.png\n--turntable 1 -o " + path + "/turn.png\n");
+    const testing::Result run =
+        render_small({kCrossing, "--batch", list, "--query", "0", "--step", "3", "--view", "top"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(read_png(folder.path() / "level.png").rgba, picture({kCrossing, "--view", "top", "--level", "1"}).rgba);
+    EXPECT_EQ(read_png(folder.path() / "yaw.png").rgba,
+              picture({kCrossing, "--yaw", "10", "--query", "0", "--step", "3"}).rgba);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "turn_0000.png"));
+}
+
 TEST(RenderBatch, ABadLineIsNamedAndNothingIsWritten) {
     const TempFolder folder;
     const TempFolder pictures;

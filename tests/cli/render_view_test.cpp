@@ -96,6 +96,8 @@ TEST(RenderView, CamerasThatAreNoneAreRefused) {
         {{"--ids", "i.jpg"}, ".png"},
         {{"--draw-list", "i.png"}, ".json"},
         {{"--json"}, "--list-backends"},
+        {{"--view-state", ""}, "the name is empty"},
+        {{"--ids", ""}, "the name is empty"},
     };
     for (const auto& [options, why] : cases) {
         std::vector<std::string> all{kCrossing, "-o", folder.path() / "o.png"};
@@ -110,12 +112,12 @@ TEST(RenderView, CamerasThatAreNoneAreRefused) {
 
 TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     const Image all = picture({kCrossing, "--query", "0", "--step", "40%"});
-    for (const char* off :
-         {"--no-labels", "--no-legend", "--no-floor", "--no-time-axis", "--no-boxes", "--no-disks", "--pair-only"}) {
-        if (std::string(off) == "--pair-only") continue;
+    for (const char* off : {"--no-labels", "--no-caption", "--no-legend", "--no-floor", "--no-time-axis", "--no-boxes",
+                            "--no-disks", "--pair-only"}) {
         EXPECT_NE(picture({kCrossing, "--query", "0", "--step", "40%", off}).rgba, all.rgba) << off;
     }
-    for (const char* on : {"--labels", "--legend", "--floor", "--time-axis", "--boxes", "--disks", "--tested-before"}) {
+    for (const char* on :
+         {"--labels", "--caption", "--legend", "--floor", "--time-axis", "--boxes", "--disks", "--tested-before"}) {
         EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", on}).rgba, all.rgba) << on;
     }
 }
@@ -146,6 +148,33 @@ TEST_F(RenderViewTest, BackendsAreListed) {
     EXPECT_EQ(none.status, 3);
     EXPECT_NE(none.out.find("osmesa: not here: "), std::string::npos) << none.out;
     EXPECT_TRUE(testing::is_one_line(none.err)) << none.err;
+}
+
+TEST_F(RenderViewTest, ACaseIsDrawnAsItSays) {
+    const std::string text =
+        R"({"mobbscope_case": 1, "scene": ")" + kCrossing +
+        R"(", "size": "320x240", "samples": 1, "background": "transparent", "view": {"levels": 1}})";
+    const std::string file = folder.write("a.case.json", text);
+    const std::string out = folder.path() / "a.png";
+    const testing::Result run = testing::run_program({"render", file, "-o", out});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(read_png(out).rgba,
+              picture({kCrossing, "--level", "1", "--samples", "1", "--background", "transparent"}).rgba);
+    std::filesystem::remove(out);
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--size", "100x100"},
+                                                 {"--no-labels"},
+                                                 {"--tree", "umobb"},
+                                                 {"--play"},
+                                                 {"--ids", "i.png"}}) {
+        std::vector<std::string> all{"render", file, "-o", out};
+        all.insert(all.end(), more.begin(), more.end());
+        expect_refused(testing::run_program(all), 2, "a case says by itself");
+    }
+    expect_refused(testing::run_program({"render", file}), 2, "--output");
+    expect_refused(render_small({"--batch", folder.write("list", file + " -o " + out)}), 2, "list:1: ");
+    const std::string skipped = folder.write("b.case.json", R"({"mobbscope_case": 1, "skip": "later"})");
+    expect_refused(testing::run_program({"render", skipped, "-o", out}), 2, "later");
+    EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 }  // namespace

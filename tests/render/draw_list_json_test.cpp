@@ -47,8 +47,7 @@ DrawList levels() {
 DrawList query() {
     ViewState view;
     view.query = 0;
-    view.step = {Step::Unit::percent, 60};
-    view.time = 1;
+    view.time = 1;  // at the last step the hit is ringed
     return build_draw_list(testing::hit_scene(mobb::TreeKind::umobb), view, kSize);
 }
 

@@ -2,23 +2,64 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
 namespace mobbscope {
 namespace {
 
-Image grey(int width, int height) {
+Image filled(int width, int height, std::uint8_t level, std::uint8_t opacity = 255) {
     Image image(width, height);
-    std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{100});
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? opacity : level;
     return image;
+}
+
+Image grey(int width, int height) { return filled(width, height, 100); }
+
+void paint(Image& image, PixelRect where, std::uint8_t level) {
+    for (int y = where.y; y < where.y + where.height; ++y) {
+        for (int x = where.x; x < where.x + where.width; ++x) std::fill_n(image.at(x, y), 3, level);
+    }
+}
+
+TEST(ImageDiff, EqualPicturesAreTheSame) {
+    const ImageDiff result = diff(grey(20, 10), grey(20, 10), {0, 0});
+    EXPECT_TRUE(result.same);
+    EXPECT_TRUE(result.same_size);
+    EXPECT_EQ(result.pixels, 200);
+    EXPECT_EQ(result.largest, 0);
+    EXPECT_EQ(result.mean, 0);
+    EXPECT_EQ(result.bounds, std::nullopt);
+    EXPECT_EQ(result.histogram[0], 200);
+    EXPECT_EQ(result.fraction(), 0);
 }
 
 TEST(ImageDiff, SmallDifferencesCountAsEqual) {
     const Image reference = grey(100, 100);
     Image actual = reference;
-    for (std::uint8_t& channel : actual.rgba) channel += 3;
+    for (std::size_t i = 0; i < actual.rgba.size(); ++i)
+        actual.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 252 : 103);
     const ImageDiff result = diff(actual, reference);
     EXPECT_TRUE(result.same);
     EXPECT_EQ(result.differing, 0);
     EXPECT_EQ(result.largest, 3);
+    EXPECT_FALSE(diff(actual, reference, {2.9, 0.001}).same);
+    EXPECT_EQ(diff(actual, reference, {2.9, 0.001}).differing, 10000);
+}
+
+TEST(ImageDiff, EachChannelCounts) {
+    for (int channel = 0; channel < 4; ++channel) {
+        for (const int by : {4, -4}) {
+            const Image reference = filled(3, 1, 100, 200);
+            Image actual = filled(3, 1, 100, 200);
+            std::uint8_t& value = actual.at(1, 0)[channel];
+            value = static_cast<std::uint8_t>(value + 2 * by);
+            EXPECT_EQ(diff(actual, reference, {3, 0}).differing, 1) << channel;
+            EXPECT_EQ(diff(reference, actual, {3, 0}).differing, 1) << channel;
+        }
+    }
 }
 
 TEST(ImageDiff, AThousandthOfThePixelsMayDiffer) {
@@ -31,21 +72,106 @@ TEST(ImageDiff, AThousandthOfThePixelsMayDiffer) {
     EXPECT_FALSE(result.same);
     EXPECT_EQ(result.differing, 11);
     EXPECT_EQ(result.largest, 100);
+    EXPECT_DOUBLE_EQ(result.fraction(), 0.0011);
 }
 
-TEST(ImageDiff, TheHeatMapShowsWhere) {
+TEST(ImageDiff, TheAllowedShareIsExact) {
+    for (int side = 1; side < 200; ++side) {
+        ImageDiff result;
+        result.pixels = 1000LL * side;
+        EXPECT_EQ(result.allowed(), side);
+    }
+}
+
+TEST(ImageDiff, TellsHowMuchAndWhere) {
     const Image reference = grey(10, 10);
     Image actual = reference;
-    actual.at(4, 7)[0] = 255;
-    const Image heat = diff(actual, reference).heat;
-    EXPECT_EQ(heat.at(4, 7)[0], 255);
-    EXPECT_LT(heat.at(3, 7)[0], 60);
+    paint(actual, {2, 3, 1, 1}, 110);
+    paint(actual, {7, 5, 1, 2}, 60);
+    paint(actual, {0, 9, 1, 1}, 102);  // within the tolerance
+    const ImageDiff result = diff(actual, reference);
+    EXPECT_EQ(result.differing, 3);
+    EXPECT_EQ(result.largest, 40);
+    EXPECT_DOUBLE_EQ(result.mean, (10 + 40 + 40 + 2) / 100.0);
+    EXPECT_EQ(result.bounds, (PixelRect{2, 3, 6, 4}));
+    EXPECT_EQ(result.histogram[0], 96);
+    EXPECT_EQ(result.histogram[2], 1);
+    EXPECT_EQ(result.histogram[10], 1);
+    EXPECT_EQ(result.histogram[40], 2);
+    EXPECT_EQ(std::accumulate(result.histogram.begin(), result.histogram.end(), std::int64_t{0}), result.pixels);
 }
 
 TEST(ImageDiff, PicturesOfDifferentSizesDiffer) {
     const ImageDiff result = diff(grey(10, 10), grey(10, 11));
     EXPECT_FALSE(result.same_size);
     EXPECT_FALSE(result.same);
+    EXPECT_EQ(result.pixels, 0);
+    EXPECT_EQ(result.heat.width, 0);
+    EXPECT_EQ(result.actual_size, (PictureSize{10, 10}));
+    EXPECT_EQ(result.reference_size, (PictureSize{10, 11}));
+    EXPECT_FALSE(diff(grey(11, 10), grey(10, 11), {255, 1, 1}).same);
+}
+
+TEST(ImageDiff, ColourThatNobodySeesIsNoDifference) {
+    EXPECT_EQ(diff(filled(4, 4, 0, 0), filled(4, 4, 255, 0)).largest, 0);
+    EXPECT_EQ(diff(filled(4, 4, 0, 1), filled(4, 4, 255, 1)).largest, 1);
+    EXPECT_EQ(diff(filled(4, 4, 0, 128), filled(4, 4, 255, 128)).largest, 128);
+    EXPECT_EQ(diff(filled(4, 4, 0, 0), filled(4, 4, 0, 255)).largest, 255);
+}
+
+/// A line, an edge and a dot: one pixel aside they are forgiven, two pixels aside or missing they are not.
+TEST(ImageDiff, AShiftOfOnePixelIsForgivenInAnyDirection) {
+    const std::pair<PixelRect, const char*> shapes[] = {
+        {{0, 10, 40, 1}, "line"}, {{10, 10, 20, 20}, "block"}, {{20, 20, 1, 1}, "dot"}};
+    for (const auto& [shape, name] : shapes) {
+        Image reference = grey(40, 40);
+        paint(reference, shape, 255);
+        for (int dy = -2; dy <= 2; ++dy) {
+            for (int dx = -2; dx <= 2; ++dx) {
+                if (shape.width == 40 && dx != 0) continue;
+                PixelRect moved = shape;
+                moved.x += dx;
+                moved.y += dy;
+                Image actual = grey(40, 40);
+                paint(actual, moved, 255);
+                const bool near = std::max(std::abs(dx), std::abs(dy)) <= 1;
+                EXPECT_EQ(diff(actual, reference, {3, 0, 1}).same, near) << name << ' ' << dx << ' ' << dy;
+                EXPECT_EQ(diff(actual, reference, {3, 0, 0}).same, dx == 0 && dy == 0) << name;
+            }
+        }
+    }
+}
+
+TEST(ImageDiff, AShiftForgivesNothingThatIsMissing) {
+    const Image empty = grey(40, 40);
+    Image line = empty;
+    paint(line, {0, 0, 1, 40}, 255);
+    const ImageDiff missing = diff(empty, line, {3, 0, 1});
+    EXPECT_EQ(missing.bounds, (PixelRect{0, 0, 1, 40}));
+    EXPECT_EQ(diff(line, empty, {3, 0, 1}).bounds, (PixelRect{0, 0, 1, 40}));
+    EXPECT_EQ(missing.histogram[155], 40);
+}
+
+TEST(ImageDiff, OnlyTheMaskIsCompared) {
+    const Image reference = grey(10, 10);
+    Image actual = reference;
+    paint(actual, {0, 0, 5, 10}, 200);
+    actual.at(9, 9)[0] = 255;
+    Image mask = filled(10, 10, 255);
+    paint(mask, {0, 0, 5, 10}, 0);
+    const ImageDiff result = diff(actual, reference, {3, 0}, &mask);
+    EXPECT_EQ(result.pixels, 50);
+    EXPECT_EQ(result.differing, 1);
+    EXPECT_EQ(result.bounds, (PixelRect{9, 9, 1, 1}));
+    EXPECT_DOUBLE_EQ(result.mean, 155 / 50.0);
+    EXPECT_FALSE(result.same);
+    mask.at(9, 9)[3] = 0;
+    EXPECT_TRUE(diff(actual, reference, {3, 0}, &mask).same) << "transparent";
+    mask.at(9, 9)[3] = 1;
+    std::fill_n(mask.at(9, 9), 2, std::uint8_t{0});
+    EXPECT_FALSE(diff(actual, reference, {3, 0}, &mask).same) << "neither black nor transparent";
+    const Image other = grey(10, 11);
+    EXPECT_THROW(diff(actual, reference, {}, &other), std::invalid_argument);
 }
 
 }  // namespace

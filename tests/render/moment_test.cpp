@@ -266,7 +266,7 @@ TEST(Moment, PartsAreLeftOutAsTheViewSays) {
 TEST(Moment, ALargeCrowdIsBuiltQuickly) {
     const FittedScene scene(crowd(1000, 100), {});
     const auto begin = std::chrono::steady_clock::now();
-    const DrawList list = build_draw_list(scene, at(0.9), {1280, 720});
+    const DrawList list = build_draw_list(scene, at(0.9), PictureSize{1280, 720});
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     EXPECT_EQ(who_has_a_disk(list).size(), 1000u);
     EXPECT_LT(seconds, 0.5);

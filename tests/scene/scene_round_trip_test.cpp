@@ -40,6 +40,7 @@ Scene random_scene(std::mt19937_64& random) {
     scene.view.time_height = positive(random);
     scene.view.color_by = ColorBy::level;
     scene.view.theme = Theme::light;
+    scene.view.caption = false;
     scene.view.legend = false;
     return scene;
 }

@@ -139,7 +139,7 @@ TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
           [{"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "samples", "outcome": "hit", "pairs": [[0, 0, 0]]}]}],
         "view": {"camera": {"preset": "free", "yaw_deg": 1, "pitch_deg": 1, "perspective": false, "fov_deg": 50,
           "target": [0, 0, 0], "distance": 1, "shift": [0, 0.1]}, "levels": 1, "query": 0, "step": 0, "time": 0, "time_height": 1, "color_by": "level", "theme": "light",
-          "disks": false, "boxes": false, "floor": false, "time_axis": false, "labels": false, "legend": false}})",
+          "disks": false, "boxes": false, "floor": false, "time_axis": false, "labels": false, "caption": false, "legend": false}})",
                                     "s.json", folder.path());
     std::set<std::string> keys;
     collect_properties(schema(), keys);

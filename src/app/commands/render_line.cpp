@@ -53,6 +53,7 @@ struct Toggle {
     const char* off;
 };
 constexpr Toggle kToggles[] = {{&ViewState::labels, " --labels", " --no-labels"},
+                               {&ViewState::caption, " --caption", " --no-caption"},
                                {&ViewState::legend, " --legend", " --no-legend"},
                                {&ViewState::floor, " --floor", " --no-floor"},
                                {&ViewState::time_axis, " --time-axis", " --no-time-axis"},

@@ -1,0 +1,176 @@
+#include <cli/commands.h>
+#include <cli/exit_status.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <cli/render_outputs.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <render/diff_json.h>
+#include <render/diff_sentence.h>
+#include <render/image_diff.h>
+#include <render/png.h>
+#include <render/strip.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path a, b;
+    std::optional<std::filesystem::path> heat, strip, mask;
+    DiffOptions options;
+    bool json = false;
+};
+
+/// "1.2%" as 1.2; nothing for other texts.
+std::optional<double> percentage(const std::string& text) {
+    if (text.empty() || text.back() != '%') return std::nullopt;
+    return parse_double(std::string_view(text).substr(0, text.size() - 1));
+}
+
+/// Levels of a channel, 0..255.
+double parse_threshold(const std::string& text) {
+    std::optional<double> level;
+    const std::size_t slash = text.find('/');
+    if (slash != std::string::npos) {
+        const auto above = parse_double(std::string_view(text).substr(0, slash));
+        const auto below = parse_double(std::string_view(text).substr(slash + 1));
+        if (above && below && *below > 0) level = *above * 255 / *below;
+    } else if (const auto percent = percentage(text)) {
+        level = *percent * 255 / 100;
+    } else if (const auto number = parse_double(text)) {
+        level = *number > 0 && *number < 1 ? *number * 255 : *number;
+    }
+    if (!level || !(*level >= 0 && *level <= 255)) {
+        throw std::invalid_argument(in_quotes(text) +
+                                    " is no tolerance; give levels from 0 to 255 such as 3, or 3/255, or 1.2%");
+    }
+    return *level;
+}
+
+/// A share of the pixels, 0..1.
+double parse_share(const std::string& text) {
+    const auto percent = percentage(text);
+    const auto share = percent ? *percent / 100 : parse_double(text);
+    // A bare 1 is as likely one pixel or one per cent.
+    if (!share || !(*share >= 0 && *share <= 1) || (!percent && *share == 1)) {
+        throw std::invalid_argument(in_quotes(text) + " is no share of the pixels; give one such as 0.001, or 0.1%");
+    }
+    return *share;
+}
+
+int parse_shift(const std::string& text) {
+    if (text == "0" || text == "1") return text == "1" ? 1 : 0;
+    throw std::invalid_argument(in_quotes(text) + " is neither 0 nor 1: a pixel is the most that may be forgiven");
+}
+
+std::string text_of(PictureSize size) { return std::to_string(size.width) + 'x' + std::to_string(size.height); }
+
+/// The mask's picture; nothing if none is given. Throws InputError if it does not fit the picture.
+std::optional<Image> read_mask(const Arguments& arguments, const Image& picture) {
+    if (!arguments.mask) return std::nullopt;
+    Image mask = read_png(*arguments.mask);
+    if (mask.width != picture.width || mask.height != picture.height) {
+        throw InputError(arguments.mask->string(), "",
+                         "the mask has " + text_of({mask.width, mask.height}) + " pixels and " +
+                             in_quotes(arguments.b.string()) + ' ' + text_of({picture.width, picture.height}) +
+                             "; make them one size");
+    }
+    return mask;
+}
+
+ImageDiff compare(const Arguments& arguments, const Image& a, const Image& b) {
+    const std::optional<Image> mask = read_mask(arguments, b);
+    ImageDiff found = diff(a, b, arguments.options, mask ? &*mask : nullptr);
+    if (found.same_size && found.pixels == 0) {
+        throw InputError(arguments.mask->string(), "",
+                         "the mask leaves nothing to compare; paint white what is to be compared");
+    }
+    return found;
+}
+
+void check_picture_name(const std::optional<std::filesystem::path>& output) {
+    if (!output) return;
+    check_file_name(*output);
+    check_names({*output, {}, {}});
+}
+
+void check_outputs(const Arguments& arguments) {
+    OutputCheck files;
+    files.reads(arguments.a);
+    files.reads(arguments.b);
+    if (arguments.mask) files.reads(*arguments.mask);
+    if (arguments.heat) files.writes({*arguments.heat, {}, {}});
+    if (arguments.strip) files.writes({*arguments.strip, {}, {}});
+}
+
+/// A, B and, where there is one, the heat map. Throws InputError if that is too large.
+Image strip_of(const Arguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
+    std::vector<const Image*> pictures{&a, &b};
+    if (found.same_size) pictures.push_back(&found.heat);
+    try {
+        return make_strip(pictures);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(arguments.strip->string(), "", error.what());
+    }
+}
+
+void write_pictures(const Arguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
+    if (arguments.strip) write_png(*arguments.strip, strip_of(arguments, a, b, found));
+    if (!arguments.heat) return;
+    if (found.same_size) return write_png(*arguments.heat, found.heat);
+    warn(arguments.heat->string() + ": not written, as pictures of two sizes have no heat map");
+}
+
+int run(const Arguments& arguments) {
+    check_picture_name(arguments.heat);
+    check_picture_name(arguments.strip);
+    const Image a = read_png(arguments.a);
+    const Image b = read_png(arguments.b);
+    const ImageDiff found = compare(arguments, a, b);
+    check_outputs(arguments);
+    write_pictures(arguments, a, b, found);
+    if (arguments.json) {
+        JsonWriter out(std::cout);
+        write_diff(out, found);
+    } else {
+        std::cout << diff_sentence(found) << '\n';
+    }
+    flush_results();
+    return found.same ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_diff_command(CLI::App& program, int& status) {
+    CLI::App* command =
+        program.add_subcommand("diff", "Compare two pictures; exit status 0 if they are the same, 1 if they differ");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("A.png", arguments->a, "A picture, such as the one just made")->required()->type_name("");
+    command->add_option("B.png", arguments->b, "The one that it is held against")->required()->type_name("");
+    command->add_option("-o,--output", arguments->heat, "Heat map: B in grey, and what differs glowing")
+        ->type_name("HEAT.png");
+    command->add_option("--strip", arguments->strip, "A, B and the heat map side by side")->type_name("STRIP.png");
+    add_parsed(
+        *command, "--threshold", arguments->options.channel_tolerance, parse_threshold,
+        "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 and 1 (3)", "X");
+    add_parsed(*command, "--allowed", arguments->options.pixel_fraction, parse_share,
+               "The share of the pixels that may be farther off: 0.001 or 0.1% (0.1%)", "P");
+    add_parsed(*command, "--shift", arguments->options.shift, parse_shift, "1: something may lie a pixel aside (0)",
+               "0|1");
+    command->add_option("--mask", arguments->mask, "Compares only where this picture is neither black nor transparent")
+        ->type_name("MASK.png");
+    command->add_flag("--json", arguments->json, "The verdict with all figures as JSON");
+    command->callback([arguments, &status] { status = run(*arguments); });
+}
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,39 @@
+#include <cli/render_case.h>
+#include <guard/case_file.h>
+#include <guard/picture_maker.h>
+#include <import/error.h>
+#include <render/png.h>
+
+#include <string>
+
+namespace mobbscope::cli {
+
+namespace {
+
+void refuse_other_options(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || name == "FILE" || name == "--output" || name == "--backend") continue;
+        throw InputError(name + ": a case says by itself how it is drawn; leave it out");
+    }
+}
+
+}  // namespace
+
+bool is_case(const std::filesystem::path& file) { return file.filename().string().ends_with(".case.json"); }
+
+void render_case(const CLI::App& command, const RenderArguments& arguments) {
+    check_names(arguments.outputs);
+    refuse_other_options(command);
+    if (arguments.outputs.image.empty()) throw CLI::RequiredError("--output");
+    const guard::Case drawn = guard::read_case(arguments.file);
+    if (drawn.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.skip);
+    OutputCheck outputs;
+    outputs.reads(arguments.file);
+    outputs.reads(drawn.shot.panels.front().fitted->scene());
+    outputs.writes(arguments.outputs);
+    guard::PictureMaker maker(arguments.backend.value_or(Backend::automatic));
+    write_png(arguments.outputs.image, maker.make(drawn.shot));
+}
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,76 @@
+// What a comparison found, as JSON and in words.
+#include <render/diff_json.h>
+#include <render/diff_sentence.h>
+
+#include "support/json_keys.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace mobbscope {
+namespace {
+
+/// Grey pictures of 640x360 of which some pixels of the first row differ.
+ImageDiff difference(int pixels, int by, const DiffOptions& options = {}) {
+    const Image reference(640, 360);
+    Image actual = reference;
+    for (int x = 0; x < pixels; ++x) actual.at(12 + x % 600, 3 + x / 600)[3] = static_cast<std::uint8_t>(by);
+    return diff(actual, reference, options);
+}
+
+TEST(DiffJson, HasAllFigures) {
+    std::ostringstream text;
+    JsonWriter out(text);
+    write_diff(out, difference(231, 87, {3, 0.001, 1}));
+    const auto json = nlohmann::json::parse(text.str());
+    EXPECT_EQ(testing::keys(json),
+              (std::set<std::string>{"same", "same_size", "size_a", "size_b", "pixels", "failing", "fraction",
+                                     "maximum", "mean", "bounds", "histogram", "threshold", "allowed", "shift"}));
+    EXPECT_EQ(json["same"], false);
+    EXPECT_EQ(json["same_size"], true);
+    EXPECT_EQ(json["size_b"], nlohmann::json({640, 360}));
+    EXPECT_EQ(json["pixels"], 230400);
+    EXPECT_EQ(json["failing"], 231);
+    EXPECT_DOUBLE_EQ(json["fraction"], 231 / 230400.0);
+    EXPECT_EQ(json["maximum"], 87);
+    EXPECT_DOUBLE_EQ(json["mean"], 231 * 87 / 230400.0);
+    EXPECT_EQ(json["bounds"], nlohmann::json({{"x", 12}, {"y", 3}, {"width", 231}, {"height", 1}}));
+    EXPECT_EQ(json["histogram"].size(), 256u);
+    EXPECT_EQ(json["histogram"][87], 231);
+    EXPECT_EQ(json["threshold"], 3);
+    EXPECT_EQ(json["allowed"], 0.001);
+    EXPECT_EQ(json["shift"], 1);
+}
+
+TEST(DiffJson, WithoutDifferencesThereAreNoBounds) {
+    std::ostringstream text;
+    JsonWriter out(text);
+    write_diff(out, diff(Image(2, 3), Image(4, 5)));
+    const auto json = nlohmann::json::parse(text.str());
+    EXPECT_EQ(json["same_size"], false);
+    EXPECT_EQ(json["size_a"], nlohmann::json({2, 3}));
+    EXPECT_EQ(json["size_b"], nlohmann::json({4, 5}));
+    EXPECT_TRUE(json["bounds"].is_null());
+    EXPECT_EQ(json["pixels"], 0);
+}
+
+TEST(DiffSentence, SaysWhatWasFound) {
+    EXPECT_EQ(diff_sentence(difference(412, 87)),
+              "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 412x1 at (12, "
+              "3); 230 may");
+    EXPECT_EQ(diff_sentence(difference(1, 87)),
+              "same: 1 of 230400 pixels (0.00043 %) differs by more than 3/255, up to 87/255, within 1x1 at (12, 3); "
+              "230 may");
+    EXPECT_EQ(diff_sentence(difference(60000, 87, {2.5, 0})),
+              "different: 60000 of 230400 pixels (26 %) differ by more than 2.5/255, up to 87/255, within 600x100 at "
+              "(12, 3); none may");
+    EXPECT_EQ(diff_sentence(difference(5, 2)),
+              "same: none of 230400 pixels differs by more than 3/255, the most by 2/255");
+    EXPECT_EQ(diff_sentence(difference(0, 0)), "same: none of 230400 pixels differs");
+    EXPECT_EQ(diff_sentence(diff(Image(2, 3), Image(4, 5))), "different: the sizes are 2x3 and 4x5");
+}
+
+}  // namespace
+}  // namespace mobbscope

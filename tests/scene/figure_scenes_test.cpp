@@ -1,0 +1,94 @@
+// The scenes of the paper's figures tell what the figures tell.
+#include <scene/fitted_scene.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace mobbscope {
+namespace {
+
+const std::filesystem::path kFigures = MOBBSCOPE_SOURCE_DIR "/assets/figures";
+
+/// A scene with its query recorded.
+struct Figure {
+    explicit Figure(const std::string& name)
+        : fitted(load(name)), recorded(record(fitted, fitted.queries()[0])), trace(recorded.trace) {}
+
+    static FittedScene load(const std::string& name) {
+        Scene scene = load_scene(kFigures / name);
+        const mobb::FitOptions fit = scene.fit;
+        return {std::move(scene), fit};
+    }
+    const mobb::Node& a(int step) const { return fitted.placed(fitted.queries()[0].a).node(trace[step].a); }
+    const mobb::Node& b(int step) const { return fitted.placed(fitted.queries()[0].b).node(trace[step].b); }
+
+    FittedScene fitted;
+    RecordedQuery recorded;
+    const mobb::Trace& trace;
+};
+
+using mobb::Outcome;
+using mobb::TestKind;
+
+TEST(FigureScenes, OfFourPairsOfChildrenTwoAreSeparatedOneIsApartInTimeAndOneGoesOn) {
+    const Figure figure("inner_nodes.json");
+    const mobb::Trace& trace = figure.trace;
+    EXPECT_EQ(trace[1].outcome, Outcome::overlap);
+    ASSERT_EQ(trace[1].test, TestKind::obb2d);
+    ASSERT_FALSE(figure.a(1).is_leaf() || figure.b(1).is_leaf());
+    const struct {
+        int step;
+        int a, b;  // which child
+        TestKind test;
+        Outcome outcome;
+    } steps[] = {{3, 0, 0, TestKind::obb2d, Outcome::separated},
+                 {4, 0, 1, TestKind::time, Outcome::disjoint_in_time},
+                 {6, 1, 0, TestKind::obb2d, Outcome::separated},
+                 {8, 1, 1, TestKind::obb2d, Outcome::overlap}};
+    for (const auto& step : steps) {
+        EXPECT_EQ(trace[step.step].parent, 1);
+        EXPECT_EQ(trace[step.step].a, figure.a(1).children[step.a]);
+        EXPECT_EQ(trace[step.step].b, figure.b(1).children[step.b]);
+        EXPECT_EQ(trace[step.step].test, step.test);
+        EXPECT_EQ(trace[step.step].outcome, step.outcome);
+    }
+    EXPECT_GT(trace[3].gap, 0.5) << "a gap to be seen";
+    EXPECT_GT(trace[6].gap, 0.5);
+    EXPECT_EQ(trace[9].parent, 8) << "the overlap leads on";
+}
+
+TEST(FigureScenes, OfAnInnerNodesChildrenOneIsOverWhenTheLeafBegins) {
+    const Figure figure("leaf.json");
+    const mobb::Trace& trace = figure.trace;
+    ASSERT_EQ(trace[15].outcome, Outcome::overlap);
+    EXPECT_FALSE(figure.a(15).is_leaf());
+    EXPECT_GE(figure.a(15).parent, 0) << "not the root";
+    EXPECT_TRUE(figure.b(15).is_leaf());
+    const Outcome outcomes[] = {Outcome::disjoint_in_time, Outcome::overlap};
+    for (int child = 0; child < 2; ++child) {
+        EXPECT_EQ(trace[16 + child].parent, 15);
+        EXPECT_EQ(trace[16 + child].a, figure.a(15).children[child]);
+        EXPECT_EQ(trace[16 + child].b, trace[15].b);
+        EXPECT_EQ(trace[16 + child].test, TestKind::time) << "no boxes are tested here";
+        EXPECT_EQ(trace[16 + child].outcome, outcomes[child]);
+    }
+    EXPECT_EQ(trace[18].parent, 17);
+}
+
+TEST(FigureScenes, TheGeneratorMakesTheFilesThatAreThere) {
+    if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3";
+    const testing::TempFolder folder;
+    const std::string command =
+        "python3 -B '" MOBBSCOPE_SOURCE_DIR "/scripts/make_figures.py' '" + folder.path().string() + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    for (const char* file : {"person.json", "levels.json", "inner_nodes.json", "leaf.json", "disk.json"}) {
+        EXPECT_EQ(testing::slurp(folder.path() / file), testing::slurp(kFigures / file)) << file;
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope
