@@ -104,8 +104,7 @@ Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& p
             const PictureSize room{largest.width, spacing.title};
             paste(title_picture(cells[i].title, room, spacing.text, palette, renderer), sheet, x, y);
         }
-        paste(image, sheet, x + (largest.width - image.width) / 2,
-              y + spacing.title + (largest.height - image.height) / 2);
+        paste(image, sheet, x + (largest.width - image.width) / 2, y + spacing.title);
     }
     return sheet;
 }

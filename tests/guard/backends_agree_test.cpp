@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -40,8 +41,14 @@ TEST_P(BackendsAgreeTest, OnEveryCase) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Folders, BackendsAgreeTest, ::testing::Values("tests/goldens"),
-                         [](const auto& folder) { return std::filesystem::path(folder.param).filename().string(); });
+std::string name_of(const ::testing::TestParamInfo<const char*>& folder) {
+    std::string name = folder.param;
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, BackendsAgreeTest,
+                         ::testing::Values("tests/goldens", "assets/figures", "tests/app/goldens"), name_of);
 
 }  // namespace
 }  // namespace mobbscope::guard
