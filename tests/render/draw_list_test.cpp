@@ -222,7 +222,8 @@ TEST(DrawList, ManyAgentsStandUnnamed) {
         for (int i = 0; i < agents; ++i) placements.push_back({{2.0 * i, 0}, 90, 0});
         ViewState view;
         view.legend = view.boxes = false;
-        const DrawList list = build_draw_list(FittedScene(testing::scene_of(placements), {}), view, {1280, 720});
+        const DrawList list =
+            build_draw_list(FittedScene(testing::scene_of(placements), {}), view, PictureSize{1280, 720});
         const auto says = [&](const std::string& text) {
             return std::any_of(list.texts.begin(), list.texts.end(), [&](const TextRun& r) { return r.text == text; });
         };
@@ -243,7 +244,7 @@ TEST(DrawList, LabelsBehindTheEyeAreLeftOut) {
 TEST(DrawList, TheMapsDisksLieOverItsGrid) {
     ViewState view;
     view.time = 1.0;
-    const DrawList list = build_draw_list(testing::hit_scene(), view, {1280, 720});
+    const DrawList list = build_draw_list(testing::hit_scene(), view, PictureSize{1280, 720});
     EXPECT_EQ(list.marks.size(), 2u);
 }
 
@@ -276,9 +277,9 @@ TEST(DrawList, ColoursByLevelAreThoseOfTheLegend) {
         ViewState view;
         view.theme = theme;
         view.levels = {0, 3, false};
-        const DrawList by_agent = build_draw_list(fitted, view, {1280, 720});
+        const DrawList by_agent = build_draw_list(fitted, view, PictureSize{1280, 720});
         view.color_by = ColorBy::level;
-        const DrawList list = build_draw_list(fitted, view, {1280, 720});
+        const DrawList list = build_draw_list(fitted, view, PictureSize{1280, 720});
         std::map<int, Rgba> colors;
         for (const BoxInstance& box : list.boxes) {
             // Whoever it belongs to, and however faint it is where boxes crowd.
