@@ -19,7 +19,7 @@ struct Picture {
         ViewState view = fitted.scene().view;
         view.camera = {};
         view.camera.preset = preset;
-        list = build_draw_list(fitted, view, {900, 600});
+        list = build_draw_list(fitted, view, PictureSize{900, 600});
     }
     HandleDrag hold(Handle handle, glm::vec2 pixel) const {
         const Participant& who = fitted.participants()[1];

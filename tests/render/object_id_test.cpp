@@ -24,7 +24,7 @@ TEST_P(ObjectIdTest, TheUppermostDiskIsFoundFromAbove) {
     ViewState view;
     view.camera.preset = CameraPreset::top;
     view.boxes = false;
-    const DrawList list = build_draw_list(fitted, view, {320, 240});
+    const DrawList list = build_draw_list(fitted, view, PictureSize{320, 240});
     const IdImage ids = renderer().draw_ids(list);
     const int last = fitted.tree(0).clip().count() - 1;
     for (const DiskInstance& disk : list.disks) {
@@ -40,7 +40,7 @@ TEST_P(ObjectIdTest, TheNearestBoxHidesTheDisksInIt) {
     ViewState view;
     view.camera.preset = CameraPreset::top;
     view.levels = {1, 1, false};
-    const DrawList list = build_draw_list(fitted, view, {320, 240});
+    const DrawList list = build_draw_list(fitted, view, PictureSize{320, 240});
     const IdImage ids = renderer().draw_ids(list);
     // The later box of each path is the upper one.
     for (int participant = 0; participant < 2; ++participant) {
