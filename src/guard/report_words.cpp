@@ -1,7 +1,6 @@
 #include <guard/report_words.h>
 
 #include <import/shell_word.h>
-#include <import/text.h>
 
 namespace mobbscope::guard {
 
@@ -21,15 +20,6 @@ std::string sum_of(const Summary& summary) {
     add(summary.failed, "failed");
     add(summary.skipped, "skipped");
     return out.empty() ? "no cases" : out;
-}
-
-std::string extent_of(const CaseResult& result) {
-    if (!result.image || !result.image->same_size) return "";
-    const ImageDiff& diff = *result.image;
-    const DiffOptions allowed = diff_options(result.tolerance);
-    return std::to_string(diff.differing) + " of " + counted(diff.pixels, "pixel", "pixels") + " (" +
-           brief(100 * diff.fraction()) + " %) differ by more than " + brief(allowed.channel_tolerance) +
-           " of 255; allowed are " + brief(100 * allowed.pixel_fraction) + " %";
 }
 
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names) {

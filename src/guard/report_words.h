@@ -3,11 +3,9 @@
 
 #include <guard/reports.h>
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace mobbscope::guard {
 
@@ -16,9 +14,6 @@ std::string drawn_by(const RunFacts& facts);
 
 /// "1 passed, 2 different, 3 without a golden, 4 failed, 5 skipped"; what there is none of is left out.
 std::string sum_of(const Summary& summary);
-
-/// "512 of 230400 pixels (0.222 %) differ by more than 3 of 255, 230 may": how far a picture is from its golden.
-std::string extent_of(const CaseResult& result);
 
 /// The command line that takes the pictures of these cases as their goldens, ready for a shell.
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names);

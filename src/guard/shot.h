@@ -8,6 +8,8 @@
 ///      "size": "640x360", "scale": 1, "samples": 4, "background": "transparent",   as the options of `render`
 ///      "window": {"script": "why.script", "scale": 1}}      the whole window after a script; no panels then
 ///
+/// File names in the script are relative to the folder of the scene.
+///
 /// Only `scene` is required.
 #pragma once
 
