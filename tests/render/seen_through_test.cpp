@@ -56,7 +56,7 @@ TEST_P(BackgroundTest, SeenThroughPicturesAreTheOpaqueOnesOverTheThemesGround) {
         EXPECT_EQ(clear.at(1, 238)[3], 0) << "nothing is drawn in the corner";
         const auto solid = [&](std::size_t i) { return clear.rgba[4 * i + 3] == 255; };
         std::size_t count = 0;
-        for (std::size_t i = 0; i < clear.rgba.size() / 4; ++i) count += solid(i) ? 1 : 0;
+        for (std::size_t i = 0; i < clear.rgba.size() / 4; ++i) count += solid(i) ? 1u : 0u;
         EXPECT_GT(count, 2000u) << "disks hide what is behind them";
     }
 }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -45,7 +47,7 @@ TEST_P(SheetTest, FillsWhatItIsGivenWithEvenGaps) {
     const PictureSize size{700, 300};
     const PictureSize cell = cell_size(size, 3, 3, true, kMetrics);
     std::vector<SheetCell> cells;
-    for (const std::uint8_t value : {11, 22, 33}) {
+    for (const auto value : std::to_array<std::uint8_t>({11, 22, 33})) {
         cells.push_back({"(a) title", filled(cell.width, cell.height, value)});
     }
     const Image sheet = make_sheet(cells, 3, kPalette, kMetrics, renderer(), size);
