@@ -72,8 +72,8 @@ struct ViewState {
     LevelRange levels;
     std::optional<int> query;  ///< index into the effective queries: its state at `step` is drawn instead of the levels
     Step step;
-    /// With a query: boxes of the pairs that were tested before the step's too. Without them the pair's own say by colour
-    /// and line how its test ended, and the time axis when its nodes take place.
+    /// With a query: boxes of the pairs that were tested before the step's too. Without them the pair's own say by
+    /// colour and line how its test ended, and the time axis when its nodes take place.
     bool tested_before = true;
     std::optional<DiskProjection> projection;  ///< drawn instead of all else
     std::optional<double> time;  ///< global seconds: the time cursor, drawn as a plane with the disks that hold then

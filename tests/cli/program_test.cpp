@@ -111,8 +111,8 @@ TEST(Program, FilesBeforeACommandAreNotDropped) {
 }
 
 TEST(Program, CommandsToComeAreNotTakenForFiles) {
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bench"},
-                                                      {"bench", "walk", "--json", "--help"}}) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"bench"}, {"bench", "walk", "--json", "--help"}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 2);
         EXPECT_EQ(run.out, "");

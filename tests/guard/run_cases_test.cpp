@@ -170,7 +170,8 @@ TEST(RunCase, IsSkippedWithoutOpenGL) {
 }
 
 TEST_F(RunCaseTest, PanelsFillTheirPicture) {
-    const CaseResult result = run(cases.write("a", R"json({"mobbscope_case": 1, "scene": "scene.json", "size": "401x203",
+    const CaseResult result =
+        run(cases.write("a", R"json({"mobbscope_case": 1, "scene": "scene.json", "size": "401x203",
         "panels": [{"title": "(a)", "view": {"levels": 0}}, {"title": "(b)"}, {"title": "(c)"}]})json"));
     EXPECT_EQ(result.outcome, Outcome::missing_golden) << result.message;
     EXPECT_EQ(result.actual.width, 401);

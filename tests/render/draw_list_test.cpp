@@ -222,7 +222,8 @@ TEST(DrawList, ManyAgentsStandUnnamed) {
         for (int i = 0; i < agents; ++i) placements.push_back({{2.0 * i, 0}, 90, 0});
         ViewState view;
         view.legend = view.boxes = false;
-        const DrawList list = build_draw_list(FittedScene(testing::scene_of(placements), {}), view, PictureSize{1280, 720});
+        const DrawList list =
+            build_draw_list(FittedScene(testing::scene_of(placements), {}), view, PictureSize{1280, 720});
         const auto says = [&](const std::string& text) {
             return std::any_of(list.texts.begin(), list.texts.end(), [&](const TextRun& r) { return r.text == text; });
         };
