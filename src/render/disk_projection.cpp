@@ -87,6 +87,14 @@ class Diagram {
         };
         for (int i = 0; i < kCirclePieces; ++i) line(rim(i), rim(i + 1), color, width);
     }
+    /// The way in the picture from a place outwards, unit; upwards where none is seen.
+    glm::vec2 seen_way(glm::dvec3 place, glm::dvec3 outward) const {
+        // A short step, as what is far outside may lie behind the eye.
+        const auto from = list_.lens.project(at(place));
+        const auto to = list_.lens.project(at(place + 0.1 * extents_.radius * outward));
+        const glm::vec2 way = from && to ? *to - *from : glm::vec2(0);
+        return glm::length(way) > 1e-3f ? glm::normalize(way) : glm::vec2(0, -1);
+    }
     void dot(glm::dvec3 place, Rgba color, float radius) {
         const auto middle = list_.lens.project(at(place));
         if (!middle) return;
@@ -143,9 +151,14 @@ std::vector<glm::vec3> points_to_show(const Diagram& diagram, const DiskExtents&
         out.push_back(diagram.at(rim));
         out.push_back(diagram.at(rim + glm::dvec3(0, 0, extents.height)));
     }
-    for (const AxisExtent& axis : extents.along) {
+    for (std::size_t i = 0; i < 2; ++i) {
+        const AxisExtent& axis = extents.along[i];
         out.push_back(diagram.at(axis_begin(axis, extents.radius)));
         out.push_back(diagram.at(axis_end(axis, extents.radius)));
+        const glm::dvec3 other = extents.along[1 - i].direction;
+        for (const auto& [value, corner] : {std::pair(axis.min, axis.min_corner), {axis.max, axis.max_corner}}) {
+            out.push_back(diagram.at(perpendicular(axis, value, corner, other, extents.radius).from));
+        }
     }
     out.push_back(diagram.at(beside_disk(extents)));
     return out;
@@ -174,11 +187,13 @@ void draw(Diagram& diagram, const DiskExtents& extents, const Lens& lens, const 
         }
     }
     diagram.arrow(glm::dvec3(0), r, palette.text, 2.2f);
-    const glm::dvec3 beside = beside_disk(extents);
-    const glm::dvec3 serif = 0.5 * kAside * extents.radius * extents.heading;
-    diagram.line(beside - 0.5 * height, beside + 0.5 * height, palette.text, 1.2f);
-    for (const double end : {-0.5, 0.5}) {
-        diagram.line(beside + end * height - serif, beside + end * height + serif, palette.text, 1.2f);
+    if (!time_on_end(lens)) {
+        const glm::dvec3 beside = beside_disk(extents);
+        const glm::dvec3 serif = 0.5 * kAside * extents.radius * extents.heading;
+        diagram.line(beside - 0.5 * height, beside + 0.5 * height, palette.text, 1.2f);
+        for (const double end : {-0.5, 0.5}) {
+            diagram.line(beside + end * height - serif, beside + end * height + serif, palette.text, 1.2f);
+        }
     }
     diagram.dot(glm::dvec3(0), palette.text, 3.6f);
 }
@@ -216,45 +231,48 @@ std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palet
     return out;
 }
 
+/// Beside a place, on the side that `outward` leads to (unit).
 void add_label(DrawList& list, LabelLayout& layout, const Diagram& diagram, glm::dvec3 place, glm::dvec3 outward,
-               const std::string& text, Rgba color, float text_size) {
+               const std::string& text, Rgba color, float size) {
     const auto anchor = list.lens.project(diagram.at(place));
-    const auto beyond = list.lens.project(diagram.at(place + outward));
-    if (!anchor || !beyond) return;
+    if (!anchor) return;
     LabelRequest label;
     label.text = text;
-    label.size = text_size;
+    label.size = size;
     label.color = color;
     label.anchor = *anchor;
-    const glm::vec2 way = *beyond - *anchor;
-    const glm::vec2 away = glm::length(way) > 1e-3f ? glm::normalize(way) : glm::vec2(0, -1);
+    const glm::vec2 away = diagram.seen_way(place, outward);
     const glm::vec2 aside(-away.y, away.x);
     label.directions = {away, away + aside, away - aside, aside, -aside, -away};
-    label.distance = 0.35f * text_size;
+    label.distance = 0.3f * size;
     layout.place(label, list);
 }
 
 void add_labels(DrawList& list, LabelLayout& layout, const Diagram& diagram, const DiskExtents& extents,
                 float text_size) {
-    const Palette& palette = list.palette;
-    const glm::dvec3 r = extents.radius * extents.heading;
-    for (const AxisExtent& axis : extents.along) {
-        const glm::dvec3 end = axis_end(axis, extents.radius);
-        add_label(list, layout, diagram, end, axis.direction, axis_name("a", axis.axis), palette.text,
-                  1.15f * text_size);
-        const glm::dvec3 other = extents.along[axis.axis == extents.along[0].axis ? 1 : 0].direction;
+    const float size = 1.15f * text_size;
+    const Rgba plain = list.palette.text;
+    const Rgba marked = readable(list.palette.accent, list.palette);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const AxisExtent& axis = extents.along[i];
+        const glm::dvec3 other = extents.along[1 - i].direction;
+        add_label(list, layout, diagram, axis_end(axis, extents.radius), axis.direction, axis_name("a", axis.axis),
+                  plain, size);
         const auto mark = [&](const char* word, double value, glm::dvec3 corner) {
             // Beyond the end of the perpendicular, clear of the disk.
             const Perpendicular line = perpendicular(axis, value, corner, other, extents.radius);
             add_label(list, layout, diagram, line.from, glm::normalize(line.from - line.to), axis_name(word, axis.axis),
-                      readable(palette.accent, palette), 1.15f * text_size);
+                      marked, size);
         };
         mark("min", axis.min, axis.min_corner);
         mark("max", axis.max, axis.max_corner);
     }
-    add_label(list, layout, diagram, glm::dvec3(0), glm::dvec3(0, 0, -1), "p", palette.text, 1.15f * text_size);
-    add_label(list, layout, diagram, 0.6 * r, glm::dvec3(0, 0, -1), "r", palette.text, 1.15f * text_size);
-    add_label(list, layout, diagram, beside_disk(extents), -extents.heading, "dt", palette.text, 1.15f * text_size);
+    const glm::dvec3 down(0, 0, -1);
+    add_label(list, layout, diagram, glm::dvec3(0), down, "p", plain, size);
+    add_label(list, layout, diagram, 0.6 * extents.radius * extents.heading, down, "r", plain, size);
+    if (!time_on_end(list.lens)) {
+        add_label(list, layout, diagram, beside_disk(extents), -extents.heading, "dt", plain, size);
+    }
 }
 
 }  // namespace
@@ -325,9 +343,9 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
 
     Frame frame{glm::vec2(metrics.pad, top), glm::vec2(list.size.width, list.size.height) - metrics.pad};
     if (view.labels) {
-        // Names stand beyond the ends of the axes.
-        frame.min += glm::vec2(2, 1.4f) * metrics.text;
-        frame.max -= glm::vec2(2, 1.4f) * metrics.text;
+        // Names stand beyond the ends of the axes and of the perpendiculars.
+        frame.min += glm::vec2(3, 1.7f) * metrics.text;
+        frame.max -= glm::vec2(3, 1.7f) * metrics.text;
     }
     Diagram diagram(list, extents, w, metrics.scale);
     const auto draw_within = [&](const Frame& within) {

@@ -146,8 +146,8 @@ TEST(DiskProjection, SaysWhatThereIsInsteadOfWhatIsAskedFor) {
         return std::string();
     };
     EXPECT_EQ(message({1, 0, 0}), "there is no participant 1: 1 is drawn, counted from 0");
-    EXPECT_EQ(message({0, 9999, 0}), "there is no node 9999 in the tree of \"A\": it has 31, counted from 0");
-    EXPECT_EQ(message({0, 1, 40}), "there is no sample 40 in node 1 of \"A\": it has those from 0 to 29");
+    EXPECT_EQ(message({0, 9999, 0}), "there is no node 9999 in the tree of 'A': it has 31, counted from 0");
+    EXPECT_EQ(message({0, 1, 40}), "there is no sample 40 in node 1 of 'A': it has those from 0 to 29");
     EXPECT_EQ(message({0, 1, 29}), "");
 }
 
