@@ -64,6 +64,18 @@ TEST(Take, MakesThePictureTheGolden) {
     EXPECT_EQ(result.message, "");
 }
 
+TEST(Take, TheDrawListAloneWhereThePictureIsTheGoldens) {
+    const CaseFolder cases;
+    const CaseFile file = cases.add("a");
+    CaseResult result = result_of(file, Outcome::different, filled(201), filled(200));
+    result.draw_lists = "{}";
+    result.draws_the_same = false;
+    EXPECT_EQ(take(result), std::vector<std::filesystem::path>{file.draw()});
+    EXPECT_EQ(slurp(file.draw()), "{}");
+    EXPECT_FALSE(std::filesystem::exists(file.golden()));
+    EXPECT_TRUE(result.draws_the_same);
+}
+
 TEST(Take, OnlyWhatIsThereAndDiffers) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");

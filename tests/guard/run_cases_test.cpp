@@ -149,6 +149,7 @@ TEST_F(RunCaseTest, AWindowHasNoDrawList) {
         run(cases.write("w", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x400", "window": {}})"));
     EXPECT_EQ(result.outcome, Outcome::failed);
     EXPECT_NE(result.message.find("draw list"), std::string::npos) << result.message;
+    EXPECT_TRUE(result.actual.rgba.empty()) << "what failed has no picture to be taken";
 }
 
 TEST_F(RunCaseTest, PanelsAreSeenThroughWhereTheirBackgroundIs) {
