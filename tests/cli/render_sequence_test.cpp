@@ -64,7 +64,7 @@ TEST_F(RenderSequenceTest, TheCameraStays) {
     const Image last = read("walk_0005.png");
     // Nothing but the time cursor differs: most pixels are equal, which a camera that moves would not leave.
     std::size_t equal = 0;
-    for (std::size_t i = 0; i < first.rgba.size(); ++i) equal += first.rgba[i] == last.rgba[i] ? 1 : 0;
+    for (std::size_t i = 0; i < first.rgba.size(); ++i) equal += first.rgba[i] == last.rgba[i] ? 1u : 0u;
     EXPECT_GT(equal, first.rgba.size() / 2);
 }
 
