@@ -30,6 +30,9 @@ bool agree(const JsonValue& a, const JsonValue& b, bool pixels) {
     return true;
 }
 
+/// A place for a message.
+std::string named(const std::string& place) { return place.empty() ? "the whole" : place; }
+
 /// A value for a message.
 std::string shown(const JsonValue& value) {
     struct Show {
@@ -54,7 +57,7 @@ Difference length_difference(const std::string& place, const JsonValue& actual, 
     const auto* here = std::get_if<JsonValue::Array>(&actual.data);
     const auto* there = std::get_if<JsonValue::Array>(&golden.data);
     if (!here || !there || here->size() == there->size()) return std::nullopt;
-    return place + ": " + counted(static_cast<long long>(here->size()), "element", "elements") + " instead of " +
+    return named(place) + ": " + counted(static_cast<long long>(here->size()), "element", "elements") + " instead of " +
            std::to_string(there->size());
 }
 
@@ -95,7 +98,7 @@ Difference difference(const std::string& place, const JsonValue& actual, const J
         }
         if (agree(actual, golden, pixels)) return std::nullopt;
     }
-    return (place.empty() ? "the whole" : place) + ": " + shown(actual) + " instead of " + shown(golden);
+    return named(place) + ": " + shown(actual) + " instead of " + shown(golden);
 }
 
 }  // namespace

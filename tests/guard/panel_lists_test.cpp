@@ -20,9 +20,10 @@ std::vector<DrawList> lists_of(const std::string& more) {
     return panel_lists(read_case(cases.write("a", keys + more + "}").file).shot);
 }
 
+/// But for the depth, which fits what is drawn.
 void expect_same_lens(const DrawList& a, const DrawList& b) {
     for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
+        for (const int row : {0, 1, 3}) {
             EXPECT_NEAR(a.lens.clip_from_world[column][row], b.lens.clip_from_world[column][row], 1e-4)
                 << column << " " << row;
         }
