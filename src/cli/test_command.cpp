@@ -116,6 +116,12 @@ void write_report(const std::filesystem::path& file, WriteReport write, const gu
     write_file(file, text.str());
 }
 
+/// The theme of a sheet that suits a picture: by its corner, where seldom anything is drawn.
+Theme theme_around(const Image& picture) {
+    const std::uint8_t* corner = picture.at(0, 0);
+    return corner[0] + corner[1] + corner[2] > 3 * 127 ? Theme::light : Theme::dark;
+}
+
 /// All pictures of the run with their names.
 void write_contact_sheet(const Arguments& arguments, std::span<const guard::CaseResult> results, Renderer& renderer) {
     std::vector<SheetCell> cells;
@@ -136,7 +142,8 @@ void write_contact_sheet(const Arguments& arguments, std::span<const guard::Case
     // Letters grow with the whole, which is looked at smaller than its pictures are.
     all = {all.width * columns, all.height * ((count + columns - 1) / columns)};
     guard::make_folder_of(arguments.contact_sheet);
-    write_png(arguments.contact_sheet, make_sheet(cells, columns, palette(Theme::dark), metrics_of(all), renderer));
+    write_png(arguments.contact_sheet,
+              make_sheet(cells, columns, palette(theme_around(cells.front().image)), metrics_of(all), renderer));
 }
 
 // --- the run

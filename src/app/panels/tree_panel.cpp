@@ -85,7 +85,8 @@ void shown_levels(Ui& ui, int depth) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
     const float leaves = ImGui::CalcTextSize("leaves").x + 2 * padding.x;
-    const float room = ImGui::GetContentRegionAvail().x;
+    // A tiny window may leave none; ImGui takes no button of no width.
+    const float room = std::max(1.0f, ImGui::GetContentRegionAvail().x);
     const bool beside = (room - leaves - ui.px(6)) / static_cast<float>(depth) >= ui.px(kLeastCell);
     const ImVec2 size{beside ? room - leaves - ui.px(6) : room, ImGui::GetFrameHeight()};
     ImGui::InvisibleButton("##levels", size);
@@ -153,7 +154,7 @@ void level_bars(Ui& ui, int clip) {
     const auto draw_row = [&](int i) {
         const mobb::LevelFigures& level = figures[static_cast<std::size_t>(i)];
         const ImVec2 corner = ImGui::GetCursorScreenPos();
-        const float width = ImGui::GetContentRegionAvail().x;
+        const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
         const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
         ui.mark("level." + std::to_string(i));
         const bool over = ImGui::IsItemHovered();
