@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -84,27 +85,33 @@ Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& p
                  Renderer& renderer, PictureSize size) {
     const auto has_title = [](const SheetCell& cell) { return !cell.title.empty(); };
     const Spacing spacing = spacing_of(metrics, std::any_of(cells.begin(), cells.end(), has_title));
-    const int rows = rows_of(static_cast<int>(cells.size()), columns);
-    PictureSize largest;
-    for (const SheetCell& cell : cells) {
-        largest.width = std::max(largest.width, cell.image.width);
-        largest.height = std::max(largest.height, cell.image.height);
+    int width = 0;
+    std::vector<int> heights(static_cast<std::size_t>(rows_of(static_cast<int>(cells.size()), columns)));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        int& height = heights[i / static_cast<std::size_t>(columns)];
+        width = std::max(width, cells[i].image.width);
+        height = std::max(height, cells[i].image.height);
     }
-    size.width = std::max(size.width, columns * (largest.width + spacing.gap) + spacing.gap);
-    size.height = std::max(size.height, rows * (largest.height + spacing.title + spacing.gap) + spacing.gap);
+    const int rows = static_cast<int>(heights.size());
+    const int needed =
+        std::accumulate(heights.begin(), heights.end(), spacing.gap) + rows * (spacing.title + spacing.gap);
+    size.width = std::max(size.width, columns * (width + spacing.gap) + spacing.gap);
+    size.height = std::max(size.height, needed);
 
     Image sheet = ground(size, palette.background);
+    int above = spacing.gap;  // of the row
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Image& image = cells[i].image;
         const int column = static_cast<int>(i) % columns;
         const int row = static_cast<int>(i) / columns;
+        if (column == 0 && row > 0) above += heights[static_cast<std::size_t>(row) - 1] + spacing.title + spacing.gap;
         const int x = spacing.gap + column * (size.width - spacing.gap) / columns;
-        const int y = spacing.gap + row * (size.height - spacing.gap) / rows;
+        const int y = above + row * (size.height - needed) / rows;
         if (has_title(cells[i])) {
-            const PictureSize room{largest.width, spacing.title};
+            const PictureSize room{width, spacing.title};
             paste(title_picture(cells[i].title, room, spacing.text, palette, renderer), sheet, x, y);
         }
-        paste(image, sheet, x + (largest.width - image.width) / 2, y + spacing.title);
+        paste(image, sheet, x + (width - image.width) / 2, y + spacing.title);
     }
     return sheet;
 }

@@ -21,7 +21,7 @@ struct SheetCell {
 /// Throws std::invalid_argument if a cell would be smaller than a picture may be.
 PictureSize cell_size(PictureSize sheet, int cells, int columns, bool titles, const Metrics& metrics);
 
-/// Row by row; pictures keep their pixels and stand under their titles, in cells that are as large as the largest.
+/// Row by row; pictures keep their pixels and stand under their titles, in rows as high as their highest picture.
 /// The palette's background may be seen through. `size`: of the sheet; where it is less than the cells need, as large
 /// as they need. Throws MachineError if OpenGL reports an error.
 Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& palette, const Metrics& metrics,

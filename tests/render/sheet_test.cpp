@@ -63,11 +63,11 @@ TEST_P(SheetTest, FillsWhatItIsGivenWithEvenGaps) {
 }
 
 TEST_P(SheetTest, WithoutASizeItIsAsLargeAsItNeedsToBe) {
-    const std::vector<SheetCell> cells{{"", filled(100, 80, 11)}, {"", filled(90, 70, 22)}, {"", filled(80, 80, 33)}};
+    const std::vector<SheetCell> cells{{"", filled(100, 80, 11)}, {"", filled(90, 70, 22)}, {"", filled(80, 60, 33)}};
     const Image sheet = make_sheet(cells, 2, kPalette, kMetrics, renderer());
     const int gap = static_cast<int>(kMetrics.pad);
     EXPECT_EQ(sheet.width, 2 * 100 + 3 * gap);
-    EXPECT_EQ(sheet.height, 2 * 80 + 3 * gap);
+    EXPECT_EQ(sheet.height, 80 + 60 + 3 * gap) << "each row as high as it needs to be";
     const Found small = find(sheet, 22);
     EXPECT_EQ(small.left, 100 + 2 * gap + 5) << "in the middle of its cell";
     EXPECT_EQ(small.top, gap);
