@@ -34,7 +34,8 @@
 
 namespace mobbscope::app {
 
-/// Whether a script may write: `picture`, `viewport`, `state` and `marks`.
+/// Whether a script may hold statements that write: `picture`, `viewport`, `state` and `marks`. What the commands that
+/// it runs may write is the session's (Session::may_write).
 enum class ScriptOutput { allowed, refused };
 
 class Script {

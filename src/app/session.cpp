@@ -236,7 +236,14 @@ void Session::save() {
     save_as(*file_);
 }
 
+void Session::check_may_write(const std::filesystem::path& file) const {
+    if (may_write) return;
+    throw InputError(file.string(), "",
+                     "nothing is written here: a picture test only looks; remove this from its script");
+}
+
 void Session::save_as(const std::filesystem::path& file) {
+    check_may_write(file);
     if (empty()) throw InputError("there is nothing to save: open a scene or a clip first");
     check_file_name(file);
     if (lower_extension(file) != ".json") {

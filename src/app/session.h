@@ -70,6 +70,10 @@ class Session {
 
     Hooks hooks;
     Settings settings;
+    /// Whether the scene and pictures of it may be written: not where a window is only looked at.
+    bool may_write = true;
+    /// Throws InputError if they may not.
+    void check_may_write(const std::filesystem::path& file) const;
 
     // The document.
     const Document& document() const { return history_.now(); }

@@ -41,7 +41,6 @@ void print_json(const std::vector<BackendReport>& backends) {
     }
     json.end_array();
     json.end_object();
-    std::cout << '\n';
 }
 
 }  // namespace

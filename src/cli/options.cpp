@@ -140,6 +140,11 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
     word("--animation", &ImportOptions::animation, "A", "Index or name of the animation");
 }
 
+std::filesystem::path parse_file_name(const std::string& text) {
+    if (text.empty()) throw std::invalid_argument("the name is empty; give a file");
+    return text;
+}
+
 void add_scene_file(CLI::App& command, std::filesystem::path& file) {
     command.add_option("FILE", file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)")->required();
 }

@@ -37,6 +37,9 @@ void add_fit_options(CLI::App& command, FitArguments& arguments, Brute brute = B
 /// Adds --fps --unit --up --root --trim --dt --radius --animation. `options` must live until the command has run.
 void add_import_options(CLI::App& command, ImportOptions& options);
 
+/// Throws std::invalid_argument if the text is empty, as an unset variable leaves it.
+std::filesystem::path parse_file_name(const std::string& text);
+
 /// Adds the FILE that a command works on: a scene or a clip.
 void add_scene_file(CLI::App& command, std::filesystem::path& file);
 

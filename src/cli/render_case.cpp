@@ -4,7 +4,9 @@
 #include <import/error.h>
 #include <render/png.h>
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace mobbscope::cli {
 
@@ -32,6 +34,11 @@ void render_case(const CLI::App& command, const RenderArguments& arguments) {
     outputs.reads(arguments.file);
     outputs.reads(drawn.shot.panels.front().fitted->scene());
     outputs.writes(arguments.outputs);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.outputs.image, guard::CaseFile{{}, arguments.file}.golden(), ignored)) {
+        throw InputError(arguments.outputs.image.string(), "",
+                         "is the golden of this case; mobbscope test --update takes it, or give another output");
+    }
     guard::PictureMaker maker(arguments.backend.value_or(Backend::automatic));
     write_png(arguments.outputs.image, maker.make(drawn.shot));
 }

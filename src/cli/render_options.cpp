@@ -55,11 +55,6 @@ int parse_query(const std::string& text) {
     return *index;
 }
 
-std::filesystem::path parse_file_name(const std::string& text) {
-    if (text.empty()) throw std::invalid_argument("the name is empty; give a file");
-    return text;
-}
-
 std::optional<double> parse_time(const std::string& text) {
     if (text == "none") return std::nullopt;
     return number_within(-mobb::kMaxTime, mobb::kMaxTime)(text);

@@ -38,7 +38,8 @@ struct Arguments {
     bool list = false;
     Backend backend = Backend::automatic;
     bool update = false;
-    std::vector<std::string> update_names;  ///< none: ask
+    bool update_all = false;                ///< of those that are run
+    std::vector<std::string> update_names;  ///< neither: ask
     std::filesystem::path output = "mobbscope-test";
     bool json = false;
     std::filesystem::path junit, html, contact_sheet;  ///< empty: none
@@ -81,25 +82,33 @@ std::vector<guard::CaseFile> cases_of(const Arguments& arguments) {
 
 // --- what is written
 
-/// Throws InputError if a report would replace a case or its golden, or has a name that its kind does not.
-void check_reports(const Arguments& arguments, const std::vector<guard::CaseFile>& cases) {
+/// Throws InputError unless the file has the extension of what it is to hold; so it is no scene, case or script.
+void check_kind(const std::filesystem::path& file, const char* extension, const char* what) {
+    if (file.empty() || lower_extension(file) == extension) return;
+    throw InputError(file.string(), "", std::string(what) + " is written as " + extension + "; rename it");
+}
+
+/// Throws InputError if a report would replace a golden or has a name that its kind does not, or if the pictures would
+/// go where the goldens are; MachineError if they cannot go where they are to.
+void check_reports(const Arguments& arguments) {
     if (arguments.columns && arguments.contact_sheet.empty()) {
         throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
     }
-    if (!arguments.contact_sheet.empty() && lower_extension(arguments.contact_sheet) != ".png") {
+    check_kind(arguments.junit, ".xml", "the report for CI servers");
+    check_kind(arguments.html, ".html", "the report as a page");
+    check_kind(arguments.contact_sheet, ".png", "the contact sheet");
+    std::error_code ignored;
+    for (const guard::CaseFile& file : guard::find_cases(arguments.folder)) {
+        if (!std::filesystem::equivalent(arguments.contact_sheet, file.golden(), ignored)) continue;
         throw InputError(arguments.contact_sheet.string(), "",
-                         "pictures are written as .png; rename the contact sheet");
+                         "the contact sheet would replace the golden of " + in_quotes(file.name) + "; rename it");
     }
-    for (const std::filesystem::path& report : {arguments.junit, arguments.html, arguments.contact_sheet}) {
-        for (const guard::CaseFile& file : cases) {
-            for (const std::filesystem::path& kept : {file.file, file.golden(), file.draw()}) {
-                std::error_code ignored;
-                if (report.empty() || !std::filesystem::equivalent(report, kept, ignored)) continue;
-                throw InputError(
-                    report.string(), "",
-                    "the report would replace a part of the case " + in_quotes(file.name) + "; give another name");
-            }
-        }
+    if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
+        throw InputError("--output: " + in_quotes(arguments.output.string()) +
+                         " is where the goldens are; give another folder");
+    }
+    if (std::filesystem::exists(arguments.output, ignored) && !std::filesystem::is_directory(arguments.output)) {
+        throw MachineError(arguments.output.string() + ": pictures cannot be written there: it is no folder");
     }
 }
 
@@ -141,9 +150,14 @@ void write_contact_sheet(const Arguments& arguments, std::span<const guard::Case
     const int columns = std::min(count, arguments.columns.value_or(square));
     // Letters grow with the whole, which is looked at smaller than its pictures are.
     all = {all.width * columns, all.height * ((count + columns - 1) / columns)};
-    guard::make_folder_of(arguments.contact_sheet);
-    write_png(arguments.contact_sheet,
-              make_sheet(cells, columns, palette(theme_around(cells.front().image)), metrics_of(all), renderer));
+    const Palette& colors = palette(theme_around(cells.front().image));
+    try {
+        const Image sheet = make_sheet(cells, columns, colors, colors.background, metrics_of(all), renderer);
+        guard::make_folder_of(arguments.contact_sheet);
+        write_png(arguments.contact_sheet, sheet);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(arguments.contact_sheet.string(), "", error.what());
+    }
 }
 
 // --- the run
@@ -168,14 +182,16 @@ Drawer open(const Arguments& arguments) {
     return out;
 }
 
-/// What goes to standard output when it is all done.
-void print_results(const Arguments& arguments, const guard::RunFacts& facts,
-                   std::span<const guard::CaseResult> results) {
+/// The pictures of what did not pass; whether there are any.
+bool keep_all(const Arguments& arguments, std::span<const guard::CaseResult> results) {
     bool kept = false;
-    for (const guard::CaseResult& result : results) {
-        if (result.outcome == guard::Outcome::passed) continue;
-        kept = !keep_pictures(result, arguments.output).empty() || kept;
-    }
+    for (const guard::CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
+    return kept;
+}
+
+/// What goes to standard output when it is all done.
+void print_results(const Arguments& arguments, const guard::RunFacts& facts, std::span<const guard::CaseResult> results,
+                   bool kept) {
     if (arguments.json) {
         write_json(std::cout, facts, results);
     } else {
@@ -192,8 +208,8 @@ int run(const Arguments& arguments) {
         flush_results();
         return kDone;
     }
-    check_reports(arguments, cases);
-    const bool asks = arguments.update && arguments.update_names.empty();
+    check_reports(arguments);
+    const bool asks = arguments.update && !arguments.update_all && arguments.update_names.empty();
     if (asks && ::isatty(STDIN_FILENO) == 0) {
         throw InputError("--update: there is no terminal to ask at; name the cases whose pictures to take, or all");
     }
@@ -209,21 +225,28 @@ int run(const Arguments& arguments) {
         take_asked(results, arguments.output, std::cin, say);
     } else if (arguments.update) {
         const auto named = [&](const guard::CaseResult& result) {
-            return matches_any(arguments.update_names, result.file.name);
+            return arguments.update_all || matches_any(arguments.update_names, result.file.name);
         };
         take_named(results, named, say);
     }
-    print_results(arguments, drawer.facts, results);
+    const bool kept = keep_all(arguments, results);
     write_report(arguments.junit, guard::write_junit, drawer.facts, results);
     write_report(arguments.html, guard::write_html, drawer.facts, results);
+    print_results(arguments, drawer.facts, results, kept);
     if (!drawer.maker) throw MachineError(drawer.no_opengl);
     if (!arguments.contact_sheet.empty()) write_contact_sheet(arguments, results, drawer.maker->renderer());
     return guard::summary(results).ok() ? kDone : kFailed;
 }
 
-/// What "all" stands for among the names of --update.
-void widen(std::vector<std::string>& names) {
-    std::replace(names.begin(), names.end(), std::string("all"), std::string("*"));
+/// "all" alone stands for all cases that are run.
+void read_update(Arguments& arguments) {
+    arguments.update = true;
+    std::vector<std::string>& names = arguments.update_names;
+    std::erase(names, "");
+    if (std::find(names.begin(), names.end(), "all") == names.end()) return;
+    if (names.size() > 1) throw InputError("--update: all are more than the others that are named; leave those out");
+    arguments.update_all = true;
+    names.clear();
 }
 
 }  // namespace
@@ -239,14 +262,15 @@ void add_test_command(CLI::App& program, int& status) {
     CLI::Option* update = command->add_option(
         "--update", arguments->update_names,
         "Take the present pictures as goldens: of these cases, or all; without names, ask for each");
-    update->expected(0, -1)->type_name("NAME...");
-    command->add_option("--output", arguments->output, "Where the pictures of what did not pass go (mobbscope-test)")
-        ->type_name("FOLDER");
+    update->expected(0, -1)->type_name("NAME");
+    add_parsed(*command, "--output", arguments->output, parse_file_name,
+               "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
     command->add_flag("--json", arguments->json, "The report as JSON on standard output");
-    command->add_option("--junit", arguments->junit, "The report for CI servers")->type_name("FILE");
-    command->add_option("--html", arguments->html, "The report as one page, with all pictures")->type_name("FILE");
-    command->add_option("--contact-sheet", arguments->contact_sheet, "All pictures of the run in one")
-        ->type_name("OUT.png");
+    add_parsed(*command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
+    add_parsed(*command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
+               "OUT.html");
+    add_parsed(*command, "--contact-sheet", arguments->contact_sheet, parse_file_name, "All pictures of the run in one",
+               "OUT.png");
     add_parsed(
         *command, "--columns", arguments->columns,
         [](const std::string& text) {
@@ -256,9 +280,7 @@ void add_test_command(CLI::App& program, int& status) {
         },
         "Of the contact sheet", "N");
     command->callback([arguments, update, &status] {
-        arguments->update = update->count() > 0;
-        std::erase(arguments->update_names, "");
-        widen(arguments->update_names);
+        if (update->count() > 0) read_update(*arguments);
         status = run(*arguments);
     });
 }

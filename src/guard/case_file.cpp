@@ -50,7 +50,10 @@ std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
         const std::string path = at->path().lexically_relative(folder).generic_string();
         cases.push_back({path.substr(0, path.size() - kExtension.size()), at->path()});
     }
-    if (error) throw InputError(folder.string(), "", "cannot be searched for cases: " + error.message());
+    if (error) {
+        throw InputError(folder.string(), "",
+                         "cannot be searched for cases: " + error.message() + "; give the folder that holds them");
+    }
     if (cases.empty()) throw InputError(folder.string(), "", "holds no case; a case is a file NAME.case.json");
     std::sort(cases.begin(), cases.end(), [](const CaseFile& a, const CaseFile& b) { return a.name < b.name; });
     return cases;
@@ -75,6 +78,7 @@ Case read_case(const std::filesystem::path& file) {
         out.skip = skip->string();
     } else {
         out.shot = read_shot(root, file.parent_path());
+        out.shot.file = file;
     }
     return out;
 }

@@ -12,11 +12,12 @@ namespace mobbscope::guard {
 void make_folder_of(const std::filesystem::path& file);
 
 /// Writes the pictures of a case into a folder that is made if need be: NAME.actual.png, NAME.golden.png and
-/// NAME.heat.png, those that there are; what an earlier run left of the others goes. Returns what it wrote. Throws
-/// MachineError.
+/// NAME.heat.png, those that there are, none of a case that passed; what an earlier run left of the others goes.
+/// Returns what it wrote. Throws MachineError.
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
 
-/// Makes the present picture the golden, after which the case has passed. Returns what it wrote. Throws MachineError.
+/// Makes the present picture the golden, and its draw list that which is kept, each file whole; then the case has
+/// passed. Returns what it wrote. Throws MachineError.
 std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::guard

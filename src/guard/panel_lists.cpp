@@ -21,10 +21,17 @@ PictureSize panel_size(const Shot& shot) {
                      metrics_of(shot.picture.size, shot.picture.scale));
 }
 
-/// Whether two panels are looked at from one place, wherever the scene's size puts that.
-bool seen_alike(const ViewState& a, const ViewState& b) {
+/// A panel and what it draws when it frames that by itself.
+struct Alone {
+    const ViewState& view;
+    const DrawList& list;
+};
+
+/// Whether two panels can be looked at from one place, and are to be.
+bool seen_alike(const Alone& a, const Alone& b) {
     const auto framed = [](const ViewState& view) { return !view.camera.target && !view.projection; };
-    return framed(a) && framed(b) && a.camera == b.camera && a.show == b.show && a.time_height == b.time_height;
+    return framed(a.view) && framed(b.view) && a.view.camera == b.view.camera && a.view.show == b.view.show &&
+           a.list.space.origin == b.list.space.origin && a.list.space.time_height == b.list.space.time_height;
 }
 
 std::vector<DrawList> lists_of(const Shot& shot) {
@@ -37,7 +44,7 @@ std::vector<DrawList> lists_of(const Shot& shot) {
         CommonFraming framing;
         int alike = 0;
         for (std::size_t j = 0; j < alone.size(); ++j) {
-            if (!seen_alike(shot.panels[i].view, shot.panels[j].view)) continue;
+            if (!seen_alike({shot.panels[i].view, alone[i]}, {shot.panels[j].view, alone[j]})) continue;
             framing.add(alone[j]);
             ++alike;
         }
@@ -59,7 +66,7 @@ std::vector<DrawList> panel_lists(const Shot& shot) {
     try {
         return lists_of(shot);
     } catch (const std::invalid_argument& error) {
-        throw InputError(shot.scene_file.string(), "", error.what());
+        throw InputError(shot.file.string(), shot.scene_file.string(), error.what());
     }
 }
 

@@ -40,13 +40,12 @@ Image PictureMaker::make(const Shot& shot) {
     for (std::size_t i = 0; i < lists.size(); ++i) {
         cells.push_back({shot.panels[i].title, renderer_.draw(lists[i], options.samples)});
     }
-    Palette colors = lists.front().palette;
-    if (options.background) colors.background = *options.background;
-    return make_sheet(cells, shot.columns, colors, metrics_of(options.size, options.scale), renderer_, options.size);
+    const Palette& colors = lists.front().palette;
+    return make_sheet(cells, shot.columns, colors, options.background.value_or(colors.background),
+                      metrics_of(options.size, options.scale), renderer_, options.size);
 }
 
 std::string PictureMaker::draw_lists(const Shot& shot) {
-    if (shot.window) throw InputError("a window has no draw list to hold it against");
     const std::vector<DrawList> lists = panel_lists(shot);
     std::ostringstream out;
     if (lists.size() > 1) out << "[\n";

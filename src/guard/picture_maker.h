@@ -23,7 +23,7 @@ class PictureMaker {
     Image make(const Shot& shot);
 
     /// What a shot draws, as JSON with the number of pixels of each object (draw_list_json.h): an object, or for
-    /// several panels an array of them. Throws as make does, and InputError for a window.
+    /// several panels an array of them. Not for a window. Throws as make does.
     std::string draw_lists(const Shot& shot);
 
   private:

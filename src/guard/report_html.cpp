@@ -107,7 +107,7 @@ void write_histogram(std::ostream& out, const ImageDiff& diff, double tolerance)
 
 void write_numbers(std::ostream& out, const CaseResult& result) {
     const ImageDiff& diff = *result.image;
-    const DiffOptions allowed = diff_options(result.tolerance);
+    const DiffOptions& allowed = result.image->options;
     out << "<div class=\"numbers\"><dl>\n<dt>Failing pixels</dt><dd>" << diff.differing << " of " << diff.pixels << ", "
         << brief(100 * diff.fraction()) << " %</dd>\n<dt>Allowed</dt><dd>" << brief(100 * allowed.pixel_fraction)
         << " % beyond " << brief(allowed.channel_tolerance) << " of 255 (" << name(result.tolerance)

@@ -2,7 +2,6 @@
 #include <guard/report_words.h>
 #include <guard/reports.h>
 #include <import/text.h>
-#include <render/diff_sentence.h>
 
 #include <cmath>
 
@@ -29,7 +28,6 @@ void write_problem(std::ostream& out, const char* element, const RunFacts& facts
     out << "      <" << element << attribute("type", name(result.outcome)) << attribute("message", result.message)
         << '>';
     out << escaped(result.message) << '\n';
-    if (result.image) out << escaped(diff_sentence(*result.image)) << '\n';
     if (can_be_taken(result)) {
         const std::string_view names[] = {result.file.name};
         out << "If the picture is right: " << escaped(update_command(facts, names)) << '\n';

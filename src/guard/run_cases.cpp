@@ -2,7 +2,7 @@
 
 #include <import/error.h>
 #include <import/file.h>
-#include <import/text.h>
+#include <render/diff_sentence.h>
 #include <render/draw_list_json.h>
 #include <render/png.h>
 
@@ -15,24 +15,6 @@
 namespace mobbscope::guard {
 
 namespace {
-
-std::string size_in_words(const Image& image) {
-    return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
-
-/// What is not as in the golden; empty where nothing is.
-std::string difference(const Image& actual, const Image& golden, const ImageDiff& diff) {
-    if (diff.same) return "";
-    if (!diff.same_size) return "the picture is " + size_in_words(actual) + ", the golden " + size_in_words(golden);
-    std::string where;
-    if (diff.bounds) {
-        const PixelRect& at = *diff.bounds;
-        where = ", within " + std::to_string(at.width) + "x" + std::to_string(at.height) + " at " +
-                std::to_string(at.x) + "," + std::to_string(at.y);
-    }
-    return counted(diff.differing, "pixel differs", "pixels differ") + " of " + std::to_string(diff.pixels) +
-           ", by up to " + std::to_string(diff.largest) + "/255" + where;
-}
 
 /// Holds the picture against the golden.
 void compare_pictures(CaseResult& result) {
@@ -51,8 +33,9 @@ void compare_pictures(CaseResult& result) {
         return;
     }
     result.image = diff(result.actual, result.golden, diff_options(result.tolerance));
-    result.message = difference(result.actual, result.golden, *result.image);
-    result.outcome = result.message.empty() ? Outcome::passed : Outcome::different;
+    if (result.image->same) return;
+    result.outcome = Outcome::different;
+    result.message = what_differs(*result.image);
 }
 
 /// Holds what is drawn against NAME.draw.json, if there is one.
@@ -60,10 +43,17 @@ void compare_draw_lists(CaseResult& result, const Shot& shot, PictureMaker& make
     const std::filesystem::path file = result.file.draw();
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return;
+    if (shot.window) {
+        throw InputError(result.file.file.string(), "",
+                         "a picture of the window has no draw list; remove " + file.filename().string());
+    }
     result.draw_lists = maker.draw_lists(shot);
     std::string why;
     try {
-        const auto found = first_difference(result.draw_lists, "the draw list", read_file(file), file.string());
+        const std::string golden = read_file(file);
+        const std::optional<std::string> found =
+            golden.empty() ? "it is empty"
+                           : first_difference(result.draw_lists, "the draw list", golden, file.string());
         if (!found) return;
         why = file.filename().string() + ": " + *found;
     } catch (const InputError& error) {
@@ -86,6 +76,10 @@ void run(CaseResult& result, PictureMaker& maker) {
     result.actual = maker.make(tested.shot);
     compare_pictures(result);
     compare_draw_lists(result, tested.shot, maker);
+    if (result.outcome != Outcome::passed) return;
+    // A run may have hundreds of cases: of those that passed one picture is enough.
+    result.golden = {};
+    result.image->heat = {};
 }
 
 }  // namespace
@@ -121,6 +115,8 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
         result.outcome = Outcome::failed;
         result.message = error.what();
         result.actual = {};
+        result.golden = {};
+        result.image.reset();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

@@ -29,8 +29,8 @@ struct CaseResult {
     double seconds = 0;   ///< drawing and comparing
     Tolerance tolerance = Tolerance::tight;
     Image actual;                    ///< empty where there is none
-    Image golden;                    ///< likewise
-    std::optional<ImageDiff> image;  ///< where both exist
+    Image golden;                    ///< likewise, and of a case that passed
+    std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
     /// What is drawn, where there is a NAME.draw.json, and whether it is what stands there.
     std::string draw_lists;
     bool draws_the_same = true;

@@ -41,6 +41,7 @@ struct WindowShot {
 };
 
 struct Shot {
+    std::filesystem::path file;  ///< of the case, for messages
     std::filesystem::path scene_file;
     std::vector<Panel> panels;  ///< at least one
     int columns = 1;

@@ -41,6 +41,7 @@ Image window_picture(const FittedScene& fitted, const ViewState& view, const std
     scene.fit = fitted.options();
     scene.view = view;
     app::Session session(false);
+    session.may_write = false;
     session.open_scene(scene, {scene.file});
     std::unique_ptr<GlContext> context = GlContext::open(backend);
     const GlContext& drawn_in = *context;

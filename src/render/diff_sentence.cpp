@@ -24,23 +24,24 @@ std::string level(double value) { return brief(value) + "/255"; }
 
 }  // namespace
 
-std::string diff_sentence(const ImageDiff& diff) {
+std::string what_differs(const ImageDiff& diff) {
     if (!diff.same_size) {
-        return "different: the sizes are " + in_words(diff.actual_size) + " and " + in_words(diff.reference_size);
+        return "the sizes are " + in_words(diff.actual_size) + " and " + in_words(diff.reference_size);
     }
-    const std::string verdict = diff.same ? "same: " : "different: ";
     const std::string all = std::to_string(diff.pixels);
     const std::string beyond = " by more than " + level(diff.options.channel_tolerance);
-    if (diff.largest == 0) return verdict + "none of " + all + " pixels differs";
+    if (diff.largest == 0) return "none of " + all + " pixels differs";
     if (!diff.bounds) {
-        return verdict + "none of " + all + " pixels differs" + beyond + ", the most by " + level(diff.largest);
+        return "none of " + all + " pixels differs" + beyond + ", the most by " + level(diff.largest);
     }
     const PixelRect& at = *diff.bounds;
     const std::int64_t allowed = diff.allowed();
-    return verdict + std::to_string(diff.differing) + " of " + all + " pixels (" + percent(diff.fraction()) + ") " +
+    return std::to_string(diff.differing) + " of " + all + " pixels (" + percent(diff.fraction()) + ") " +
            (diff.differing == 1 ? "differs" : "differ") + beyond + ", up to " + level(diff.largest) + ", within " +
-           in_words({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " + std::to_string(at.y) + "); " +
-           (allowed == 0 ? "none" : std::to_string(allowed)) + " may";
+           in_words({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
+           "); allowed: " + std::to_string(allowed);
 }
+
+std::string diff_sentence(const ImageDiff& diff) { return (diff.same ? "same: " : "different: ") + what_differs(diff); }
 
 }  // namespace mobbscope

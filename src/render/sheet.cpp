@@ -49,11 +49,11 @@ void paste(const Image& from, Image& to, int x, int y) {
 
 /// A title in the middle of a picture of its own.
 Image title_picture(const std::string& title, PictureSize size, float text, const Palette& palette,
-                    Renderer& renderer) {
+                    const Rgba& background, Renderer& renderer) {
     DrawList list;
     list.size = size;
     list.palette = palette;
-    list.background = palette.background;
+    list.background = background;
     TextRun run;
     run.text = fit_text(title, kFace, text, static_cast<float>(size.width));
     run.face = kFace;
@@ -81,8 +81,8 @@ PictureSize cell_size(PictureSize sheet, int cells, int columns, bool titles, co
     return cell;
 }
 
-Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& palette, const Metrics& metrics,
-                 Renderer& renderer, PictureSize size) {
+Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& palette, const Rgba& background,
+                 const Metrics& metrics, Renderer& renderer, PictureSize size) {
     const auto has_title = [](const SheetCell& cell) { return !cell.title.empty(); };
     const Spacing spacing = spacing_of(metrics, std::any_of(cells.begin(), cells.end(), has_title));
     int width = 0;
@@ -98,7 +98,11 @@ Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& p
     size.width = std::max(size.width, columns * (width + spacing.gap) + spacing.gap);
     size.height = std::max(size.height, needed);
 
-    Image sheet = ground(size, palette.background);
+    if (std::int64_t{size.width} * size.height > kMostSheetPixels) {
+        throw std::invalid_argument("a sheet of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                                    " pixels is too large; put fewer pictures into it");
+    }
+    Image sheet = ground(size, background);
     int above = spacing.gap;  // of the row
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Image& image = cells[i].image;
@@ -109,7 +113,7 @@ Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& p
         const int y = above + row * (size.height - needed) / rows;
         if (has_title(cells[i])) {
             const PictureSize room{width, spacing.title};
-            paste(title_picture(cells[i].title, room, spacing.text, palette, renderer), sheet, x, y);
+            paste(title_picture(cells[i].title, room, spacing.text, palette, background, renderer), sheet, x, y);
         }
         paste(image, sheet, x + (width - image.width) / 2, y + spacing.title);
     }

@@ -6,11 +6,14 @@
 #include <render/palette.h>
 #include <render/renderer.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace mobbscope {
+
+inline constexpr std::int64_t kMostSheetPixels = std::int64_t{1} << 27;
 
 struct SheetCell {
     std::string title;  ///< UTF-8; where all are empty there is no room for titles
@@ -22,9 +25,10 @@ struct SheetCell {
 PictureSize cell_size(PictureSize sheet, int cells, int columns, bool titles, const Metrics& metrics);
 
 /// Row by row; pictures keep their pixels and stand under their titles, in rows as high as their highest picture.
-/// The palette's background may be seen through. `size`: of the sheet; where it is less than the cells need, as large
-/// as they need. Throws MachineError if OpenGL reports an error.
-Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& palette, const Metrics& metrics,
-                 Renderer& renderer, PictureSize size = {});
+/// `background`: behind all, may be seen through. `size`: of the sheet; where it is less than the cells need, as large
+/// as they need. Throws std::invalid_argument if it would have more than kMostSheetPixels, MachineError if OpenGL
+/// reports an error.
+Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& palette, const Rgba& background,
+                 const Metrics& metrics, Renderer& renderer, PictureSize size = {});
 
 }  // namespace mobbscope

@@ -76,10 +76,34 @@ TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     expect_refused(test({"pth"}), "there is no case 'pth' (did you mean 'path'?)");
     expect_refused(test({"--update", "pth"}), "there is no case 'pth'");
     expect_refused(test({"--columns", "2"}), "--contact-sheet");
-    expect_refused(test({"--contact-sheet", "sheet.jpg"}), "sheet.jpg: pictures are written as .png");
+    expect_refused(test({"--contact-sheet", "sheet.jpg"}), "sheet.jpg: the contact sheet is written as .png");
     expect_refused(test({"--backend", "vulkan"}), "'vulkan' is not one of auto, osmesa, egl");
-    expect_refused(test({"--html", (cases.path() / "path.case.json").string()}), "a part of the case 'path'");
+    expect_refused(test({"--html", (cases.path() / "scene.json").string()}), "is written as .html");
+    expect_refused(test({"--junit", ""}), "the name is empty");
+    cases.folder().write("path.png", "no picture");
+    expect_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}), "golden of 'path'");
+    expect_refused(test({"--output", cases.path().string()}), "where the goldens are");
+    expect_refused(test({"--update", "all", "path"}), "--update: all");
     EXPECT_EQ(run_program({"test"}).status, 2);
+}
+
+TEST_F(DrawnTestCommandTest, AllAreThoseThatAreRun) {
+    EXPECT_EQ(test({"path", "--update", "all"}).status, 0);
+    EXPECT_TRUE(exists("path.png"));
+    EXPECT_FALSE(exists("query/end.png"));
+}
+
+TEST_F(DrawnTestCommandTest, WhatPassesLeavesNoPicturesOfEarlierFaults) {
+    EXPECT_EQ(test({"path"}).status, 1);
+    EXPECT_TRUE(std::filesystem::exists(output / "path.actual.png"));
+    EXPECT_EQ(test({"path", "--update", "all"}).status, 0);
+    EXPECT_FALSE(std::filesystem::exists(output / "path.actual.png"));
+}
+
+TEST_F(DrawnTestCommandTest, NothingIsDrawnWherePicturesCannotGo) {
+    const std::string report = (cases.path() / "report.html").string();
+    EXPECT_EQ(test({"path", "--html", report, "--output", (cases.path() / "scene.json").string()}).status, 3);
+    EXPECT_FALSE(std::filesystem::exists(report));
 }
 
 TEST_F(TestCommandTest, AsksOnlyAtATerminal) {

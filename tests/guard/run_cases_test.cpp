@@ -1,6 +1,7 @@
 // What becomes of a case: every outcome, told apart.
 #include <guard/goldens.h>
 #include <guard/run_cases.h>
+#include <import/file.h>
 #include <render/png.h>
 
 #include "guard/case_folder.h"
@@ -59,7 +60,7 @@ TEST_F(RunCaseTest, IsDifferentWhenTheViewIsNotTheGoldens) {
     golden_of(cases.add("a"));
     const CaseResult result = run(cases.add("a", R"("view": {"levels": 0})"));
     EXPECT_EQ(result.outcome, Outcome::different);
-    EXPECT_NE(result.message.find("pixels differ of 19200"), std::string::npos) << result.message;
+    EXPECT_NE(result.message.find(" of 19200 pixels"), std::string::npos) << result.message;
     EXPECT_FALSE(result.image->heat.rgba.empty());
 }
 
@@ -68,7 +69,7 @@ TEST_F(RunCaseTest, IsDifferentWhenTheGoldenHasAnotherSize) {
     const CaseFile larger = cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "200x120"})");
     const CaseResult result = run(larger);
     EXPECT_EQ(result.outcome, Outcome::different);
-    EXPECT_EQ(result.message, "the picture is 200x120, the golden 160x120");
+    EXPECT_EQ(result.message, "the sizes are 200x120 and 160x120");
 }
 
 TEST_F(RunCaseTest, IsDifferentFromAGoldenThatIsNoPicture) {
@@ -161,6 +162,21 @@ TEST_F(RunCaseTest, PanelsAreSeenThroughWhereTheirBackgroundIs) {
     int opaque = 0;
     for (std::size_t i = 3; i < result.actual.rgba.size(); i += 4) opaque += result.actual.rgba[i] == 255 ? 1 : 0;
     EXPECT_GT(opaque, 500);
+}
+
+TEST_F(RunCaseTest, AScriptOfTheWindowWritesNothing) {
+    const std::string before = read_file(cases.path() / "scene.json");
+    cases.folder().write("save.script", "run file.save\n");
+    cases.folder().write("export.script", "run file.export_picture stray.png\n");
+    for (const char* script : {"save.script", "export.script"}) {
+        const CaseResult result = run(cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json",
+            "size": "400x300", "window": {"script": ")" + std::string(script) +
+                                                           "\"}}"));
+        EXPECT_EQ(result.outcome, Outcome::failed) << script;
+        EXPECT_NE(result.message.find("nothing is written here"), std::string::npos) << result.message;
+    }
+    EXPECT_EQ(read_file(cases.path() / "scene.json"), before);
+    EXPECT_FALSE(std::filesystem::exists(cases.path() / "stray.png"));
 }
 
 TEST(RunCase, IsSkippedWithoutOpenGL) {

@@ -59,13 +59,13 @@ TEST(DiffJson, WithoutDifferencesThereAreNoBounds) {
 TEST(DiffSentence, SaysWhatWasFound) {
     EXPECT_EQ(diff_sentence(difference(412, 87)),
               "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 412x1 at (12, "
-              "3); 230 may");
+              "3); allowed: 230");
     EXPECT_EQ(diff_sentence(difference(1, 87)),
               "same: 1 of 230400 pixels (0.00043 %) differs by more than 3/255, up to 87/255, within 1x1 at (12, 3); "
-              "230 may");
+              "allowed: 230");
     EXPECT_EQ(diff_sentence(difference(60000, 87, {2.5, 0})),
               "different: 60000 of 230400 pixels (26 %) differ by more than 2.5/255, up to 87/255, within 600x100 at "
-              "(12, 3); none may");
+              "(12, 3); allowed: 0");
     EXPECT_EQ(diff_sentence(difference(5, 2)),
               "same: none of 230400 pixels differs by more than 3/255, the most by 2/255");
     EXPECT_EQ(diff_sentence(difference(0, 0)), "same: none of 230400 pixels differs");

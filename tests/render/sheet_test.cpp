@@ -50,7 +50,7 @@ TEST_P(SheetTest, FillsWhatItIsGivenWithEvenGaps) {
     for (const auto value : std::to_array<std::uint8_t>({11, 22, 33})) {
         cells.push_back({"(a) title", filled(cell.width, cell.height, value)});
     }
-    const Image sheet = make_sheet(cells, 3, kPalette, kMetrics, renderer(), size);
+    const Image sheet = make_sheet(cells, 3, kPalette, kPalette.background, kMetrics, renderer(), size);
     EXPECT_EQ(sheet.width, 700);
     EXPECT_EQ(sheet.height, 300);
     const Found first = find(sheet, 11), second = find(sheet, 22), third = find(sheet, 33);
@@ -64,7 +64,7 @@ TEST_P(SheetTest, FillsWhatItIsGivenWithEvenGaps) {
 
 TEST_P(SheetTest, WithoutASizeItIsAsLargeAsItNeedsToBe) {
     const std::vector<SheetCell> cells{{"", filled(100, 80, 11)}, {"", filled(90, 70, 22)}, {"", filled(80, 60, 33)}};
-    const Image sheet = make_sheet(cells, 2, kPalette, kMetrics, renderer());
+    const Image sheet = make_sheet(cells, 2, kPalette, kPalette.background, kMetrics, renderer());
     const int gap = static_cast<int>(kMetrics.pad);
     EXPECT_EQ(sheet.width, 2 * 100 + 3 * gap);
     EXPECT_EQ(sheet.height, 80 + 60 + 3 * gap) << "each row as high as it needs to be";
@@ -76,10 +76,25 @@ TEST_P(SheetTest, WithoutASizeItIsAsLargeAsItNeedsToBe) {
 
 TEST_P(SheetTest, TheGroundIsOneColour) {
     const std::vector<SheetCell> cells{{"title", filled(100, 80, 11)}};
-    const Image sheet = make_sheet(cells, 1, kPalette, kMetrics, renderer());
+    const Image sheet = make_sheet(cells, 1, kPalette, kPalette.background, kMetrics, renderer());
     const int gap = static_cast<int>(kMetrics.pad);
     // The corner of the sheet, and that of the title's row.
     EXPECT_TRUE(std::equal(sheet.at(0, 0), sheet.at(0, 0) + 4, sheet.at(gap, gap)));
+}
+
+TEST_P(SheetTest, TitlesStandOnAnyGround) {
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        for (const Rgba& background : {Rgba(0), Rgba(1, 1, 1, 0.5f), Rgba(0, 0, 0, 0.5f)}) {
+            const Palette& colors = palette(theme);
+            const std::vector<SheetCell> cells{{"(a) title", filled(200, 100, 9)}};
+            const Image sheet = make_sheet(cells, 1, colors, background, kMetrics, renderer());
+            int solid = 0;
+            for (int y = 0; y < sheet.height - 100 - 14; ++y) {
+                for (int x = 0; x < sheet.width; ++x) solid += sheet.at(x, y)[3] > 230 ? 1 : 0;
+            }
+            EXPECT_GT(solid, 20) << name(theme) << " on " << background.r << ", " << background.a;
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, SheetTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);

@@ -34,6 +34,7 @@ void save_as(Session& session, const std::string& file) {
 void export_picture(Session& session, const std::string& file) {
     if (file.empty()) return session.open_dialog(Dialog::export_picture);
     check_file_name(file);
+    session.check_may_write(file);
     if (lower_extension(file) != ".png") {
         throw InputError(file, "", "pictures are written as .png; rename the output");
     }
