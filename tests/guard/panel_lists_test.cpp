@@ -64,6 +64,16 @@ TEST(PanelLists, ACameraOfItsOwnStays) {
     EXPECT_NE(lists[0].space.time_height, 9);
 }
 
+TEST(PanelLists, DifferentPeopleAreFramedEachByThemselves) {
+    const CaseFolder cases;
+    cases.folder().write("far.json", R"({"clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.4]]}},
+        "agents": [{"name": "A", "clip": "walk"}, {"name": "B", "clip": "walk", "translate": [2, 1]},
+                   {"name": "C", "clip": "walk", "translate": [90, 40]}]})");
+    const CaseFile file = cases.write("a", R"({"mobbscope_case": 1, "scene": "far.json", "size": "600x200",
+        "panels": [{"view": {"query": 0}}, {"view": {"query": 1}}]})");
+    for (const DrawList& list : panel_lists(read_case(file.file).shot)) EXPECT_TRUE(shows_all(list));
+}
+
 TEST(PanelLists, OneAloneIsFramedAsEver) {
     const std::vector<DrawList> lists = lists_of(R"("view": {"levels": 0})");
     ASSERT_EQ(lists.size(), 1u);
