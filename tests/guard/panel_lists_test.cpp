@@ -71,7 +71,10 @@ TEST(PanelLists, DifferentPeopleAreFramedEachByThemselves) {
                    {"name": "C", "clip": "walk", "translate": [90, 40]}]})");
     const CaseFile file = cases.write("a", R"({"mobbscope_case": 1, "scene": "far.json", "size": "600x200",
         "panels": [{"view": {"query": 0}}, {"view": {"query": 1}}]})");
-    for (const DrawList& list : panel_lists(read_case(file.file).shot)) EXPECT_TRUE(shows_all(list));
+    const std::vector<DrawList> lists = panel_lists(read_case(file.file).shot);
+    for (const DrawList& list : lists) EXPECT_TRUE(shows_all(list));
+    const auto metre = [](const DrawList& list) { return list.lens.pixels_per_metre(list.disks.front().base); };
+    EXPECT_GT(metre(lists[0]), 5 * metre(lists[1])) << "A and B are near one another, C is far away";
 }
 
 TEST(PanelLists, OneAloneIsFramedAsEver) {
