@@ -27,7 +27,9 @@ draw() {
   "$@" "$program" render "$assets/scenes/crossing.json" --query 0 --step 60% --size 800x500 --ui -o "$folder/$name.window.png"
 }
 
-clean=(env -i PATH="$PATH" LOCPATH="$folder/locales")
+# Sanitizers keep what they were told.
+kept=(${ASAN_OPTIONS:+"ASAN_OPTIONS=$ASAN_OPTIONS"} ${UBSAN_OPTIONS:+"UBSAN_OPTIONS=$UBSAN_OPTIONS"})
+clean=(env -i "${kept[@]}" PATH="$PATH" LOCPATH="$folder/locales")
 status=0
 "${clean[@]}" "$program" render "$assets/scenes/crossing.json" --size 64x64 -o probe.png || status=$?
 [ "$status" -ne 3 ] || exit 77
