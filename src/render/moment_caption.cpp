@@ -24,7 +24,7 @@ std::string joint_words(std::span<const Joint> joints, int index) {
 }
 
 std::string radius(const Subject& subject, const Body& body) {
-    const std::string text = "radius " + with_unit(body.disk.r, "m");
+    std::string text = "radius " + with_unit(body.disk.r, "m");
     if (!sets_radius(body)) return text;
     return text + ": as far as " + joint_words(subject.skeleton->joints, body.farthest->joint) + " reaches";
 }

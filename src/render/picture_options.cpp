@@ -15,8 +15,8 @@ Palette palette_for(Theme theme, const PictureOptions& options) {
 }
 
 int parse_samples(const std::string& text) {
-    const std::optional<int> samples = parse_int(text);
-    if (samples == 1 || samples == 2 || samples == 4 || samples == 8) return *samples;
+    const int samples = parse_int(text).value_or(0);
+    if (samples == 1 || samples == 2 || samples == 4 || samples == 8) return samples;
     throw std::invalid_argument(in_quotes(text) + " is no number of samples: give 1, 2, 4 or 8");
 }
 
