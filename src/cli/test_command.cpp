@@ -74,10 +74,11 @@ std::vector<guard::CaseFile> chosen(const std::vector<guard::CaseFile>& cases,
     return out;
 }
 
-std::vector<guard::CaseFile> cases_of(const Arguments& arguments) {
+/// Those of all that are run.
+std::vector<guard::CaseFile> cases_of(const Arguments& arguments, const std::vector<guard::CaseFile>& all) {
     std::vector<std::string> patterns = arguments.names;
     patterns.insert(patterns.end(), arguments.update_names.begin(), arguments.update_names.end());
-    return chosen(guard::find_cases(arguments.folder), patterns);
+    return chosen(all, patterns);
 }
 
 // --- what is written
@@ -90,7 +91,7 @@ void check_kind(const std::filesystem::path& file, const char* extension, const 
 
 /// Throws InputError if a report would replace a golden or has a name that its kind does not, or if the pictures would
 /// go where the goldens are; MachineError if they cannot go where they are to.
-void check_reports(const Arguments& arguments) {
+void check_reports(const Arguments& arguments, const std::vector<guard::CaseFile>& all) {
     if (arguments.columns && arguments.contact_sheet.empty()) {
         throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
     }
@@ -98,7 +99,7 @@ void check_reports(const Arguments& arguments) {
     check_kind(arguments.html, ".html", "the report as a page");
     check_kind(arguments.contact_sheet, ".png", "the contact sheet");
     std::error_code ignored;
-    for (const guard::CaseFile& file : guard::find_cases(arguments.folder)) {
+    for (const guard::CaseFile& file : all) {
         if (!std::filesystem::equivalent(arguments.contact_sheet, file.golden(), ignored)) continue;
         throw InputError(arguments.contact_sheet.string(), "",
                          "the contact sheet would replace the golden of " + in_quotes(file.name) + "; rename it");
@@ -202,13 +203,14 @@ void print_results(const Arguments& arguments, const guard::RunFacts& facts, std
 }
 
 int run(const Arguments& arguments) {
-    const std::vector<guard::CaseFile> cases = cases_of(arguments);
+    const std::vector<guard::CaseFile> all = guard::find_cases(arguments.folder);
+    const std::vector<guard::CaseFile> cases = cases_of(arguments, all);
     if (arguments.list) {
         for (const guard::CaseFile& file : cases) std::cout << cleaned(file.name) << '\n';
         flush_results();
         return kDone;
     }
-    check_reports(arguments);
+    check_reports(arguments, all);
     const bool asks = arguments.update && !arguments.update_all && arguments.update_names.empty();
     if (asks && ::isatty(STDIN_FILENO) == 0) {
         throw InputError("--update: there is no terminal to ask at; name the cases whose pictures to take, or all");
