@@ -6,6 +6,8 @@
 #include <mobb/query.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 #include <scene/view_state.h>
 
 #include <cstddef>
@@ -72,6 +74,8 @@ struct Scene {
     mobb::FitOptions fit;
     std::vector<SceneQuery> queries;  ///< as in the file; see query_at
     ViewState view;
+    std::shared_ptr<const MotionGraph> graph{};  ///< that joins the clips; null: none
+    std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };
 
 /// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0.

@@ -1,0 +1,45 @@
+/// What a crowd did: every agent's clips, back to back (paper, Section 5). It is the key `crowd` of a scene file,
+/// beside the `graph` whose moves its agents play.
+#pragma once
+
+#include <mobb/clip.h>
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// Why an agent plays a move.
+enum class PlayKind : std::uint8_t {
+    chosen,   ///< taken at random from the candidates that collide with nobody and stay on the floor
+    pivoted,  ///< none was free: the agent turned on the spot before a free one
+    forced,   ///< none was free at any heading: the one whose first contact is latest. It may collide
+};
+
+/// A move as an agent plays it.
+struct Play {
+    int move = 0;  ///< index into MotionGraph::moves
+    mobb::Placement placement;
+    double chosen_at = 0;  ///< global seconds of the choice point; choices of one time are made in the order of agents
+    PlayKind kind = PlayKind::chosen;
+    friend bool operator==(const Play&, const Play&) = default;
+};
+
+struct CrowdAgent {
+    std::string name;
+    std::vector<Play> plays;  ///< each begins when the one before ends
+    friend bool operator==(const CrowdAgent&, const CrowdAgent&) = default;
+};
+
+struct CrowdRun {
+    glm::dvec2 area{30, 40};  ///< metres: the floor reaches from -area/2 to area/2; disks stay on it
+    double seconds = 120;     ///< simulated
+    std::uint64_t seed = 1;
+    std::vector<CrowdAgent> agents;
+    friend bool operator==(const CrowdRun&, const CrowdRun&) = default;
+};
+
+}  // namespace mobbscope

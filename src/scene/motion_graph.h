@@ -1,0 +1,56 @@
+/// A motion graph in the manner of Snap-Together Motion (Gleicher et al. 2003, the paper's [3]): short clips that begin
+/// and end in common poses, the hubs. Whatever ends in a hub may be followed by whatever begins there. It is the key
+/// `graph` of a scene file, whose clips it joins.
+#pragma once
+
+#include <mobb/clip.h>
+
+#include <glm/vec2.hpp>
+
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// Where a body stands on the floor of its clip, and which way it faces.
+struct Stance {
+    glm::dvec2 position{0};  ///< metres
+    double heading_deg = 0;  ///< counter-clockwise from +x
+    friend bool operator==(const Stance&, const Stance&) = default;
+};
+
+/// A pose in which clips begin and end.
+struct GraphHub {
+    std::string name;
+    friend bool operator==(const GraphHub&, const GraphHub&) = default;
+};
+
+/// A clip of the scene as an edge from hub to hub.
+struct GraphMove {
+    int clip = 0;  ///< index into Scene::clips
+    int from = 0;  ///< index into MotionGraph::hubs
+    int to = 0;
+    Stance entry;  ///< at the clip's first sample
+    Stance exit;   ///< where the next clip's first sample comes: one dt after the last sample
+    friend bool operator==(const GraphMove&, const GraphMove&) = default;
+};
+
+/// How far a joint between two moves may be from continuous. Infinite where nothing was asked.
+struct GraphBounds {
+    double pose_distance = 0;  ///< metres: root mean square over the joints, bodies aligned on the floor
+    double root_speed = 0;     ///< metres per second: change of the root's velocity
+    friend bool operator==(const GraphBounds&, const GraphBounds&) = default;
+};
+
+struct MotionGraph {
+    std::vector<GraphHub> hubs;
+    std::vector<GraphMove> moves;
+    GraphBounds bounds;
+    friend bool operator==(const MotionGraph&, const MotionGraph&) = default;
+};
+
+/// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and the clip's
+/// duration later. `duration` is that of the move before, in seconds.
+mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry);
+
+}  // namespace mobbscope
