@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
     WindowArguments window;
     add_window_options(program, window);
     int status = kDone;
+    add_conflicts_command(program, status);
     add_convert_command(program);
     add_diff_command(program, status);
     add_fit_command(program);
