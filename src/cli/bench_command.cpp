@@ -49,7 +49,7 @@ Workload table2(const Arguments& arguments) {
     workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, arguments.seed)
                                              : clips_of(load_files(arguments.paths, arguments.import_options));
     workload.description = (arguments.paths.empty() ? std::string("built-in walks") : "clips from files") +
-                           ", at random places within 5 m, headings, and times within 1.2 clip lengths";
+                           ", at random places within 3.5 m, headings, and times within 1.2 clip lengths";
     workload.queries = random_queries(workload.clips, arguments.queries.value_or(100'000), {.seed = arguments.seed});
     return workload;
 }
