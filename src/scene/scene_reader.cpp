@@ -4,6 +4,7 @@
 #include <import/text.h>
 #include <scene/crowd_json.h>
 #include <scene/fit_json.h>
+#include <scene/graph_json.h>
 #include <scene/json_place.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
@@ -169,13 +170,17 @@ class SceneReader {
         : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress) {}
 
     Scene read() {
-        root_.allow_only({"$schema", "mobbscope", "clips", "agents", "fit", "queries", "view", "crowd"});
+        root_.allow_only({"$schema", "mobbscope", "clips", "graph", "agents", "fit", "queries", "crowd", "view"});
         check_version();
         const JsonPlace clips = root_.require("clips");
         if (clips.members() == 0) clips.fail("there is no clip; add one");
         for (int i = 0; i < clips.members(); ++i) {
             if (progress_) progress_(static_cast<std::size_t>(i), static_cast<std::size_t>(clips.members()));
             scene_.clips.push_back(read_clip(clips.member(i)));
+        }
+        if (const auto graph = root_.find("graph")) {
+            scene_.graph = std::make_shared<MotionGraph>(
+                read_graph(*graph, [this](const JsonPlace& clip) { return clip_names_.find(clip, "clip"); }));
         }
         if (const auto agents = root_.find("agents")) {
             for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
