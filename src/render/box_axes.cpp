@@ -25,8 +25,6 @@ Projection project(const mobb::Box& box, glm::dvec3 axis) {
     return {center - reach, center + reach};
 }
 
-int axis_count(mobb::TestKind test) { return test == mobb::TestKind::obb2d ? 4 : 15; }
-
 AxisOrigin axis_origin(mobb::TestKind test, int axis) {
     const int own = own_axes(test);
     if (axis < own) return {axis, -1};

@@ -18,9 +18,6 @@ struct Projection {
 /// `axis`: unit.
 Projection project(const mobb::Box& box, glm::dvec3 axis);
 
-/// How many axes there are at most: 4 of an obb2d test, 15 of an obb3d test.
-int axis_count(mobb::TestKind test);
-
 /// Whether the test tries that axis: it skips edge-edge axes that are too short. Both boxes in one frame.
 bool is_tried(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis);
 

@@ -86,6 +86,8 @@ std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Even
             return sample_outcome(sides, event);
         case mobb::TestKind::obb2d:
         case mobb::TestKind::obb3d:
+        case mobb::TestKind::moving:
+        case mobb::TestKind::aabb:
             break;
     }
     if (event.outcome == mobb::Outcome::separated) {
