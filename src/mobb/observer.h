@@ -19,6 +19,8 @@ struct TestCounts {
     std::int64_t aabb = 0;
     std::int64_t samples = 0;  ///< pairs (i, j) whose distance was measured
 
+    std::int64_t boxes() const { return obb2d + obb3d + moving + aabb; }
+
     friend bool operator==(const TestCounts&, const TestCounts&) = default;
 };
 

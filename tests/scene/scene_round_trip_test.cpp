@@ -30,7 +30,8 @@ Scene random_scene(std::mt19937_64& random) {
                                 {{length(random), length(random)}, length(random), length(random)},
                                 i == 1 ? std::optional<Color>({1, 200, 30}) : std::nullopt});
     }
-    scene.fit = {mobb::TreeKind::hybrid2, 4, 3, mobb::Axes::covariance, positive(random)};
+    scene.fit = {static_cast<mobb::TreeKind>(random() % mobb::tree_kind_names().size()), 4, 3, mobb::Axes::covariance,
+                 positive(random)};
     scene.view.camera = {
         CameraPreset::free, length(random), length(random), false, 33.3, glm::dvec3{0.1, 0.2, 0.3}, 9.7, {0.1, -0.7}};
     scene.view.levels = {1, 4, false};
