@@ -32,35 +32,32 @@ double reach_of(const ChainLink& link) {
 /// How many bits tell the nodes of a tree apart.
 int bits_for(const Tree& tree) { return static_cast<int>(std::bit_width(tree.nodes().size() - 1)); }
 
-/// The principal axis of an outline's corners.
-glm::dvec2 principal_axis(const Outline& outline) {
-    std::array<Disk, Outline::kMostCorners> points;
-    std::ranges::transform(outline.corners(), points.begin(), [](glm::dvec2 p) { return Disk{p.x, p.y, 0}; });
-    return principal_axis(std::span<const Disk>(points).first(outline.corners().size()));
+/// From the first centre to the last; where they coincide, what stands in for it.
+glm::dvec2 travel_axis(const Disk& first, const Disk& last, glm::dvec2 stand_in) {
+    const glm::dvec2 travel{last.x - first.x, last.y - first.y};
+    const double length = glm::length(travel);
+    return length > kStandingStill ? travel / length : stand_in;
 }
 
-/// The rectangle around an outline along u, a little wider for the outline's rounding errors, from t0 to t1 (w*t).
-Box rectangle_over_time(const Outline& outline, glm::dvec2 u, double rounding, double t0, double t1) {
-    const glm::dvec2 v{-u.y, u.x};
-    glm::dvec2 low{std::numeric_limits<double>::infinity()}, high = -low;
-    for (const glm::dvec2 p : outline.corners()) {
-        const glm::dvec2 q{glm::dot(p, u), glm::dot(p, v)};
-        low = glm::min(low, q);
-        high = glm::max(high, q);
-    }
-    const glm::dvec2 center = (low.x + high.x) / 2 * u + (low.y + high.y) / 2 * v;
+Outline outline_of(std::span<const Disk> disks) {
+    return {disks, travel_axis(disks.front(), disks.back(), principal_axis(disks))};
+}
+
+/// The rectangle around an outline along its axis, a little wider for rounding errors, from t0 to t1 (w*t).
+Box rectangle_over_time(const Outline& outline, double rounding, double t0, double t1) {
+    const glm::dvec2 u = outline.axis(), center = outline.center(), half = outline.half() + rounding;
     Box box;
     box.kind = BoxKind::obb2d;
     box.center = {center.x, center.y, (t0 + t1) / 2};
-    box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{v.x, v.y, 0}, glm::dvec3{0, 0, 1}};
-    box.half = {(high.x - low.x) / 2 + rounding, (high.y - low.y) / 2 + rounding, (t1 - t0) / 2};
+    box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{-u.y, u.x, 0}, glm::dvec3{0, 0, 1}};
+    box.half = {half.x, half.y, (t1 - t0) / 2};
     return box;
 }
 
 }  // namespace
 
 ChainPart::ChainPart(std::shared_ptr<const Tree> tree)
-    : tree_(checked(std::move(tree))), outline_(Outline::around(tree_->clip().samples())) {}
+    : tree_(checked(std::move(tree))), outline_(outline_of(tree_->clip().samples())) {}
 
 Chain::Chain(std::span<const ChainLink> links) {
     if (links.empty()) throw std::invalid_argument("a chain needs at least one link");
@@ -98,6 +95,12 @@ void Chain::append(std::span<const ChainLink> links) {
     if ((count << shift) + count > std::numeric_limits<int>::max()) {
         throw std::invalid_argument("the chain has too many nodes: use fewer links, or trees with larger leaves");
     }
+    if (links_.empty()) {
+        dt_ = like->clip().dt();
+        time_scale_ = like->tree().time_scale();
+        links_.reserve(links.size());
+        upper_.reserve(links.size());
+    }
     shift_ = shift;
     reach_ = reach;
     for (const ChainLink& link : links) {
@@ -109,7 +112,7 @@ void Chain::append(std::span<const ChainLink> links) {
 }
 
 void Chain::drop_before(double seconds) {
-    const auto ends_later = [&](const Link& link) { return link.end() * dt() > seconds; };
+    const auto ends_later = [&](const Link& link) { return link.end() * dt_ > seconds; };
     auto stays = std::find_if(links_.begin(), links_.end() - 1, ends_later);
     if (stays == links_.begin()) return;
     std::vector<Link> kept(std::make_move_iterator(stays), std::make_move_iterator(links_.end()));
@@ -145,55 +148,15 @@ Chain::Peak Chain::joined(const Peak& left, const Peak& right) {
     const int links = left.links + right.links;
     const Link& first = links_[static_cast<std::size_t>(left.first_link)];
     const Link& last = links_[static_cast<std::size_t>(left.first_link + links - 1)];
-    Peak peak{static_cast<int>(upper_.size()), left.first_link, links, merged(left.outline, right.outline)};
-
-    const Disk from = first.disk(first.first), to = last.disk(last.end() - 1);
-    const glm::dvec2 travel{to.x - from.x, to.y - from.y};
-    const double length = glm::length(travel);
-    const glm::dvec2 u = length > kStandingStill ? travel / length : principal_axis(peak.outline);
-    const double w = time_scale();
-    upper_.push_back({rectangle_over_time(peak.outline, u, kOutlineRounding * reach_, w * (first.first * dt()),
-                                          w * (last.end() * dt())),
-                      first.first,
-                      last.end() - first.first,
-                      {left.child, right.child}});
+    const glm::dvec2 axis = travel_axis(first.disk(first.first), last.disk(last.end() - 1), left.outline.axis());
+    Peak peak{static_cast<int>(upper_.size()), left.first_link, links, {left.outline, right.outline, axis}};
+    const double w = time_scale_;
+    upper_.push_back(
+        {rectangle_over_time(peak.outline, kOutlineRounding * reach_, w * (first.first * dt_), w * (last.end() * dt_)),
+         first.first,
+         last.end() - first.first,
+         {left.child, right.child}});
     return peak;
-}
-
-int Chain::id_of(int child) const {
-    const int uppers = static_cast<int>(upper_.size());
-    return child >= 0 ? uppers - 1 - child : uppers + (~child << shift_);
-}
-
-ChainNode Chain::node(int id) const {
-    const int uppers = static_cast<int>(upper_.size());
-    if (id < uppers) {
-        const Upper& upper = upper_[static_cast<std::size_t>(uppers - 1 - id)];
-        return {upper.first, upper.count, {id_of(upper.children[0]), id_of(upper.children[1])}, -1, &upper.box};
-    }
-    const int k = (id - uppers) >> shift_;
-    const int root = uppers + (k << shift_);
-    const Link& link = links_[static_cast<std::size_t>(k)];
-    const Node& node = link.nodes[id - root];
-    ChainNode out{link.first + node.first, node.count, {-1, -1}, k, &node.box};
-    if (!node.is_leaf()) {
-        out.children[0] = root + node.children[0];
-        out.children[1] = root + node.children[1];
-    }
-    return out;
-}
-
-Box Chain::box(const ChainNode& node) const {
-    Box box = *node.box;
-    if (node.link < 0) return box;
-    const Link& link = links_[static_cast<std::size_t>(node.link)];
-    const auto turned = [&](glm::dvec3 v) {
-        const glm::dvec2 on_floor = link.rotation(glm::dvec2{v.x, v.y});
-        return glm::dvec3{on_floor.x, on_floor.y, v.z};
-    };
-    box.center = turned(box.center) + glm::dvec3{link.translate, time_scale() * (link.first * dt())};
-    for (glm::dvec3& axis : box.axes) axis = turned(axis);
-    return box;
 }
 
 Disk Chain::disk(int i) const {

@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -73,8 +74,8 @@ class Chain {
     /// indices and times, so the answers keep theirs. Takes time in proportion to the links that stay if one goes.
     void drop_before(double seconds);
 
-    double dt() const { return links_.front().part->clip().dt(); }
-    double time_scale() const { return links_.front().part->tree().time_scale(); }
+    double dt() const { return dt_; }
+    double time_scale() const { return time_scale_; }
     int links() const { return static_cast<int>(links_.size()); }
     /// 0 <= k < links(). The first sample of link k, and where it lies.
     int first_sample(int k) const { return links_[static_cast<std::size_t>(k)].first; }
@@ -82,7 +83,7 @@ class Chain {
 
     int first() const { return links_.front().first; }  ///< the first sample that has not been dropped
     int end() const { return links_.back().end(); }     ///< one past the last sample
-    double duration() const { return end() * dt(); }    ///< chain time at which the last sample ends, seconds
+    double duration() const { return end() * dt_; }     ///< chain time at which the last sample ends, seconds
     /// An upper bound in metres on |x| + |y| + r over the samples.
     double reach() const { return reach_; }
 
@@ -124,7 +125,10 @@ class Chain {
         Outline outline;
     };
 
-    int id_of(int child) const;
+    int id_of(int child) const {
+        const int uppers = static_cast<int>(upper_.size());
+        return child >= 0 ? uppers - 1 - child : uppers + (~child << shift_);
+    }
     void push(Link link);
     Peak joined(const Peak& left, const Peak& right);
     void join_peaks();
@@ -134,8 +138,41 @@ class Chain {
     std::vector<Peak> peaks_;   ///< the perfect trees, ever smaller
     std::size_t perfect_ = 0;   ///< how many of upper_ are not of the spine
     int shift_ = 0;             ///< a link's nodes have 2^shift_ numbers
+    double dt_ = 0;
+    double time_scale_ = 0;
     double reach_ = 0;
 };
+
+inline ChainNode Chain::node(int id) const {
+    const int uppers = static_cast<int>(upper_.size());
+    if (id < uppers) {
+        const Upper& upper = upper_[static_cast<std::size_t>(uppers - 1 - id)];
+        return {upper.first, upper.count, {id_of(upper.children[0]), id_of(upper.children[1])}, -1, &upper.box};
+    }
+    const int k = (id - uppers) >> shift_;
+    const int root = uppers + (k << shift_);
+    const Link& link = links_[static_cast<std::size_t>(k)];
+    const Node& node = link.nodes[id - root];
+    ChainNode out{link.first + node.first, node.count, {-1, -1}, k, &node.box};
+    if (!node.is_leaf()) {
+        out.children[0] = root + node.children[0];
+        out.children[1] = root + node.children[1];
+    }
+    return out;
+}
+
+inline Box Chain::box(const ChainNode& node) const {
+    Box box = *node.box;
+    if (node.link < 0) return box;
+    const Link& link = links_[static_cast<std::size_t>(node.link)];
+    const auto turned = [&](glm::dvec3 v) {
+        const glm::dvec2 on_floor = link.rotation(glm::dvec2{v.x, v.y});
+        return glm::dvec3{on_floor.x, on_floor.y, v.z};
+    };
+    box.center = turned(box.center) + glm::dvec3{link.translate, time_scale_ * (link.first * dt_)};
+    for (glm::dvec3& axis : box.axes) axis = turned(axis);
+    return box;
+}
 
 /// The clip of all samples of a chain that have not been dropped, in its frame: bit for bit the same disks.
 Clip flattened(const Chain& chain);

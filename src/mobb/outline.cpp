@@ -1,9 +1,11 @@
 #include <mobb/outline.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
@@ -11,164 +13,136 @@ namespace mobb {
 
 namespace {
 
-constexpr int kDiskCorners = 24;  // 1 / cos(pi / 24) = 1.009
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-bool is_left_of(glm::dvec2 a, glm::dvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
-bool is_right_of(glm::dvec2 a, glm::dvec2 b) { return is_left_of(b, a); }
-
-/// The unit vectors from a disk's centre to the corners of its polygon, made longer so that the sides touch the disk.
-const std::array<glm::dvec2, kDiskCorners>& disk_corners() {
-    static const auto corners = [] {
-        std::array<glm::dvec2, kDiskCorners> out;
-        const double length = 1 / std::cos(std::numbers::pi / kDiskCorners);
-        for (int i = 0; i < kDiskCorners; ++i) {
-            const double angle = 2 * std::numbers::pi * i / kDiskCorners;
-            out[static_cast<std::size_t>(i)] = {length * std::cos(angle), length * std::sin(angle)};
-        }
-        return out;
-    }();
-    return corners;
-}
-
-/// Points on the stack: as many as two outlines have.
-class Points {
-  public:
-    static constexpr std::size_t kMost = 2 * Outline::kMostCorners + 4;
-
-    void push(glm::dvec2 p) { points_[size_++] = p; }
-    void pop() { --size_; }
-    std::size_t size() const { return size_; }
-    glm::dvec2& operator[](std::size_t i) { return points_[i]; }
-    glm::dvec2 operator[](std::size_t i) const { return points_[i]; }
-    std::span<const glm::dvec2> all() const { return {points_.data(), size_}; }
-
-  private:
-    std::array<glm::dvec2, kMost> points_;
-    std::size_t size_ = 0;
-};
-
-/// One more point of a hull that turns left all the way: what would turn right before it goes.
-void push_turning_left(Points& hull, std::size_t begin, glm::dvec2 p) {
-    while (hull.size() >= begin + 2 &&
-           cross(hull[hull.size() - 1] - hull[hull.size() - 2], p - hull[hull.size() - 2]) <= 0) {
-        hull.pop();
-    }
-    if (hull.size() == begin || hull[hull.size() - 1] != p) hull.push(p);
-}
-
-/// What a side of the polygon adds to its area if it goes and its two neighbours are prolonged until they meet, and
-/// where; infinite if they do not meet.
-struct Removal {
-    double area = std::numeric_limits<double>::infinity();
-    glm::dvec2 corner{0};
-};
-Removal removal(glm::dvec2 before, glm::dvec2 from, glm::dvec2 to, glm::dvec2 after) {
-    const glm::dvec2 u = from - before, side = to - from, v = to - after;
-    const double turn = cross(v, u);
-    if (!(turn > 0)) return {};
-    const double along = cross(v, side) / turn;
-    const double area = along * cross(u, side) / 2;
-    if (!(area >= 0 && area < std::numeric_limits<double>::max())) return {};
-    return {area, from + along * u};
-}
-
-Points rectangle_around(const Points& polygon) {
-    glm::dvec2 low = polygon[0], high = polygon[0];
-    for (const glm::dvec2 p : polygon.all()) low = glm::min(low, p), high = glm::max(high, p);
-    Points out;
-    for (const glm::dvec2 p : {low, {high.x, low.y}, high, {low.x, high.y}}) out.push(p);
-    return out;
-}
-
-/// Takes out the sides that add least, as many as are too many.
-void simplify(Points& polygon) {
-    constexpr auto kMost = static_cast<std::size_t>(Outline::kMostCorners);
-    while (polygon.size() > kMost) {
-        const std::size_t n = polygon.size();
-        const std::size_t excess = n - kMost;
-        std::array<Removal, Points::kMost> removals;
-        std::array<double, Points::kMost> areas{};
-        for (std::size_t i = 0; i < n; ++i) {
-            removals[i] = removal(polygon[(i + n - 1) % n], polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]);
-            areas[i] = removals[i].area;
-        }
-        // Side i runs from corner i to i + 1. Two neighbours never go in one round, as each needs the other's line; the
-        // last side stays.
-        std::nth_element(areas.begin(), areas.begin() + excess - 1, areas.begin() + n - 1);
-        const double most = areas[excess - 1];
-        if (most == std::numeric_limits<double>::infinity()) {
-            polygon = rectangle_around(polygon);  // so small that areas vanish
-            return;
-        }
-        Points out;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (i + 1 < n && n - (i - out.size()) > kMost && removals[i].area <= most) {
-                out.push(removals[i].corner);
-                ++i;
-            } else {
-                out.push(polygon[i]);
-            }
-        }
-        polygon = out;
-    }
-}
-
-/// Brings corners that are in order, but for rounding errors, into it.
-template <class Less>
-void sort_almost_sorted(std::span<glm::dvec2> points, Less less) {
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        for (std::size_t j = i; j > 0 && less(points[j], points[j - 1]); --j) std::swap(points[j], points[j - 1]);
-    }
-}
-
 }  // namespace
 
-Outline::Outline(std::span<const glm::dvec2> corners) : count_(static_cast<int>(corners.size())) {
-    const auto leftmost = std::ranges::min_element(corners, is_left_of);
-    std::ranges::rotate_copy(corners, leftmost, corners_.begin());
-    const std::span<glm::dvec2> all(corners_.data(), corners.size());
-    const auto rightmost = static_cast<std::size_t>(std::ranges::max_element(all, is_left_of) - all.begin());
-    rightmost_ = static_cast<int>(rightmost);
-    sort_almost_sorted(all.first(rightmost + 1), is_left_of);
-    sort_almost_sorted(all.subspan(rightmost), is_right_of);
-    corners_[corners.size()] = corners_[0];
-}
+/// A vector as the sum of two neighbouring directions: along it, a polygon reaches as far as the corner that the two
+/// make.
+struct Outline::Corner {
+    double of_first;
+    double of_second;
 
-Outline Outline::around(const Disk& disk) {
-    std::array<glm::dvec2, kDiskCorners> corners;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        corners[i] = glm::dvec2{disk.x, disk.y} + disk.r * disk_corners()[i];
+    double reach(const std::array<double, kDirections>& reach, std::size_t first) const {
+        return of_first * reach[first % kDirections] + of_second * reach[(first + 1) % kDirections];
     }
-    return Outline(corners);
+};
+
+/// The directions, from +x on.
+struct Outline::Circle {
+    static constexpr double kStep = 2 * std::numbers::pi / kDirections;
+
+    std::array<glm::dvec2, kDirections> directions;
+    double per_sine = 1 / std::sin(kStep);
+
+    Circle() {
+        for (std::size_t k = 0; k < kDirections; ++k) {
+            const double angle = kStep * static_cast<double>(k);
+            directions[k] = {std::cos(angle), std::sin(angle)};
+        }
+    }
+    glm::dvec2 operator[](std::size_t k) const { return directions[k % kDirections]; }
+
+    /// The last direction that v has reached or passed on its way around; `from` is one that it is known to have, by
+    /// less than half a turn.
+    std::size_t before(glm::dvec2 v, std::size_t from) const {
+        while (cross((*this)[from + 1], v) > 0) ++from;
+        return from;
+    }
+    std::size_t before(glm::dvec2 v) const {
+        const std::size_t quarter = v.y >= 0 ? (v.x > 0 ? 0 : 1) : (v.x < 0 ? 2 : 3);
+        return before(v, quarter * kQuarter);
+    }
+    /// v lies between directions `first` and `first` + 1.
+    Corner corner(std::size_t first, glm::dvec2 v) const {
+        return {cross(v, (*this)[first + 1]) * per_sine, cross((*this)[first], v) * per_sine};
+    }
+
+    static const Circle& get() {
+        static const Circle circle;
+        return circle;
+    }
+};
+
+Outline::Outline(glm::dvec2 origin, glm::dvec2 axis) : origin_(origin), frame_{axis.x, axis.y} {
+    reach_.fill(-kInfinity);
 }
 
-Outline Outline::around(std::span<const Disk> disks) {
-    if (disks.size() == 1) return around(disks[0]);
-    const std::size_t half = disks.size() / 2;
-    return merged(around(disks.first(half)), around(disks.subspan(half)));
+void Outline::stretch(glm::dvec2 half) {
+    // More would cost digits, and a size of 0 everything.
+    constexpr double kMostStretch = 100;
+    constexpr double kLeastSize = 1e-100;
+    const double least = std::max(std::max(half.x, half.y) / kMostStretch, kLeastSize);
+    size_ = glm::max(half, least);
+}
+
+Outline::Outline(std::span<const Disk> disks, glm::dvec2 axis) : Outline({disks[0].x, disks[0].y}, axis) {
+    const auto center = [&](const Disk& d) { return frame_.inverse()(glm::dvec2{d.x, d.y} - origin_); };
+    glm::dvec2 low{kInfinity}, high{-kInfinity};
+    for (const Disk& d : disks) {
+        low = glm::min(low, center(d) - d.r);
+        high = glm::max(high, center(d) + d.r);
+    }
+    stretch((high - low) / 2.0);
+
+    const Circle& circle = Circle::get();
+    std::array<double, kDirections> of_radius;
+    for (std::size_t k = 0; k < kDirections; ++k) of_radius[k] = glm::length(circle[k] / size_);
+    for (const Disk& d : disks) {
+        const glm::dvec2 p = center(d) / size_;
+        for (std::size_t k = 0; k < kDirections; ++k) {
+            reach_[k] = std::max(reach_[k], glm::dot(circle[k], p) + of_radius[k] * d.r);
+        }
+    }
+}
+
+Outline::Outline(const Outline& a, const Outline& b, glm::dvec2 axis) : Outline(a.origin_, axis) {
+    glm::dvec2 low{kInfinity}, high{-kInfinity};
+    measure(a, low, high);
+    measure(b, low, high);
+    stretch((high - low) / 2.0);
+    enclose(a);
+    enclose(b);
 }
 
 Outline Outline::placed(const Rotation& rotation, glm::dvec2 translate) const {
-    std::array<glm::dvec2, kMostCorners> corners;
-    std::ranges::transform(this->corners(), corners.begin(), [&](glm::dvec2 p) { return rotation(p) + translate; });
-    return Outline(std::span(corners).first(this->corners().size()));
+    Outline out = *this;
+    out.origin_ = rotation(origin_) + translate;
+    out.frame_ = rotation * frame_;
+    return out;
 }
 
-Outline merged(const Outline& a, const Outline& b) {
-    std::array<glm::dvec2, Points::kMost> side;
+void Outline::measure(const Outline& other, glm::dvec2& low, glm::dvec2& high) const {
+    const Circle& circle = Circle::get();
+    const Rotation turn = other.frame_.inverse() * frame_;
+    const glm::dvec2 offset = frame_.inverse()(other.origin_ - origin_);
+    for (int i = 0; i < 2; ++i) {
+        const glm::dvec2 v = other.size_ * turn(i == 0 ? glm::dvec2{1, 0} : glm::dvec2{0, 1});
+        const std::size_t k = circle.before(v);
+        const Corner corner = circle.corner(k, v);
+        high[i] = std::max(high[i], offset[i] + corner.reach(other.reach_, k));
+        low[i] = std::min(low[i], offset[i] - corner.reach(other.reach_, k + kHalf));
+    }
+}
 
-    Points hull;
-    const auto end_lower = std::ranges::merge(a.lower_side(), b.lower_side(), side.begin(), is_left_of).out;
-    for (auto p = side.begin(); p != end_lower; ++p) push_turning_left(hull, 0, *p);
-    const std::size_t rightmost = hull.size() - 1;
-    const auto end_upper = std::ranges::merge(a.upper_side(), b.upper_side(), side.begin(), is_right_of).out;
-    for (auto p = side.begin(); p != end_upper; ++p) push_turning_left(hull, rightmost, *p);
-    if (hull.size() > 1) hull.pop();  // the upper side ends where the lower one began
-
-    simplify(hull);
-    return Outline(hull.all());
+void Outline::enclose(const Outline& other) {
+    const Circle& circle = Circle::get();
+    const Rotation turn = other.frame_.inverse() * frame_;
+    const glm::dvec2 offset = frame_.inverse()(other.origin_ - origin_) / size_;
+    // A direction of this outline's, as the other one's circle has it.
+    const glm::dvec2 seen_x = other.size_ * turn({1 / size_.x, 0}), seen_y = other.size_ * turn({0, 1 / size_.y});
+    const auto seen = [&](glm::dvec2 direction) { return direction.x * seen_x + direction.y * seen_y; };
+    std::size_t k = circle.before(seen(circle[0]));
+    for (std::size_t j = 0; j < kHalf; ++j) {
+        const glm::dvec2 v = seen(circle[j]);
+        k = circle.before(v, k);
+        const Corner corner = circle.corner(k, v);
+        const double along = glm::dot(circle[j], offset);
+        reach_[j] = std::max(reach_[j], corner.reach(other.reach_, k) + along);
+        reach_[j + kHalf] = std::max(reach_[j + kHalf], corner.reach(other.reach_, k + kHalf) - along);
+    }
 }
 
 }  // namespace mobb

@@ -6,52 +6,54 @@
 #include <glm/vec2.hpp>
 
 #include <array>
-#include <cstddef>
 #include <span>
 
 namespace mobb {
 
-/// A convex polygon around disks. A disk's is loose by 0.9 % of its radius, and what merges several adds nothing as
-/// long as they are within kMostCorners; a rounder hull than that is enclosed by one with fewer corners. All of it
-/// holds up to rounding errors, at most kOutlineRounding of the distance from the origin.
+/// A convex polygon around disks: how far they reach in a fixed number of directions (a discrete-orientation polytope:
+/// Klosowski et al. 1998). The directions are those of a circle that has been stretched to the disks' length along an
+/// axis and their width across it: a long and narrow path is enclosed as closely as a round one.
 class Outline {
   public:
-    static constexpr int kMostCorners = 48;
+    /// Around disks, at least one; `axis` is a unit vector.
+    Outline(std::span<const Disk> disks, glm::dvec2 axis);
 
-    /// Around at least one disk; time is linear in their number.
-    static Outline around(std::span<const Disk> disks);
+    /// Around two others. Each adds less than 0.5 % to their extents.
+    Outline(const Outline& a, const Outline& b, glm::dvec2 axis);
 
-    /// Counter-clockwise, from the leftmost (of several, the lowest). Points and lines have fewer than three.
-    std::span<const glm::dvec2> corners() const { return {corners_.data(), static_cast<std::size_t>(count_)}; }
-
-    /// Rotated about the origin, then translated (metres).
+    /// Rotated about the world's origin, then translated (metres).
     Outline placed(const Rotation& rotation, glm::dvec2 translate) const;
 
-    /// Encloses both: their convex hull (Andrew 1979, in linear time as both are sorted), simplified if it has too many
-    /// corners.
-    friend Outline merged(const Outline& a, const Outline& b);
+    glm::dvec2 axis() const { return {frame_.c, frame_.s}; }
+    /// Of the rectangle around it along its axis: the half extents along the axis and across it, and the centre.
+    glm::dvec2 half() const {
+        return size_ * glm::dvec2{reach_[0] + reach_[kHalf], reach_[kQuarter] + reach_[kHalf + kQuarter]} / 2.0;
+    }
+    glm::dvec2 center() const {
+        return origin_ +
+               frame_(size_ * glm::dvec2{reach_[0] - reach_[kHalf], reach_[kQuarter] - reach_[kHalf + kQuarter]} / 2.0);
+    }
 
   private:
-    /// From corners in counter-clockwise order, at most kMostCorners.
-    explicit Outline(std::span<const glm::dvec2> corners);
-    static Outline around(const Disk& disk);
+    static constexpr std::size_t kDirections = 32;  ///< a power of 2
+    static constexpr std::size_t kHalf = kDirections / 2, kQuarter = kDirections / 4;
+    struct Circle;
+    struct Corner;
 
-    /// From the leftmost corner to the rightmost (of several, the highest), and from there back to the leftmost.
-    std::span<const glm::dvec2> lower_side() const {
-        return {corners_.data(), static_cast<std::size_t>(rightmost_ + 1)};
-    }
-    std::span<const glm::dvec2> upper_side() const {
-        return {corners_.data() + rightmost_, static_cast<std::size_t>(count_ + 1 - rightmost_)};
-    }
+    Outline(glm::dvec2 origin, glm::dvec2 axis);
+    /// Takes the length and width of what reaches so far along the axis and across it.
+    void stretch(glm::dvec2 half);
+    /// The rectangle around another in this one's frame.
+    void measure(const Outline& other, glm::dvec2& low, glm::dvec2& high) const;
+    void enclose(const Outline& other);
 
-    std::array<glm::dvec2, kMostCorners + 1> corners_{};  ///< the first one again behind the last
-    int count_ = 0;
-    int rightmost_ = 0;
+    glm::dvec2 origin_;   ///< near the disks, so that no digits are lost far from the world's
+    Rotation frame_;      ///< turns +x into the axis
+    glm::dvec2 size_{1};  ///< about the half extents, metres: the unit of length along the axis and of width across it
+    std::array<double, kDirections> reach_;  ///< from the origin, in those units, counter-clockwise from the axis
 };
 
-/// See Outline.
+/// What rounding adds to an outline's errors, at most, as a share of its distance from the world's origin.
 inline constexpr double kOutlineRounding = 1e-12;
-
-Outline merged(const Outline& a, const Outline& b);
 
 }  // namespace mobb
