@@ -10,8 +10,8 @@ namespace mobb {
 
 namespace {
 
-/// Fitting, two placements, the rotation between them and the projections round some forty times, each by at most one
-/// epsilon of the lengths involved. The rest is margin: it costs nothing that can be seen.
+/// Fitting, two placements (a chain places twice), the rotation between them and the projections round some sixty
+/// times, each by at most one epsilon of the lengths involved. The rest is margin: it costs nothing that can be seen.
 constexpr double kSlackFactor = 256 * std::numeric_limits<double>::epsilon();
 
 /// Metres. Squares of lengths below 1e-154 underflow in the hit predicate, which then sees disks closer than they are.
@@ -21,14 +21,12 @@ double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 }  // namespace
 
-RelativeFrame::RelativeFrame(const PlacedClip& a, const PlacedClip& b, double time_scale)
-    : to_world_(a.rotation()), rotation_(a.rotation().inverse() * b.rotation()) {
-    const glm::dvec2 between = a.rotation().inverse()(b.placement().translate - a.placement().translate);
-    offset_ = {between.x, between.y, time_scale * (b.placement().start - a.placement().start)};
-    const double lengths =
-        manhattan(a.placement().translate) + manhattan(b.placement().translate) + a.clip().reach() + b.clip().reach();
-    const double times =
-        std::abs(a.placement().start) + std::abs(b.placement().start) + a.clip().duration() + b.clip().duration();
+RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
+    : to_world_(a.rotation), rotation_(a.rotation.inverse() * b.rotation) {
+    const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
+    offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
+    const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
+    const double times = std::abs(a.start) + std::abs(b.start) + a.duration + b.duration;
     slack2d_ = kLeastSlack + kSlackFactor * lengths;
     slack_time_ = kSlackFactor * time_scale * times;
     slack3d_ = slack2d_ + slack_time_;

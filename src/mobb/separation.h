@@ -23,7 +23,7 @@ struct Separation {
 class RelativeFrame {
   public:
     /// `time_scale` w is that of both trees.
-    RelativeFrame(const PlacedClip& a, const PlacedClip& b, double time_scale);
+    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale);
 
     glm::dvec2 direction(glm::dvec2 v) const { return rotation_(v); }
     glm::dvec3 direction(glm::dvec3 v) const {

@@ -26,7 +26,7 @@ mobb::Box along_the_world(const mobb::Box& box, glm::dvec2 center, const mobb::R
 BoxPair boxes_of(std::span<const Subject> sides, const mobb::Trace::Event& event) {
     const mobb::PlacedTree& a = sides[0].placed;
     const mobb::PlacedTree& b = sides[1].placed;
-    const mobb::RelativeFrame frame(a.placed_clip(), b.placed_clip(), a.time_scale());
+    const mobb::RelativeFrame frame(a.frame(), b.frame(), a.time_scale());
     BoxPair pair{a.node(event.a).box, b.node(event.b).box};
     pair.b.center = frame.point(pair.b.center) - pair.a.center;
     for (glm::dvec3& axis : pair.b.axes) axis = frame.direction(axis);

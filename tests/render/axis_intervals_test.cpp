@@ -27,7 +27,7 @@ Counts check_all(const FittedScene& fitted) {
         ViewState view;
         view.query = static_cast<int>(i);
         const std::vector<Subject> sides = subjects(fitted, view);
-        const mobb::RelativeFrame frame(sides[0].clip(), sides[1].clip(), sides[0].placed.time_scale());
+        const mobb::RelativeFrame frame(sides[0].clip().frame(), sides[1].clip().frame(), sides[0].placed.time_scale());
         for (int step = 0; step < recorded.trace.size(); ++step) {
             const mobb::Trace::Event event = recorded.trace[step];
             const std::vector<AxisInterval> intervals = axis_intervals(sides, event);
