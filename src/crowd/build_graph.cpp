@@ -2,7 +2,7 @@
 #include <crowd/build_graph.h>
 #include <crowd/cut_search.h>
 #include <crowd/hub_choice.h>
-#include <crowd/strong_components.h>
+#include <scene/strong_components.h>
 #include <import/text.h>
 #include <scene/scene_edits.h>
 

@@ -1,5 +1,5 @@
 #include <crowd/hub_choice.h>
-#include <crowd/strong_components.h>
+#include <scene/strong_components.h>
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-#include <crowd/strong_components.h>
+#include <scene/strong_components.h>
 
 #include <algorithm>
 #include <cstddef>
