@@ -2,6 +2,7 @@
 #include <import/applicable.h>
 #include <import/file.h>
 #include <import/text.h>
+#include <scene/crowd_json.h>
 #include <scene/fit_json.h>
 #include <scene/graph_json.h>
 #include <scene/json_place.h>
@@ -169,7 +170,7 @@ class SceneReader {
         : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress) {}
 
     Scene read() {
-        root_.allow_only({"$schema", "mobbscope", "clips", "graph", "agents", "fit", "queries", "view"});
+        root_.allow_only({"$schema", "mobbscope", "clips", "graph", "crowd", "agents", "fit", "queries", "view"});
         check_version();
         const JsonPlace clips = root_.require("clips");
         if (clips.members() == 0) clips.fail("there is no clip; add one");
@@ -188,6 +189,7 @@ class SceneReader {
         if (const auto queries = root_.find("queries")) {
             for (int i = 0; i < queries->size(); ++i) scene_.queries.push_back(read_query((*queries)[i]));
         }
+        if (const auto crowd = root_.find("crowd")) scene_.crowd = read_crowd(*crowd, scene_);
         if (const auto view = root_.find("view")) {
             scene_.view = read_view(*view);
             check_viewed_query(*view);

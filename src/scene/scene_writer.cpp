@@ -1,5 +1,6 @@
 // Scene files written: what is read back is the same scene, bit for bit.
 #include <import/text.h>
+#include <scene/crowd_json.h>
 #include <scene/graph_json.h>
 #include <scene/json_writer.h>
 #include <scene/scene.h>
@@ -131,6 +132,10 @@ std::string to_json(const Scene& scene, bool inline_samples) {
         out.begin_array();
         for (const SceneQuery& query : scene.queries) write_query(out, scene, query);
         out.end_array();
+    }
+    if (scene.crowd) {
+        out.key("crowd");
+        write_crowd(out, *scene.crowd);
     }
     if (scene.view != ViewState{}) {
         out.key("view");
