@@ -123,6 +123,23 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     }
 }
 
+TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
+    World world({20, 20});
+    const mobb::Placement placement{{1, 2}, 30, 0};
+    const std::size_t first = world.commit(moves.motion(1, 0, 0, placement));
+    world.commit(moves.motion(2, 0, 0, placement));
+    const Motion candidate = moves.motion(0, 0, 0, placement);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 1);
+    world.withdraw(first);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 2);
+    std::vector<AskedPair> pairs;
+    world.all_pairs(candidate, pairs);
+    EXPECT_EQ(pairs.size(), 1u);
+    world.forget_before(1000);
+    EXPECT_EQ(world.size(), 0u);
+    EXPECT_FALSE(world.verdicts({&candidate, 1}).front().ruling);
+}
+
 TEST_F(WorldTest, AllPairsAreThoseOfOtherAgents) {
     World world({20, 20});
     for (int agent = 0; agent < 5; ++agent) world.commit(random_motion(agent, 0, {20, 20}, 3));
