@@ -18,7 +18,7 @@ namespace mobbscope {
 namespace {
 
 constexpr int kTries = 2000;          // places looked at for an agent before the floor counts as full
-constexpr std::int64_t kTold = 4096;  // choices between two reports of progress
+constexpr double kReports = 100;  // of progress in a run
 
 struct Turn {
     double time;
@@ -51,7 +51,7 @@ class Simulator {
             turns_.pop();
             world_.forget_before(turn.time);
             make_choice(turn);
-            if (counts().choices % kTold == 0) tell(turn.time);
+            if (turn.time >= counts().simulated + options_.seconds / kReports) tell(turn.time);
         }
         tell(options_.seconds);
         return std::move(simulation_);

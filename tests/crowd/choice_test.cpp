@@ -41,7 +41,9 @@ class ChoiceTest : public ::testing::Test {
                 EXPECT_EQ(taken.move, play.move);
                 EXPECT_EQ(taken.placement, play.placement);
                 EXPECT_EQ(taken.is_free(), play.kind != PlayKind::forced);
-                EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
+                if (play.kind != PlayKind::forced) {
+                    EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
+                }
                 counts.candidates += static_cast<std::int64_t>(choice.candidates.size());
                 counts.queries += choice.queries;
                 for (const Candidate& candidate : choice.candidates) {
@@ -150,7 +152,8 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
     ASSERT_TRUE(taken.ruling);
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_FALSE(candidate.is_free());
-        if (!candidate.leaves_floor) EXPECT_LE(candidate.ruling->contact.time, taken.ruling->contact.time);
+        if (candidate.leaves_floor) continue;
+        EXPECT_LE(candidate.ruling->contact.time, taken.ruling->contact.time);
     }
 }
 
@@ -162,7 +165,8 @@ TEST_F(ChoiceTest, OnNoFloorAtAllTheLatestContactIsStillFound) {
     const Choice choice = choose(moves, world, crowd, point);
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
-    EXPECT_EQ(choice.candidates[choice.taken].turn_deg, 0);
+    // In a room of one's own no contact is the latest.
+    EXPECT_FALSE(choice.candidates[choice.taken].ruling);
 }
 
 }  // namespace

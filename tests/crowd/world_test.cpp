@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace mobbscope {
@@ -163,8 +164,9 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
         EXPECT_TRUE(bounds.low.x <= tight.low.x && bounds.low.y <= tight.low.y);
         EXPECT_TRUE(bounds.high.x >= tight.high.x && bounds.high.y >= tight.high.y);
         const glm::dvec2 wide = bounds.high - bounds.low, least = tight.high - tight.low;
-        EXPECT_LT(wide.x, least.x * 1.05 + 0.05);
-        EXPECT_LT(wide.y, least.y * 1.05 + 0.05);
+        const double most = 1.04 * std::hypot(least.x, least.y) - std::hypot(least.x, least.y);
+        EXPECT_LT(wide.x, least.x + most);
+        EXPECT_LT(wide.y, least.y + most);
         // A wall exactly at the tight bound is touched, one just inside is crossed.
         const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
         EXPECT_FALSE(leaves_floor(clip, *motion.outline, {2 * (reach + 1e-9), 1e6}));
