@@ -1,5 +1,6 @@
 #include <import/text.h>
 #include <scene/crowd_json.h>
+#include <scene/motion_graph.h>
 
 #include <array>
 #include <cmath>

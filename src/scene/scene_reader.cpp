@@ -170,7 +170,7 @@ class SceneReader {
         : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress) {}
 
     Scene read() {
-        root_.allow_only({"$schema", "mobbscope", "clips", "graph", "agents", "fit", "queries", "crowd", "view"});
+        root_.allow_only({"$schema", "mobbscope", "clips", "graph", "crowd", "agents", "fit", "queries", "view"});
         check_version();
         const JsonPlace clips = root_.require("clips");
         if (clips.members() == 0) clips.fail("there is no clip; add one");
