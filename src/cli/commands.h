@@ -13,6 +13,7 @@ void add_fit_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_query_command(CLI::App& program, int& status);
 void add_render_command(CLI::App& program);
+void add_simulate_command(CLI::App& program);
 void add_test_command(CLI::App& program, int& status);
 
 }  // namespace mobbscope::cli

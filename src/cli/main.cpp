@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
     add_info_command(program);
     add_query_command(program, status);
     add_render_command(program);
+    add_simulate_command(program);
     add_test_command(program, status);
     for (CLI::App* command : program.get_subcommands({})) {
         command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);

@@ -38,9 +38,9 @@ struct ChoicePoint {
 };
 
 /// Makes a choice: of the candidates that stay on the floor and collide with nobody one is taken at random. If there is
-/// none, the agent turns on the spot, by 15 degrees either way, by 30, and so on, until there is one (a pivot). If there
-/// is none at any heading, the candidate whose first contact is latest is taken, one that stays on the floor if any does
-/// (forced). The random number depends on (seed, agent, play) alone.
+/// none, the agent turns on the spot, by 15 degrees either way, by 30, and so on, until there is one (a pivot). If
+/// there is none at any heading, the candidate whose first contact is latest is taken, one that stays on the floor if
+/// any does (forced). The random number depends on (seed, agent, play) alone.
 Choice choose(const MoveSet& moves, const World& world, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked = nullptr);
 

@@ -1,5 +1,5 @@
-/// Random numbers that depend on what they are drawn for and on nothing else: no state goes from one choice to the next,
-/// so no thread and no order changes them.
+/// Random numbers that depend on what they are drawn for and on nothing else: no state goes from one choice to the
+/// next, so no thread and no order changes them.
 #pragma once
 
 #include <cstdint>

@@ -44,8 +44,8 @@ struct Verdict {
     int asked = 0;                 ///< how many pairs the trees were asked
 };
 
-/// The committed motions of a crowd in a grid over the floor, with the time of each. It grows with what is committed and
-/// not yet forgotten. Verdicts may be asked from any number of threads while nothing is committed or forgotten.
+/// The committed motions of a crowd in a grid over the floor, with the time of each. It grows with what is committed
+/// and not yet forgotten. Verdicts may be asked from any number of threads while nothing is committed or forgotten.
 class World {
   public:
     /// The grid covers the floor from -area/2 to area/2, in metres; what lies beyond is kept at its edges.
@@ -56,11 +56,12 @@ class World {
     void forget_before(double now);
     std::size_t size() const { return motions_.size() - free_.size(); }  ///< motions held
 
-    /// For each candidate the motion of another agent that rules it out, or none. With `asked`, the pairs that the trees
-    /// were asked are appended to it, in the order of candidates. The same on any number of threads.
+    /// For each candidate the motion of another agent that rules it out, or none. With `asked`, the pairs that the
+    /// trees were asked are appended to it, in the order of candidates. The same on any number of threads.
     std::vector<Verdict> verdicts(std::span<const Motion> candidates, std::vector<AskedPair>* asked = nullptr) const;
 
-    /// Appends every pair of the candidate and a motion of another agent: what the trees were asked if there were no grid.
+    /// Appends every pair of the candidate and a motion of another agent: what the trees were asked if there were no
+    /// grid.
     void all_pairs(const Motion& candidate, std::vector<AskedPair>& pairs) const;
 
   private:
