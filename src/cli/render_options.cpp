@@ -265,7 +265,8 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
-    command.add_option("FILE", arguments.file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)");
+    command.add_option("FILE", arguments.file,
+                       "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)");
     add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name, "The picture, a PNG file", "OUT.png");
     add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
                "OUT.png");

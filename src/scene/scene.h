@@ -38,6 +38,7 @@ struct SceneClip {
     mobb::ClipPtr clip;                          ///< never null in a loaded scene
     SourceFacts facts{};                         ///< of the source
     std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton.h
+    double start = 0;                            ///< seconds: when it starts among the tracks of its source
 };
 
 /// One side of a query: a clip and where it is placed.
@@ -97,9 +98,10 @@ std::vector<Participant> participants(const Scene& scene);
 /// through. An empty one is told nothing.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
-/// Reads a scene, a capture, or a clip file (a scene with its clips and no agents). `overrides` go over the import keys
-/// of every clip with a source. `progress` is told before each clip; a clip file is read in one go. Throws InputError;
-/// all files are checked before it returns.
+/// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a trajectory file (a scene with an
+/// agent for each track, which starts when the track does; global time 0 is the file's first frame). `overrides` go
+/// over the import keys of every clip with a source. `progress` is told before each clip; a clip file is read in one
+/// go. Throws InputError; all files are checked before it returns.
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {});
 
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
