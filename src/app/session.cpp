@@ -1,9 +1,9 @@
-#include <app/load_files.h>
 #include <app/session.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <render/query_progress.h>
 #include <scene/demo_scene.h>
+#include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -16,6 +16,11 @@
 namespace mobbscope::app {
 
 namespace {
+
+/// Tells a job how much is done; it ends there if it was cancelled.
+Progress progress_of(JobControl& control) {
+    return [&control](std::size_t done, std::size_t all) { control.step(done, all); };
+}
 
 /// Shorter work is waited for: a window that flickers is worse than one that is late by this.
 constexpr std::chrono::milliseconds kPatience(80);
@@ -196,7 +201,7 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
     after_asking([this, files] {
         load(
             "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),
-            [files](JobControl& control) { return load_files(files, control); }, files);
+            [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
     });
 }
 
@@ -218,7 +223,7 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
     present.view = view();
     start("Adding files", [this, files, before, present = std::move(present)](JobControl& control) -> Job::Finish {
         Scene next = present;
-        merge(next, load_files(files, control));
+        merge(next, load_files(files, {}, progress_of(control)));
         Document document = document_of(std::move(next), before.get());
         return [this, document = std::move(document)] {
             history_.change(document, {"adding files", ""});

@@ -6,6 +6,7 @@
 
 namespace mobbscope::cli {
 
+void add_bench_command(CLI::App& program, int& status);
 void add_conflicts_command(CLI::App& program, int& status);
 void add_convert_command(CLI::App& program);
 void add_diff_command(CLI::App& program, int& status);
@@ -13,6 +14,7 @@ void add_fit_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_query_command(CLI::App& program, int& status);
 void add_render_command(CLI::App& program);
+void add_simulate_command(CLI::App& program);
 void add_test_command(CLI::App& program, int& status);
 
 }  // namespace mobbscope::cli

@@ -30,13 +30,6 @@ int end_of_parse(const CLI::App& program, const CLI::ParseError& end) {
     return kBadInput;
 }
 
-/// A command of the contract that is still to come: its name is taken, its arguments are not.
-void add_planned_command(CLI::App& program, const std::string& name) {
-    CLI::App* command = program.add_subcommand(name, "Not in this version")->group("");
-    command->allow_extras()->set_help_flag();
-    command->callback([name] { throw InputError("the command " + name + " is not in this version"); });
-}
-
 int run(int argc, char** argv) {
     CLI::App program("See and debug bounding-volume trees in space-time", "mobbscope");
     program.set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
@@ -44,6 +37,7 @@ int run(int argc, char** argv) {
     WindowArguments window;
     add_window_options(program, window);
     int status = kDone;
+    add_bench_command(program, status);
     add_conflicts_command(program, status);
     add_convert_command(program);
     add_diff_command(program, status);
@@ -51,11 +45,11 @@ int run(int argc, char** argv) {
     add_info_command(program);
     add_query_command(program, status);
     add_render_command(program);
+    add_simulate_command(program);
     add_test_command(program, status);
     for (CLI::App* command : program.get_subcommands({})) {
         command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
     }
-    add_planned_command(program, "bench");
     // Before any command runs: what stands in front of its name is no argument of it.
     program.parse_complete_callback([&program] { check_not_before_command(program); });
     try {

@@ -5,13 +5,13 @@
 
 #include <app/glfw_window.h>
 #include <app/headless_window.h>
-#include <app/load_files.h>
 #include <app/script.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
 #include <render/render.h>
 #include <scene/demo_scene.h>
+#include <scene/load_files.h>
 
 #include <cstdlib>
 #include <iostream>
@@ -36,8 +36,7 @@ Scene load_all(const CLI::App& program, const std::vector<std::filesystem::path>
                              did_you_mean(file.string(), commands));
         }
     }
-    app::JobControl control;
-    return app::load_files(files, control);
+    return load_files(files);
 }
 
 /// Scripts find the same everywhere: they neither read nor write a person's settings.

@@ -14,8 +14,9 @@ namespace mobbscope {
 
 /// Why an agent plays a move.
 enum class PlayKind : std::uint8_t {
-    chosen,   ///< taken at random from the candidates that collide with nobody and stay on the floor
-    pivoted,  ///< none was free: the agent turned on the spot before a free one
+    chosen,   ///< taken at random from the candidates that collide with nobody, stay on the floor and end in nobody's
+              ///< way
+    pivoted,  ///< none was left: the agent turned on the spot before one that was
     forced,   ///< none was free at any heading: the one whose first contact is latest. It may collide
 };
 
@@ -23,7 +24,9 @@ enum class PlayKind : std::uint8_t {
 struct Play {
     int move = 0;  ///< index into MotionGraph::moves
     mobb::Placement placement;
-    double chosen_at = 0;  ///< global seconds of the choice point; choices of one time are made in the order of agents
+    /// Global seconds of the choice point, at most placement.start. Every agent's first play comes before all choices;
+    /// choices of one time are made in the order of agents, and of one agent in the order of plays.
+    double chosen_at = 0;
     PlayKind kind = PlayKind::chosen;
     friend bool operator==(const Play&, const Play&) = default;
 };
@@ -34,10 +37,15 @@ struct CrowdAgent {
     friend bool operator==(const CrowdAgent&, const CrowdAgent&) = default;
 };
 
+/// The largest seed that is the same number in every reader of JSON.
+inline constexpr std::uint64_t kMaxSeed = std::uint64_t{1} << 53;
+
 struct CrowdRun {
     glm::dvec2 area{30, 40};  ///< metres: the floor reaches from -area/2 to area/2; disks stay on it
     double seconds = 120;     ///< simulated
-    std::uint64_t seed = 1;
+    std::uint64_t seed = 1;   ///< at most kMaxSeed
+    double ahead = 0;         ///< seconds before its begin at which a move is chosen; 0: at the end of the one before
+    double grace = 1;         ///< seconds for which agents keep out of each other's way where moves end; 0: not at all
     std::vector<CrowdAgent> agents;
     friend bool operator==(const CrowdRun&, const CrowdRun&) = default;
 };

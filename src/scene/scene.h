@@ -6,8 +6,6 @@
 #include <mobb/query.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
-#include <scene/crowd_run.h>
-#include <scene/motion_graph.h>
 #include <scene/view_state.h>
 
 #include <cstddef>
@@ -21,6 +19,9 @@
 #include <vector>
 
 namespace mobbscope {
+
+struct CrowdRun;     // scene/crowd_run.h
+struct MotionGraph;  // scene/motion_graph.h
 
 struct Color {
     std::uint8_t r = 0, g = 0, b = 0;
@@ -54,6 +55,9 @@ struct Agent {
     int clip = 0;  ///< index into Scene::clips
     mobb::Placement placement;
     std::optional<Color> color;  ///< default: the palette's, by index
+    /// In a scene that scene_at made of a run: who in CrowdRun::agents this is and which of the plays; else -1.
+    int person = -1;
+    int play = -1;
 };
 
 /// What a capture says the answer was.
@@ -79,7 +83,8 @@ struct Scene {
     std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };
 
-/// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0.
+/// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0. A run asks none:
+/// whom its agents collide with is said by the choices and conflicts (crowd/choice.h, crowd/conflicts.h).
 std::size_t query_count(const Scene& scene);
 /// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
 /// when asked for: the pairs of a crowd would fill the memory.

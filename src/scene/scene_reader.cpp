@@ -3,7 +3,9 @@
 #include <import/file.h>
 #include <import/text.h>
 #include <import/tracks.h>
+#include <scene/crowd_json.h>
 #include <scene/fit_json.h>
+#include <scene/graph_json.h>
 #include <scene/json_place.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
@@ -169,13 +171,17 @@ class SceneReader {
         : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress) {}
 
     Scene read() {
-        root_.allow_only({"$schema", "mobbscope", "clips", "agents", "fit", "queries", "view"});
+        root_.allow_only({"$schema", "mobbscope", "clips", "graph", "crowd", "agents", "fit", "queries", "view"});
         check_version();
         const JsonPlace clips = root_.require("clips");
         if (clips.members() == 0) clips.fail("there is no clip; add one");
         for (int i = 0; i < clips.members(); ++i) {
             if (progress_) progress_(static_cast<std::size_t>(i), static_cast<std::size_t>(clips.members()));
             scene_.clips.push_back(read_clip(clips.member(i)));
+        }
+        if (const auto graph = root_.find("graph")) {
+            scene_.graph = std::make_shared<MotionGraph>(
+                read_graph(*graph, [this](const JsonPlace& clip) { return clip_names_.find(clip, "clip"); }));
         }
         if (const auto agents = root_.find("agents")) {
             for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
@@ -184,6 +190,7 @@ class SceneReader {
         if (const auto queries = root_.find("queries")) {
             for (int i = 0; i < queries->size(); ++i) scene_.queries.push_back(read_query((*queries)[i]));
         }
+        if (const auto crowd = root_.find("crowd")) scene_.crowd = read_crowd(*crowd, scene_);
         if (const auto view = root_.find("view")) {
             scene_.view = read_view(*view);
             check_viewed_query(*view);

@@ -1,5 +1,7 @@
 // Scene files written: what is read back is the same scene, bit for bit.
 #include <import/text.h>
+#include <scene/crowd_json.h>
+#include <scene/graph_json.h>
 #include <scene/json_writer.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
@@ -113,6 +115,10 @@ std::string to_json(const Scene& scene, bool inline_samples) {
     out.begin_object();
     for (const SceneClip& clip : scene.clips) write_clip(out, clip, inline_samples);
     out.end_object();
+    if (scene.graph) {
+        out.key("graph");
+        write_graph(out, *scene.graph, [&scene](int clip) { return scene.clips[static_cast<std::size_t>(clip)].name; });
+    }
     if (!scene.agents.empty()) {
         out.key("agents");
         out.begin_array();
@@ -126,6 +132,10 @@ std::string to_json(const Scene& scene, bool inline_samples) {
         out.begin_array();
         for (const SceneQuery& query : scene.queries) write_query(out, scene, query);
         out.end_array();
+    }
+    if (scene.crowd) {
+        out.key("crowd");
+        write_crowd(out, *scene.crowd);
     }
     if (scene.view != ViewState{}) {
         out.key("view");

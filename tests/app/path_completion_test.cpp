@@ -1,5 +1,5 @@
-#include <app/load_files.h>
 #include <app/path_completion.h>
+#include <scene/load_files.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>

@@ -110,16 +110,6 @@ TEST(Program, FilesBeforeACommandAreNotDropped) {
     }
 }
 
-TEST(Program, CommandsToComeAreNotTakenForFiles) {
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"bench"}, {"bench", "walk", "--json", "--help"}}) {
-        const Result run = run_program(arguments);
-        EXPECT_EQ(run.status, 2);
-        EXPECT_EQ(run.out, "");
-        EXPECT_EQ(run.err, "mobbscope: the command " + arguments[0] + " is not in this version\n");
-    }
-}
-
 TEST(Program, AnEmptyNameIsSaidToBeEmpty) {
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"fit", ""}, {"info", ""}, {"convert", kScenes + "walk.csv", "-o", ""}, {""}}) {

@@ -83,14 +83,49 @@ TEST(SceneErrors, ClipsAreChecked) {
     EXPECT_NE(refusal("{\"clips\": {\"\": {}}}").find("needs a name"), std::string::npos);
 }
 
+TEST(SceneErrors, GraphsAreChecked) {
+    const std::string move = R"({"clip": "c", "from": 0, "to": 1, "entry": [0, 0, 0], "exit": [1, 0, 0]})";
+    const auto graph = [](const std::string& hubs, const std::string& moves, const std::string& rest = "") {
+        return with("\"graph\": {\"hubs\": " + hubs + ",\n\"moves\": [" + moves + "]" + rest + "}");
+    };
+    const std::string hubs = R"([{"name": "h"}, {"name": "g"}])";
+    EXPECT_NO_THROW(parse_scene(graph(hubs, move), "s.json", ""));
+    EXPECT_NO_THROW(parse_scene(graph(hubs, move, ", \"bounds\": {\"pose_distance\": null}"), "s.json", ""));
+    const std::pair<std::string, const char*> cases[] = {
+        {graph("[]", move), "line 3, /graph/hubs: there is no hub; add one"},
+        {graph(hubs, ""), "line 4, /graph/moves: there is no move; add one"},
+        {graph(R"([{"name": ""}])", move), "/graph/hubs/0/name: a hub needs a name"},
+        {graph(R"([{"name": "h"}, {"name": "h"}])", move), "/graph/hubs/1/name: another hub is named 'h'"},
+        {graph(R"([{"nam": "h"}])", move), "unknown key 'nam'; the nearest known key is 'name'"},
+        {graph(hubs, R"({"clip": "d", "from": 0, "to": 1, "entry": [0, 0, 0], "exit": [1, 0, 0]})"),
+         "/graph/moves/0/clip: there is no clip 'd'; the nearest is 'c'"},
+        {graph(hubs, R"({"clip": "c", "from": 0, "to": 2, "entry": [0, 0, 0], "exit": [1, 0, 0]})"),
+         "/graph/moves/0/to: 2 is out of range"},
+        {graph(hubs, R"({"clip": "c", "from": -1, "to": 0, "entry": [0, 0, 0], "exit": [1, 0, 0]})"),
+         "/graph/moves/0/from: -1 is out of range"},
+        {graph(hubs, R"({"clip": "c", "from": 0, "to": 1, "entry": [0, 0], "exit": [1, 0, 0]})"),
+         "/graph/moves/0/entry: has 2 elements; give [x, y, heading in degrees]"},
+        {graph(hubs, R"({"clip": "c", "from": 0, "to": 1, "entry": [0, 0, 0], "exit": [1e10, 0, 0]})"),
+         "/graph/moves/0/exit/0: 1e+10 is out of range"},
+        {graph(hubs, R"({"clip": "c", "from": 0, "to": 1, "entry": [0, 0, 0]})"), "the key 'exit' is missing"},
+        {graph(hubs, move, R"(, "bounds": {"pose_distance": -1})"), "/graph/bounds/pose_distance: -1 is out of range"},
+        {graph(hubs, move, R"(, "bounds": {"root_speed": "x"})"), "/graph/bounds/root_speed: expected a number"},
+        {graph(hubs, move, R"(, "hub": 1)"), "unknown key 'hub'; the nearest known key is 'hubs'"},
+        {with("\"graph\": []"), "/graph: expected an object, found an array"},
+    };
+    for (const auto& [scene, message] : cases) {
+        EXPECT_NE(refusal(scene).find(message), std::string::npos) << scene << " gave " << refusal(scene);
+    }
+}
+
 TEST(SceneErrors, EverythingElseIsChecked) {
     const std::pair<const char*, const char*> cases[] = {
         {R"("mobbscope": 2)", "/mobbscope: the file has version 2; this program reads version 1"},
         {R"("mobbscope": "1")", "expected a number"},
         {R"("$schema": 1)", "expected a string"},
-        {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of mobb, umobb, hybrid1, hybrid2"},
+        {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of mobb, umobb, hybrid1, hybrid2, moving, aabb"},
         {R"("fit": {"tree": "brute"})", "is no tree"},
-        {R"("fit": {"tree": "moving"})", "'moving' trees are not in this version yet"},
+        {R"("fit": {"tree": "production"})", "'production' trees are not in this version yet"},
         {R"("fit": {"leaf": 0})", "/fit/leaf: 0 is out of range"},
         {R"("fit": {"leaf": 2.5})", "whole number"},
         {R"("fit": {"leaf": 1e30})", "out of range"},
@@ -172,8 +207,6 @@ TEST(SceneErrors, TracesAreChecked) {
          "/trace/0/a"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "tiem", "outcome": "overlap"})",
          "is no test"},
-        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "moving", "outcome": "overlap"})",
-         "tests of 'moving' boxes are not in this version yet"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "maybe"})",
          "is no outcome"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "hit"})",
@@ -181,6 +214,14 @@ TEST(SceneErrors, TracesAreChecked) {
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "obb2d", "outcome": "separated", "axis": 4,
             "gap": 1})",
          "/trace/0/axis"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "moving", "outcome": "separated", "axis": 4,
+            "gap": 1})",
+         "/trace/0/axis"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "aabb", "outcome": "separated", "axis": 2,
+            "gap": 1})",
+         "/trace/0/axis"},
+        {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "aabb", "outcome": "hit"})",
+         "cannot end as hit"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "obb2d", "outcome": "separated", "axis": 1})",
          "'gap' is missing"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "obb2d", "outcome": "overlap", "axis": 1})",

@@ -10,6 +10,8 @@ namespace {
 
 constexpr const char* kScene = R"({"$schema": "x", "mobbscope": 1,
  "clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.5], [2, 0.5, 0.4]]}, "b": {"dt": 1, "samples": [[0, 0, 0.3]]}},
+ "graph": {"hubs": [{"name": "h"}, {"name": "g"}], "bounds": {"pose_distance": 0.1, "root_speed": null},
+   "moves": [{"clip": "walk", "from": 0, "to": 1, "entry": [0, 0, 0], "exit": [3, 0.5, 12]}, {"clip": "b", "from": 1, "to": 0, "entry": [0, 0, 0], "exit": [0, 0, 0]}]},
  "agents": [{"name": "A", "clip": "walk", "translate": [1, 2], "rotate_deg": 30, "start": 0.25, "color": "#E69F00"},
             {"name": "B", "clip": "b"}],
  "fit": {"tree": "umobb", "leaf": 1, "levels": 0, "axes": "endpoints", "time_scale": 1.0},

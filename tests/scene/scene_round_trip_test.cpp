@@ -1,12 +1,16 @@
 // What is written is read back as the same scene, bit for bit.
 #include <scene/fitted_scene.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <utility>
 
 namespace mobbscope {
 namespace {
@@ -30,7 +34,18 @@ Scene random_scene(std::mt19937_64& random) {
                                 {{length(random), length(random)}, length(random), length(random)},
                                 i == 1 ? std::optional<Color>({1, 200, 30}) : std::nullopt});
     }
-    scene.fit = {mobb::TreeKind::hybrid2, 4, 3, mobb::Axes::covariance, positive(random)};
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    MotionGraph graph{{{"h"}, {"\"g\""}}, {}, {positive(random), kNone}};
+    for (int i = 0; i < 5; ++i) {
+        graph.moves.push_back({i % 3,
+                               i % 2,
+                               i % 3 % 2,
+                               {{length(random), length(random)}, length(random)},
+                               {{length(random), length(random)}, length(random)}});
+    }
+    scene.graph = std::make_shared<MotionGraph>(std::move(graph));
+    scene.fit = {static_cast<mobb::TreeKind>(random() % mobb::tree_kind_names().size()), 4, 3, mobb::Axes::covariance,
+                 positive(random)};
     scene.view.camera = {
         CameraPreset::free, length(random), length(random), false, 33.3, glm::dvec3{0.1, 0.2, 0.3}, 9.7, {0.1, -0.7}};
     scene.view.levels = {1, 4, false};
@@ -103,6 +118,8 @@ TEST(SceneRoundTrip, CapturesComeBackBitForBit) {
             EXPECT_EQ(read.agents[i].placement, scene.agents[i].placement);
             EXPECT_EQ(read.agents[i].color, scene.agents[i].color);
         }
+        ASSERT_TRUE(read.graph);
+        EXPECT_EQ(*read.graph, *scene.graph);
         EXPECT_EQ(read.fit, scene.fit);
         EXPECT_EQ(read.view, scene.view);
         ASSERT_EQ(read.queries.size(), scene.queries.size());

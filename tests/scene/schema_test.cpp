@@ -27,6 +27,13 @@ std::string scene_with(const std::string& definition, const nlohmann::json& obje
     if (definition == "") scene.update(object);
     if (definition == "imported" || definition == "inline") scene["clips"]["c"] = object;
     if (definition == "agent") scene["agents"] = {object};
+    const nlohmann::json move = {{"clip", "c"}, {"from", 0}, {"to", 0}, {"entry", {0, 0, 0}}, {"exit", {0, 0, 0}}};
+    nlohmann::json graph = {{"hubs", {{{"name", "h"}}}}, {"moves", {move}}};
+    if (definition == "graph") scene["graph"] = object;
+    if (definition == "hub") graph["hubs"] = {object};
+    if (definition == "bounds") graph["bounds"] = object;
+    if (definition == "move") graph["moves"] = {object};
+    if (definition == "hub" || definition == "bounds" || definition == "move") scene["graph"] = graph;
     if (definition == "fit") scene["fit"] = object;
     if (definition == "view") scene["view"] = object;
     if (definition == "camera") scene["view"] = {{"camera", object}};
@@ -51,7 +58,7 @@ nlohmann::json properties(const std::string& definition) {
 
 TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
     for (const std::string definition : {"", "imported", "inline", "agent", "fit", "query", "participant", "expect",
-                                         "contact", "event", "view", "camera"}) {
+                                         "contact", "event", "view", "camera", "graph", "hub", "bounds", "move"}) {
         const nlohmann::json known = properties(definition);
         ASSERT_FALSE(known.empty()) << definition;
         for (const auto& [key, unused] : known.items()) {
@@ -133,6 +140,8 @@ TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
     folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,0\n1,1,0,0,0\n1,5,0,0,0\n");
     const Scene scene = parse_scene(R"({"clips": {"root": {"dt": 1, "samples": [[0, 0, 1]]},
         "source": {"source": "a.csv", "id": 1, "fps": 9, "unit": "m", "trim": [0, 3], "origin": "start", "radius": 1, "dt": 1}},
+        "graph": {"hubs": [{"name": "h"}], "bounds": {"pose_distance": 0.1, "root_speed": null},
+          "moves": [{"clip": "root", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [1, 0, 0]}]},
         "agents": [{"name": "A", "clip": "root", "color": "#000000"}],
         "queries": [{"a": "A", "b": {"clip": "root"}, "expect": {"collides": true, "contact":
           {"time": 0, "a_sample": 0, "b_sample": 0, "distance": 0, "radii": 2}}, "trace":

@@ -1,9 +1,9 @@
 #include <app/command.h>
-#include <app/load_files.h>
 #include <app/panels/dialog_frame.h>
 #include <app/panels/dialogs.h>
 #include <app/panels/text_field.h>
 #include <app/path_completion.h>
+#include <scene/load_files.h>
 
 #include <array>
 #include <cstdio>

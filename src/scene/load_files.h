@@ -1,7 +1,6 @@
 /// Files and folders, as a person gives them, to one scene.
 #pragma once
 
-#include <app/job.h>
 #include <scene/scene.h>
 
 #include <filesystem>
@@ -10,16 +9,18 @@
 #include <string_view>
 #include <vector>
 
-namespace mobbscope::app {
+namespace mobbscope {
 
 /// The extensions that can be opened, in lower case with their dots; a scene's first.
 std::span<const std::string_view> openable_extensions();
 
-/// Scenes and clips merged into one scene; a folder stands for the clips in it, by name. Throws InputError; Cancelled
-/// if the person had enough.
-Scene load_files(const std::vector<std::filesystem::path>& files, JobControl& control);
+/// Scenes and clips merged into one scene; a folder stands for the clips in it, by name. `overrides` go
+/// over the import keys of every clip with a source. `progress` is told before each file, or of one scene before each
+/// clip. Throws InputError.
+Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOptions& overrides = {},
+                 const Progress& progress = {});
 
 /// Where the scene of these files would be saved: the scene among them if there is exactly one.
 std::optional<std::filesystem::path> scene_file_of(const std::vector<std::filesystem::path>& files);
 
-}  // namespace mobbscope::app
+}  // namespace mobbscope

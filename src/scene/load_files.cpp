@@ -1,15 +1,15 @@
-#include <app/load_files.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
 #include <import/tracks.h>
+#include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
 #include <array>
 #include <system_error>
 
-namespace mobbscope::app {
+namespace mobbscope {
 
 namespace {
 
@@ -44,7 +44,8 @@ std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder)
 
 std::span<const std::string_view> openable_extensions() { return kExtensions; }
 
-Scene load_files(const std::vector<std::filesystem::path>& files, JobControl& control) {
+Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOptions& overrides,
+                 const Progress& progress) {
     std::vector<std::filesystem::path> all;
     for (const std::filesystem::path& file : files) {
         std::error_code ignored;
@@ -58,11 +59,11 @@ Scene load_files(const std::vector<std::filesystem::path>& files, JobControl& co
     std::stable_partition(all.begin(), all.end(), is_scene);
     Scene scene;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        control.step(i, all.size());
-        const Progress progress = all.size() == 1
-                                      ? Progress([&](std::size_t done, std::size_t of) { control.step(done, of); })
-                                      : Progress([&](std::size_t, std::size_t) { control.step(i, all.size()); });
-        Scene loaded = load_scene(all[i], {}, progress);
+        // One scene tells of its clips; of several files the count is of files.
+        const Progress of_file = !progress || all.size() == 1
+                                     ? progress
+                                     : Progress([&](std::size_t, std::size_t) { progress(i, all.size()); });
+        Scene loaded = load_scene(all[i], overrides, of_file);
         if (i == 0) {
             scene = std::move(loaded);
         } else {
@@ -85,4 +86,4 @@ std::optional<std::filesystem::path> scene_file_of(const std::vector<std::filesy
     return *std::find_if(files.begin(), files.end(), is_scene);
 }
 
-}  // namespace mobbscope::app
+}  // namespace mobbscope

@@ -1,0 +1,126 @@
+#include <cli/commands.h>
+#include <cli/exit_status.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <import/error.h>
+#include <scene/load_files.h>
+#include <tables/built_in_clips.h>
+#include <tables/machine.h>
+#include <tables/random_queries.h>
+#include <tables/table_report.h>
+
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+constexpr int kMostRounds = 1000;
+
+struct Arguments {
+    std::string workload;
+    std::vector<std::filesystem::path> paths;
+    bool json = false;
+    bool sweep = false;
+    std::optional<int> queries;
+    int rounds = 5;
+    std::uint64_t seed = 1;
+    FitArguments fit;
+    ImportOptions import_options;
+};
+
+std::vector<mobb::ClipPtr> clips_of(const Scene& scene) {
+    std::vector<mobb::ClipPtr> clips;
+    for (const SceneClip& clip : scene.clips) clips.push_back(clip.clip);
+    return clips;
+}
+
+Workload table2(const Arguments& arguments) {
+    Workload workload;
+    workload.name = "table2";
+    workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, arguments.seed)
+                                             : clips_of(load_files(arguments.paths, arguments.import_options));
+    workload.description = (arguments.paths.empty() ? std::string("built-in walks") : "clips from files") +
+                           ", at random places within 3.5 m, headings, and times within 1.2 clip lengths";
+    workload.queries = random_queries(workload.clips, arguments.queries.value_or(100'000), {.seed = arguments.seed});
+    return workload;
+}
+
+void show_progress(const std::string& doing, int done, int all) {
+    std::cerr << "mobbscope: " << doing << ' ' << done + 1 << " of " << all << '\n';
+}
+
+int whole_number(const std::string& text, int least, int most) {
+    const std::optional<int> number = parse_int(text);
+    if (!number || *number < least || *number > most) {
+        throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(least) + " to " +
+                                    std::to_string(most));
+    }
+    return *number;
+}
+
+auto whole_number_within(int least, int most) {
+    return [least, most](const std::string& text) { return whole_number(text, least, most); };
+}
+
+void run(const Arguments& arguments) {
+    const Workload workload = table2(arguments);
+    const mobb::FitOptions base = arguments.fit.over({});
+    const MeasureProgress progress = arguments.json ? MeasureProgress{} : show_progress;
+    TableReport report;
+    report.workload = workload.name;
+    report.description = workload.description;
+    report.machine = machine_words();
+    report.seed = arguments.seed;
+    report.rounds = arguments.rounds;
+    report.queries = static_cast<std::int64_t>(workload.queries.size());
+    report.clips = static_cast<int>(workload.clips.size());
+    report.mean_duration = mean_duration(workload);
+    report.table = measure(workload, table_methods(base), arguments.rounds, progress);
+    report.costs = measure_test_costs(workload, base);
+    if (arguments.sweep) report.sweep = sweep_leaf(workload, base, arguments.rounds, progress);
+    arguments.json ? write_json(std::cout, report) : write_text(std::cout, report);
+    flush_results();
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand(
+        "bench", "Measure the paper's Table 1 or 2: counts and times of every kind of tree on the same queries");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("WORKLOAD", arguments->workload, "table1 (short clips in a crowd) or table2 (long clips)")
+        ->required()
+        ->type_name("")
+        ->check(CLI::IsMember({"table1", "table2"}));
+    command->add_option("PATH", arguments->paths, "Clips, or folders of them; without any, built-in ones")
+        ->type_name("");
+    command->add_flag("--json", arguments->json, "The figures as JSON");
+    add_parsed(*command, "--queries", arguments->queries, whole_number_within(1, kMaxQueries),
+               "How many queries (100000)", "N");
+    add_parsed(*command, "--seed", arguments->seed, whole_number_within(0, std::numeric_limits<int>::max()),
+               "Of whatever is random (1)", "S");
+    add_parsed(*command, "--rounds", arguments->rounds, whole_number_within(1, kMostRounds),
+               "How often everything is timed; the median counts (5)", "N");
+    command->add_flag("--sweep", arguments->sweep, "Times and counts at n_min from 1 to 50 too");
+    add_fit_options(*command, arguments->fit);
+    add_import_options(*command, arguments->import_options);
+    command->callback([arguments, &status] {
+        try {
+            run(*arguments);
+        } catch (const DisagreementError& error) {
+            complain(error.what());
+            status = kFailed;
+        }
+    });
+}
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,151 @@
+#include <crowd/world.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kCell = 4;         // metres: about what a clip of two seconds covers
+constexpr int kMostCells = 1024;    // in a row or column: a huge floor gets larger cells
+constexpr std::size_t kGrain = 16;  // candidates a task: fewer are not worth a thread
+
+int cells_along(double length) {
+    return static_cast<int>(std::clamp(std::ceil(length / kCell), 1.0, static_cast<double>(kMostCells)));
+}
+
+bool other_and_overlapping(const auto& a, const auto& b) {
+    return a.motion.agent != b.motion.agent && mobb::overlap_in_time(a.begin, a.end, b.begin, b.end);
+}
+
+}  // namespace
+
+World::World(glm::dvec2 area)
+    : low_(-area / 2.0),
+      columns_(cells_along(area.x)),
+      rows_(cells_along(area.y)),
+      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
+    cell_size_ = area / glm::dvec2(columns_, rows_);
+}
+
+World::CellRange World::cells_of(const FloorRect& rect) const {
+    const auto along = [](double at, double low, double size, int count) {
+        return static_cast<int>(std::clamp(std::floor((at - low) / size), 0.0, count - 1.0));
+    };
+    return {along(rect.low.x, low_.x, cell_size_.x, columns_), along(rect.low.y, low_.y, cell_size_.y, rows_),
+            along(rect.high.x, low_.x, cell_size_.x, columns_), along(rect.high.y, low_.y, cell_size_.y, rows_)};
+}
+
+World::Held World::held(const Motion& motion) const {
+    const mobb::PlacedClip placed(motion.tree->clip(), motion.placement);
+    const FloorRect bounds = motion.outline->bounds(motion.placement);
+    return {motion, bounds, cells_of(bounds), placed.time(0), placed.time(placed.count())};
+}
+
+std::size_t World::commit(const Motion& motion) {
+    auto slot = static_cast<std::uint32_t>(motions_.size());
+    if (free_.empty()) {
+        motions_.push_back(held(motion));
+    } else {
+        slot = free_.back();
+        free_.pop_back();
+        motions_[slot] = held(motion);
+    }
+    const CellRange& range = motions_[slot].cells;
+    for (int y = range.y0; y <= range.y1; ++y) {
+        for (int x = range.x0; x <= range.x1; ++x) cells_[index(x, y)].push_back(slot);
+    }
+    endings_.push({motions_[slot].end, slot});
+    return slot;
+}
+
+void World::withdraw(std::size_t committed) {
+    // Its slot is used again when it would have ended.
+    take_from_cells(static_cast<std::uint32_t>(committed));
+    motions_[committed].motion.tree = nullptr;
+}
+
+void World::take_from_cells(std::uint32_t slot) {
+    const CellRange& range = motions_[slot].cells;
+    for (int y = range.y0; y <= range.y1; ++y) {
+        for (int x = range.x0; x <= range.x1; ++x) std::erase(cells_[index(x, y)], slot);
+    }
+}
+
+void World::forget_before(double now) {
+    while (!endings_.empty() && endings_.top().end <= now) {
+        const std::uint32_t slot = endings_.top().slot;
+        endings_.pop();
+        if (motions_[slot].motion.tree) withdraw(slot);
+        free_.push_back(slot);
+    }
+}
+
+void World::find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const {
+    const CellRange& range = candidate.cells;
+    for (int y = range.y0; y <= range.y1; ++y) {
+        for (int x = range.x0; x <= range.x1; ++x) {
+            for (const std::uint32_t slot : cells_[index(x, y)]) {
+                const Held& other = motions_[slot];
+                // Of the cells that both reach into, the first one reports the pair.
+                if (x != std::max(range.x0, other.cells.x0) || y != std::max(range.y0, other.cells.y0)) continue;
+                if (other_and_overlapping(candidate, other) && candidate.bounds.meets(other.bounds)) {
+                    slots.push_back(slot);
+                }
+            }
+        }
+    }
+    std::sort(slots.begin(), slots.end(), [this](std::uint32_t a, std::uint32_t b) {
+        const auto order = [this](std::uint32_t slot) {
+            const Held& held = motions_[slot];
+            return std::tuple(held.begin, held.motion.agent, held.motion.play);
+        };
+        return order(a) < order(b);
+    });
+}
+
+Verdict World::verdict(const Motion& candidate, std::vector<AskedPair>* asked) const {
+    Verdict verdict;
+    std::vector<std::uint32_t> slots;
+    find_near(held(candidate), slots);
+    const mobb::PlacedTree placed(*candidate.tree, candidate.placement);
+    for (const std::uint32_t slot : slots) {
+        const Held& other = motions_[slot];
+        // What begins after the first contact cannot be met before it.
+        if (verdict.ruling && other.begin > verdict.ruling->contact.time) break;
+        ++verdict.asked;
+        if (asked) asked->push_back({candidate, other.motion});
+        const auto contact = mobb::query(placed, {*other.motion.tree, other.motion.placement});
+        if (!contact) continue;
+        if (!verdict.ruling || std::tuple(contact->time, other.motion.agent) <
+                                   std::tuple(verdict.ruling->contact.time, verdict.ruling->agent)) {
+            verdict.ruling = {other.motion.agent, other.motion.play, *contact};
+        }
+    }
+    return verdict;
+}
+
+std::vector<Verdict> World::verdicts(std::span<const Motion> candidates, std::vector<AskedPair>* asked) const {
+    std::vector<Verdict> out(candidates.size());
+    std::vector<std::vector<AskedPair>> pairs(asked ? candidates.size() : 0);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), kGrain), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            out[i] = verdict(candidates[i], asked ? &pairs[i] : nullptr);
+        }
+    });
+    for (const std::vector<AskedPair>& of_one : pairs) asked->insert(asked->end(), of_one.begin(), of_one.end());
+    return out;
+}
+
+void World::all_pairs(const Motion& candidate, std::vector<AskedPair>& pairs) const {
+    for (const Held& other : motions_) {
+        if (other.motion.tree && other.motion.agent != candidate.agent) pairs.push_back({candidate, other.motion});
+    }
+}
+
+}  // namespace mobbscope

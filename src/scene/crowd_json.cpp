@@ -1,0 +1,188 @@
+#include <import/text.h>
+#include <scene/crowd_json.h>
+#include <scene/motion_graph.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kJoint = 1e-6;  // metres, seconds, degrees: more than rounding, far less than a sample
+constexpr std::array<std::string_view, 3> kKinds{"chosen", "pivoted", "forced"};
+
+std::string_view name(PlayKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+
+PlayKind read_kind(const JsonPlace& place) {
+    for (std::size_t i = 0; i < kKinds.size(); ++i) {
+        if (place.string() == kKinds[i]) return static_cast<PlayKind>(i);
+    }
+    place.fail(in_quotes(place.string()) + " is no kind of play; give " + listed(kKinds));
+}
+
+/// Where the body stands and faces in the first sample's place, in the world.
+Stance placed(const Stance& stance, const mobb::Placement& placement) {
+    return {mobb::Rotation::from_degrees(placement.rotate_deg)(stance.position) + placement.translate,
+            stance.heading_deg + placement.rotate_deg};
+}
+
+class CrowdReader {
+  public:
+    CrowdReader(const JsonPlace& place, const Scene& scene) : place_(place), scene_(scene) {}
+
+    CrowdRun read() {
+        if (!scene_.graph) place_.fail("a crowd plays the moves of a graph; add the key graph");
+        if (!scene_.agents.empty() || !scene_.queries.empty()) {
+            place_.fail("a scene has a crowd, or agents and queries, not both; remove one");
+        }
+        place_.allow_only({"area", "seconds", "seed", "ahead", "grace", "agents"});
+        CrowdRun run;
+        const JsonPlace area = place_.require("area");
+        area.require_size(2, "[width, depth] in metres");
+        run.area = {positive(area[0], mobb::kMaxLength), positive(area[1], mobb::kMaxLength)};
+        run.seconds = positive(place_.require("seconds"), mobb::kMaxTime);
+        run.seed = read_seed(place_.require("seed"));
+        if (const auto ahead = place_.find("ahead")) run.ahead = ahead->number(0, mobb::kMaxTime);
+        if (const auto grace = place_.find("grace")) run.grace = grace->number(0, mobb::kMaxTime);
+        const JsonPlace agents = place_.require("agents");
+        if (agents.size() == 0) agents.fail("there is no agent; add one");
+        for (int i = 0; i < agents.size(); ++i) run.agents.push_back(read_agent(agents[i]));
+        return run;
+    }
+
+  private:
+    static double positive(const JsonPlace& place, double most) {
+        const double value = place.number(0, most);
+        if (value == 0) place.fail("must be over 0");
+        return value;
+    }
+
+    static std::uint64_t read_seed(const JsonPlace& place) {
+        // Beyond 2^53 a double no longer tells whole numbers apart.
+        const double seed = place.number(0, static_cast<double>(kMaxSeed));
+        if (seed != std::floor(seed)) place.fail(short_double(seed) + " is no seed; give a whole number");
+        return static_cast<std::uint64_t>(seed);
+    }
+
+    CrowdAgent read_agent(const JsonPlace& place) {
+        place.allow_only({"name", "plays"});
+        const JsonPlace name = place.require("name");
+        if (name.string().empty()) name.fail("an agent needs a name");
+        if (!names_.insert(name.string()).second) {
+            name.fail("another agent is named " + in_quotes(name.string()) + "; rename one");
+        }
+        CrowdAgent agent{name.string(), {}};
+        const JsonPlace plays = place.require("plays");
+        if (plays.size() == 0) plays.fail("an agent plays one move at least; add one");
+        agent.plays.reserve(static_cast<std::size_t>(plays.size()));
+        for (int i = 0; i < plays.size(); ++i) {
+            const JsonPlace at = plays[i];
+            const Play play = read_play(at);
+            if (i > 0) check_joint(at, agent.plays.back(), play);
+            agent.plays.push_back(play);
+        }
+        return agent;
+    }
+
+    Play read_play(const JsonPlace& place) const {
+        place.allow_only({"move", "translate", "rotate_deg", "start", "chosen_at", "kind"});
+        Play play;
+        const JsonPlace move = place.require("move");
+        play.move = move.integer(0, static_cast<int>(scene_.graph->moves.size()) - 1);
+        const JsonPlace translate = place.require("translate");
+        translate.require_size(2, "[x, y] in metres");
+        play.placement.translate = {translate[0].number(-mobb::kMaxLength, mobb::kMaxLength),
+                                    translate[1].number(-mobb::kMaxLength, mobb::kMaxLength)};
+        play.placement.rotate_deg = place.require("rotate_deg").number(-1e9, 1e9);
+        play.placement.start = place.require("start").number(-mobb::kMaxTime, mobb::kMaxTime);
+        const auto chosen_at = place.find("chosen_at");
+        play.chosen_at = chosen_at ? chosen_at->number(-mobb::kMaxTime, play.placement.start) : play.placement.start;
+        if (const auto kind = place.find("kind")) play.kind = read_kind(*kind);
+        return play;
+    }
+
+    void check_joint(const JsonPlace& place, const Play& before, const Play& play) const {
+        const GraphMove& from = scene_.graph->moves[static_cast<std::size_t>(before.move)];
+        const GraphMove& to = scene_.graph->moves[static_cast<std::size_t>(play.move)];
+        if (from.to != to.from) {
+            place.require("move").fail("begins in hub " + hub(to.from) + ", but the move before ends in " +
+                                       hub(from.to));
+        }
+        const mobb::ClipPtr& clip = scene_.clips[static_cast<std::size_t>(from.clip)].clip;
+        const double end = before.placement.start + clip->duration();
+        if (!(std::abs(play.placement.start - end) <= kJoint)) {
+            place.require("start").fail("the play before ends at " + short_double(end) + " s; begin there");
+        }
+        if (play.chosen_at < before.chosen_at) {
+            place.fail("chosen at " + short_double(play.chosen_at) + " s, before the play before it, at " +
+                       short_double(before.chosen_at) + " s");
+        }
+        const Stance left = placed(from.exit, before.placement);
+        const Stance taken = placed(to.entry, play.placement);
+        const glm::dvec2 gap = taken.position - left.position;
+        if (!(std::hypot(gap.x, gap.y) <= kJoint)) {
+            place.require("translate")
+                .fail("begins at (" + brief(taken.position.x) + ", " + brief(taken.position.y) +
+                      "), but the play before ends at (" + brief(left.position.x) + ", " + brief(left.position.y) +
+                      ")");
+        }
+        const double turn = std::remainder(taken.heading_deg - left.heading_deg, 360.0);
+        if (play.kind == PlayKind::chosen && !(std::abs(turn) <= kJoint)) {
+            place.require("rotate_deg")
+                .fail("faces " + brief(turn) + " degrees off the end of the play before; only a pivoted one may");
+        }
+    }
+
+    std::string hub(int index) const { return in_quotes(scene_.graph->hubs[static_cast<std::size_t>(index)].name); }
+
+    const JsonPlace& place_;
+    const Scene& scene_;
+    std::unordered_set<std::string> names_;
+};
+
+void write_play(JsonWriter& out, const Play& play) {
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("move", play.move);
+    out.key("translate");
+    out.numbers({play.placement.translate.x, play.placement.translate.y});
+    out.member("rotate_deg", play.placement.rotate_deg);
+    out.member("start", play.placement.start);
+    if (play.chosen_at != play.placement.start) out.member("chosen_at", play.chosen_at);
+    if (play.kind != PlayKind::chosen) out.member("kind", name(play.kind));
+    out.end_object();
+}
+
+}  // namespace
+
+std::shared_ptr<const CrowdRun> read_crowd(const JsonPlace& place, const Scene& scene) {
+    return std::make_shared<CrowdRun>(CrowdReader(place, scene).read());
+}
+
+void write_crowd(JsonWriter& out, const CrowdRun& crowd) {
+    out.begin_object();
+    out.key("area");
+    out.numbers({crowd.area.x, crowd.area.y});
+    out.member("seconds", crowd.seconds);
+    out.member("seed", static_cast<std::int64_t>(crowd.seed));
+    out.member("ahead", crowd.ahead);
+    out.member("grace", crowd.grace);
+    out.key("agents");
+    out.begin_array();
+    for (const CrowdAgent& agent : crowd.agents) {
+        out.begin_object();
+        out.member("name", agent.name);
+        out.key("plays");
+        out.begin_array();
+        for (const Play& play : agent.plays) write_play(out, play);
+        out.end_array();
+        out.end_object();
+    }
+    out.end_array();
+    out.end_object();
+}
+
+}  // namespace mobbscope

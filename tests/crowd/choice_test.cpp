@@ -1,0 +1,173 @@
+// Choices made again are those of the simulation.
+#include "walker_moves.h"
+
+#include <crowd/choice.h>
+#include <crowd/simulate.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace mobbscope {
+namespace {
+
+class ChoiceTest : public ::testing::Test {
+  protected:
+    const FittedScene fitted{testing::walker_scene(), {}};
+    const MoveSet moves{fitted};
+
+    Simulation run(std::uint64_t seed, double ahead) const {
+        SimulateOptions options;
+        options.agents = 30;
+        options.area = {13, 13};
+        options.seconds = 20;
+        options.seed = seed;
+        options.ahead = ahead;
+        return simulate(moves, options);
+    }
+
+    /// Makes every choice of a run again, and checks it against the play.
+    void expect_same(const Simulation& simulation) const {
+        SimulationCounts counts;
+        for (int agent = 0; agent < static_cast<int>(simulation.run.agents.size()); ++agent) {
+            const std::vector<Play>& plays = simulation.run.agents[static_cast<std::size_t>(agent)].plays;
+            for (int i = 1; i < static_cast<int>(plays.size()); ++i) {
+                const Choice choice = choice_of(moves, simulation.run, agent, i);
+                const Play& play = plays[static_cast<std::size_t>(i)];
+                const Candidate& taken = choice.candidates.at(choice.taken);
+                ASSERT_EQ(choice.kind, play.kind) << agent << " " << i;
+                EXPECT_EQ(choice.time, play.chosen_at);
+                EXPECT_EQ(taken.move, play.move);
+                EXPECT_EQ(taken.placement, play.placement);
+                EXPECT_EQ(taken.is_free(), play.kind != PlayKind::forced);
+                if (play.kind != PlayKind::forced) {
+                    EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
+                }
+                counts.candidates += static_cast<std::int64_t>(choice.candidates.size());
+                counts.queries += choice.queries;
+                for (const Candidate& candidate : choice.candidates) {
+                    counts.off_floor += candidate.leaves_floor;
+                    counts.colliding += !candidate.leaves_floor && candidate.ruling;
+                    if (candidate.ruling) {
+                        EXPECT_NE(candidate.ruling->agent, agent);
+                    }
+                }
+            }
+        }
+        EXPECT_EQ(counts.candidates, simulation.counts.candidates);
+        EXPECT_EQ(counts.queries, simulation.counts.queries);
+        EXPECT_EQ(counts.off_floor, simulation.counts.off_floor);
+        EXPECT_EQ(counts.colliding, simulation.counts.colliding);
+    }
+};
+
+TEST_F(ChoiceTest, EveryChoiceOfARunIsMadeAgain) { expect_same(run(1, 0)); }
+
+TEST_F(ChoiceTest, EveryChoiceOfARunWithAHorizonIsMadeAgain) { expect_same(run(2, 3)); }
+
+TEST_F(ChoiceTest, AFirstPlayWasPlaced) {
+    const Simulation simulation = run(1, 0);
+    const Choice choice = choice_of(moves, simulation.run, 4, 0);
+    ASSERT_EQ(choice.candidates.size(), 1u);
+    EXPECT_EQ(choice.candidates[0].placement, simulation.run.agents[4].plays[0].placement);
+    EXPECT_TRUE(choice.candidates[0].is_free());
+    EXPECT_THROW(choice_of(moves, simulation.run, 30, 0), std::out_of_range);
+    EXPECT_THROW(choice_of(moves, simulation.run, -1, 0), std::out_of_range);
+    EXPECT_THROW(choice_of(moves, simulation.run, 0, 1000), std::out_of_range);
+}
+
+/// An agent at the left wall that walks into it.
+ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area) {
+    ChoicePoint point;
+    point.agent = 0;
+    point.play = 1;
+    point.before.placement.rotate_deg = 180;
+    // Its first move ends 0.7 m before the wall.
+    const double exit = moves.move(0).exit.position.x;
+    point.before.placement.translate = {-area.x / 2 + 0.7 + exit, 0};
+    point.time = moves.duration(0);
+    return point;
+}
+
+TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
+    CrowdRun crowd;
+    crowd.area = {20, 20};
+    Commitments world(moves, crowd.area, crowd.grace);
+    const Choice choice = choose(moves, world, crowd, at_wall(moves, crowd.area));
+    EXPECT_EQ(choice.kind, PlayKind::pivoted);
+    double least = 360;
+    for (const Candidate& candidate : choice.candidates) {
+        EXPECT_FALSE(candidate.ruling);
+        if (candidate.is_free() && !candidate.in_the_way) least = std::min(least, std::abs(candidate.turn_deg));
+    }
+    EXPECT_EQ(std::abs(choice.candidates[choice.taken].turn_deg), least);
+    EXPECT_FALSE(choice.candidates[choice.taken].in_the_way);
+    EXPECT_GT(least, 0);
+    // No heading was looked at beyond the one that left a candidate.
+    for (const Candidate& candidate : choice.candidates) EXPECT_LE(std::abs(candidate.turn_deg), least);
+}
+
+TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
+    CrowdRun crowd;
+    crowd.area = {30, 30};
+    ChoicePoint point;
+    point.play = 1;
+    point.time = moves.duration(0);
+    // Agent 1 ends 1.5 m before agent 0, when agent 0 has gone half of its next move; it goes on from there.
+    const double exit = moves.move(0).exit.position.x;
+    const Play other{0, {{2 * exit + 1.5, 0}, 180, -0.8}, -0.8, PlayKind::chosen};
+    for (const double grace : {0.0, 1.0}) {
+        Commitments committed(moves, crowd.area, grace);
+        committed.commit(1, 0, other);
+        const Choice choice = choose(moves, committed, crowd, point);
+        int in_the_way = 0;
+        for (const Candidate& candidate : choice.candidates) {
+            if (candidate.turn_deg == 0) in_the_way += candidate.in_the_way;
+        }
+        EXPECT_EQ(in_the_way > 0, grace > 0);
+        EXPECT_FALSE(choice.candidates[choice.taken].in_the_way);
+        // Once agent 1 has chosen, its room moves on with it.
+        committed.commit(1, 1, {0, {{2 * exit + 1.5, 20}, 180, 0.7}, 0.7, PlayKind::chosen});
+        for (const Candidate& candidate : choose(moves, committed, crowd, point).candidates) {
+            EXPECT_FALSE(candidate.in_the_way);
+        }
+    }
+}
+
+TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
+    CrowdRun crowd;
+    crowd.area = {20, 20};
+    Commitments world(moves, crowd.area, crowd.grace);
+    const ChoicePoint point = at_wall(moves, crowd.area);
+    // Somebody stands all around: slow walkers at the very spot, a little later.
+    for (int other = 1; other < 4; ++other) {
+        const mobb::Placement at{{-9.3 + 0.2 * other, 0.1 * other}, 90.0 * other, point.time + 0.1 * other};
+        world.commit(other, 0, {4, at, 0, PlayKind::chosen});
+    }
+    const Choice choice = choose(moves, world, crowd, point);
+    ASSERT_EQ(choice.kind, PlayKind::forced);
+    const Candidate& taken = choice.candidates[choice.taken];
+    EXPECT_FALSE(taken.leaves_floor);
+    ASSERT_TRUE(taken.ruling);
+    for (const Candidate& candidate : choice.candidates) {
+        EXPECT_FALSE(candidate.is_free());
+        if (candidate.leaves_floor) continue;
+        EXPECT_LE(candidate.ruling->contact.time, taken.ruling->contact.time);
+    }
+}
+
+TEST_F(ChoiceTest, OnNoFloorAtAllTheLatestContactIsStillFound) {
+    CrowdRun crowd;
+    crowd.area = {0.5, 0.5};
+    Commitments world(moves, crowd.area, crowd.grace);
+    const ChoicePoint point = at_wall(moves, crowd.area);
+    const Choice choice = choose(moves, world, crowd, point);
+    EXPECT_EQ(choice.kind, PlayKind::forced);
+    EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
+    // In a room of one's own no contact is the latest.
+    EXPECT_FALSE(choice.candidates[choice.taken].ruling);
+}
+
+}  // namespace
+}  // namespace mobbscope

@@ -1,0 +1,37 @@
+/// A small graph of walks that tests play.
+#pragma once
+
+#include <crowd/graph_walk.h>
+#include <crowd/move_set.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace mobbscope::testing {
+
+/// A walk at `speed` m/s for `samples` samples of `dt` seconds that turns by `turn_deg` on the way.
+inline SceneClip walk(const std::string& name, double speed, double turn_deg, int samples, double dt, double radius) {
+    std::vector<mobb::Disk> disks;
+    double x = 0, y = 0;
+    for (int i = 0; i < samples; ++i) {
+        disks.push_back({x, y, radius + 0.05 * std::sin(0.5 * i)});
+        const double heading = turn_deg * 3.14159265358979 / 180 * i / samples;
+        x += speed * dt * std::cos(heading);
+        y += speed * dt * std::sin(heading);
+    }
+    return {name, {}, {}, std::make_shared<mobb::Clip>(dt, disks), {}, {}};
+}
+
+/// Seven walks of 0.6 to 2.4 seconds, one of them backwards, each of which may follow each.
+inline Scene walker_scene() {
+    Scene scene;
+    scene.clips = {walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4),    walk("left", 1.2, 60, 40, 1.0 / 30, 0.42),
+                   walk("right", 1.2, -60, 40, 1.0 / 30, 0.42), walk("run", 3.5, 10, 36, 1.0 / 60, 0.5),
+                   walk("slow", 0.5, -20, 72, 1.0 / 30, 0.35),  walk("around", 0.9, 150, 60, 1.0 / 25, 0.4),
+                   walk("step", 0.8, 30, 18, 1.0 / 30, 0.38)};
+    scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
+    return scene;
+}
+
+}  // namespace mobbscope::testing

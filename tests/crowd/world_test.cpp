@@ -1,0 +1,178 @@
+// The world's verdicts are those of the direct search over all that is committed.
+#include "walker_moves.h"
+
+#include <crowd/counter_random.h>
+#include <crowd/world.h>
+
+#include <gtest/gtest.h>
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace mobbscope {
+namespace {
+
+class WorldTest : public ::testing::Test {
+  protected:
+    const FittedScene fitted{testing::walker_scene(), {}};
+    const MoveSet moves{fitted};
+    CounterRandom random{1, 2, 3};
+
+    /// Some lie over the edge of a floor of `area`.
+    Motion random_motion(int agent, int play, glm::dvec2 area, double seconds) {
+        const int move = static_cast<int>(random.below(static_cast<std::uint32_t>(moves.count())));
+        const glm::dvec2 at{1.2 * area.x * (random.unit() - 0.5), 1.2 * area.y * (random.unit() - 0.5)};
+        return moves.motion(agent, play, move, {at, 360 * random.unit(), seconds * random.unit()});
+    }
+
+    static std::optional<Ruling> direct(const Motion& candidate, const std::vector<Motion>& committed) {
+        std::optional<Ruling> first;
+        for (const Motion& other : committed) {
+            if (other.agent == candidate.agent) continue;
+            const auto contact = mobb::direct_search({candidate.tree->clip(), candidate.placement},
+                                                     {other.tree->clip(), other.placement});
+            if (!contact) continue;
+            if (!first || std::tuple(contact->time, other.agent) < std::tuple(first->contact.time, first->agent)) {
+                first = {other.agent, other.play, *contact};
+            }
+        }
+        return first;
+    }
+};
+
+TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
+    const glm::dvec2 area{23, 17};
+    World world(area);
+    std::vector<Motion> committed;
+    for (int agent = 0; agent < 60; ++agent) {
+        for (int play = 0; play < 3; ++play) {
+            committed.push_back(random_motion(agent, play, area, 8));
+            world.commit(committed.back());
+        }
+    }
+    EXPECT_EQ(world.size(), 180u);
+    std::vector<Motion> candidates;
+    for (int i = 0; i < 1500; ++i) candidates.push_back(random_motion(i % 60, 9, area, 8));
+    std::vector<AskedPair> asked;
+    const std::vector<Verdict> verdicts = world.verdicts(candidates, &asked);
+    int ruled_out = 0, all_asked = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        EXPECT_EQ(verdicts[i].ruling, direct(candidates[i], committed)) << i;
+        ruled_out += verdicts[i].ruling.has_value();
+        all_asked += verdicts[i].asked;
+    }
+    EXPECT_GT(ruled_out, 200);
+    EXPECT_LT(ruled_out, 1300);
+    EXPECT_EQ(asked.size(), static_cast<std::size_t>(all_asked));
+    // The grid leaves few of the 177 pairs of each candidate.
+    EXPECT_LT(all_asked, 177 * 1500 / 10);
+    // On one thread and on many.
+    for (const int threads : {1, 5}) {
+        tbb::task_arena arena(threads);
+        const std::vector<Verdict> again = arena.execute([&] { return world.verdicts(candidates); });
+        for (std::size_t i = 0; i < verdicts.size(); ++i) {
+            EXPECT_EQ(again[i].ruling, verdicts[i].ruling);
+            EXPECT_EQ(again[i].asked, verdicts[i].asked);
+        }
+    }
+}
+
+TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
+    World world({20, 20});
+    const mobb::Placement placement{{1, 2}, 30, 0};
+    for (const int agent : {7, 3, 5}) world.commit(moves.motion(agent, agent, 0, placement));
+    const Motion candidate = moves.motion(3, 0, 1, placement);
+    const Verdict verdict = world.verdicts({&candidate, 1}).front();
+    ASSERT_TRUE(verdict.ruling);
+    EXPECT_EQ(verdict.ruling->agent, 5);
+    EXPECT_EQ(verdict.ruling->play, 5);
+    EXPECT_EQ(verdict.ruling->contact.time, 0);
+}
+
+TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
+    const glm::dvec2 area{30, 30};
+    World world(area);
+    std::vector<Motion> committed;
+    for (int i = 0; i < 300; ++i) {
+        committed.push_back(random_motion(i % 40, i / 40, area, 20));
+        world.commit(committed.back());
+    }
+    for (const double now : {4.0, 9.0, 15.0}) {
+        world.forget_before(now);
+        std::erase_if(committed, [&](const Motion& motion) {
+            const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
+            return clip.time(clip.count()) <= now;
+        });
+        EXPECT_EQ(world.size(), committed.size());
+        for (int i = 0; i < 30; ++i) {
+            committed.push_back(random_motion(i, 9, area, 20));
+            committed.back().placement.start += now;
+            world.commit(committed.back());
+        }
+        std::vector<Motion> candidates;
+        for (int i = 0; i < 200; ++i) {
+            candidates.push_back(random_motion(99, 0, area, 20));
+            candidates.back().placement.start += now;
+        }
+        const std::vector<Verdict> verdicts = world.verdicts(candidates);
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            EXPECT_EQ(verdicts[i].ruling, direct(candidates[i], committed));
+        }
+    }
+}
+
+TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
+    World world({20, 20});
+    const mobb::Placement placement{{1, 2}, 30, 0};
+    const std::size_t first = world.commit(moves.motion(1, 0, 0, placement));
+    world.commit(moves.motion(2, 0, 0, placement));
+    const Motion candidate = moves.motion(0, 0, 0, placement);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 1);
+    world.withdraw(first);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 2);
+    std::vector<AskedPair> pairs;
+    world.all_pairs(candidate, pairs);
+    EXPECT_EQ(pairs.size(), 1u);
+    world.forget_before(1000);
+    EXPECT_EQ(world.size(), 0u);
+    EXPECT_FALSE(world.verdicts({&candidate, 1}).front().ruling);
+}
+
+TEST_F(WorldTest, AllPairsAreThoseOfOtherAgents) {
+    World world({20, 20});
+    for (int agent = 0; agent < 5; ++agent) world.commit(random_motion(agent, 0, {20, 20}, 3));
+    std::vector<AskedPair> pairs;
+    world.all_pairs(random_motion(2, 1, {20, 20}, 3), pairs);
+    EXPECT_EQ(pairs.size(), 4u);
+    for (const AskedPair& pair : pairs) EXPECT_NE(pair.committed.agent, 2);
+}
+
+TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
+    for (int i = 0; i < 500; ++i) {
+        const Motion motion = random_motion(0, 0, {1000, 10}, 1);
+        const FloorRect bounds = motion.outline->bounds(motion.placement);
+        const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
+        FloorRect tight{glm::dvec2(1e9), glm::dvec2(-1e9)};
+        for (int k = 0; k < clip.count(); ++k) {
+            const mobb::Disk disk = clip.disk(k);
+            tight.low = {std::min(tight.low.x, disk.x - disk.r), std::min(tight.low.y, disk.y - disk.r)};
+            tight.high = {std::max(tight.high.x, disk.x + disk.r), std::max(tight.high.y, disk.y + disk.r)};
+        }
+        EXPECT_TRUE(bounds.low.x <= tight.low.x && bounds.low.y <= tight.low.y);
+        EXPECT_TRUE(bounds.high.x >= tight.high.x && bounds.high.y >= tight.high.y);
+        const glm::dvec2 wide = bounds.high - bounds.low, least = tight.high - tight.low;
+        const double most = 1.04 * std::hypot(least.x, least.y) - std::hypot(least.x, least.y);
+        EXPECT_LT(wide.x, least.x + most);
+        EXPECT_LT(wide.y, least.y + most);
+        // A wall exactly at the tight bound is touched, one just inside is crossed.
+        const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
+        EXPECT_FALSE(leaves_floor(clip, *motion.outline, {2 * (reach + 1e-9), 1e6}));
+        EXPECT_TRUE(leaves_floor(clip, *motion.outline, {2 * (reach - 1e-9), 1e6}));
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope
