@@ -3,6 +3,7 @@
 #include <cli/options.h>
 #include <crowd/graph_walk.h>
 #include <crowd/simulate.h>
+#include <scene/crowd_run.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
