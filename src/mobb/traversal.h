@@ -153,17 +153,16 @@ class Traversal {
         if (a.kind == BoxKind::obb2d && b.kind == BoxKind::obb2d) {
             return may_meet(BoxKind::obb2d, separate_obb2d(a, b, frame_));
         }
-        if (a.kind == BoxKind::aabb && b.kind == BoxKind::aabb) {
-            return may_meet(BoxKind::aabb, separate_aabb(a, b, frame_));
+        // Boxes of different time scales live in different spaces: never compared, the pair counts as overlapping. So
+        // do boxes of kinds that have no test in common.
+        if (a.kind <= BoxKind::obb3d && b.kind <= BoxKind::obb3d) {
+            return !same_scale_ || may_meet(BoxKind::obb3d, separate_obb3d(a, b, frame_));
         }
-        // Boxes of different time scales live in different spaces: never compared, the pair counts as overlapping.
-        if (!same_scale_) return true;
-        if (a.kind == BoxKind::moving && b.kind == BoxKind::moving) {
-            return may_meet(BoxKind::moving, separate_moving(a, b, frame_));
+        if (a.kind != b.kind) return true;
+        if (a.kind == BoxKind::aabb) {
+            return may_meet(BoxKind::aabb, separate_aabb(a, b, a_.placed_clip().rotation(), frame_));
         }
-        // So do boxes of kinds that have no test in common.
-        if (a.kind > BoxKind::obb3d || b.kind > BoxKind::obb3d) return true;
-        return may_meet(BoxKind::obb3d, separate_obb3d(a, b, frame_));
+        return !same_scale_ || may_meet(BoxKind::moving, separate_moving(a, b, frame_));
     }
 
     bool may_meet([[maybe_unused]] BoxKind test, const Separation& separation) {
