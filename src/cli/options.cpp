@@ -149,6 +149,15 @@ void add_scene_file(CLI::App& command, std::filesystem::path& file) {
     command.add_option("FILE", file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)")->required();
 }
 
+std::function<int(const std::string&)> whole_number_within(int least, int most) {
+    return [least, most](const std::string& text) {
+        const std::optional<int> number = parse_int(text);
+        if (number && *number >= least && *number <= most) return *number;
+        throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(least) + " to " +
+                                    std::to_string(most));
+    };
+}
+
 std::function<double(const std::string&)> number_within(double low, double high) {
     return [low, high](const std::string& text) {
         const std::optional<double> value = parse_double(text);
