@@ -58,19 +58,6 @@ void show_progress(const std::string& doing, int done, int all) {
     std::cerr << "mobbscope: " << doing << ' ' << done + 1 << " of " << all << '\n';
 }
 
-int whole_number(const std::string& text, int least, int most) {
-    const std::optional<int> number = parse_int(text);
-    if (!number || *number < least || *number > most) {
-        throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(least) + " to " +
-                                    std::to_string(most));
-    }
-    return *number;
-}
-
-auto whole_number_within(int least, int most) {
-    return [least, most](const std::string& text) { return whole_number(text, least, most); };
-}
-
 void run(const Arguments& arguments) {
     const Workload workload = table2(arguments);
     const mobb::FitOptions base = arguments.fit.over({});
