@@ -110,7 +110,7 @@ Verdict World::verdict(const Motion& candidate, std::vector<AskedPair>* asked) c
         if (verdict.ruling && other.begin > verdict.ruling->contact.time) break;
         ++verdict.asked;
         if (asked) asked->push_back({candidate, other.motion});
-        const auto contact = mobb::query(placed, {*other.motion.tree, other.motion.placement});
+        const auto contact = mobb::query(placed, mobb::PlacedTree(*other.motion.tree, other.motion.placement));
         if (!contact) continue;
         if (!verdict.ruling || std::tuple(contact->time, other.motion.agent) <
                                    std::tuple(verdict.ruling->contact.time, verdict.ruling->agent)) {
