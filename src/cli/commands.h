@@ -7,6 +7,7 @@
 namespace mobbscope::cli {
 
 void add_bench_command(CLI::App& program, int& status);
+void add_conflicts_command(CLI::App& program, int& status);
 void add_convert_command(CLI::App& program);
 void add_diff_command(CLI::App& program, int& status);
 void add_fit_command(CLI::App& program);

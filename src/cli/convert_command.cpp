@@ -5,6 +5,7 @@
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
+#include <import/tracks.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -22,15 +23,17 @@ struct Arguments {
 };
 
 /// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the start of the sample's
-/// hold.
+/// hold in clip time; tracks of trajectories keep the time of their file.
 std::string to_csv(const Scene& scene) {
     const bool several = scene.clips.size() > 1;
+    const bool has_common_time = is_track_extension(lower_extension(scene.file));
     std::string text = several ? "id,t,x,y,r\n" : "t,x,y,r\n";
     for (const SceneClip& clip : scene.clips) {
         const std::string id = several ? csv_field(clip.name) + ',' : "";
+        const double start = has_common_time ? clip.start : 0;
         for (int i = 0; i < clip.clip->count(); ++i) {
             const mobb::Disk& disk = clip.clip->samples()[static_cast<std::size_t>(i)];
-            text += id + format_double(i * clip.clip->dt()) + ',' + format_double(disk.x) + ',' +
+            text += id + format_double(start + i * clip.clip->dt()) + ',' + format_double(disk.x) + ',' +
                     format_double(disk.y) + ',' + format_double(disk.r) + '\n';
         }
     }

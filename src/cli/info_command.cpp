@@ -108,7 +108,27 @@ std::string guess_of(const SourceFacts& facts) {
     return " (guessed: a body " + brief(std::round(*facts.guessed_from_height * 100) / 100) + " m tall)";
 }
 
-void print_clip(const Scene& scene, const SceneClip& clip) {
+using Warnings = std::vector<std::string>;
+
+bool holds(const Warnings& warnings, const std::string& warning) {
+    return std::find(warnings.begin(), warnings.end(), warning) != warnings.end();
+}
+
+/// What is said of every clip of a scene: of a crowd it is said once.
+Warnings common_warnings(const Scene& scene) {
+    Warnings common = scene.clips.front().facts.warnings;
+    for (const SceneClip& clip : scene.clips)
+        std::erase_if(common, [&](const std::string& warning) { return !holds(clip.facts.warnings, warning); });
+    return common;
+}
+
+void print_warnings(const Warnings& warnings, const Warnings& said) {
+    for (const std::string& warning : warnings) {
+        if (!holds(said, warning)) std::cout << "  warning      " << cleaned(warning) << '\n';
+    }
+}
+
+void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said) {
     const SourceFacts facts = facts_of(clip);
     const PathFigures figures = figures_of(*clip.clip);
     std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n";
@@ -124,7 +144,18 @@ void print_clip(const Scene& scene, const SceneClip& clip) {
               << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
               << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
               << brief(figures.mean_radius) << " m\n";
-    for (const std::string& warning : facts.warnings) std::cout << "  warning      " << cleaned(warning) << '\n';
+    print_warnings(facts.warnings, said);
+}
+
+void print_clips(const Scene& scene) {
+    Warnings said;
+    if (scene.clips.size() > 1) {
+        said = common_warnings(scene);
+        if (!said.empty())
+            std::cout << cleaned(scene.file.string()) << ": all of its " << scene.clips.size() << " clips\n";
+        print_warnings(said, {});
+    }
+    for (const SceneClip& clip : scene.clips) print_clip(scene, clip, said);
 }
 
 void run(const Arguments& arguments) {
@@ -138,9 +169,11 @@ void run(const Arguments& arguments) {
         json.begin_array();
     }
     for (const Scene& scene : scenes) {
-        for (const SceneClip& clip : scene.clips) {
-            arguments.json ? write_clip(json, scene, clip) : print_clip(scene, clip);
+        if (!arguments.json) {
+            print_clips(scene);
+            continue;
         }
+        for (const SceneClip& clip : scene.clips) write_clip(json, scene, clip);
     }
     if (arguments.json) {
         json.end_array();
@@ -154,7 +187,10 @@ void run(const Arguments& arguments) {
 void add_info_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("FILE", arguments->files, "Scenes (.json) and clips (.bvh .gltf .glb .fbx .csv)")->required();
+    command
+        ->add_option("FILE", arguments->files,
+                     "Scenes (.json), clips (.bvh .gltf .glb .fbx .csv) and trajectories (.txt .ndjson .yaml)")
+        ->required();
     command->add_flag("--json", arguments->json, "The same as JSON");
     add_import_options(*command, arguments->import_options);
     command->callback([arguments] { run(*arguments); });

@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
     add_window_options(program, window);
     int status = kDone;
     add_bench_command(program, status);
+    add_conflicts_command(program, status);
     add_convert_command(program);
     add_diff_command(program, status);
     add_fit_command(program);

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -38,6 +41,12 @@ void check_as(const std::string& option, const Options& options) {
     } catch (const std::invalid_argument& error) {
         refuse(option, error.what());
     }
+}
+
+mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
+    std::vector<mobb::Disk> samples(clip.samples().begin(), clip.samples().end());
+    for (mobb::Disk& disk : samples) disk.r = radius;
+    return std::make_shared<const mobb::Clip>(clip.dt(), std::move(samples));
 }
 
 /// One warning a text, whatever the number of clips it holds for.
@@ -128,15 +137,17 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
             refuse("--trim", in_quotes(text) + " is no range; give two times in seconds, such as 0.5:3.2");
         check_as("--trim", options);
     };
-    quantity("--fps", &ImportOptions::fps, "F", "Samples per second where the file is resampled (30)");
+    quantity("--fps", &ImportOptions::fps, "F", "Samples per second (30; trajectories: as stored)");
     word("--unit", &ImportOptions::unit, "U", "m, cm, in, auto or metres per file unit");
     word("--up", &ImportOptions::up, "AXIS", "y or z");
     word("--root", &ImportOptions::root, "JOINT", "The joint whose path is taken");
     command.add_option_function<std::string>("--trim", set_trim, "Only this part, in seconds from the first key")
         ->group(kGroup)
         ->type_name("A:B");
-    quantity("--dt", &ImportOptions::dt, "S", "Seconds between the rows of a CSV without times");
+    quantity("--dt", &ImportOptions::dt, "S",
+             "Seconds between the rows of a CSV without times, or frames of trajectories");
     quantity("--radius", &ImportOptions::radius, "R", "Radius of every sample, in metres");
+    word("--id", &ImportOptions::id, "ID", "The track to take, of a file with several");
     word("--animation", &ImportOptions::animation, "A", "Index or name of the animation");
 }
 
@@ -146,7 +157,10 @@ std::filesystem::path parse_file_name(const std::string& text) {
 }
 
 void add_scene_file(CLI::App& command, std::filesystem::path& file) {
-    command.add_option("FILE", file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)")->required();
+    command
+        .add_option("FILE", file,
+                    "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)")
+        ->required();
 }
 
 std::function<double(const std::string&)> number_within(double low, double high) {
@@ -159,11 +173,18 @@ std::function<double(const std::string&)> number_within(double low, double high)
     };
 }
 
-Scene load(const std::filesystem::path& file, const ImportOptions& options) {
+Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius) {
     Scene scene = load_scene(file, options);
     print_warnings(scene);
     const auto has_source = [](const SceneClip& clip) { return clip.source.has_value(); };
-    if (options != ImportOptions{} && std::none_of(scene.clips.begin(), scene.clips.end(), has_source)) {
+    ImportOptions for_sources = options;
+    if (radius == RadiusOf::every_clip && options.radius) {
+        for (SceneClip& clip : scene.clips) {
+            if (!has_source(clip)) clip.clip = with_radius(*clip.clip, *options.radius);
+        }
+        for_sources.radius.reset();
+    }
+    if (for_sources != ImportOptions{} && std::none_of(scene.clips.begin(), scene.clips.end(), has_source)) {
         warn(file.string() + ": import options do not apply: every clip has its samples in the scene");
     }
     return scene;

@@ -34,7 +34,7 @@ enum class Brute { refused, allowed };
 /// Adds --tree --leaf --levels --axes --time-scale. `arguments` must live until the command has run.
 void add_fit_options(CLI::App& command, FitArguments& arguments, Brute brute = Brute::refused);
 
-/// Adds --fps --unit --up --root --trim --dt --radius --animation. `options` must live until the command has run.
+/// Adds --fps --unit --up --root --trim --dt --radius --id --animation. `options` must live until the command has run.
 void add_import_options(CLI::App& command, ImportOptions& options);
 
 /// Throws std::invalid_argument if the text is empty, as an unset variable leaves it.
@@ -75,7 +75,10 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, T& target, P
         ->type_name(placeholder);
 }
 
+/// Which clips the radius of the import options is for.
+enum class RadiusOf { imported_clips, every_clip };
+
 /// load_scene, with its warnings on standard error. Throws InputError.
-Scene load(const std::filesystem::path& file, const ImportOptions& options);
+Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius = RadiusOf::imported_clips);
 
 }  // namespace mobbscope::cli

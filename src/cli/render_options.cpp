@@ -116,6 +116,14 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
     add("--query", view.query, parse_query, "A query instead of levels: its number, from 0", "K");
     add("--step", view.step, parse_step, "Step of the query: an event number, a percentage (40%) or end", "STEP");
     add("--time", view.time, parse_time, "Time cursor, global seconds, or none", "T");
+    add("--time-window", view.time_window, number_within(kLeastTimeWindow, kMostTimeWindow),
+        "Of a crowd's run: seconds before and after the time (2)", "S");
+    command
+        .add_option_function<std::string>(
+            "--follow", [&view](const std::string& agent) { view.follow = agent == "none" ? "" : agent; },
+            "The agent that the camera goes along with; of a run with its last choice; or none")
+        ->type_name("AGENT")
+        ->group(kGroup);
     add("--time-height", view.time_height, parse_time_height, "Metres drawn per second; default: auto, as tall as wide",
         "M");
     add("--color-by", view.color_by, one_of(color_by_from_name, "agent, level"),
@@ -134,6 +142,8 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
     toggle("--time-axis,!--no-time-axis", &ViewState::time_axis, "Ticks in seconds");
     toggle("--boxes,!--no-boxes", &ViewState::boxes, "Boxes of nodes");
     toggle("--disks,!--no-disks", &ViewState::disks, "Disks of samples");
+    toggle("--candidates,!--no-candidates", &ViewState::candidates,
+           "The moves that the followed agent could choose, and what became of each");
     toggle("--tested-before,!--pair-only", &ViewState::tested_before,
            "With a query: the pairs before the step's, or it alone");
 }
@@ -255,7 +265,8 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
-    command.add_option("FILE", arguments.file, "A scene (.json) or a clip (.bvh .gltf .glb .fbx .csv)");
+    command.add_option("FILE", arguments.file,
+                       "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)");
     add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name, "The picture, a PNG file", "OUT.png");
     add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
                "OUT.png");
@@ -303,6 +314,8 @@ ViewState view_over(ViewState view, const ViewArguments& arguments) {
     if (arguments.query) view.query = *arguments.query;
     if (arguments.step) view.step = *arguments.step;
     if (arguments.time) view.time = *arguments.time;
+    if (arguments.time_window) view.time_window = *arguments.time_window;
+    if (arguments.follow) view.follow = *arguments.follow;
     if (arguments.time_height) view.time_height = *arguments.time_height;
     if (arguments.color_by) view.color_by = *arguments.color_by;
     if (arguments.theme) view.theme = *arguments.theme;

@@ -32,7 +32,9 @@ struct ViewArguments {
     std::optional<int> query;
     std::optional<Step> step;
     std::optional<std::optional<double>> time;  ///< an empty one within: no time cursor
-    std::optional<double> time_height;          ///< 0: chosen by itself
+    std::optional<double> time_window;
+    std::optional<std::string> follow;  ///< empty: nobody
+    std::optional<double> time_height;  ///< 0: chosen by itself
     std::optional<ColorBy> color_by;
     std::optional<Theme> theme;
     std::vector<std::pair<bool ViewState::*, bool>> toggles;

@@ -23,7 +23,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr int kMostRecorded = 100'000'000;
+constexpr int kMostRecorded = 10'000'000;
 
 struct Arguments {
     std::filesystem::path graph;
@@ -79,25 +79,74 @@ Scene load_graph(const Arguments& arguments) {
     return scene;
 }
 
-/// One line on standard error that is written over and over; on a file or a pipe it would be a mess, so only the end is
-/// told there.
-class ProgressLine {
+/// A line on standard error for every tenth of a run.
+class Report {
   public:
-    void operator()(const SimulationCounts& counts, double seconds) {
-        std::cerr << "\rsimulated " << brief(counts.simulated) << " of " << brief(seconds) << " s, " << counts.choices
-                  << " choices, " << counts.off_floor + counts.colliding << " of " << counts.candidates
-                  << " candidates discarded, " << counts.pivots << " pivots, " << counts.forced << " forced"
-                  << std::flush;
+    explicit Report(double seconds) : seconds_(seconds) {}
+
+    void operator()(const SimulationCounts& counts) {
+        if (counts.simulated < next_ * seconds_ / 10) return;
+        next_ = std::floor(counts.simulated * 10 / seconds_) + 1;
+        say("simulated " + brief(counts.simulated) + " of " + brief(seconds_) + " s: " + std::to_string(counts.agents) +
+            " agents, " + std::to_string(counts.choices) + " choices, " +
+            std::to_string(counts.off_floor + counts.colliding) + " candidates discarded, " +
+            std::to_string(counts.pivots) + " pivots, " + std::to_string(counts.forced) + " forced");
     }
+
+  private:
+    double seconds_;
+    double next_ = 1;  ///< tenth
 };
 
-void print_text(const SimulationCounts& c, double seconds, const QuerySample* sample) {
-    (void)sample;
-    std::cout << c.agents << " agents, " << c.plays << " plays, " << c.choices << " choices\n"
-              << c.candidates << " candidates: " << c.off_floor << " leave the floor, " << c.colliding << " collide\n"
-              << c.pivots << " pivots, " << c.forced << " forced\n"
-              << c.queries << " queries in " << brief(seconds)
-              << " s: " << brief(static_cast<double>(c.queries) / seconds) << " a second\n";
+struct Summary {
+    SimulationCounts counts;
+    double seconds = 0;  ///< that the run took
+    std::optional<std::pair<std::size_t, std::uint64_t>> recorded{};  ///< queries written, of how many
+};
+
+double queries_per_second(const Summary& summary) {
+    return summary.seconds > 0 ? static_cast<double>(summary.counts.queries) / summary.seconds : 0;
+}
+
+void print_json(const Summary& summary) {
+    const SimulationCounts& c = summary.counts;
+    JsonWriter out(std::cout);
+    const auto count = [&out](const char* key, auto value) { out.member(key, static_cast<std::int64_t>(value)); };
+    out.begin_object();
+    count("agents", c.agents);
+    out.member("simulated_seconds", c.simulated);
+    count("plays", c.plays);
+    count("choices", c.choices);
+    count("candidates", c.candidates);
+    count("off_floor", c.off_floor);
+    count("colliding", c.colliding);
+    count("in_the_way", c.in_the_way);
+    count("pivots", c.pivots);
+    count("forced", c.forced);
+    count("queries", c.queries);
+    count("most_held", c.most_held);
+    out.member("wall_seconds", summary.seconds);
+    out.member("queries_per_second", queries_per_second(summary));
+    if (summary.recorded) {
+        count("recorded", summary.recorded->first);
+        count("recorded_of", summary.recorded->second);
+    }
+    out.end_object();
+}
+
+void print_text(const Summary& summary) {
+    const SimulationCounts& c = summary.counts;
+    std::cout << counted(c.agents, "agent", "agents") << " for " << brief(c.simulated) << " s: "
+              << counted(c.plays, "play", "plays") << ", " << counted(c.choices, "choice", "choices") << '\n'
+              << counted(c.candidates, "candidate", "candidates") << ": " << c.off_floor << " leave the floor, "
+              << c.colliding << " collide, " << c.in_the_way << " end in somebody's way\n"
+              << counted(c.pivots, "pivot", "pivots") << ", " << c.forced << " forced\n"
+              << counted(c.queries, "query", "queries") << " in " << brief(summary.seconds)
+              << " s: " << brief(std::round(queries_per_second(summary))) << " a second\n";
+    if (summary.recorded) {
+        std::cout << "recorded " << counted(static_cast<long long>(summary.recorded->first), "query", "queries")
+                  << " of " << summary.recorded->second << '\n';
+    }
 }
 
 void run(Arguments& arguments) {
@@ -112,20 +161,26 @@ void run(Arguments& arguments) {
         sample.emplace(arguments.record_all_pairs ? Recorded::all : Recorded::asked,
                        static_cast<std::size_t>(arguments.record_queries), arguments.options.seed);
     }
+    Summary summary;
     const auto begin = std::chrono::steady_clock::now();
-    Simulation simulation = simulate(moves, arguments.options, sample ? &*sample : nullptr);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    scene.crowd = std::make_shared<CrowdRun>(std::move(simulation.run));
+    Simulation simulation =
+        simulate(moves, arguments.options, sample ? &*sample : nullptr, Report(arguments.options.seconds));
+    summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    summary.counts = simulation.counts;
+    if (sample) {
+        summary.recorded.emplace(sample->size(), sample->offered());
+        write_file(arguments.record, to_json(sample->workload(scene), arguments.inline_samples));
+    }
+    scene.crowd = std::make_shared<const CrowdRun>(std::move(simulation.run));
     write_file(arguments.out, to_json(scene, arguments.inline_samples));
-    if (sample) write_file(arguments.record, to_json(sample->workload(scene), arguments.inline_samples));
-    print_text(simulation.counts, seconds, sample ? &*sample : nullptr);
+    arguments.json ? print_json(summary) : print_text(summary);
     flush_results();
 }
 
 }  // namespace
 
 void add_simulate_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("simulate", "Let a crowd play a motion graph without collisions");
+    CLI::App* command = program.add_subcommand("simulate", "Let a crowd play the moves of a motion graph, and nobody collide");
     const auto arguments = std::make_shared<Arguments>();
     SimulateOptions& options = arguments->options;
     command->add_option("GRAPH", arguments->graph, "A scene with a graph (.json)")->required();
@@ -136,6 +191,8 @@ void add_simulate_command(CLI::App& program) {
     add_parsed(*command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
     add_parsed(*command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
                "Seconds before its begin at which a move is chosen (0)", "S");
+    add_parsed(*command, "--grace", options.grace, number_within(0, kMaxSimulated),
+               "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
     add_parsed(*command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
     add_parsed(*command, "--record", arguments->record, parse_file_name, "Queries of the run as a scene", "FILE.json");
     add_parsed(*command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),

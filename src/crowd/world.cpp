@@ -47,7 +47,7 @@ World::Held World::held(const Motion& motion) const {
     return {motion, bounds, cells_of(bounds), placed.time(0), placed.time(placed.count())};
 }
 
-void World::commit(const Motion& motion) {
+std::size_t World::commit(const Motion& motion) {
     auto slot = static_cast<std::uint32_t>(motions_.size());
     if (free_.empty()) {
         motions_.push_back(held(motion));
@@ -61,17 +61,27 @@ void World::commit(const Motion& motion) {
         for (int x = range.x0; x <= range.x1; ++x) cells_[index(x, y)].push_back(slot);
     }
     endings_.push({motions_[slot].end, slot});
+    return slot;
+}
+
+void World::withdraw(std::size_t committed) {
+    // Its slot is used again when it would have ended.
+    take_from_cells(static_cast<std::uint32_t>(committed));
+    motions_[committed].motion.tree = nullptr;
+}
+
+void World::take_from_cells(std::uint32_t slot) {
+    const CellRange& range = motions_[slot].cells;
+    for (int y = range.y0; y <= range.y1; ++y) {
+        for (int x = range.x0; x <= range.x1; ++x) std::erase(cells_[index(x, y)], slot);
+    }
 }
 
 void World::forget_before(double now) {
     while (!endings_.empty() && endings_.top().end <= now) {
         const std::uint32_t slot = endings_.top().slot;
         endings_.pop();
-        const CellRange& range = motions_[slot].cells;
-        for (int y = range.y0; y <= range.y1; ++y) {
-            for (int x = range.x0; x <= range.x1; ++x) std::erase(cells_[index(x, y)], slot);
-        }
-        motions_[slot].motion.tree = nullptr;
+        if (motions_[slot].motion.tree) withdraw(slot);
         free_.push_back(slot);
     }
 }

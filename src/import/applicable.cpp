@@ -1,5 +1,6 @@
 #include <import/applicable.h>
 #include <import/file.h>
+#include <import/tracks.h>
 
 namespace mobbscope {
 
@@ -15,12 +16,13 @@ ApplicableOptions applicable(const ImportOptions& options, const std::filesystem
         option.reset();
         out.left_out.emplace_back(key);
     };
-    if (lower_extension(file) == ".csv") {
+    const std::string extension = lower_extension(file);
+    if (extension == ".csv" || is_track_extension(extension)) {
         leave_out(out.options.animation, "animation");
         leave_out(out.options.root, "root");
         leave_out(out.options.up, "up");
         // Without a body's height there is nothing to guess the unit from.
-        if (out.options.unit == "auto") leave_out(out.options.unit, "unit");
+        if (extension == ".csv" && out.options.unit == "auto") leave_out(out.options.unit, "unit");
     } else {
         leave_out(out.options.id, "id");
         leave_out(out.options.dt, "dt");

@@ -18,7 +18,7 @@ struct ApplicableOptions {
 /// Why an option was left out: "up does not apply to .csv files".
 std::string does_not_apply(const std::string& key, const std::filesystem::path& file);
 
-/// The format is told by the file's extension; what is no CSV has a skeleton.
+/// The format is told by the file's extension; what is no CSV and no trajectory file has a skeleton.
 ApplicableOptions applicable(const ImportOptions& options, const std::filesystem::path& file);
 
 }  // namespace mobbscope

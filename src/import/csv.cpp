@@ -1,6 +1,7 @@
 #include <import/csv.h>
 #include <import/error.h>
 #include <import/text.h>
+#include <import/text_lines.h>
 
 #include <algorithm>
 #include <array>
@@ -20,17 +21,16 @@ enum Column { kId, kT, kX, kY, kR };
 /// One pass over the text of a file, line by line.
 class CsvParser {
   public:
-    CsvParser(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
+    CsvParser(std::string_view text, const std::string& file) : empty_(text.empty()), lines_(text, file), file_(file) {}
 
     CsvTable parse() {
-        check_encoding();
         read_header();
         CsvTable table;
         table.has_id = position_[kId] >= 0;
         table.has_time = position_[kT] >= 0;
         table.has_radius = position_[kR] >= 0;
         std::unordered_map<std::string, std::size_t> track_of;
-        while (next_line()) {
+        while (lines_.next()) {
             split(names_.size());
             if (fields_.size() < names_.size()) {
                 fail("has " + values(fields_.size()) + " but the header names " + values(names_.size()) +
@@ -41,52 +41,26 @@ class CsvParser {
             if (is_new) table.tracks.push_back({id, {}, {}});
             std::vector<TimedDisk>& rows = table.tracks[track->second].rows;
             rows.push_back(row());
-            table.tracks[track->second].lines.push_back(line_);
+            table.tracks[track->second].lines.push_back(lines_.number());
             if (table.has_time && rows.size() > 1) check_order(rows, id);
         }
-        if (table.tracks.empty()) throw InputError(file_, at(line_), "there is no row after the header; add samples");
+        if (table.tracks.empty())
+            throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
         return table;
     }
 
   private:
-    static std::string at(int line) { return "line " + std::to_string(line); }
     static std::string values(std::size_t count) { return std::to_string(count) + (count == 1 ? " value" : " values"); }
-    [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, at(line_), message); }
+    [[noreturn]] void fail(const std::string& message) const { lines_.fail(message); }
     [[noreturn]] void fail(std::size_t column, const std::string& message) const {
         const std::string name = column < names_.size() ? " (" + names_[column] + ")" : "";
-        throw InputError(file_, at(line_) + ", column " + std::to_string(column + 1) + name, message);
-    }
-
-    void check_encoding() {
-        if (rest_.empty())
-            throw InputError(file_, at(1), "the file is empty; give a header such as t,x,y,r and one sample a row");
-        if (rest_.starts_with("\xff\xfe") || rest_.starts_with("\xfe\xff")) {
-            throw InputError(file_, at(1), "is UTF-16 text; save it as UTF-8");
-        }
-        if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
-        if (rest_.find('\n') == std::string_view::npos && rest_.find('\r') != std::string_view::npos) {
-            throw InputError(file_, at(1), "lines end with carriage returns alone; save it with line feeds");
-        }
-    }
-
-    /// Moves to the next line that is not blank.
-    bool next_line() {
-        while (!rest_.empty()) {
-            const std::size_t end = rest_.find('\n');
-            current_ = trimmed(rest_.substr(0, end));
-            rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
-            ++line_;
-            if (current_.find('\0') != std::string_view::npos)
-                fail("holds a NUL byte; this is no text file, or a damaged one");
-            if (!current_.empty()) return true;
-        }
-        return false;
+        throw InputError(file_, at_line(lines_.number()) + ", column " + std::to_string(column + 1) + name, message);
     }
 
     /// Splits the current line at its commas; more fields than `limit` are an error.
     void split(std::size_t limit) {
         fields_.clear();
-        std::string_view rest = current_;
+        std::string_view rest = lines_.line();
         for (bool more = true; more;) {
             if (fields_.size() == limit) {
                 fail("has more than " + values(limit) + "; the header and every row must have the same columns");
@@ -123,11 +97,15 @@ class CsvParser {
     }
 
     void read_header() {
-        if (!next_line()) throw InputError(file_, at(1), "holds only blank lines; give a header such as t,x,y,r");
-        if (current_.find(',') == std::string_view::npos) {
-            if (current_.find(';') != std::string_view::npos)
+        if (empty_)
+            throw InputError(file_, at_line(1),
+                             "the file is empty; give a header such as t,x,y,r and one sample a row");
+        if (!lines_.next())
+            throw InputError(file_, at_line(1), "holds only blank lines; give a header such as t,x,y,r");
+        if (lines_.line().find(',') == std::string_view::npos) {
+            if (lines_.line().find(';') != std::string_view::npos)
                 fail("separate fields with commas, not semicolons (and write 0.5, not 0,5)");
-            if (current_.find('\t') != std::string_view::npos) fail("separate fields with commas, not tabs");
+            if (lines_.line().find('\t') != std::string_view::npos) fail("separate fields with commas, not tabs");
         }
         split(kMaxColumns);
         if (std::all_of(fields_.begin(), fields_.end(),
@@ -140,7 +118,7 @@ class CsvParser {
             const auto known = std::find(kColumns.begin(), kColumns.end(), names_[i]);
             if (known == kColumns.end()) {
                 throw InputError(
-                    file_, at(line_) + ", column " + std::to_string(i + 1),
+                    file_, at_line(lines_.number()) + ", column " + std::to_string(i + 1),
                     "the column " + in_quotes(names_[i]) + " is unknown; the header may name id, t, x, y and r");
             }
             int& position = position_[static_cast<std::size_t>(known - kColumns.begin())];
@@ -189,10 +167,9 @@ class CsvParser {
                  (id.empty() ? "" : " of track " + in_quotes(id)) + "; sort the rows and remove doubles");
     }
 
-    std::string_view rest_;
+    bool empty_;
+    TextLines lines_;
     const std::string& file_;
-    std::string_view current_;  ///< the line in hand
-    int line_ = 0;
     std::vector<std::string> fields_;
     std::vector<std::string> names_;
     std::array<int, kColumns.size()> position_{};  ///< of each known column in a row, or -1
@@ -212,7 +189,9 @@ double unit_scale(const ImportOptions& options) {
 class ClipMaker {
   public:
     ClipMaker(const CsvTable& table, const ImportOptions& options)
-        : table_(table), options_(options), scale_(unit_scale(options)) {}
+        : table_(table), options_(options), scale_(unit_scale(options)), first_(table.tracks.front().rows.front().t) {
+        for (const CsvTrack& track : table.tracks) first_ = std::min(first_, track.rows.front().t);
+    }
 
     ImportedClip make(const CsvTrack& track) {
         std::vector<TimedDisk> rows = track.rows;
@@ -241,7 +220,9 @@ class ClipMaker {
             disk = {disk.x * scale_, disk.y * scale_, options_.radius.value_or(disk.r * scale_)};
         }
         put_at_origin(samples, options_.origin.value_or(Origin::keep));
-        return {"", track.id, std::make_shared<mobb::Clip>(step, std::move(samples)), std::move(facts)};
+        ImportedClip out{"", track.id, std::make_shared<mobb::Clip>(step, std::move(samples)), std::move(facts)};
+        out.start = track.rows.front().t - first_;
+        return out;
     }
 
   private:
@@ -283,6 +264,7 @@ class ClipMaker {
     const CsvTable& table_;
     const ImportOptions& options_;
     double scale_;
+    double first_;           ///< the earliest time of all tracks, seconds
     std::size_t count_ = 0;  ///< samples made so far, of all tracks
 };
 
@@ -314,7 +296,7 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
             try {
                 clips.push_back(maker.make(track));
             } catch (const std::invalid_argument& error) {
-                const std::string place = "line " + std::to_string(track.lines.front());
+                const std::string place = at_line(track.lines.front());
                 throw InputError(name, table.has_id ? place + ", track " + in_quotes(track.id) : place, error.what());
             }
             clips.back().name = table.tracks.size() > 1 ? track.id : file.stem().string();

@@ -5,6 +5,8 @@
 #include <import/motion.h>
 #include <import/motion_clips.h>
 #include <import/text.h>
+#include <import/track_clips.h>
+#include <import/tracks.h>
 
 #include <array>
 #include <map>
@@ -68,6 +70,7 @@ std::optional<Origin> origin_from_name(std::string_view name) {
 
 struct Importer::ParsedFiles {
     std::map<std::filesystem::path, CsvTable> tables;
+    std::map<std::filesystem::path, TrackFile> tracks;
     std::map<std::filesystem::path, std::unique_ptr<MotionFile>> motions;
 };
 
@@ -94,8 +97,15 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
         if (!motion) motion = read_motion(file);
         return motion_clips(*motion, file, options);
     }
-    throw InputError(file.string(), "",
-                     "no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, scenes .json");
+    if (is_track_extension(extension)) {
+        auto tracks = parsed_->tracks.find(file);
+        if (tracks == parsed_->tracks.end()) tracks = parsed_->tracks.emplace(file, read_tracks(file)).first;
+        return track_clips(tracks->second, file, options);
+    }
+    throw InputError(
+        file.string(), "",
+        "no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, trajectories .txt, "
+        ".ndjson and .yaml, scenes .json");
 }
 
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {

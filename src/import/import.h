@@ -19,14 +19,15 @@ enum class Origin { keep, start, start_heading };
 struct ImportOptions {
     std::optional<std::string> animation;           ///< index (from 0) or name; a number counts as an index
     std::optional<std::string> root;                ///< joint name
-    std::optional<double> fps;                      ///< samples per second, over 0 to 1e6; default 30
+    std::optional<double> fps;                      ///< samples per second, over 0 to 1e6; default 30, or as stored
     std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit, over 0 to 1e6
     std::optional<std::string> up;                  ///< "y" or "z"
     std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key
     std::optional<Origin> origin;                   ///< default keep
-    std::optional<std::string> id;                  ///< CSV: the track to take
+    std::optional<std::string> id;                  ///< of a file of tracks: the one to take
     std::optional<double> radius;                   ///< metres, 0 to kMaxLength; overrides r of every sample
-    std::optional<double> dt;  ///< seconds, over 0 to kMaxTime, between rows of a CSV without a time column
+    /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a trajectory file.
+    std::optional<double> dt;
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };
@@ -43,7 +44,7 @@ std::optional<Origin> origin_from_name(std::string_view name);
 
 /// What the file said, before sampling.
 struct SourceFacts {
-    std::string format;  ///< "csv", "bvh", "gltf", "fbx"
+    std::string format;  ///< "csv", "bvh", "gltf", "fbx", or of trajectories as in import/tracks.h
     double unit = 1;     ///< metres per file unit
     int frames = 0;
     std::optional<double> dt;           ///< seconds between frames, where they are uniform
@@ -62,11 +63,14 @@ struct Skeleton;
 /// A clip and where it came from.
 struct ImportedClip {
     std::string name;  ///< the file's stem; of one clip of several, the track's id or the animation's name
-    std::string id;    ///< CSV with many tracks: the track; else empty
+    std::string id;    ///< of a file of tracks: the track; else empty
     mobb::ClipPtr clip;
     SourceFacts facts;
     std::string animation{};                     ///< of a file with several: ImportOptions::animation for this one
     std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
+    /// Seconds: when it starts on the clock of its file's tracks, 0 for the first of them (trajectories with trim: at
+    /// its begin).
+    double start = 0;
 };
 
 /// Reads clips from files, each file once however many of its clips are asked for.
@@ -75,9 +79,9 @@ class Importer {
     Importer();
     ~Importer();
 
-    /// Every clip in a file, by its extension (.csv .bvh .gltf .glb .fbx), in the file's order: of a CSV with many
-    /// tracks each of them, unless options.id names one; likewise of several animations and options.animation. Throws
-    /// InputError.
+    /// Every clip in a file, by its extension (.csv .bvh .gltf .glb .fbx, trajectories .txt .ndjson .yaml .yml), in the
+    /// file's order: of many tracks each of them, unless options.id names one; likewise of several animations and
+    /// options.animation. Throws InputError.
     std::vector<ImportedClip> clips(const std::filesystem::path& file, const ImportOptions& options);
 
   private:

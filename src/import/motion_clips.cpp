@@ -164,7 +164,9 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
                                        const ImportOptions& options) {
     const std::string path = file.string();
     const auto refuse = [&](bool given, const char* option) {
-        if (given) throw InputError(path, "", std::string(option) + " applies to CSV alone; leave it out");
+        if (given)
+            throw InputError(path, "",
+                             std::string(option) + " applies to tracks (CSV, trajectories) alone; leave it out");
     };
     refuse(options.id.has_value(), "id");
     refuse(options.dt.has_value(), "dt");

@@ -169,14 +169,27 @@ class Traversal {
 
     bool may_meet_in_space(const Box& a, const Box& b) {
         if (a.kind == BoxKind::obb2d && b.kind == BoxKind::obb2d) {
-            const Separation separation = separate_obb2d(a, b, frame_);
-            if constexpr (Observer::watches) observer_.box_test(BoxKind::obb2d, separation);
-            return !separation.separated();
+            return may_meet(BoxKind::obb2d, separate_obb2d(a, b, frame_));
         }
+        if (a.kind == BoxKind::aabb && b.kind == BoxKind::aabb) {
+            return may_meet(BoxKind::aabb, separate_aabb(a, b, frame_));
+        }
+        // Against another kind a box along the axes is an obb2d.
+        if (is_upright(a) && is_upright(b)) return may_meet(BoxKind::obb2d, separate_obb2d(a, b, frame_));
         // Boxes of different time scales live in different spaces: never compared, the pair counts as overlapping.
         if (!same_scale_) return true;
-        const Separation separation = separate_obb3d(a, b, frame_);
-        if constexpr (Observer::watches) observer_.box_test(BoxKind::obb3d, separation);
+        if (a.kind == BoxKind::moving && b.kind == BoxKind::moving) {
+            return may_meet(BoxKind::moving, separate_moving(a, b, frame_));
+        }
+        // So does a moving box and one of another kind: they have no test in common.
+        if (a.kind == BoxKind::moving || b.kind == BoxKind::moving) return true;
+        return may_meet(BoxKind::obb3d, separate_obb3d(a, b, frame_));
+    }
+
+    static bool is_upright(const Box& box) { return box.kind == BoxKind::obb2d || box.kind == BoxKind::aabb; }
+
+    bool may_meet([[maybe_unused]] BoxKind test, const Separation& separation) {
+        if constexpr (Observer::watches) observer_.box_test(test, separation);
         return !separation.separated();
     }
 

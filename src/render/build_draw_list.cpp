@@ -4,9 +4,11 @@
 #include <render/block_layout.h>
 #include <render/build_draw_list.h>
 #include <render/caption.h>
+#include <render/crowd_picture.h>
 #include <render/disk_projection.h>
 #include <render/emphasis.h>
 #include <render/floor_inset.h>
+#include <render/follow.h>
 #include <render/framing.h>
 #include <render/label_layout.h>
 #include <render/legend.h>
@@ -17,6 +19,7 @@
 #include <render/query_progress.h>
 #include <render/time_intervals.h>
 #include <render/words.h>
+#include <scene/crowd_scene.h>
 
 #include <stdexcept>
 
@@ -65,20 +68,38 @@ void add_stage(DrawList& list, std::span<const Subject> subjects, const Stage& s
     if (view.time_axis) add_time_axis(list, stage, scale);
 }
 
+DrawList build_run(const FittedScene& run, const ViewState& view, const PictureOptions& options) {
+    const FittedScene seen = fitted_at(run, view);
+    if (view.follow.empty() || !view.candidates) return build_draw_list(seen, view, options);
+    const MoveSet moves(run);
+    const auto choice = choice_in_view(moves, view);
+    return build_draw_list(seen, view, options, choice ? &*choice : nullptr);
+}
+
 }  // namespace
+
+std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view) {
+    if (view.follow.empty() || !view.candidates) return std::nullopt;
+    const Scene& run = moves.fitted().scene();
+    const auto person = person_by_name(*run.crowd, view.follow);
+    return person ? last_choice(moves, *person, run_time(run, view)) : std::nullopt;
+}
 
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
     return build_draw_list(fitted, view, {.size = size, .scale = scale});
 }
 
-DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options) {
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                         const FollowedChoice* choice) {
     const PictureSize size = options.size;
     const double scale = options.scale;
     if (scale != 0 && !(scale >= kLeastScale && scale <= kMostScale)) {
         throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
                                     short_double(kLeastScale) + " to " + short_double(kMostScale));
     }
-    if (view.show == Show::moment) return build_moment(fitted, view, options);
+    if (is_run(fitted.scene())) return build_run(fitted, view, options);
+    if (view.show == Show::moment) return build_moment(fitted, view, options, choice);
+    if (fitted.scene().crowd) return build_crowd(fitted, view, options, choice);
     const std::vector<Subject> paths = subjects(fitted, view);
     if (paths.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
     const Metrics metrics = metrics_of(size, scale);
@@ -94,6 +115,7 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const
     }
     const Bounds bounds = bounds_of(paths);
     list.space = space_for(bounds, view);
+    list.space.anchor = camera_anchor(fitted, view, view.time.value_or(bounds.min.z));
     std::optional<QueryAtStep> query;
     if (view.query) query.emplace(fitted, view);
     const QueryProgress* progress = query ? &query->progress : nullptr;

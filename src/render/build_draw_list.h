@@ -1,6 +1,7 @@
 /// (scene, view state, size) -> draw list: all decisions about a picture, in numbers, without OpenGL.
 #pragma once
 
+#include <crowd/followed.h>
 #include <render/draw_list.h>
 #include <render/metrics.h>
 #include <render/picture_options.h>
@@ -14,7 +15,13 @@ namespace mobbscope {
 /// is not, or the scene has nothing to draw.
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
 
-/// The same with a background: an opaque one replaces the palette's. The samples are the renderer's.
-DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
+/// The same with a background: an opaque one replaces the palette's. The samples are the renderer's. A run is drawn as
+/// fitted_at makes it a scene, with the last choice of the agent that the view follows. For one that is made already
+/// `choice` is that; null: none is drawn.
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                         const FollowedChoice* choice = nullptr);
+
+/// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
+std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);
 
 }  // namespace mobbscope

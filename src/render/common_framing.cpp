@@ -100,8 +100,7 @@ Camera CommonFraming::turning(const Camera& camera) const {
     const double up = cosine > 1e-6 ? std::clamp((top - bottom) * half.y / (2 * cosine), -reach, reach) : 0;
     out.distance = std::max({top - up * (cosine / half.y + near * sine), bottom + up * (cosine / half.y - near * sine),
                              sides - up * near * sine, 1e-3});
-    const glm::dvec3 place = space_.place(middle + glm::dvec3(0, 0, up));
-    out.target = glm::dvec3(place.x, place.y, place.z * space_.time_height);
+    out.target = space_.to_target(middle + glm::dvec3(0, 0, up));
     return out;
 }
 

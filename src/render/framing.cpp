@@ -102,10 +102,7 @@ Frame free_frame(PictureSize size, float top, const Stage& stage, const ViewStat
 
 Lens lens_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points, const Frame& frame) {
     std::optional<glm::vec3> target;
-    if (view.camera.target) {
-        const glm::dvec3& t = *view.camera.target;
-        target = list.space.point(t.x, t.y, t.z / list.space.time_height);
-    }
+    if (view.camera.target) target = list.space.from_target(*view.camera.target);
     return make_lens(view.camera, points, target ? &*target : nullptr, frame, list.size);
 }
 

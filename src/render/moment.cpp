@@ -106,8 +106,14 @@ Moment moment_of(std::span<const Subject> subjects, std::span<const double> heig
         const std::optional<int> sample = sample_at(subjects[i], time);
         if (!sample) continue;
         Body body{static_cast<int>(i), *sample, subjects[i].clip().disk(*sample), heights[i], std::nullopt, false};
-        if (subjects[i].skeleton) body.farthest = farthest_joint(*subjects[i].skeleton, *sample);
         out.bodies.push_back(body);
+    }
+    // Radii of more are shown by no picture.
+    if (out.bodies.size() <= 2) {
+        for (Body& body : out.bodies) {
+            const Skeleton* skeleton = subjects[static_cast<std::size_t>(body.subject)].skeleton;
+            if (skeleton) body.farthest = farthest_joint(*skeleton, body.sample);
+        }
     }
     find_pairs(out);
     return out;

@@ -21,7 +21,7 @@ struct Body {
     int sample = 0;                         ///< that holds then
     mobb::Disk disk;                        ///< that sample in the world
     double height = 0;                      ///< metres, of the cylinder
-    std::optional<FarthestJoint> farthest;  ///< none without a skeleton
+    std::optional<FarthestJoint> farthest;  ///< none without a skeleton, and of more than two
     bool overlaps = false;                  ///< with any other
 };
 

@@ -33,7 +33,8 @@ constexpr std::size_t kMostPairs = 3;
 
 }  // namespace
 
-Caption moment_caption(const Palette& palette, std::span<const Subject> subjects, const Moment& moment) {
+Caption moment_caption(const Palette& palette, std::span<const Subject> subjects, const Moment& moment,
+                       std::size_t people) {
     Caption out;
     const std::string then = at_time(moment.time);
     const auto subject = [&](int body) -> const Subject& {
@@ -45,8 +46,8 @@ Caption moment_caption(const Palette& palette, std::span<const Subject> subjects
     const auto add_detail = [&](const std::string& text) {
         out.detail += (out.detail.empty() ? "" : "  \u00B7  ") + text;
     };
-    if (count < subjects.size()) {
-        add_detail(std::to_string(count) + " of " + std::to_string(subjects.size()) + " are on the floor then");
+    if (count < people) {
+        add_detail(std::to_string(count) + " of " + std::to_string(people) + " are on the floor then");
     }
     if (count == 0) {
         out.headlines = {"Nobody is on the floor" + then};

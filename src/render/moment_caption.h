@@ -10,8 +10,9 @@
 
 namespace mobbscope {
 
-/// Who is there, and who overlaps whom, or how near they come.
-Caption moment_caption(const Palette& palette, std::span<const Subject> subjects, const Moment& moment);
+/// Who is there, of so many people, and who overlaps whom, or how near they come.
+Caption moment_caption(const Palette& palette, std::span<const Subject> subjects, const Moment& moment,
+                       std::size_t people);
 
 /// Radii of few are drawn as lines; those of more would be told apart by nobody.
 bool may_show_radii(std::span<const Subject> subjects);

@@ -1,12 +1,16 @@
 #include <render/aim.h>
 #include <render/annotations.h>
+#include <render/candidates.h>
+#include <render/follow.h>
 #include <render/framing.h>
 #include <render/legend.h>
 #include <render/moment_bodies.h>
 #include <render/moment_caption.h>
 #include <render/moment_picture.h>
 #include <render/paths.h>
+#include <render/walls.h>
 #include <render/words.h>
+#include <scene/crowd_scene.h>
 
 #include <glm/common.hpp>
 
@@ -21,7 +25,6 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kMostPathsInFull = 12;  // ways of more people would hide one another
-constexpr double kWayOfMany = 1.5;            // seconds of theirs that are drawn before and after the moment
 
 double beginning(std::span<const Subject> subjects) {
     const auto earlier = [](const Subject& a, const Subject& b) { return a.begin() < b.begin(); };
@@ -69,11 +72,35 @@ std::vector<Rect> seen_at(const Lens& lens, std::span<const glm::vec3> room) {
     return out;
 }
 
+/// Where the floor is seen, as small rectangles.
+std::vector<Rect> seen_floor(const Lens& lens, std::span<const glm::vec3> corners) {
+    constexpr int kCells = 10;
+    std::vector<Rect> out;
+    for (int i = 0; i <= kCells; ++i) {
+        for (int j = 0; j <= kCells; ++j) {
+            const glm::vec3 along = glm::mix(corners[0], corners[2], static_cast<float>(i) / kCells);
+            const glm::vec3 across = glm::mix(corners[0], corners[1], static_cast<float>(j) / kCells) - corners[0];
+            if (const auto at = lens.project(along + across)) out.push_back(Rect{*at, *at}.grown(8));
+        }
+    }
+    return out;
+}
+
 /// The samples of a path within some seconds of the moment; count 0 if it has none then.
 mobb::SampleRange samples_around(const mobb::PlacedClip& clip, double time, double seconds) {
     const int first = mobb::first_ending_after(clip, 0, clip.count(), time - seconds);
     const int last = mobb::first_ending_after(clip, 0, clip.count(), time + seconds);
     return {first, std::min(last + 1, clip.count()) - first};
+}
+
+/// Of a run the bounds are its walls, else those of the paths.
+Bounds bounds_of(const FittedScene& fitted, std::span<const Subject> people) {
+    if (!fitted.scene().crowd) return bounds_of(people);
+    const CrowdRun& crowd = *fitted.scene().crowd;
+    Bounds bounds;
+    bounds.add(glm::dvec3(-0.5 * crowd.area, 0));
+    bounds.add(glm::dvec3(0.5 * crowd.area, crowd.seconds));
+    return bounds;
 }
 
 /// The way that everybody has come, and fainter the one that is still ahead; all of it faint where nobody is there.
@@ -83,8 +110,19 @@ void add_ways(DrawList& list, std::span<const Subject> subjects, const Moment& m
     for (std::size_t i = 0; i < subjects.size(); ++i) {
         const Subject& subject = subjects[i];
         mobb::SampleRange shown{0, subject.clip().count()};
-        if (subjects.size() > kMostPathsInFull) shown = samples_around(subject.clip(), moment.time, kWayOfMany);
+        if (subjects.size() > kMostPathsInFull || subject.person >= 0)
+            shown = samples_around(subject.clip(), moment.time, kWaySeconds);
+        if (shown.count <= 0) continue;
         const Rgba ahead = with_alpha(subject.color, list.palette.dark ? 0.4f : 0.5f);
+        // What somebody in a run played before is way so far.
+        if (!sample[i] && subject.person >= 0 && subject.begin() < moment.time) {
+            add_floor_trace(list, subject, shown, 0, with_alpha(subject.color, 0.9f), 2.6f * scale);
+            continue;
+        }
+        if (!sample[i] && subject.person >= 0) {
+            add_floor_trace(list, subject, shown, 0, ahead, 1.2f * scale);
+            continue;
+        }
         if (!sample[i]) {
             add_floor_trace(list, subject, shown, 0, with_alpha(ahead, 0.8f * ahead.a), scale);
             continue;
@@ -98,7 +136,8 @@ void add_ways(DrawList& list, std::span<const Subject> subjects, const Moment& m
 
 }  // namespace
 
-DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const PictureOptions& options) {
+DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const PictureOptions& options,
+                      const FollowedChoice* choice) {
     const PictureSize size = options.size;
     const Metrics metrics = metrics_of(size, options.scale);
     // Time is no direction of this picture.
@@ -107,7 +146,12 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
     const std::vector<Subject> people = subjects(fitted, view);
     if (people.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
     const std::vector<double> heights = cylinder_heights(people);
-    const Moment moment = moment_of(people, heights, view.time.value_or(beginning(people)));
+    const bool is_crowd = fitted.scene().crowd != nullptr;
+    const double time = is_crowd ? run_time(fitted.scene(), view) : view.time.value_or(beginning(people));
+    const Moment moment = moment_of(people, heights, time);
+    // Of a run each person stands there with several plays.
+    const std::size_t count = is_crowd ? fitted.scene().crowd->agents.size() : people.size();
+    const std::span<const Subject> persons = std::span(people).first(count);
 
     DrawList list;
     list.size = size;
@@ -115,25 +159,33 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
     list.background = options.background;
     list.moment = moment.time;
     for (const Subject& subject : people) list.participants.push_back(subject.name);
-    const Bounds bounds = bounds_of(people);
+    const Bounds bounds = bounds_of(fitted, people);
     const glm::dvec3 middle = 0.5 * (bounds.min + bounds.max);
-    list.space = {{middle.x, middle.y, 0}, 1};
+    list.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view, time)};
     const double highest = *std::max_element(heights.begin(), heights.end());
-    const Stage stage = make_stage({bounds.min.x, bounds.min.y, 0}, {bounds.max.x, bounds.max.y, highest});
-    std::vector<glm::vec3> points = standing_room(list.space, people, heights, 0.02 * stage.step);
+    const Stage stage = is_crowd ? floor_stage(fitted.scene().crowd->area, 0, highest)
+                                 : make_stage({bounds.min.x, bounds.min.y, 0}, {bounds.max.x, bounds.max.y, highest});
+    // Walls hold everybody, wherever they will stand.
+    std::vector<glm::vec3> points;
+    if (!is_crowd) points = standing_room(list.space, people, heights, 0.02 * stage.step);
     const std::size_t standing = points.size();
     const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
-    points.insert(points.end(), corners.begin(), corners.begin() + 4);
+    points.insert(points.end(), corners.begin(), corners.begin() + (is_crowd ? 8 : 4));
 
     float top = metrics.pad;
     if (view.labels) {
-        Caption caption = moment_caption(list.palette, people, moment);
+        Caption caption = moment_caption(list.palette, people, moment, count);
         if (moment.time < bounds.min.z || moment.time >= bounds.max.z) {
             mention_cursor_outside(caption, moment.time, bounds.min.z, bounds.max.z);
         }
+        if (choice) caption.detail = choice_sentence(fitted.scene(), *choice);
         if (!view.caption) caption = {};
         std::vector<LegendEntry> legend;
-        if (view.legend) legend = moment_legend(list.palette, people, view);
+        if (view.legend) legend = moment_legend(list.palette, persons, view);
+        if (view.legend && choice) {
+            const auto fates = candidate_legend(list.palette, choice->choice);
+            legend.insert(legend.begin(), fates.begin(), fates.end());
+        }
         Words words = words_that_fit(caption, std::move(legend), glm::vec2(0), size, metrics);
         list.legend = std::move(words.legend);
         top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
@@ -144,24 +196,30 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
         std::vector<Rect> busy = occupied(list, stage, view, metrics);
         const std::vector<Rect> bodies = seen_at(list.lens, std::span(points).first(standing));
         busy.insert(busy.end(), bodies.begin(), bodies.end());
+        if (is_crowd) {
+            const std::vector<Rect> floor = seen_floor(list.lens, corners);
+            busy.insert(busy.end(), floor.begin(), floor.end());
+        }
         return busy;
     });
 
     if (view.floor) {
         add_floor_grid(list, stage, metrics.scale);
-        if (!floor_on_edge(list.lens)) add_ways(list, people, moment, metrics.scale);
+        if (is_crowd) add_walls(list, fitted.scene().crowd->area, 0, kWallHeight, metrics.scale);
+        if (!floor_on_edge(list.lens) && count <= kMostWithWays) add_ways(list, people, moment, metrics.scale);
     }
     add_bodies(list, people, moment, {view.disks, view.boxes}, metrics.scale);
     std::vector<LabelRequest> notes;
     const auto add = [&](const std::vector<LabelRequest>& some) {
         notes.insert(notes.end(), some.begin(), some.end());
     };
-    if (moment.nearest && view.disks && names_fit(people.size())) {
+    if (choice) add(add_candidates(list, fitted, *choice, metrics));
+    if (moment.nearest && view.disks && names_fit(count)) {
         const auto body = [&](int i) -> const Body& { return moment.bodies[static_cast<std::size_t>(i)]; };
         add(add_clearance(list, body(moment.nearest->a), body(moment.nearest->b), metrics));
     }
     // Where two overlap, that is what the picture is about.
-    if (view.disks && may_show_radii(people) && moment.overlaps.empty()) {
+    if (view.disks && may_show_radii(persons) && moment.overlaps.empty()) {
         for (const Body& body : moment.bodies) {
             if (!sets_radius(body)) continue;
             const auto length = add_radius(list, people[static_cast<std::size_t>(body.subject)], body, metrics);

@@ -75,8 +75,10 @@ const Palette& palette(Theme theme) {
 
 Rgba agent_color(const Scene& scene, const Participant& participant, int index) {
     if (participant.agent >= 0) {
-        const auto& own = scene.agents[static_cast<std::size_t>(participant.agent)].color;
-        if (own) return Rgba(own->r, own->g, own->b, 255) / 255.0f;
+        const Agent& agent = scene.agents[static_cast<std::size_t>(participant.agent)];
+        if (agent.color) return Rgba(agent.color->r, agent.color->g, agent.color->b, 255) / 255.0f;
+        // All that one person plays looks alike.
+        if (agent.person >= 0) index = agent.person;
     }
     return hex(kAgents[static_cast<std::size_t>(index) % kAgents.size()]);
 }

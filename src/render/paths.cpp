@@ -20,10 +20,12 @@ Rgba disk_color(const Palette& palette, const Subject& subject, const PathFocus&
 
 }  // namespace
 
-void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus) {
+void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus, int together) {
     const mobb::PlacedClip& clip = subject.clip();
-    const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
-    for (int i = 0; i < clip.count(); ++i) {
+    const mobb::SampleRange shown = subject.samples();
+    for (int i = shown.first; i < shown.end(); i += together) {
+        const int count = std::min(together, shown.end() - i);
+        const float height = static_cast<float>(count * clip.clip().dt() * list.space.time_height);
         const mobb::Disk disk = clip.disk(i);
         DiskInstance instance;
         instance.base = list.space.point(disk.x, disk.y, clip.time(i));
@@ -95,19 +97,19 @@ struct RingLine {
     float width;
     float radius;  ///< in those of the disk
     int order;     ///< later ones lie above
+    int pieces = 48;
 };
 
 void add_ring(DrawList& list, const Subject& subject, int sample, const RingLine& ring) {
-    constexpr int kPieces = 48;
     const mobb::PlacedClip& clip = subject.clip();
     const mobb::Disk disk = clip.disk(sample);
     const double radius = disk.r * static_cast<double>(ring.radius);
     const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
     const auto point = [&](int i) {
-        const double angle = 2 * std::numbers::pi * i / kPieces;
+        const double angle = 2 * std::numbers::pi * i / ring.pieces;
         return list.space.point(disk.x + radius * std::cos(angle), disk.y + radius * std::sin(angle), time);
     };
-    for (int i = 0; i < kPieces; ++i) {
+    for (int i = 0; i < ring.pieces; ++i) {
         LineInstance line;
         line.from = point(i);
         line.to = point(i + 1);
@@ -115,15 +117,15 @@ void add_ring(DrawList& list, const Subject& subject, int sample, const RingLine
         line.width = ring.width;
         line.cap = 0.3f * ring.width;
         line.hidden = 1;
-        line.order = {10, ring.order, (static_cast<std::int64_t>(subject.index) << 40) + (sample * kPieces + i)};
+        line.order = {10, ring.order, (static_cast<std::int64_t>(subject.index) << 40) + (sample * ring.pieces + i)};
         list.lines.push_back(line);
     }
 }
 
 }  // namespace
 
-void add_cursor_ring(DrawList& list, const Subject& subject, int sample, float scale) {
-    add_ring(list, subject, sample, {list.palette.text, 1.6f * scale, 1.04f, 0});
+void add_cursor_ring(DrawList& list, const Subject& subject, int sample, float scale, int pieces) {
+    add_ring(list, subject, sample, {list.palette.text, 1.6f * scale, 1.04f, 0, pieces});
 }
 
 void add_hit_ring(DrawList& list, const Subject& subject, int sample, float scale) {

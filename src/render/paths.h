@@ -22,7 +22,8 @@ struct PathFocus {
     bool behind = false;                     ///< the boxes' colours matter more: all disks step back
 };
 
-void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus);
+/// `together`: so many samples are drawn as one disk, which is as high as all of them.
+void add_disks(DrawList& list, const Subject& subject, const PathFocus& focus, int together = 1);
 
 /// The line of centres, where the disks are too small to be seen.
 void add_thin_path(DrawList& list, const Subject& subject, float width);
@@ -36,7 +37,7 @@ void add_floor_trace(DrawList& list, const Subject& subject, mobb::SampleRange r
 
 /// The outline of a sample's disk at half its height, seen through everything: one line for what the time cursor
 /// meets, a heavy and a fine one in the colour of hits for what collides.
-void add_cursor_ring(DrawList& list, const Subject& subject, int sample, float scale);
+void add_cursor_ring(DrawList& list, const Subject& subject, int sample, float scale, int pieces = 48);
 void add_hit_ring(DrawList& list, const Subject& subject, int sample, float scale);
 
 /// The sample that holds at a global time, or none.

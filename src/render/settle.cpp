@@ -50,8 +50,7 @@ Camera settled(const Camera& camera, const Lens& lens, const DrawnSpace& space, 
 
     const glm::dvec3 back(lens.back);
     const double depth = glm::dot(glm::dvec3(lens.eye) - middle, back);
-    const glm::dvec3 place = space.place(glm::dvec3(lens.eye) - back * depth);
-    out.target = glm::dvec3(place.x, place.y, place.z * space.time_height);
+    out.target = space.to_target(glm::dvec3(lens.eye) - back * depth);
     out.shift = 0.5 * glm::dvec2(lens.middle);
     // Half of what the picture's height shows is tan(fov / 2) * distance.
     const double half_height = 1 / static_cast<double>(lens.scale.y);

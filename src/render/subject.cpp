@@ -1,5 +1,7 @@
 #include <render/subject.h>
+#include <scene/crowd_scene.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -11,12 +13,22 @@ namespace {
 constexpr int kLongestLabel = 24;
 
 Subject make_subject(const FittedScene& fitted, const Participant& participant, int index, int color_index) {
+    const Scene& scene = fitted.scene();
     return {fitted.placed(participant),
             participant.name,
             shortened(participant.name, kLongestLabel),
-            agent_color(fitted.scene(), participant, color_index),
+            agent_color(scene, participant, color_index),
             index,
-            fitted.scene().clips[static_cast<std::size_t>(participant.clip)].skeleton.get()};
+            scene.clips[static_cast<std::size_t>(participant.clip)].skeleton.get(),
+            participant.agent >= 0 ? scene.agents[static_cast<std::size_t>(participant.agent)].person : -1};
+}
+
+/// The samples that hold at some time between two.
+mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, double end) {
+    const int first = mobb::first_ending_after(clip, 0, clip.count(), begin);
+    int last = mobb::first_ending_after(clip, 0, clip.count(), end);
+    if (last < clip.count() && clip.time(last) < end) ++last;
+    return {first, std::max(last - first, 0)};
 }
 
 /// Where each character of UTF-8 text begins, and its end.
@@ -47,6 +59,12 @@ std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view) 
         for (const Participant& participant : fitted.participants()) {
             const int index = static_cast<int>(out.size());
             out.push_back(make_subject(fitted, participant, index, index));
+        }
+        if (fitted.scene().crowd && view.show == Show::space_time) {
+            const double time = run_time(fitted.scene(), view);
+            for (Subject& subject : out) {
+                subject.window = samples_between(subject.clip(), time - view.time_window, time + view.time_window);
+            }
         }
         return out;
     }

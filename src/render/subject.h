@@ -4,6 +4,7 @@
 #include <render/palette.h>
 #include <scene/fitted_scene.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,12 @@ struct Subject {
     Rgba color;
     int index = 0;                       ///< in DrawList::participants
     const Skeleton* skeleton = nullptr;  ///< of the clip; null: none
+    int person = -1;                     ///< of a run: who plays it, as Agent::person; else -1
+    /// Of a run in space-time: the samples within the view's window, maybe none; nothing: all of them.
+    std::optional<mobb::SampleRange> window{};
 
     const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
+    mobb::SampleRange samples() const { return window.value_or(mobb::SampleRange{0, clip().count()}); }  ///< drawn
     double begin() const { return clip().time(0); }
     double end() const { return clip().time(clip().count()); }
 };
@@ -26,8 +31,8 @@ struct Subject {
 /// A name of at most `most` characters (>= 5): its beginning, an ellipsis and its end.
 std::string shortened(const std::string& name, int most);
 
-/// The scene's participants; with a query in the view, its two sides. Throws std::invalid_argument if the scene has no
-/// such query.
+/// The scene's participants, of a run made a scene (scene/crowd_scene.h) cut to the view's window of time; with a query
+/// in the view, its two sides. Throws std::invalid_argument if the scene has no such query.
 std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view);
 
 }  // namespace mobbscope

@@ -1,6 +1,7 @@
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
+#include <import/tracks.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
@@ -12,7 +13,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kExtensions{".json", ".csv", ".bvh", ".glb", ".gltf", ".fbx"};
+constexpr std::array<std::string_view, 10> kExtensions{".json", ".csv", ".bvh",    ".glb",  ".gltf",
+                                                       ".fbx",  ".txt", ".ndjson", ".yaml", ".yml"};
 
 bool is_openable(const std::filesystem::path& file) {
     return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(file)) != kExtensions.end();
@@ -20,13 +22,14 @@ bool is_openable(const std::filesystem::path& file) {
 
 bool is_scene(const std::filesystem::path& file) { return lower_extension(file) == ".json"; }
 
-/// A folder's clips, by name; scenes in it are other documents.
+/// A folder's clips, by name; scenes and crowds in it are other documents, and not every text is a crowd.
 std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> out;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         std::error_code ignored;
-        if (entry.is_regular_file(ignored) && is_openable(entry.path()) && !is_scene(entry.path()))
+        if (entry.is_regular_file(ignored) && is_openable(entry.path()) && !is_scene(entry.path()) &&
+            !is_track_extension(lower_extension(entry.path())))
             out.push_back(entry.path());
     }
     if (error) throw InputError(folder.string(), "", "the folder cannot be read: " + error.message());

@@ -33,7 +33,7 @@ std::string to_string(const Color& color) {
 
 std::size_t query_count(const Scene& scene) {
     if (!scene.queries.empty()) return scene.queries.size();
-    const std::size_t agents = scene.agents.size();
+    const std::size_t agents = scene.crowd ? 0 : scene.agents.size();
     return agents == 0 ? 0 : agents * (agents - 1) / 2;
 }
 

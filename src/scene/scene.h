@@ -39,6 +39,7 @@ struct SceneClip {
     mobb::ClipPtr clip;                          ///< never null in a loaded scene
     SourceFacts facts{};                         ///< of the source
     std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton.h
+    double start = 0;                            ///< seconds: when it starts among the tracks of its source
 };
 
 /// One side of a query: a clip and where it is placed.
@@ -54,6 +55,9 @@ struct Agent {
     int clip = 0;  ///< index into Scene::clips
     mobb::Placement placement;
     std::optional<Color> color;  ///< default: the palette's, by index
+    /// In a scene that scene_at made of a run: who in CrowdRun::agents this is and which of the plays; else -1.
+    int person = -1;
+    int play = -1;
 };
 
 /// What a capture says the answer was.
@@ -79,7 +83,8 @@ struct Scene {
     std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };
 
-/// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0.
+/// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0. A run asks none:
+/// whom its agents collide with is said by the choices and conflicts (crowd/choice.h, crowd/conflicts.h).
 std::size_t query_count(const Scene& scene);
 /// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
 /// when asked for: the pairs of a crowd would fill the memory.
@@ -94,9 +99,10 @@ std::vector<Participant> participants(const Scene& scene);
 /// through. An empty one is told nothing.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
-/// Reads a scene, a capture, or a clip file (a scene with its clips and no agents). `overrides` go over the import keys
-/// of every clip with a source. `progress` is told before each clip; a clip file is read in one go. Throws InputError;
-/// all files are checked before it returns.
+/// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a trajectory file (a scene with an
+/// agent for each track, which starts when the track does; global time 0 is the file's first frame). `overrides` go
+/// over the import keys of every clip with a source. `progress` is told before each clip; a clip file is read in one
+/// go. Throws InputError; all files are checked before it returns.
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {});
 
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.

@@ -2,6 +2,7 @@
 #include <import/applicable.h>
 #include <import/file.h>
 #include <import/text.h>
+#include <import/tracks.h>
 #include <scene/crowd_json.h>
 #include <scene/fit_json.h>
 #include <scene/graph_json.h>
@@ -254,6 +255,7 @@ class SceneReader {
             clip.clip = imported.front().clip;
             clip.facts = std::move(imported.front().facts);
             clip.skeleton = std::move(imported.front().skeleton);
+            clip.start = imported.front().start;
             append(clip.facts.warnings, warnings);
         } catch (const InputError& error) {
             source.fail(error.what());
@@ -342,6 +344,7 @@ class SceneReader {
 
 Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& overrides) {
     Scene scene;
+    const bool is_crowd = is_track_extension(lower_extension(file));
     std::vector<std::string> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
     for (ImportedClip& imported : import_clips(file, options)) {
@@ -350,10 +353,15 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
                        options,
                        std::move(imported.clip),
                        std::move(imported.facts),
-                       std::move(imported.skeleton)};
+                       std::move(imported.skeleton),
+                       imported.start};
         append(clip.facts.warnings, warnings);
         if (!imported.id.empty()) clip.options.id = imported.id;
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
+        if (is_crowd) {
+            const auto index = static_cast<int>(scene.clips.size());
+            scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
+        }
         scene.clips.push_back(std::move(clip));
     }
     return scene;

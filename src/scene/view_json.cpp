@@ -20,6 +20,7 @@ struct Toggle {
     bool ViewState::*value;
 };
 constexpr Toggle kToggles[] = {{"tested_before", &ViewState::tested_before},
+                               {"candidates", &ViewState::candidates},
                                {"disks", &ViewState::disks},
                                {"boxes", &ViewState::boxes},
                                {"floor", &ViewState::floor},
@@ -101,8 +102,9 @@ void write_camera(JsonWriter& out, const Camera& camera) {
 }  // namespace
 
 ViewState read_view(const JsonPlace& place, ViewState view) {
-    place.allow_only({"show", "camera", "levels", "query", "step", "tested_before", "projection", "time", "time_height",
-                      "color_by", "theme", "disks", "boxes", "floor", "time_axis", "labels", "caption", "legend"});
+    place.allow_only({"show",  "camera",      "levels", "query",      "step",        "tested_before", "projection",
+                      "time",  "time_window", "follow", "candidates", "time_height", "color_by",      "theme",
+                      "disks", "boxes",       "floor",  "time_axis",  "labels",      "caption",       "legend"});
     if (const auto show = place.find("show")) {
         const auto value = show_from_name(show->string());
         if (!value) show->fail("a picture cannot show " + in_quotes(show->string()) + "; give space-time or moment");
@@ -117,6 +119,10 @@ ViewState read_view(const JsonPlace& place, ViewState view) {
     if (const auto time = place.find("time")) {
         view.time = time->is_null() ? std::nullopt : std::optional(time->number(-mobb::kMaxTime, mobb::kMaxTime));
     }
+    if (const auto window = place.find("time_window")) {
+        view.time_window = window->number(kLeastTimeWindow, kMostTimeWindow);
+    }
+    if (const auto follow = place.find("follow")) view.follow = follow->is_null() ? "" : follow->string();
     if (const auto projection = place.find("projection")) {
         view.projection = projection->is_null() ? std::nullopt : std::optional(read_projection(*projection));
     }
@@ -158,6 +164,8 @@ void write_view(JsonWriter& out, const ViewState& view) {
         out.end_object();
     }
     if (view.time) out.member("time", *view.time);
+    if (view.time_window != standard.time_window) out.member("time_window", view.time_window);
+    if (!view.follow.empty()) out.member("follow", view.follow);
     if (view.time_height != standard.time_height) out.member("time_height", view.time_height);
     if (view.color_by != standard.color_by) out.member("color_by", name(view.color_by));
     if (view.theme != standard.theme) out.member("theme", name(view.theme));

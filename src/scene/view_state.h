@@ -28,6 +28,10 @@ struct DiskProjection {
     friend bool operator==(const DiskProjection&, const DiskProjection&) = default;
 };
 
+/// Seconds.
+inline constexpr double kLeastTimeWindow = 0.1;
+inline constexpr double kMostTimeWindow = 60;
+
 /// Degrees.
 inline constexpr double kLeastFov = 0.5;
 inline constexpr double kMostFov = 150;
@@ -39,7 +43,8 @@ struct Camera {
     bool perspective = true;                  ///< top, front and side are orthographic whatever this says
     /// Vertical, kLeastFov..kMostFov: over the whole picture with a target, otherwise over what the scene is framed in.
     double fov_deg = 12;
-    /// What is looked at, world metres with time drawn as height; none: the camera frames the scene by itself.
+    /// What is looked at, world metres with time drawn as height; none: the camera frames the scene by itself. Of a run
+    /// time is counted from the view's; where an agent is followed x and y are counted from it.
     std::optional<glm::dvec3> target;
     /// Metres from the target to the eye (> 0) when there is a target. Without perspective the scale is that which the
     /// target would have with it.
@@ -77,7 +82,12 @@ struct ViewState {
     bool tested_before = true;
     std::optional<DiskProjection> projection;  ///< drawn instead of all else
     std::optional<double> time;  ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
-    double time_height = 0;      ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
+    /// Seconds before and after `time` that space-time shows of a crowd's run (kLeastTimeWindow..kMostTimeWindow).
+    double time_window = 2;
+    /// The agent that the camera goes along with: its target is counted from where that agent walks. Empty: nobody.
+    std::string follow;
+    bool candidates = true;  ///< of a run's followed agent: the moves of its last choice, and what became of each
+    double time_height = 0;  ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
     ColorBy color_by = ColorBy::agent;  ///< of the boxes of levels; those of a query have their states' colours
     Theme theme = Theme::dark;
     bool disks = true;

@@ -56,7 +56,7 @@ BoxPairs collect(const std::vector<mobb::Tree>& trees, const Workload& workload,
         for (const auto& [ia, ib] : collector.tested) {
             out.pairs.push_back({&a.node(ia).box, &b.node(ib).box, out.frames.size()});
         }
-        out.frames.emplace_back(a.placed_clip(), b.placed_clip(), a.time_scale());
+        out.frames.emplace_back(a.frame(), b.frame(), a.time_scale());
     }
     return out;
 }
@@ -91,6 +91,10 @@ std::optional<double> time_box_tests(const Workload& workload, mobb::FitOptions 
             return time_pairs(pairs, mobb::separate_obb2d);
         case mobb::BoxKind::obb3d:
             return time_pairs(pairs, mobb::separate_obb3d);
+        case mobb::BoxKind::moving:
+            return time_pairs(pairs, mobb::separate_moving);
+        case mobb::BoxKind::aabb:
+            return time_pairs(pairs, mobb::separate_aabb);
     }
     return std::nullopt;
 }
@@ -122,6 +126,8 @@ TestCosts measure_test_costs(const Workload& workload, const mobb::FitOptions& b
     TestCosts costs;
     costs.obb2d = time_box_tests(workload, base, mobb::TreeKind::mobb, mobb::BoxKind::obb2d);
     costs.obb3d = time_box_tests(workload, base, mobb::TreeKind::umobb, mobb::BoxKind::obb3d);
+    costs.moving = time_box_tests(workload, base, mobb::TreeKind::moving, mobb::BoxKind::moving);
+    costs.aabb = time_box_tests(workload, base, mobb::TreeKind::aabb, mobb::BoxKind::aabb);
     costs.sample_pair = time_sample_pairs(workload);
     return costs;
 }

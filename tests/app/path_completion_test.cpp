@@ -15,7 +15,7 @@ struct Files {
 
     Files() : at(folder.path().string() + "/") {
         for (const char* name :
-             {"walk.csv", "walk.json", "walk.txt", ".hidden.csv", "w\xc3\xa4.csv", "w\xc3\xb6.csv"}) {
+             {"walk.csv", "walk.json", "walk.png", ".hidden.csv", "w\xc3\xa4.csv", "w\xc3\xb6.csv"}) {
             folder.write(name, "12345");
         }
         std::filesystem::create_directory(folder.path() / "walks");

@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace mobbscope {
@@ -123,6 +124,23 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     }
 }
 
+TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
+    World world({20, 20});
+    const mobb::Placement placement{{1, 2}, 30, 0};
+    const std::size_t first = world.commit(moves.motion(1, 0, 0, placement));
+    world.commit(moves.motion(2, 0, 0, placement));
+    const Motion candidate = moves.motion(0, 0, 0, placement);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 1);
+    world.withdraw(first);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 2);
+    std::vector<AskedPair> pairs;
+    world.all_pairs(candidate, pairs);
+    EXPECT_EQ(pairs.size(), 1u);
+    world.forget_before(1000);
+    EXPECT_EQ(world.size(), 0u);
+    EXPECT_FALSE(world.verdicts({&candidate, 1}).front().ruling);
+}
+
 TEST_F(WorldTest, AllPairsAreThoseOfOtherAgents) {
     World world({20, 20});
     for (int agent = 0; agent < 5; ++agent) world.commit(random_motion(agent, 0, {20, 20}, 3));
@@ -146,8 +164,9 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
         EXPECT_TRUE(bounds.low.x <= tight.low.x && bounds.low.y <= tight.low.y);
         EXPECT_TRUE(bounds.high.x >= tight.high.x && bounds.high.y >= tight.high.y);
         const glm::dvec2 wide = bounds.high - bounds.low, least = tight.high - tight.low;
-        EXPECT_LT(wide.x, least.x * 1.05 + 0.05);
-        EXPECT_LT(wide.y, least.y * 1.05 + 0.05);
+        const double most = 1.04 * std::hypot(least.x, least.y) - std::hypot(least.x, least.y);
+        EXPECT_LT(wide.x, least.x + most);
+        EXPECT_LT(wide.y, least.y + most);
         // A wall exactly at the tight bound is touched, one just inside is crossed.
         const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
         EXPECT_FALSE(leaves_floor(clip, *motion.outline, {2 * (reach + 1e-9), 1e6}));

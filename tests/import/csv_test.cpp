@@ -199,8 +199,10 @@ TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {
 }
 
 TEST(Csv, OtherExtensionsAreRefusedByName) {
-    EXPECT_EQ(input_error([] { import_clips("walk.xyz", {}); }),
-              "walk.xyz: no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, scenes .json");
+    EXPECT_EQ(
+        input_error([] { import_clips("walk.xyz", {}); }),
+        "walk.xyz: no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, trajectories .txt, "
+        ".ndjson and .yaml, scenes .json");
 }
 
 }  // namespace

@@ -208,8 +208,10 @@ TEST(MotionClips, WhatDoesNotApplyOrDoesNotExistIsRefused) {
     };
     EXPECT_EQ(refusal([](ImportOptions& o) { o.root = "left arm"; }),
               "some/walk.bvh: there is no joint 'left arm' for root; the nearest is 'Left Arm'");
-    EXPECT_EQ(refusal([](ImportOptions& o) { o.dt = 1; }), "some/walk.bvh: dt applies to CSV alone; leave it out");
-    EXPECT_EQ(refusal([](ImportOptions& o) { o.id = "1"; }), "some/walk.bvh: id applies to CSV alone; leave it out");
+    EXPECT_EQ(refusal([](ImportOptions& o) { o.dt = 1; }),
+              "some/walk.bvh: dt applies to tracks (CSV, trajectories) alone; leave it out");
+    EXPECT_EQ(refusal([](ImportOptions& o) { o.id = "1"; }),
+              "some/walk.bvh: id applies to tracks (CSV, trajectories) alone; leave it out");
     EXPECT_EQ(refusal([](ImportOptions& o) { o.animation = "1"; }),
               "some/walk.bvh: there is no animation 1; it has 1, counted from 0");
     EXPECT_EQ(refusal([](ImportOptions& o) { o.animation = "Walk"; }),

@@ -59,6 +59,7 @@ constexpr Toggle kToggles[] = {{&ViewState::labels, " --labels", " --no-labels"}
                                {&ViewState::time_axis, " --time-axis", " --no-time-axis"},
                                {&ViewState::boxes, " --boxes", " --no-boxes"},
                                {&ViewState::disks, " --disks", " --no-disks"},
+                               {&ViewState::candidates, " --candidates", " --no-candidates"},
                                {&ViewState::tested_before, " --tested-before", " --pair-only"}};
 
 std::string view_options(const ViewState& file, const ViewState& now) {
@@ -72,6 +73,8 @@ std::string view_options(const ViewState& file, const ViewState& now) {
     }
     if (now.projection != file.projection) ask_to_save();
     if (now.time != file.time) out += " --time " + (now.time ? short_double(*now.time) : "none");
+    if (now.time_window != file.time_window) out += " --time-window " + short_double(now.time_window);
+    if (now.follow != file.follow) out += " --follow " + (now.follow.empty() ? "none" : shell_word(now.follow));
     if (now.time_height != file.time_height) {
         out += " --time-height " + (now.time_height > 0 ? short_double(now.time_height) : "auto");
     }

@@ -1,0 +1,185 @@
+#include <cli/commands.h>
+#include <cli/exit_status.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <crowd/conflicts.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <scene/json_writer.h>
+#include <scene/scene_edits.h>
+
+#include <glm/vec2.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+using Layout = JsonWriter::Layout;
+
+struct Arguments {
+    std::filesystem::path file;
+    bool json = false;
+    bool check = false;
+    FitArguments fit;
+    ImportOptions import_options;
+};
+
+/// The crowd in the file: its agents, or the tracks of a CSV, each from the time of its first row.
+Scene load_crowd(const Arguments& arguments) {
+    Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+    if (lower_extension(arguments.file) == ".csv") {
+        add_agents_for_clips(scene);
+        for (Agent& agent : scene.agents)
+            agent.placement.start = scene.clips[static_cast<std::size_t>(agent.clip)].start;
+    }
+    if (scene.agents.empty())
+        throw InputError(arguments.file.string(), "",
+                         "there are no agents who could meet; give a scene with agents, "
+                         "trajectories or a CSV with ids");
+    return scene;
+}
+
+/// The radius of every disk in metres, if it is one.
+std::optional<double> common_radius(const Scene& scene) {
+    std::optional<double> radius;
+    for (const Agent& agent : scene.agents) {
+        for (const mobb::Disk& disk : scene.clips[static_cast<std::size_t>(agent.clip)].clip->samples()) {
+            if (radius && *radius != disk.r) return std::nullopt;
+            radius = disk.r;
+        }
+    }
+    return radius;
+}
+
+/// What is said of a crowd's conflicts.
+struct Findings {
+    const FittedScene& fitted;
+    const std::vector<mobb::PlacedTree>& crowd;
+    const Conflicts& conflicts;
+
+    const std::string& name(int agent) const { return fitted.scene().agents[static_cast<std::size_t>(agent)].name; }
+    std::size_t agents() const { return crowd.size(); }
+    std::size_t pairs() const { return crowd.size() * (crowd.size() - 1) / 2; }
+
+    /// Halfway between the two where they are closest.
+    glm::dvec2 position(const Conflict& conflict) const {
+        const auto disk = [this](int agent, int sample) {
+            return crowd[static_cast<std::size_t>(agent)].placed_clip().disk(sample);
+        };
+        const mobb::Disk a = disk(conflict.a, conflict.a_sample);
+        const mobb::Disk b = disk(conflict.b, conflict.b_sample);
+        return {(a.x + b.x) / 2, (a.y + b.y) / 2};
+    }
+
+    double seconds() const {
+        double sum = 0;
+        for (const Conflict& conflict : conflicts.found) sum += duration(conflict);
+        return sum;
+    }
+
+    static double duration(const Conflict& conflict) {
+        double sum = 0;
+        for (const mobb::Interval& interval : conflict.intervals) sum += interval.t1 - interval.t0;
+        return sum;
+    }
+};
+
+void write_json(const Findings& findings) {
+    const Scene& scene = findings.fitted.scene();
+    JsonWriter out(std::cout);
+    out.begin_object();
+    out.member("file", scene.file.string());
+    out.member("agents", static_cast<std::int64_t>(findings.agents()));
+    out.key("radius");
+    const std::optional<double> radius = common_radius(scene);
+    radius ? out.value(*radius) : out.null();
+    out.member("pairs", static_cast<std::int64_t>(findings.pairs()));
+    out.member("pairs_tested", findings.conflicts.pairs_tested);
+    out.member("seconds", findings.seconds());
+    out.key("conflicts");
+    out.begin_array();
+    for (const Conflict& conflict : findings.conflicts.found) {
+        out.begin_object(Layout::row);
+        out.member("a", findings.name(conflict.a));
+        out.member("b", findings.name(conflict.b));
+        out.key("intervals");
+        out.begin_array(Layout::row);
+        for (const mobb::Interval& interval : conflict.intervals) out.numbers({interval.t0, interval.t1});
+        out.end_array();
+        out.member("least_clearance", conflict.least_clearance);
+        out.member("time", conflict.time);
+        out.member("a_sample", conflict.a_sample);
+        out.member("b_sample", conflict.b_sample);
+        out.key("position");
+        const glm::dvec2 position = findings.position(conflict);
+        out.numbers({position.x, position.y});
+        out.end_object();
+    }
+    out.end_array();
+    out.end_object();
+}
+
+/// In metres, to the millimetre.
+std::string to_millimetres(double length) { return brief(std::round(length * 1000) / 1000); }
+
+void print_text(const Findings& findings) {
+    for (const Conflict& conflict : findings.conflicts.found) {
+        const glm::dvec2 position = findings.position(conflict);
+        std::cout << cleaned(findings.name(conflict.a)) << " and " << cleaned(findings.name(conflict.b)) << ": "
+                  << brief(Findings::duration(conflict)) << " s, ";
+        const char* separator = "";
+        for (const mobb::Interval& interval : conflict.intervals) {
+            std::cout << separator << brief(interval.t0) << " to " << brief(interval.t1);
+            separator = ", ";
+        }
+        std::cout << " s; least clearance " << to_millimetres(conflict.least_clearance) << " m at "
+                  << brief(conflict.time) << " s near (" << to_millimetres(position.x) << ", "
+                  << to_millimetres(position.y) << "), samples " << conflict.a_sample << " and " << conflict.b_sample
+                  << '\n';
+    }
+    const auto count = [](std::size_t number) { return static_cast<long long>(number); };
+    std::cout << counted(count(findings.conflicts.found.size()), "conflict", "conflicts") << " among "
+              << counted(count(findings.agents()), "agent", "agents") << ", " << brief(findings.seconds())
+              << " s in all; " << findings.conflicts.pairs_tested << " of "
+              << counted(count(findings.pairs()), "pair", "pairs") << " tested\n";
+}
+
+void run(const Arguments& arguments, int& status) {
+    Scene scene = load_crowd(arguments);
+    const mobb::FitOptions options = arguments.fit.over(scene.fit);
+    const FittedScene fitted(std::move(scene), options);
+    std::vector<mobb::PlacedTree> crowd;
+    for (const Participant& participant : fitted.participants()) crowd.push_back(fitted.placed(participant));
+    const Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
+    const Findings findings{fitted, crowd, conflicts};
+    arguments.json ? write_json(findings) : print_text(findings);
+    flush_results();
+    if (arguments.check && !conflicts.found.empty()) status = kFailed;
+}
+
+}  // namespace
+
+void add_conflicts_command(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand(
+        "conflicts",
+        "Every pair of agents whose disks overlap: when, how deep and where; --tree brute searches directly");
+    const auto arguments = std::make_shared<Arguments>();
+    add_scene_file(*command, arguments->file);
+    command->add_flag("--json", arguments->json, "The same as JSON");
+    command->add_flag("--check", arguments->check, "Status 1 if there is a conflict");
+    add_fit_options(*command, arguments->fit, Brute::allowed);
+    add_import_options(*command, arguments->import_options);
+    command->callback([arguments, &status] { run(*arguments, status); });
+}
+
+}  // namespace mobbscope::cli

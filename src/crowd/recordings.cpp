@@ -1,0 +1,68 @@
+#include <crowd/recordings.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kExtensions{".bvh", ".csv", ".fbx", ".glb", ".gltf"};
+
+bool is_clip(const std::filesystem::path& file) {
+    return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(file)) != kExtensions.end();
+}
+
+std::vector<std::filesystem::path> clips_below(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> out;
+    std::error_code error;
+    // Stepped by hand: the loop's own ++ would throw.
+    for (std::filesystem::recursive_directory_iterator at(folder, error), end; !error && at != end;
+         at.increment(error)) {
+        std::error_code ignored;
+        if (is_clip(at->path()) && at->is_regular_file(ignored)) out.push_back(at->path());
+    }
+    if (error) throw InputError(folder.string(), "", "the folder cannot be read: " + error.message());
+    if (out.empty()) {
+        throw InputError(folder.string(), "", "there are no clips in this folder (.bvh, .glb, .gltf, .fbx, .csv)");
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> clip_files(const std::vector<std::filesystem::path>& places) {
+    std::vector<std::filesystem::path> out;
+    for (const std::filesystem::path& place : places) {
+        std::error_code ignored;
+        if (std::filesystem::is_directory(place, ignored)) {
+            for (std::filesystem::path& file : clips_below(place)) out.push_back(std::move(file));
+        } else if (lower_extension(place) == ".json") {
+            throw InputError(place.string(), "", "a graph is built from clip files; name those of the scene");
+        } else {
+            out.push_back(place);
+        }
+    }
+    return out;
+}
+
+Scene load_recordings(const std::vector<std::filesystem::path>& files, const std::filesystem::path& scene_file,
+                      const ImportOptions& options, const Progress& progress) {
+    Scene scene;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (progress) progress(i, files.size());
+        Scene one = load_scene(files[i], options);
+        move_to_file(one, scene_file);
+        merge(scene, std::move(one));
+    }
+    return scene;
+}
+
+}  // namespace mobbscope

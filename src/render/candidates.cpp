@@ -1,0 +1,289 @@
+#include <render/candidates.h>
+#include <render/query_sentence.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr int kLayer = 6;          // above grid, ways and people
+constexpr float kThrough = 0.75f;  // opacity that is kept behind people
+constexpr float kBeyond = 0.4f;    // ... and of a way behind the contact that rules it out
+constexpr std::size_t kMostNamed = 3;
+
+std::string at_time(double time) {
+    char text[48];
+    std::snprintf(text, sizeof text, " at %.2f s", time);
+    return text;
+}
+
+const std::string& agent_name(const Scene& run, int agent) {
+    return run.crowd->agents[static_cast<std::size_t>(agent)].name;
+}
+
+const SceneClip& clip_of_move(const Scene& run, int move) {
+    return run.clips[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(move)].clip)];
+}
+
+/// Draws one choice.
+class Drawer {
+  public:
+    Drawer(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed, const Metrics& metrics)
+        : list_(list), scene_(fitted.scene()), choice_(followed.choice), metrics_(metrics) {}
+
+    std::vector<LabelRequest> draw() {
+        std::vector<std::size_t> shown = shown_candidates(choice_);
+        // What was taken lies above what was free, and that above the rest.
+        std::stable_sort(shown.begin(), shown.end(),
+                         [&](std::size_t a, std::size_t b) { return fate_of(choice_, a) > fate_of(choice_, b); });
+        for (const std::size_t candidate : shown) add_way(candidate);
+        std::vector<LabelRequest> labels;
+        for (const auto& [agent, candidate] : first_met(shown)) add_contact(candidate, labels);
+        return labels;
+    }
+
+  private:
+    /// For each agent that rules out, the candidate that it meets first.
+    std::map<int, std::size_t> first_met(const std::vector<std::size_t>& shown) const {
+        std::map<int, std::size_t> out;
+        for (const std::size_t i : shown) {
+            const auto& ruling = choice_.candidates[i].ruling;
+            if (!ruling || fate_of(choice_, i) == Fate::leaves_floor) continue;
+            const auto [at, is_new] = out.try_emplace(ruling->agent, i);
+            if (!is_new && ruling->contact.time < choice_.candidates[at->second].ruling->contact.time) at->second = i;
+        }
+        return out;
+    }
+
+    glm::vec3 point(const mobb::Disk& disk, double time) const {
+        if (!list_.moment) return list_.space.point(disk.x, disk.y, time);
+        return list_.space.point(disk.x, disk.y, 0);
+    }
+
+    void add_line(glm::vec3 from, glm::vec3 to, const FateStyle& style, float strength = 1) {
+        LineInstance line;
+        line.from = from;
+        line.to = to;
+        line.color = with_alpha(style.color, style.color.a * strength);
+        line.width = style.width * metrics_.scale;
+        line.dash = style.dash * metrics_.scale;
+        line.hidden = kThrough;
+        line.order = {kLayer, 0, order_++};
+        list_.lines.push_back(line);
+    }
+
+    void add_way(std::size_t index) {
+        const Candidate& candidate = choice_.candidates[index];
+        const Fate fate = fate_of(choice_, index);
+        const FateStyle style = fate_style(fate, list_.palette);
+        const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
+        const int contact = fate == Fate::ruled_out ? candidate.ruling->contact.a_sample : way.count();
+        // Pieces as long as a dash and its gap, or the pattern would be cut short.
+        const float pixels = list_.lens.pixels_per_metre(point(way.disk(0), way.time(0)));
+        const float pattern = (style.dash.x + style.dash.y + style.dash.z + style.dash.w) * metrics_.scale;
+        const float shortest = pixels > 0 ? std::max(pattern, 2 * metrics_.scale) / pixels : 0;
+        glm::vec3 from = point(way.disk(0), way.time(0));
+        for (int i = 1; i < way.count(); ++i) {
+            const glm::vec3 to = point(way.disk(i), way.time(i));
+            if (i != contact && i + 1 < way.count() && glm::length(to - from) < shortest) continue;
+            add_line(from, to, style, i <= contact ? 1 : kBeyond);
+            from = to;
+        }
+        if (fate != Fate::ruled_out) add_end(from, style, fate == Fate::taken);
+    }
+
+    /// Where a way ends that could be walked.
+    void add_end(glm::vec3 at, const FateStyle& style, bool large) {
+        const float pixels = list_.lens.pixels_per_metre(at);
+        if (pixels <= 0) return;
+        add_ring(at, (large ? 4.5f : 3) * metrics_.scale / pixels, {style.color, kSolid, style.width}, 12, true);
+    }
+
+    void add_ring(glm::vec3 middle, float radius, const FateStyle& style, int pieces, bool facing) {
+        const glm::vec3 right = facing ? list_.lens.right : glm::vec3(1, 0, 0);
+        const glm::vec3 up = facing ? list_.lens.up : glm::vec3(0, 1, 0);
+        const auto at = [&](int i) {
+            const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(pieces);
+            return middle + radius * (std::cos(angle) * right + std::sin(angle) * up);
+        };
+        for (int i = 0; i < pieces; ++i) add_line(at(i), at(i + 1), style);
+    }
+
+    void add_contact(std::size_t index, std::vector<LabelRequest>& labels) {
+        const Candidate& candidate = choice_.candidates[index];
+        const Ruling& ruling = *candidate.ruling;
+        const mobb::Contact& contact = ruling.contact;
+        const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
+        const Play& play =
+            scene_.crowd->agents[static_cast<std::size_t>(ruling.agent)].plays[static_cast<std::size_t>(ruling.play)];
+        const mobb::PlacedClip other(*clip_of_move(scene_, play.move).clip, play.placement);
+        const mobb::Disk a = way.disk(contact.a_sample);
+        const mobb::Disk b = other.disk(contact.b_sample);
+        const FateStyle style = fate_style(Fate::ruled_out, list_.palette);
+        const FateStyle outline{style.color, kSolid, 1.2f};
+        constexpr int kPieces = 32;
+        add_ring(point(a, contact.time), static_cast<float>(a.r), outline, kPieces, false);
+        Participant who;
+        who.agent = ruling.agent;
+        const Rgba whose = agent_color(scene_, who, ruling.agent);
+        add_ring(point(b, contact.time), static_cast<float>(b.r), {outlining(whose, list_.palette), kSolid, 1.2f},
+                 kPieces, false);
+        // Where they touch first.
+        const glm::dvec2 between(b.x - a.x, b.y - a.y);
+        const double length = glm::length(between);
+        const double share = length > 0 ? std::min(1.0, a.r / length) : 0;
+        const glm::vec3 cross = point({a.x + share * between.x, a.y + share * between.y, 0}, contact.time);
+        const float pixels = list_.lens.pixels_per_metre(cross);
+        if (pixels <= 0) return;
+        const float arm = 4.5f * metrics_.scale / pixels;
+        const FateStyle mark{style.color, kSolid, 2.4f};
+        for (const float side : {-1.0f, 1.0f}) {
+            const glm::vec3 way_of_arm = arm * (list_.lens.right + side * list_.lens.up);
+            add_line(cross - way_of_arm, cross + way_of_arm, mark);
+        }
+        const auto anchor = list_.lens.project(cross);
+        if (!anchor) return;
+        LabelRequest label;
+        label.text = agent_name(scene_, ruling.agent);
+        label.size = metrics_.text;
+        label.color = readable(whose, list_.palette);
+        label.border = style.color;
+        label.anchor = *anchor;
+        label.directions = {{1, -0.6f}, {-1, -0.6f}, {1, 0.6f}, {-1, 0.6f}, {0, -1}, {0, 1}};
+        label.distance = 1.6f * metrics_.text;
+        label.pill = true;
+        labels.push_back(std::move(label));
+    }
+
+    DrawList& list_;
+    const Scene& scene_;
+    const Choice& choice_;
+    const Metrics& metrics_;
+    std::int64_t order_ = 0;
+};
+
+}  // namespace
+
+Fate fate_of(const Choice& choice, std::size_t candidate) {
+    if (candidate == choice.taken) return Fate::taken;
+    const Candidate& asked = choice.candidates[candidate];
+    if (asked.leaves_floor) return Fate::leaves_floor;
+    return asked.ruling ? Fate::ruled_out : Fate::free;
+}
+
+FateStyle fate_style(Fate fate, const Palette& palette) {
+    switch (fate) {
+        case Fate::taken:
+            return {palette.text, kSolid, 3};
+        case Fate::free:
+            return {palette.separated, kSolid, 1.6f};
+        case Fate::leaves_floor:
+            return {palette.apart_in_time, {1.5f, 4, 1.5f, 4}, 1.4f};
+        case Fate::ruled_out:
+            break;
+    }
+    return {palette.hit, {7, 4, 7, 4}, 1.6f};
+}
+
+std::string_view fate_words(Fate fate) {
+    constexpr std::array<std::string_view, 4> kWords{"taken", "free", "leaves the floor", "ruled out"};
+    return kWords[static_cast<std::size_t>(fate)];
+}
+
+std::vector<std::size_t> shown_candidates(const Choice& choice) {
+    const double taken = choice.candidates[choice.taken].turn_deg;
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+        const double turn = choice.candidates[i].turn_deg;
+        if (turn == 0 || turn == taken) out.push_back(i);
+    }
+    return out;
+}
+
+std::string candidate_sentence(const Scene& run, const Choice& choice, std::size_t candidate) {
+    const Candidate& asked = choice.candidates[candidate];
+    std::string text = clip_of_move(run, asked.move).name;
+    if (asked.turn_deg != 0) {
+        char turn[48];
+        std::snprintf(turn, sizeof turn, ", turned by %.0f\u00B0", asked.turn_deg);
+        text += turn;
+    }
+    text += ": ";
+    const auto meets = [&] {
+        return "meets " + agent_name(run, asked.ruling->agent) + at_time(asked.ruling->contact.time);
+    };
+    const Fate fate = fate_of(choice, candidate);
+    if (fate == Fate::ruled_out) return text + meets();
+    text += fate_words(fate);
+    if (fate == Fate::taken && asked.ruling) text += ", though it " + meets();
+    return text;
+}
+
+std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
+    const Choice& choice = followed.choice;
+    int free = 0;
+    int off_floor = 0;
+    int ruled_out = 0;
+    std::set<int> rulers;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+        const Candidate& candidate = choice.candidates[i];
+        if (candidate.leaves_floor)
+            ++off_floor;
+        else if (!candidate.ruling)
+            ++free;
+        else {
+            ++ruled_out;
+            rulers.insert(candidate.ruling->agent);
+        }
+    }
+    const std::size_t count = choice.candidates.size();
+    std::string text = agent_name(run, followed.agent) + " chose among " + std::to_string(count) +
+                       (count == 1 ? " move" : " moves") + at_time(choice.time) + ": " + std::to_string(free) + " free";
+    if (ruled_out > 0) {
+        text += ", " + std::to_string(ruled_out) + " ruled out by ";
+        std::size_t named = 0;
+        for (const int ruler : rulers) {
+            if (named == kMostNamed) break;
+            text += (named++ > 0 ? ", " : "") + agent_name(run, ruler);
+        }
+        if (rulers.size() > named) text += " and " + std::to_string(rulers.size() - named) + " more";
+    }
+    if (off_floor > 0) {
+        text += ", " + std::to_string(off_floor) + (off_floor == 1 ? " leaves the floor" : " leave the floor");
+    }
+    return text;
+}
+
+std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
+                                         const Metrics& metrics) {
+    return Drawer(list, fitted, followed, metrics).draw();
+}
+
+std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice) {
+    std::vector<LegendEntry> out;
+    for (const Fate fate : {Fate::taken, Fate::free, Fate::ruled_out, Fate::leaves_floor}) {
+        bool any = false;
+        for (const std::size_t i : shown_candidates(choice)) any = any || fate_of(choice, i) == fate;
+        if (!any) continue;
+        const FateStyle style = fate_style(fate, palette);
+        LegendEntry entry;
+        entry.color = style.color;
+        entry.dash = style.dash;
+        entry.width = style.width;
+        entry.text = std::string(fate_words(fate));
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+}  // namespace mobbscope

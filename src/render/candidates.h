@@ -1,0 +1,47 @@
+/// The moves that an agent could choose, as ways, and what became of each.
+#pragma once
+
+#include <crowd/followed.h>
+#include <render/draw_list.h>
+#include <render/label_layout.h>
+#include <render/metrics.h>
+#include <scene/fitted_scene.h>
+
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// What became of a candidate.
+enum class Fate { taken, free, leaves_floor, ruled_out };
+Fate fate_of(const Choice& choice, std::size_t candidate);
+
+/// How its way is drawn: each fate has a colour and a line of its own.
+struct FateStyle {
+    Rgba color;
+    Dash dash;
+    float width = 1;  ///< pixels at scale 1
+};
+FateStyle fate_style(Fate fate, const Palette& palette);
+
+/// "taken", "free", "leaves the floor", "ruled out".
+std::string_view fate_words(Fate fate);
+
+/// Those that are drawn: straight on, and turned as the one that was taken.
+std::vector<std::size_t> shown_candidates(const Choice& choice);
+
+/// "turn_left: meets 42 at 13.42 s", and why others are not taken.
+std::string candidate_sentence(const Scene& run, const Choice& choice, std::size_t candidate);
+
+/// "17 chose among 24 moves at 12.87 s: 6 free, 15 ruled out by 42, 77, 3 leave the floor".
+std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
+
+/// Adds the ways: at a moment on the floor, in space-time upwards. Where one is ruled out, the two disks that meet are
+/// outlined, with a cross between them; the returned labels name the agents that rule out, each once.
+std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
+                                         const Metrics& metrics);
+
+/// A line for each fate among them.
+std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice);
+
+}  // namespace mobbscope

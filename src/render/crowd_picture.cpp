@@ -1,0 +1,197 @@
+#include <render/aim.h>
+#include <render/annotations.h>
+#include <render/candidates.h>
+#include <render/crowd_picture.h>
+#include <render/follow.h>
+#include <render/framing.h>
+#include <render/legend.h>
+#include <render/level_boxes.h>
+#include <render/paths.h>
+#include <render/walls.h>
+#include <render/words.h>
+#include <scene/crowd_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr const char* kBetween = "  \u00B7  ";
+constexpr float kFinestStep = 0.6f;  // pixels: disks nearer to one another are drawn as one
+constexpr int kMostTogether = 8;
+constexpr float kLeastRing = 3;  // pixels of radius
+
+struct Seconds {
+    double begin = 0, time = 0, end = 0;
+};
+
+/// The space above the floor, as points of a grid: what had better not be covered.
+std::vector<Rect> above_floor(const Lens& lens, const std::vector<glm::vec3>& corners) {
+    constexpr int kCells = 6;
+    const glm::vec3 low = corners.front();
+    const glm::vec3 high = corners.back();
+    std::vector<Rect> out;
+    for (int i = 0; i <= kCells; ++i) {
+        for (int j = 0; j <= kCells; ++j) {
+            for (int k = 0; k <= kCells; ++k) {
+                const glm::vec3 share = glm::vec3(i, j, k) / static_cast<float>(kCells);
+                if (const auto at = lens.project(low + share * (high - low))) out.push_back(Rect{*at, *at}.grown(8));
+            }
+        }
+    }
+    return out;
+}
+
+/// Whether some of a path may be seen.
+bool may_be_seen(const DrawList& list, const Subject& subject) {
+    const mobb::SampleRange shown = subject.samples();
+    if (shown.count == 0) return false;
+    const glm::vec2 picture(list.size.width, list.size.height);
+    for (const int part : {0, 1, 2}) {
+        const int sample = shown.first + part * (shown.count - 1) / 2;
+        const mobb::Disk disk = subject.clip().disk(sample);
+        const glm::vec3 at = list.space.point(disk.x, disk.y, subject.clip().time(sample));
+        const auto pixel = list.lens.project(at);
+        if (!pixel) continue;
+        // As far as it may get from there to the next place that is looked at.
+        const float around = 2.5f * list.lens.pixels_per_metre(at) *
+                             static_cast<float>(1 + shown.count * subject.clip().clip().dt() * list.space.time_height);
+        if (Rect{glm::vec2(0), picture}.grown(around).contains({*pixel, *pixel})) return true;
+    }
+    return false;
+}
+
+/// So many samples cannot be told apart in the picture.
+int samples_together(const DrawList& list, const Subject& subject) {
+    const mobb::PlacedClip& clip = subject.clip();
+    const mobb::SampleRange shown = subject.samples();
+    const mobb::Disk disk = clip.disk(shown.first);
+    const float pixels = list.lens.pixels_per_metre(list.space.point(disk.x, disk.y, clip.time(shown.first)));
+    const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
+    const float step = height * pixels * std::sqrt(std::max(0.0f, 1 - list.lens.back.z * list.lens.back.z));
+    if (!(step > 0)) return 1;
+    return std::clamp(static_cast<int>(kFinestStep / step), 1, kMostTogether);
+}
+
+std::string seconds_text(const Seconds& s, std::size_t people) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%zu %s at %.2f s, from %.2f to %.2f s", people, people == 1 ? "agent" : "agents",
+                  s.time, s.begin, s.end);
+    return text;
+}
+
+std::vector<Subject> boxed(std::span<const Subject> paths, const ViewState& view, int followed) {
+    std::size_t boxes = 0;
+    std::vector<Subject> all;
+    std::vector<Subject> own;
+    for (const Subject& path : paths) {
+        if (path.samples().count == 0) continue;
+        boxes += shown_nodes(path.placed.tree(), view.levels).size();
+        all.push_back(path);
+        if (path.person == followed) own.push_back(path);
+    }
+    return boxes <= kMostCrowdBoxes ? all : own;
+}
+
+}  // namespace
+
+DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                     const FollowedChoice* choice) {
+    const CrowdRun& crowd = *fitted.scene().crowd;
+    const PictureSize size = options.size;
+    const Metrics metrics = metrics_of(size, options.scale);
+    const double time = run_time(fitted.scene(), view);
+    const Seconds seconds{time - view.time_window, time, time + view.time_window};
+    const std::vector<Subject> paths = subjects(fitted, view);
+    const int followed = view.follow.empty() ? -1 : person_by_name(crowd, view.follow).value_or(-1);
+
+    DrawList list;
+    list.size = size;
+    list.palette = palette_for(view.theme, options);
+    list.background = options.background;
+    for (const Subject& subject : paths) list.participants.push_back(subject.name);
+    Bounds bounds;
+    bounds.add(glm::dvec3(-0.5 * crowd.area, seconds.begin));
+    bounds.add(glm::dvec3(0.5 * crowd.area, seconds.end));
+    list.space = space_for(bounds, view);
+    list.space.anchor = camera_anchor(fitted, view, time);
+    const Stage stage = floor_stage(crowd.area, seconds.begin, seconds.end);
+
+    float top = metrics.pad;
+    if (view.labels) {
+        Caption caption;
+        caption.headlines = {seconds_text(seconds, crowd.agents.size())};
+        caption.detail = choice ? choice_sentence(fitted.scene(), *choice) : "";
+        if (!view.caption) caption = {};
+        std::vector<LegendEntry> legend;
+        if (view.legend) {
+            if (names_fit(crowd.agents.size())) {
+                legend = agent_entries(std::span(paths).first(crowd.agents.size()));
+            }
+            if (choice) {
+                const auto fates = candidate_legend(list.palette, choice->choice);
+                legend.insert(legend.end(), fates.begin(), fates.end());
+            }
+            LegendEntry now;
+            now.color = list.palette.accent;
+            now.width = 1.3f;
+            now.text = "now";
+            legend.push_back(now);
+        }
+        Words words = words_that_fit(caption, std::move(legend), glm::vec2(0), size, metrics);
+        list.legend = std::move(words.legend);
+        top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
+    }
+    LabelLayout layout(size);
+    for (const TextRun& run : list.texts) layout.reserve(run.box);
+    const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
+    const Blocks blocks =
+        aim(list, corners, stage, view, metrics, top, glm::vec2(0), [&] { return above_floor(list.lens, corners); });
+
+    if (view.disks) {
+        for (const Subject& subject : paths) {
+            if (may_be_seen(list, subject)) add_disks(list, subject, {}, samples_together(list, subject));
+        }
+    }
+    if (view.boxes) {
+        add_level_boxes(list, boxed(paths, view, followed), view.levels, view.color_by, metrics.scale);
+        refine_crowded_boxes(list, metrics.scale);
+    }
+    if (view.floor) {
+        add_floor_grid(list, stage, metrics.scale);
+        add_walls(list, crowd.area, seconds.begin, seconds.begin, metrics.scale);
+    }
+    if (view.time_axis) add_time_axis(list, stage, metrics.scale);
+    add_time_cursor(list, stage, time, metrics.scale);
+    if (view.disks) {
+        for (const Subject& subject : paths) {
+            const auto sample = sample_at(subject, time);
+            if (!sample) continue;
+            const mobb::Disk disk = subject.clip().disk(*sample);
+            const float radius =
+                static_cast<float>(disk.r) * list.lens.pixels_per_metre(list.space.point(disk.x, disk.y, time));
+            if (radius < kLeastRing) continue;
+            add_cursor_ring(list, subject, *sample, metrics.scale, std::clamp(static_cast<int>(1.5f * radius), 10, 48));
+        }
+    }
+    std::vector<LabelRequest> notes;
+    if (choice) notes = add_candidates(list, fitted, *choice, metrics);
+
+    if (!blocks.legend) list.legend.clear();
+    if (!view.labels) return list;
+    if (blocks.legend) {
+        add_legend(list, blocks.legend->min, metrics.small);
+        layout.reserve(*blocks.legend);
+    }
+    add_notes(list, layout, notes, metrics.scale);
+    for (const LabelRequest& label : stage_labels(list, stage, view.floor, view.time_axis, metrics.small)) {
+        layout.place(label, list);
+    }
+    return list;
+}
+
+}  // namespace mobbscope

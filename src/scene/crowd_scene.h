@@ -1,0 +1,44 @@
+/// A run as a scene: what its agents play around a time, as agents that pictures and panels show.
+#pragma once
+
+#include <scene/fitted_scene.h>
+#include <scene/scene.h>
+
+#include <optional>
+#include <string_view>
+
+namespace mobbscope {
+
+/// Seconds of a run before and after a time.
+struct CrowdWindow {
+    double before = 0;
+    double after = 0;
+};
+
+/// Whether a scene is a run as its file holds it: with a crowd, and no agents that were made of it yet.
+bool is_run(const Scene& scene);
+
+/// The time of a run that a view shows: its own, or the middle of the run.
+double run_time(const Scene& run, const ViewState& view);
+
+/// The play of an agent at a time: index into CrowdAgent::plays; before the first the first, after the last the last.
+std::size_t play_at(const CrowdAgent& agent, double time);
+
+/// Where an agent of a run stands in CrowdRun::agents, by name; none if there is no such agent.
+std::optional<int> person_by_name(const CrowdRun& crowd, std::string_view name);
+
+/// The run with an agent for every play that is on between `time` - before and `time` + after. The first agents are the
+/// people in their order, each with its play at the time (or nearest to it) and under its own name, whatever the
+/// window; behind them the plays before ("17 -1") and after it ("17 +1"), by person and time. Agent::person and
+/// Agent::play say whose they are. Requires is_run.
+Scene scene_at(const Scene& run, double time, CrowdWindow window);
+
+/// The same with trees, which are shared: what a picture of a run in that view is of. A moment of more than
+/// kMostWithWays people holds the plays of that moment alone; of fewer those of kWaySeconds around it too, as their
+/// ways are drawn. Requires is_run(run.scene()).
+FittedScene fitted_at(const FittedScene& run, const ViewState& view);
+
+inline constexpr std::size_t kMostWithWays = 200;
+inline constexpr double kWaySeconds = 1.5;
+
+}  // namespace mobbscope

@@ -1,0 +1,171 @@
+#include "run_program.h"
+
+#include <support/json_keys.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace mobbscope {
+namespace {
+
+using nlohmann::json;
+using testing::is_one_line;
+using testing::keys;
+using testing::Result;
+using testing::run_program;
+using testing::TempFolder;
+
+// 1 goes along x, 2 comes towards it a second later; they pass 0.3 m apart. 3 is elsewhere.
+const std::string kTrajectories =
+    "#framerate: 2\n# id frame x/m y/m\n1 10 0 0\n1 11 1 0\n1 12 2 0\n1 13 3 0\n1 14 4 0\n2 12 4 0.3\n2 13 3 0.3\n"
+    "2 14 2 0.3\n3 10 20 20\n3 11 21 20\n";
+const std::string kCsv = "id,t,x,y,r\n1,5,0,0,0.2\n1,5.5,1,0,0.2\n1,6,2,0,0.2\n2,6,2,0.3,0.2\n2,6.5,1,0.3,0.2\n";
+
+json conflicts(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "conflicts");
+    arguments.emplace_back("--json");
+    const Result run = run_program(arguments);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return json::parse(run.out);
+}
+
+TEST(Conflicts, JsonHasThePairs) {
+    const TempFolder folder;
+    const std::string file = folder.write("crowd.txt", kTrajectories);
+    const json found = conflicts({file});
+    EXPECT_EQ(keys(found),
+              (std::set<std::string>{"file", "agents", "radius", "pairs", "pairs_tested", "seconds", "conflicts"}));
+    EXPECT_EQ(found["file"], file);
+    EXPECT_EQ(found["agents"], 3);
+    EXPECT_EQ(found["radius"], 0.2);
+    EXPECT_EQ(found["pairs"], 3);
+    EXPECT_EQ(found["pairs_tested"], 1);
+    EXPECT_EQ(found["seconds"], 0.5);
+    ASSERT_EQ(found["conflicts"].size(), 1u);
+    const json& conflict = found["conflicts"][0];
+    EXPECT_EQ(keys(conflict), (std::set<std::string>{"a", "b", "intervals", "least_clearance", "time", "a_sample",
+                                                     "b_sample", "position"}));
+    EXPECT_EQ(conflict["a"], "1");
+    EXPECT_EQ(conflict["b"], "2");
+    EXPECT_EQ(conflict["intervals"], json::parse("[[1.5, 2.0]]")) << "the crowd's clock begins with its first frame";
+    EXPECT_NEAR(conflict["least_clearance"].get<double>(), -0.1, 1e-12);
+    EXPECT_EQ(conflict["time"], 1.5);
+    EXPECT_EQ(conflict["a_sample"], 3);
+    EXPECT_EQ(conflict["b_sample"], 1);
+    EXPECT_EQ(conflict["position"], json::parse("[3, 0.15]"));
+}
+
+TEST(Conflicts, TextIsALineAPairAndASummary) {
+    const TempFolder folder;
+    const std::string file = folder.write("crowd.txt", kTrajectories);
+    const Result run = run_program({"conflicts", file});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.out,
+              "1 and 2: 0.5 s, 1.5 to 2 s; least clearance -0.1 m at 1.5 s near (3, 0.15), samples 3 and 1\n"
+              "1 conflict among 3 agents, 0.5 s in all; 1 of 3 pairs tested\n");
+    EXPECT_NE(run.err.find("0.2 m are taken"), std::string::npos) << "what was assumed is said";
+    const Result none = run_program({"conflicts", file, "--radius", "0.1"});
+    EXPECT_EQ(none.out, "0 conflicts among 3 agents, 0 s in all; 0 of 3 pairs tested\n");
+    EXPECT_EQ(none.err, "");
+}
+
+TEST(Conflicts, CheckIsStatusOneForAConflict) {
+    const TempFolder folder;
+    const std::string file = folder.write("crowd.txt", kTrajectories);
+    EXPECT_EQ(run_program({"conflicts", file, "--check"}).status, 1);
+    EXPECT_EQ(run_program({"conflicts", file, "--check", "--radius", "0.1"}).status, 0);
+}
+
+TEST(Conflicts, TracksOfACsvKeepTheirTimes) {
+    const TempFolder folder;
+    const json found = conflicts({folder.write("tracks.csv", kCsv)});
+    ASSERT_EQ(found["conflicts"].size(), 1u);
+    EXPECT_EQ(found["conflicts"][0]["intervals"], json::parse("[[1.0, 1.5]]"));
+    EXPECT_EQ(conflicts({folder.write("one.csv", "t,x,y,r\n0,0,0,1\n1,0,0,1\n")})["pairs"], 0);
+}
+
+TEST(Conflicts, ARadiusIsForEveryClip) {
+    const TempFolder folder;
+    const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]},
+        "d": {"dt": 1, "samples": [[0,0,2]]}}, "agents": [{"name": "A", "clip": "c"},
+        {"name": "B", "clip": "d", "translate": [0, 2.5]}]})");
+    const json found = conflicts({file});
+    EXPECT_TRUE(found["radius"].is_null());
+    EXPECT_EQ(found["conflicts"].size(), 1u);
+    const Result run = run_program({"conflicts", file, "--radius", "1", "--json"});
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(json::parse(run.out)["radius"], 1);
+    EXPECT_TRUE(json::parse(run.out)["conflicts"].empty());
+}
+
+TEST(Conflicts, WithoutAgentsItIsRefused) {
+    const TempFolder folder;
+    const Result run =
+        run_program({"conflicts", folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1]]}}})")});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_EQ(run.out, "");
+}
+
+TEST(Conflicts, EveryTrajectoryFileIsAsTheDirectSearchHasIt) {
+    const std::filesystem::path data = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "trajectories";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
+    std::size_t files = 0;
+    std::size_t found = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(data)) {
+        if (!entry.is_regular_file()) continue;
+        const std::string file = entry.path().string();
+        SCOPED_TRACE(entry.path().filename());
+        // Pixels and cells are wider than metres.
+        const std::string radius = file.find("sdd_") != std::string::npos ? "10" : "0.3";
+        const json direct = conflicts({file, "--radius", radius, "--tree", "brute"});
+        for (const std::string tree : {"mobb", "umobb"}) {
+            const json trees = conflicts({file, "--radius", radius, "--tree", tree});
+            EXPECT_EQ(trees["conflicts"], direct["conflicts"]) << tree;
+            EXPECT_LE(trees["pairs_tested"], direct["pairs_tested"]);
+        }
+        found += direct["conflicts"].size();
+        ++files;
+    }
+    EXPECT_EQ(files, 13u);
+    EXPECT_GT(found, 200u);
+}
+
+TEST(Trajectories, ASceneOfThemHasAnAgentForEachTrack) {
+    const TempFolder folder;
+    const std::string file = folder.write("crowd.txt", kTrajectories);
+    const std::string scene = (folder.path() / "crowd.json").string();
+    ASSERT_EQ(run_program({"convert", file, "-o", scene}).status, 0);
+    const json written = json::parse(testing::slurp(scene));
+    ASSERT_EQ(written["agents"].size(), 3u);
+    EXPECT_EQ(written["agents"][1]["name"], "2");
+    EXPECT_EQ(written["agents"][1]["start"], 1);
+    EXPECT_EQ(conflicts({scene})["conflicts"], conflicts({file})["conflicts"]);
+    EXPECT_EQ(json::parse(run_program({"query", file, "--json"}).out)["results"].size(), 3u);
+}
+
+TEST(Trajectories, AsCsvTheyKeepTheirTimes) {
+    const TempFolder folder;
+    const std::string file = folder.write("crowd.txt", kTrajectories);
+    const std::string csv = (folder.path() / "crowd.csv").string();
+    ASSERT_EQ(run_program({"convert", file, "-o", csv}).status, 0);
+    const std::string text = testing::slurp(csv);
+    EXPECT_TRUE(text.starts_with("id,t,x,y,r\n1,0,0,0,0.2")) << text;
+    EXPECT_NE(text.find("\n2,1.5,3,0.29999999999999999,"), std::string::npos) << text;
+    EXPECT_EQ(conflicts({csv})["conflicts"], conflicts({file})["conflicts"]);
+}
+
+TEST(Trajectories, WhatHoldsForAllIsSaidOnce) {
+    const TempFolder folder;
+    const Result run = run_program({"info", folder.write("crowd.txt", kTrajectories)});
+    EXPECT_EQ(run.status, 0);
+    const std::size_t at = run.out.find("0.2 m are taken");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_EQ(run.out.find("0.2 m are taken", at + 1), std::string::npos) << run.out;
+}
+
+}  // namespace
+}  // namespace mobbscope

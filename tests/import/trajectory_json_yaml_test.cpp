@@ -1,0 +1,122 @@
+// TrajNet++ and plans of multi-agent path finding.
+#include <import/track_clips.h>
+#include <support/input_error.h>
+
+#include <gtest/gtest.h>
+
+namespace mobbscope {
+namespace {
+
+using testing::input_error;
+
+const std::string kTrajnetpp = R"({"scene": {"id": 0, "p": 1, "s": 1, "e": 21, "fps": 2.0, "tag": [1, []]}}
+{"track": {"f": 1, "p": 1, "x": -0.5, "y": 2}}
+{"track": {"f": 11, "p": 1, "x": 0.5, "y": 2}}
+{"track": {"f": 11, "p": "late", "x": 0, "y": 0}}
+{"track": {"f": 21, "p": "late", "x": 0, "y": 1}}
+{"track": {"f": 31, "p": "late", "x": 9, "y": 9, "prediction_number": 0, "scene_id": 0}}
+)";
+const std::string kPlan =
+    "cost: 9\nschedule:\n  agent0:\n  - t: 0\n    x: 0\n    y: 0\n  - t: 1\n    x: 1\n    y: 0\n  agent1:\n"
+    "  - {t: 2, x: 5, y: 5}\n  - {t: 3, x: 5, y: 4}\n";
+
+std::vector<ImportedClip> trajnetpp(const std::string& text, const ImportOptions& options = {}) {
+    return track_clips(parse_trajnetpp(text, "f.ndjson"), "f.ndjson", options);
+}
+
+std::vector<ImportedClip> plan(const std::string& text, const ImportOptions& options = {}) {
+    return track_clips(parse_mapf_plan(text, "f.yaml"), "f.yaml", options);
+}
+
+TEST(Trajnetpp, TracksAreReadAndScenesGiveTheRate) {
+    const auto read = trajnetpp(kTrajnetpp);
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].facts.format, "trajnetpp");
+    EXPECT_EQ(read[0].clip->dt(), 0.5);
+    EXPECT_EQ(read[0].clip->samples()[0].x, -0.5);
+    EXPECT_EQ(read[1].name, "late");
+    EXPECT_EQ(read[1].start, 0.5);
+    EXPECT_EQ(read[1].clip->count(), 2);
+    EXPECT_EQ(read[0].facts.warnings.size(), 2u) << "the prediction, the radius";
+}
+
+TEST(Trajnetpp, WithoutASceneTheUsualRateIsAssumed) {
+    const auto read = trajnetpp(R"({"track": {"f": 1, "p": 1, "x": 0, "y": 0}})"
+                                "\n"
+                                R"({"track": {"f": 11, "p": 1, "x": 0, "y": 0}})");
+    EXPECT_EQ(read[0].clip->dt(), 0.4);
+    EXPECT_NE(read[0].facts.warnings.at(0).find("2.5 points a second are assumed"), std::string::npos);
+}
+
+TEST(Trajnetpp, BadLinesAreNamed) {
+    const std::string first = R"({"track": {"f": 1, "p": 1, "x": 0, "y": 0}})"
+                              "\n";
+    const struct {
+        std::string text, message;
+    } cases[] = {
+        {"", "line 0: the file has no track"},
+        {first + "{", "line 2: is no JSON"},
+        {first + "[1]", "line 2: is neither"},
+        {first + R"({"track": 3})", "line 2: 'track' must be an object"},
+        {first + R"({"track": {"f": 2, "p": 1, "x": 0}})", "line 2: there is no y"},
+        {first + R"({"track": {"f": 2.5, "p": 1, "x": 0, "y": 0}})", "line 2: f is no whole number"},
+        {first + R"({"track": {"f": 2, "p": 1, "x": "0", "y": 0}})", "line 2: x must be a number"},
+        {first + R"({"track": {"f": 2, "p": 1, "x": 1e10, "y": 0}})", "line 2: x is beyond"},
+        {first + R"({"track": {"f": 1, "p": 1, "x": 1, "y": 0}})", "line 2: '1' is in frame 1 already in line 1"},
+        {R"({"scene": {"fps": 2.5}})"
+         "\n"
+         R"({"scene": {"fps": 5}})",
+         "line 2: the scene has 5 points a second"},
+        {R"({"scene": {"fps": 0}})", "line 1: fps must be over 0"},
+    };
+    for (const auto& [text, message] : cases) {
+        const std::string said = input_error([&] { trajnetpp(text); });
+        EXPECT_NE(said.find(message), std::string::npos) << message << "\n" << said;
+    }
+}
+
+TEST(MapfPlan, AgentsAreReadByName) {
+    const auto read = plan(kPlan);
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].facts.format, "mapf");
+    EXPECT_EQ(read[0].name, "agent0");
+    EXPECT_EQ(read[0].clip->dt(), 1);
+    EXPECT_EQ(read[0].clip->samples()[1].x, 1);
+    EXPECT_EQ(read[1].start, 2);
+    EXPECT_EQ(read[1].clip->samples()[1].y, 4);
+    EXPECT_EQ(read[0].facts.warnings.size(), 3u) << "second, metre, radius";
+    ImportOptions options;
+    options.unit = "0.5";
+    options.dt = 0.25;
+    options.radius = 0.1;
+    const auto told = plan(kPlan, options);
+    EXPECT_TRUE(told[0].facts.warnings.empty());
+    EXPECT_EQ(told[1].start, 0.5);
+    EXPECT_EQ(told[1].clip->samples()[1].y, 2);
+}
+
+TEST(MapfPlan, BadPlansAreRefused) {
+    const struct {
+        std::string text, message;
+    } cases[] = {
+        {"", "there is no schedule"},
+        {"- 1\n", "line 1: there is no schedule"},
+        {"schedule: 3\n", "there is no schedule"},
+        {"schedule: {}\n", "the schedule has no step"},
+        {"schedule:\n  a: 3\n", "line 2: 'a' must have a list"},
+        {"schedule:\n  a:\n  - 3\n", "line 3: a step of the plan must be a map"},
+        {"schedule:\n  a:\n  - t: 0\n    x: 1\n", "line 3: the step lacks one of t, x and y"},
+        {"schedule:\n  a:\n  - t: 0\n    x: one\n    y: 1\n", "line 4: x is no finite number"},
+        {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - {t: 0, x: 0, y: 0}\n", "line 4: 'a' is in frame 0 already"},
+        {"schedule: [\n", "is no YAML"},
+        {std::string("a\0b", 3), "NUL byte"},
+        {std::string(100000, '['), "is no YAML"},
+    };
+    for (const auto& [text, message] : cases) {
+        const std::string said = input_error([&] { plan(text); });
+        EXPECT_NE(said.find(message), std::string::npos) << message << "\n" << said;
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope
