@@ -41,6 +41,7 @@ class PlacedChain {
     const PlacedFrame& frame() const { return frame_; }
     /// The placed samples below a node of a link.
     ChainSamples samples(const ChainNode& node) const { return {*chain_, node.link, frame_}; }
+    const PlacedChain& samples() const { return *this; }
     /// Global time, as the samples that bound the node have it.
     double begin(const ChainNode& node) const { return time(node.first); }
     double end(const ChainNode& node) const { return time(node.end()); }

@@ -40,23 +40,14 @@ Contact contact_of(const A& a, int i, const B& b, int j) {
     return {std::max(a.time(i), b.time(j)), i, j, std::sqrt(squared_distance(disk_a, disk_b)), disk_a.r + disk_b.r};
 }
 
-/// Takes the first hit and stops there.
-struct FirstHit {
-    std::optional<Contact> contact;
-
-    template <PlacedSamples A, PlacedSamples B>
-    bool operator()(const A& a, int i, const B& b, int j) {
-        contact = contact_of(a, i, b, j);
-        return true;
-    }
-};
-
 /// Collects hits that come in order of time into maximal intervals.
+template <PlacedSamples A, PlacedSamples B>
 struct IntervalCollector {
+    const A& a;
+    const B& b;
     std::vector<Interval> intervals;
 
-    template <PlacedSamples A, PlacedSamples B>
-    bool operator()(const A& a, int i, const B& b, int j) {
+    bool operator()(int i, int j) {
         const double t0 = std::max(a.time(i), b.time(j));
         const double t1 = std::min(a.time(i + 1), b.time(j + 1));
         // Pairs that share less than kMinOverlap are never tested: such a crack does not end a contact.
@@ -74,9 +65,13 @@ struct IntervalCollector {
 /// prune nothing.
 template <NodeSource A, NodeSource B, TraversalObserver Observer>
 std::optional<Contact> query(const A& a, const B& b, Observer& observer) {
-    FirstHit first;
-    Traversal(a, b, observer, first).run();
-    return first.contact;
+    std::optional<Contact> contact;
+    auto on_hit = [&](int i, int j) {
+        contact = contact_of(a.samples(), i, b.samples(), j);
+        return true;
+    };
+    Traversal(a, b, observer, on_hit).run();
+    return contact;
 }
 template <NodeSource A, NodeSource B>
 std::optional<Contact> query(const A& a, const B& b) {
@@ -88,7 +83,7 @@ std::optional<Contact> query(const A& a, const B& b) {
 template <NodeSource A, NodeSource B>
 std::vector<Interval> contact_intervals(const A& a, const B& b) {
     NoObserver observer;
-    IntervalCollector collector;
+    IntervalCollector collector{a.samples(), b.samples(), {}};
     Traversal(a, b, observer, collector).run();
     return std::move(collector.intervals);
 }
@@ -97,15 +92,19 @@ std::vector<Interval> contact_intervals(const A& a, const B& b) {
 /// hit.
 template <SampleSource A, SampleSource B, TraversalObserver Observer>
 std::optional<Contact> direct_search(const A& a, const B& b, Observer& observer) {
-    FirstHit first;
+    std::optional<Contact> contact;
+    auto on_hit = [&](int i, int j) {
+        contact = contact_of(a, i, b, j);
+        return true;
+    };
     if constexpr (Observer::watches) observer.enter(0, 0);
     [[maybe_unused]] const PairVisit visit =
-        visit_sample_pairs(a, a.first(), a.end(), b, b.first(), b.end(), observer, first);
+        visit_sample_pairs(a, a.first(), a.end(), b, b.first(), b.end(), observer, on_hit);
     if constexpr (Observer::watches) {
         observer.sample_test(visit.hit);
         observer.leave();
     }
-    return first.contact;
+    return contact;
 }
 template <SampleSource A, SampleSource B>
 std::optional<Contact> direct_search(const A& a, const B& b) {
@@ -115,7 +114,7 @@ std::optional<Contact> direct_search(const A& a, const B& b) {
 template <SampleSource A, SampleSource B>
 std::vector<Interval> direct_contact_intervals(const A& a, const B& b) {
     NoObserver observer;
-    IntervalCollector collector;
+    IntervalCollector collector{a, b, {}};
     visit_sample_pairs(a, a.first(), a.end(), b, b.first(), b.end(), observer, collector);
     return std::move(collector.intervals);
 }

@@ -36,6 +36,7 @@ concept NodeSource = requires(const S& source, int i) {
     { source.begin(source.node(i)) } -> std::convertible_to<double>;
     { source.end(source.node(i)) } -> std::convertible_to<double>;
     { source.samples(source.node(i)) } -> PlacedSamples;
+    { source.samples() } -> SampleSource;
     { source.frame() } -> std::convertible_to<const PlacedFrame&>;
     { source.time_scale() } -> std::convertible_to<double>;
 };
@@ -61,7 +62,7 @@ struct PairVisit {
 };
 
 /// Visits, in order of time, every pair (i, j) of samples from [first_a, end_a) x [first_b, end_b) whose hold intervals
-/// overlap, measures their distance, and calls on_hit(a, i, b, j) on those that collide, until it returns true.
+/// overlap, measures their distance, and calls on_hit(i, j) on those that collide, until it returns true.
 template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer, class OnHit>
 PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int first_b, int end_b,
                              [[maybe_unused]] Observer& observer, OnHit& on_hit) {
@@ -79,7 +80,7 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
             if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
             if (collide(disk_a, disk_b)) {
                 visit.hit = true;
-                visit.stopped = on_hit(a, i, b, j);
+                visit.stopped = on_hit(i, j);
                 if (visit.stopped) return visit;
             }
         }
@@ -97,8 +98,8 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
     }
 }
 
-/// One traversal of two node sources. OnHit is called with the sample pairs that collide (samples of A and index,
-/// samples of B and index), earliest first, and says whether to stop.
+/// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says
+/// whether to stop.
 template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit>
 class Traversal {
   public:

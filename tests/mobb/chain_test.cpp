@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <mobb/chain_boxes.h>
 #include <mobb/placed_chain.h>
 #include <mobb/query.h>
 #include <mobb/random_motion.h>
@@ -119,40 +120,6 @@ TEST(Chain, EveryQueryGivesTheRebuiltTreesAnswerAndContact) {
     EXPECT_LT(hits, asked * 9 / 10);
 }
 
-/// How many boxes, and their volume in m^2*s.
-struct Boxes {
-    double count = 0;
-    double volume = 0;
-};
-Boxes boxes_of(const Chain& chain, int id = 0) {
-    const ChainNode node = chain.node(id);
-    Boxes boxes{1, volume(chain.box(node), chain.time_scale())};
-    if (node.is_leaf()) return boxes;
-    for (const int child : node.children) {
-        const Boxes below = boxes_of(chain, child);
-        boxes.count += below.count;
-        boxes.volume += below.volume;
-    }
-    return boxes;
-}
-Boxes boxes_of(const Tree& tree) {
-    Boxes boxes;
-    for (const Node& node : tree.nodes()) boxes.count += 1, boxes.volume += volume(node.box, tree.time_scale());
-    return boxes;
-}
-
-/// The volume of so many boxes of a tree rebuilt over the samples: between those of the two nearest sizes of leaves.
-double rebuilt_volume(const ClipPtr& clip, double boxes) {
-    Boxes more = boxes_of(Tree(clip, {.leaf = 1}));
-    for (int leaf = 2;; ++leaf) {
-        const Boxes fewer = boxes_of(Tree(clip, {.leaf = leaf}));
-        if (fewer.count <= boxes) {
-            return fewer.volume + (more.volume - fewer.volume) * (boxes - fewer.count) / (more.count - fewer.count);
-        }
-        more = fewer;
-    }
-}
-
 TEST(Chain, BoxesAreAboutAsTightAsARebuiltTreesAtEqualCount) {
     Random random(35);
     for (const int links : {2, 8, 60, 500}) {
@@ -160,9 +127,9 @@ TEST(Chain, BoxesAreAboutAsTightAsARebuiltTreesAtEqualCount) {
             double composed = 0, rebuilt = 0;
             for (int round = 0; round < (links < 100 ? 40 : 4); ++round) {
                 const Chain chain(walking_links(random, links, turning));
-                const Boxes boxes = boxes_of(chain);
+                const test::Boxes boxes = test::boxes_of(chain);
                 composed += boxes.volume;
-                rebuilt += rebuilt_volume(std::make_shared<const Clip>(flattened(chain)), boxes.count);
+                rebuilt += test::rebuilt_volume(std::make_shared<const Clip>(flattened(chain)), boxes.count);
             }
             EXPECT_LT(composed / rebuilt, 1.05) << links << " links that turn by up to " << turning << " degrees";
             EXPECT_GT(composed / rebuilt, 0.95) << links << " links that turn by up to " << turning << " degrees";

@@ -265,7 +265,7 @@ TEST(Trace, AHitIsAHitWhoeverListens) {
     const PlacedTree a(tree, {}), b(tree, {});
     TraceRecorder recorder;
     int hits = 0;
-    auto go_on = [&](const PlacedClip&, int, const PlacedClip&, int) { return ++hits, false; };
+    auto go_on = [&](int, int) { return ++hits, false; };
     EXPECT_FALSE(Traversal(a, b, recorder, go_on).run());
     EXPECT_EQ(hits, 4);
     const Trace trace = recorder.take();
