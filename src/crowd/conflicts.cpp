@@ -13,9 +13,11 @@ namespace {
 
 /// Told of every pair of samples that collides, in order of time; keeps the one that overlaps deepest.
 struct DeepestPair {
+    const mobb::PlacedClip& a;
+    const mobb::PlacedClip& b;
     Conflict& conflict;
 
-    bool operator()(const mobb::PlacedClip& a, int i, const mobb::PlacedClip& b, int j) {
+    bool operator()(int i, int j) {
         const mobb::Contact contact = mobb::contact_of(a, i, b, j);
         const double clearance = contact.distance - contact.radii;
         if (clearance >= conflict.least_clearance) return false;
@@ -37,11 +39,9 @@ Conflict conflict_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, Searc
     if (conflict.intervals.empty()) return conflict;
     conflict.least_clearance = std::numeric_limits<double>::infinity();
     mobb::NoObserver observer;
-    DeepestPair deepest{conflict};
+    DeepestPair deepest{a.placed_clip(), b.placed_clip(), conflict};
     if (direct) {
-        const mobb::PlacedClip& clip_a = a.placed_clip();
-        const mobb::PlacedClip& clip_b = b.placed_clip();
-        mobb::visit_sample_pairs(clip_a, 0, clip_a.count(), clip_b, 0, clip_b.count(), observer, deepest);
+        mobb::visit_sample_pairs(deepest.a, 0, deepest.a.count(), deepest.b, 0, deepest.b.count(), observer, deepest);
     } else {
         mobb::Traversal(a, b, observer, deepest).run();
     }

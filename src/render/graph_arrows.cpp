@@ -1,5 +1,6 @@
 #include <render/graph_moves.h>
 #include <render/label_layout.h>
+#include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>
 

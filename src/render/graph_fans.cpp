@@ -2,6 +2,7 @@
 #include <render/graph_moves.h>
 #include <render/label_layout.h>
 #include <render/ticks.h>
+#include <scene/motion_graph.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -4,6 +4,7 @@
 #include <render/label_layout.h>
 #include <render/render.h>
 #include <render/ticks.h>
+#include <scene/motion_graph.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
