@@ -55,17 +55,6 @@ glm::dvec2 parse_area(const std::string& text) {
     return {*width, *depth};
 }
 
-std::function<int(const std::string&)> whole_number_within(int low, int high) {
-    return [low, high](const std::string& text) {
-        const std::optional<int> value = parse_int(text);
-        if (!value || *value < low || *value > high) {
-            throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(low) + " to " +
-                                        std::to_string(high));
-        }
-        return *value;
-    };
-}
-
 std::uint64_t parse_seed(const std::string& text) {
     const std::optional<double> value = parse_double(text);
     if (!value || *value < 0 || *value > static_cast<double>(kMaxSeed) || *value != std::floor(*value)) {
