@@ -84,7 +84,7 @@ Workload table1(const Arguments& arguments) {
         SimulateOptions options;
         options.seed = seed_of(arguments);
         const std::string who = arguments.paths.empty() ? "built-in moves" : scene.graph ? "a motion graph" : "clips";
-        workload = crowd_queries(std::move(scene), options, Recorded::all, most);
+        workload = crowd_queries(std::move(scene), options, most);
         workload.description = "what a crowd of 100 on 30 x 40 m asks in 120 s, playing " + who;
     }
     workload.name = "table1";

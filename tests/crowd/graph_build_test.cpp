@@ -6,6 +6,7 @@
 #include <crowd/graph_walk.h>
 #include <crowd/pose_distance.h>
 #include <crowd/recordings.h>
+#include <scene/motion_graph.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
