@@ -3,16 +3,23 @@
 #include <cli/options.h>
 #include <crowd/graph_walk.h>
 #include <crowd/simulate.h>
+#include <scene/crowd_run.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
+#include <scene/crowd_run.h>
 #include <scene/json_writer.h>
+#include <scene/load_files.h>
+#include <scene/motion_graph.h>
+#include <scene/scene_edits.h>
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -31,12 +38,12 @@ struct Arguments {
     std::filesystem::path record;
     int record_queries = 20'000;
     bool record_all_pairs = false;
+    std::optional<double> record_within;  ///< metres
     bool inline_samples = false;
     bool whole = false;
     bool json = false;
     SimulateOptions options;
     FitArguments fit;
-    ImportOptions import_options;
 };
 
 /// "30x40" in metres.
@@ -48,17 +55,6 @@ glm::dvec2 parse_area(const std::string& text) {
     return {*width, *depth};
 }
 
-std::function<int(const std::string&)> whole_number_within(int low, int high) {
-    return [low, high](const std::string& text) {
-        const std::optional<int> value = parse_int(text);
-        if (!value || *value < low || *value > high) {
-            throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(low) + " to " +
-                                        std::to_string(high));
-        }
-        return *value;
-    };
-}
-
 std::uint64_t parse_seed(const std::string& text) {
     const std::optional<double> value = parse_double(text);
     if (!value || *value < 0 || *value > static_cast<double>(kMaxSeed) || *value != std::floor(*value)) {
@@ -67,16 +63,37 @@ std::uint64_t parse_seed(const std::string& text) {
     return static_cast<std::uint64_t>(*value);
 }
 
-/// The scene whose graph is played.
+/// The scene whose graph is played, and nothing else of it.
 Scene load_graph(const Arguments& arguments) {
-    Scene scene = load(arguments.graph, arguments.import_options);
-    if (arguments.whole) scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
+    Scene scene = load_files({arguments.graph});
+    if (arguments.whole) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     if (!scene.graph) {
         throw InputError(arguments.graph.string(), "",
-                         "has no motion graph; make one with graph build, or let every clip follow every other with "
-                         "--whole");
+                         "there is no motion graph; make one with graph build, or give --whole, and every clip may "
+                         "follow every other");
     }
+    scene.agents.clear();
+    scene.queries.clear();
+    scene.view = {};
+    scene.fit = arguments.fit.over(scene.fit);
     return scene;
+}
+
+void check_outputs(const Arguments& arguments) {
+    for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
+        if (!out.empty() && lower_extension(out) != ".json") {
+            throw InputError(out.string(), "", "a run and its queries are scenes; name it .json");
+        }
+    }
+    if (arguments.out == arguments.record) {
+        throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
+    }
+}
+
+/// Writes a scene; its relative sources lead where they led.
+void write_scene(Scene scene, const std::filesystem::path& file, bool inline_samples) {
+    move_to_file(scene, file);
+    write_file(file, to_json(scene, inline_samples));
 }
 
 /// A line on standard error for every tenth of a run.
@@ -100,7 +117,7 @@ class Report {
 
 struct Summary {
     SimulationCounts counts;
-    double seconds = 0;  ///< that the run took
+    double seconds = 0;                                               ///< that the run took
     std::optional<std::pair<std::size_t, std::uint64_t>> recorded{};  ///< queries written, of how many
 };
 
@@ -136,8 +153,8 @@ void print_json(const Summary& summary) {
 
 void print_text(const Summary& summary) {
     const SimulationCounts& c = summary.counts;
-    std::cout << counted(c.agents, "agent", "agents") << " for " << brief(c.simulated) << " s: "
-              << counted(c.plays, "play", "plays") << ", " << counted(c.choices, "choice", "choices") << '\n'
+    std::cout << counted(c.agents, "agent", "agents") << " for " << brief(c.simulated)
+              << " s: " << counted(c.plays, "play", "plays") << ", " << counted(c.choices, "choice", "choices") << '\n'
               << counted(c.candidates, "candidate", "candidates") << ": " << c.off_floor << " leave the floor, "
               << c.colliding << " collide, " << c.in_the_way << " end in somebody's way\n"
               << counted(c.pivots, "pivot", "pivots") << ", " << c.forced << " forced\n"
@@ -149,17 +166,17 @@ void print_text(const Summary& summary) {
     }
 }
 
-void run(Arguments& arguments) {
+void run(const Arguments& arguments) {
+    check_outputs(arguments);
     Scene scene = load_graph(arguments);
-    scene.agents.clear();
-    scene.queries.clear();
-    scene.fit = arguments.fit.over(scene.fit);
     const FittedScene fitted(scene, scene.fit);
     const MoveSet moves(fitted);
     std::optional<QuerySample> sample;
     if (!arguments.record.empty()) {
-        sample.emplace(arguments.record_all_pairs ? Recorded::all : Recorded::asked,
-                       static_cast<std::size_t>(arguments.record_queries), arguments.options.seed);
+        const bool all = arguments.record_all_pairs || arguments.record_within;
+        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(arguments.record_queries),
+                       arguments.options.seed,
+                       arguments.record_within.value_or(std::numeric_limits<double>::infinity()));
     }
     Summary summary;
     const auto begin = std::chrono::steady_clock::now();
@@ -169,10 +186,10 @@ void run(Arguments& arguments) {
     summary.counts = simulation.counts;
     if (sample) {
         summary.recorded.emplace(sample->size(), sample->offered());
-        write_file(arguments.record, to_json(sample->workload(scene), arguments.inline_samples));
+        write_scene(sample->workload(scene), arguments.record, arguments.inline_samples);
     }
     scene.crowd = std::make_shared<const CrowdRun>(std::move(simulation.run));
-    write_file(arguments.out, to_json(scene, arguments.inline_samples));
+    write_scene(std::move(scene), arguments.out, arguments.inline_samples);
     arguments.json ? print_json(summary) : print_text(summary);
     flush_results();
 }
@@ -180,11 +197,14 @@ void run(Arguments& arguments) {
 }  // namespace
 
 void add_simulate_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("simulate", "Let a crowd play the moves of a motion graph, and nobody collide");
+    CLI::App* command =
+        program.add_subcommand("simulate", "Let a crowd play the moves of a motion graph, and nobody collide");
     const auto arguments = std::make_shared<Arguments>();
     SimulateOptions& options = arguments->options;
-    command->add_option("GRAPH", arguments->graph, "A scene with a graph (.json)")->required();
-    command->add_option("-o,--output", arguments->out, "Where to")->required()->type_name("OUT.json");
+    add_parsed(*command, "GRAPH", arguments->graph, parse_file_name,
+               "A scene with a motion graph; with --whole clips, or a folder of them", "")
+        ->required();
+    add_parsed(*command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json")->required();
     add_parsed(*command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
     add_parsed(*command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
     add_parsed(*command, "--seconds", options.seconds, number_within(1e-3, kMaxSimulated), "Simulated (120)", "S");
@@ -194,16 +214,24 @@ void add_simulate_command(CLI::App& program) {
     add_parsed(*command, "--grace", options.grace, number_within(0, kMaxSimulated),
                "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
     add_parsed(*command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
-    add_parsed(*command, "--record", arguments->record, parse_file_name, "Queries of the run as a scene", "FILE.json");
+    CLI::Option* record = add_parsed(*command, "--record", arguments->record, parse_file_name,
+                                     "Queries that the trees were asked, as a scene", "FILE.json");
     add_parsed(*command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
-               "How many, drawn at random; 0 is all (20000)", "N");
-    command->add_flag("--record-all-pairs", arguments->record_all_pairs,
-                      "Draw from candidate against everybody, not only from what the trees were asked");
-    command->add_flag("--whole", arguments->whole, "Every clip whole, and each may follow each");
-    command->add_flag("--inline", arguments->inline_samples, "Samples inside what is written");
+               "How many, drawn at random; 0 is all (20000)", "N")
+        ->needs(record);
+    CLI::Option* all = command
+                           ->add_flag("--record-all-pairs", arguments->record_all_pairs,
+                                      "Draw from every candidate against everybody, as without a broad phase")
+                           ->needs(record);
+    add_parsed(*command, "--record-within", arguments->record_within, number_within(0, kMaxArea),
+               "Draw from every candidate against all that lies within M metres, at any time", "M")
+        ->needs(record)
+        ->excludes(all);
+    command->add_flag("--whole", arguments->whole, "Instead of a graph: every clip whole, and each may follow each");
+    command->add_flag("--inline", arguments->inline_samples,
+                      "Samples stand in what is written, which then needs no other file");
     command->add_flag("--json", arguments->json, "The summary as JSON");
     add_fit_options(*command, arguments->fit);
-    add_import_options(*command, arguments->import_options);
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -2,9 +2,10 @@
 #include <crowd/build_graph.h>
 #include <crowd/cut_search.h>
 #include <crowd/hub_choice.h>
-#include <scene/strong_components.h>
 #include <import/text.h>
+#include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
+#include <scene/strong_components.h>
 
 #include <tbb/parallel_for.h>
 

@@ -3,6 +3,7 @@
 
 #include <crowd/commitments.h>
 #include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 
 #include <optional>
 #include <vector>

@@ -1,4 +1,6 @@
 #include <crowd/commitments.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 
 #include <cmath>
 #include <memory>

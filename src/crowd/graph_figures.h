@@ -1,6 +1,7 @@
 /// A motion graph in figures.
 #pragma once
 
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 
 #include <cstddef>
@@ -36,9 +37,9 @@ struct GraphFigures {
     std::vector<SourceFigures> sources;  ///< in the order of their first moves
     std::vector<int> dead_ends;          ///< hubs in which no move begins
     std::size_t moves = 0;
-    double seconds = 0;                   ///< of all moves
-    double choices = 0;                   ///< moves that may follow a move, on average
-    double seconds_between_choices = 0;   ///< a move lasts so long on average
+    double seconds = 0;                  ///< of all moves
+    double choices = 0;                  ///< moves that may follow a move, on average
+    double seconds_between_choices = 0;  ///< a move lasts so long on average
 };
 
 /// The scene has a graph.

@@ -1,6 +1,7 @@
 #include <crowd/graph_joints.h>
 #include <crowd/pose_distance.h>
 #include <crowd/pose_track.h>
+#include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>
 

@@ -1,10 +1,10 @@
 #include <crowd/recordings.h>
 #include <import/file.h>
-#include <import/text.h>
+#include <import/motion.h>
+#include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -13,10 +13,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kExtensions{".bvh", ".csv", ".fbx", ".glb", ".gltf"};
-
 bool is_clip(const std::filesystem::path& file) {
-    return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(file)) != kExtensions.end();
+    const std::string extension = lower_extension(file);
+    return is_motion_extension(extension) || extension == ".csv";
 }
 
 std::vector<std::filesystem::path> clips_below(const std::filesystem::path& folder) {
@@ -55,13 +54,8 @@ std::vector<std::filesystem::path> clip_files(const std::vector<std::filesystem:
 
 Scene load_recordings(const std::vector<std::filesystem::path>& files, const std::filesystem::path& scene_file,
                       const ImportOptions& options, const Progress& progress) {
-    Scene scene;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        if (progress) progress(i, files.size());
-        Scene one = load_scene(files[i], options);
-        move_to_file(one, scene_file);
-        merge(scene, std::move(one));
-    }
+    Scene scene = load_files(files, options, progress);
+    move_to_file(scene, scene_file);
     return scene;
 }
 

@@ -17,7 +17,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kTries = 2000;          // places looked at for an agent before the floor counts as full
+constexpr int kTries = 2000;      // places looked at for an agent before the floor counts as full
 constexpr double kReports = 100;  // of progress in a run
 
 struct Turn {
@@ -120,7 +120,7 @@ class Simulator {
         if (sample_->recorded() == Recorded::all) {
             for (const Candidate& candidate : choice.candidates) {
                 world_.motions().all_pairs(moves_.motion(point.agent, point.play, candidate.move, candidate.placement),
-                                           asked_);
+                                           sample_->range(), asked_);
             }
         }
         sample_->offer(asked_);

@@ -3,6 +3,7 @@
 
 #include <crowd/choice.h>
 #include <crowd/query_sample.h>
+#include <scene/crowd_run.h>
 
 #include <cstdint>
 #include <functional>

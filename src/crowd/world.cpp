@@ -142,9 +142,13 @@ std::vector<Verdict> World::verdicts(std::span<const Motion> candidates, std::ve
     return out;
 }
 
-void World::all_pairs(const Motion& candidate, std::vector<AskedPair>& pairs) const {
+void World::all_pairs(const Motion& candidate, double range, std::vector<AskedPair>& pairs) const {
+    FloorRect reach = candidate.outline->bounds(candidate.placement);
+    reach.low -= range;
+    reach.high += range;
     for (const Held& other : motions_) {
-        if (other.motion.tree && other.motion.agent != candidate.agent) pairs.push_back({candidate, other.motion});
+        if (!other.motion.tree || other.motion.agent == candidate.agent || !reach.meets(other.bounds)) continue;
+        pairs.push_back({candidate, other.motion});
     }
 }
 

@@ -63,9 +63,10 @@ class World {
     /// trees were asked are appended to it, in the order of candidates. The same on any number of threads.
     std::vector<Verdict> verdicts(std::span<const Motion> candidates, std::vector<AskedPair>* asked = nullptr) const;
 
-    /// Appends every pair of the candidate and a motion of another agent: what the trees were asked if there were no
-    /// grid.
-    void all_pairs(const Motion& candidate, std::vector<AskedPair>& pairs) const;
+    /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
+    /// metres of its own, at whatever time: what the trees were asked if nobody looked at times before them, and with
+    /// an infinite range if there were no grid at all.
+    void all_pairs(const Motion& candidate, double range, std::vector<AskedPair>& pairs) const;
 
   private:
     struct CellRange {

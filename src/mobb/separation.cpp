@@ -22,7 +22,7 @@ double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 }  // namespace
 
 RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
-    : to_world_(a.rotation), rotation_(a.rotation.inverse() * b.rotation) {
+    : rotation_(a.rotation.inverse() * b.rotation) {
     const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
     offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
     const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
@@ -131,10 +131,10 @@ Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& fram
     return {};
 }
 
-Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame) {
+Separation separate_aabb(const Box& a, const Box& b, const Rotation& to_world, const RelativeFrame& frame) {
     const glm::dvec3 center_b = frame.point(b.center);
-    const glm::dvec2 d = frame.to_world()(glm::dvec2{center_b.x - a.center.x, center_b.y - a.center.y});
-    const glm::dvec2 reach = half_in_world(a, frame.to_world()) + half_in_world(b, frame.b_to_world());
+    const glm::dvec2 d = to_world(glm::dvec2{center_b.x - a.center.x, center_b.y - a.center.y});
+    const glm::dvec2 reach = half_in_world(a, to_world) + half_in_world(b, to_world * frame.rotation());
     for (int i = 0; i < 2; ++i) {
         const double gap = std::abs(d[i]) - reach[i];
         if (gap > frame.slack2d()) return {i, gap};

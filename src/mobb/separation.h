@@ -33,17 +33,13 @@ class RelativeFrame {
         const glm::dvec3 d = direction(p);
         return {d.x + offset_.x, d.y + offset_.y, d.z + offset_.z};
     }
-    /// From A's frame to the world's directions.
-    const Rotation& to_world() const { return to_world_; }
-    /// From B's frame to the world's directions.
-    Rotation b_to_world() const { return to_world_ * rotation_; }
+    const Rotation& rotation() const { return rotation_; }
     double slack2d() const { return slack2d_; }
     double slack3d() const { return slack3d_; }
     /// Of times, in metres of w*t.
     double slack_time() const { return slack_time_; }
 
   private:
-    Rotation to_world_;
     Rotation rotation_;  ///< from B's frame to A's
     glm::dvec3 offset_;  ///< B's origin in A's frame, (x, y, w*t)
     double slack2d_;
@@ -66,8 +62,9 @@ Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame
 /// side of the other: conservative, as between the ends the gap is linear in time. Both of one time scale.
 Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& frame);
 
-/// Two boxes along x and y of their clips, each wrapped again along x and y of the world: two axes.
-Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame);
+/// Two boxes along x and y of their clips, each wrapped again along x and y of the world: two axes. `to_world` is A's
+/// rotation.
+Separation separate_aabb(const Box& a, const Box& b, const Rotation& to_world, const RelativeFrame& frame);
 
 /// Half extents along the world's x and y of a rectangle along x and y of a frame that `to_world` turns.
 inline glm::dvec2 half_in_world(const Box& box, const Rotation& to_world) {

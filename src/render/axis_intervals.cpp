@@ -33,9 +33,10 @@ BoxPair boxes_of(std::span<const Subject> sides, const mobb::Trace::Event& event
     pair.b.drift = frame.direction(pair.b.drift);
     pair.a.center = glm::dvec3(0);
     if (event.test == mobb::TestKind::aabb) {
-        const glm::dvec2 middle_b = frame.to_world()(glm::dvec2(pair.b.center));
-        pair.a = along_the_world(pair.a, glm::dvec2(0), frame.to_world());
-        pair.b = along_the_world(pair.b, middle_b, frame.b_to_world());
+        const mobb::Rotation& to_world = a.placed_clip().rotation();
+        const glm::dvec2 middle_b = to_world(glm::dvec2(pair.b.center));
+        pair.a = along_the_world(pair.a, glm::dvec2(0), to_world);
+        pair.b = along_the_world(pair.b, middle_b, b.placed_clip().rotation());
     }
     return pair;
 }

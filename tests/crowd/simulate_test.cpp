@@ -2,6 +2,8 @@
 #include "walker_moves.h"
 
 #include <crowd/simulate.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 #include <support/input_error.h>
 
 #include <gtest/gtest.h>

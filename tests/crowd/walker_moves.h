@@ -3,6 +3,7 @@
 
 #include <crowd/graph_walk.h>
 #include <crowd/move_set.h>
+#include <scene/motion_graph.h>
 
 #include <cmath>
 #include <memory>

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace mobbscope {
@@ -134,20 +135,27 @@ TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     world.withdraw(first);
     EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 2);
     std::vector<AskedPair> pairs;
-    world.all_pairs(candidate, pairs);
+    world.all_pairs(candidate, 0, pairs);
     EXPECT_EQ(pairs.size(), 1u);
     world.forget_before(1000);
     EXPECT_EQ(world.size(), 0u);
     EXPECT_FALSE(world.verdicts({&candidate, 1}).front().ruling);
 }
 
-TEST_F(WorldTest, AllPairsAreThoseOfOtherAgents) {
-    World world({20, 20});
-    for (int agent = 0; agent < 5; ++agent) world.commit(random_motion(agent, 0, {20, 20}, 3));
-    std::vector<AskedPair> pairs;
-    world.all_pairs(random_motion(2, 1, {20, 20}, 3), pairs);
-    EXPECT_EQ(pairs.size(), 4u);
-    for (const AskedPair& pair : pairs) EXPECT_NE(pair.committed.agent, 2);
+TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
+    World world({40, 20});
+    const auto at = [&](int agent, double x, double start) { return moves.motion(agent, 0, 0, {{x, 0}, 90, start}); };
+    for (int agent = 0; agent < 5; ++agent) world.commit(at(agent, 4.0 * agent - 8, 100.0 * agent));
+    const auto others = [&](double range) {
+        std::vector<AskedPair> pairs;
+        world.all_pairs(at(2, 0, 0), range, pairs);
+        std::vector<int> agents;
+        for (const AskedPair& pair : pairs) agents.push_back(pair.committed.agent);
+        return agents;
+    };
+    EXPECT_EQ(others(std::numeric_limits<double>::infinity()), (std::vector<int>{0, 1, 3, 4}));
+    EXPECT_EQ(others(4), (std::vector<int>{1, 3}));
+    EXPECT_EQ(others(2), (std::vector<int>{}));
 }
 
 TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {

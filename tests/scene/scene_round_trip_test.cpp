@@ -1,6 +1,6 @@
 // What is written is read back as the same scene, bit for bit.
-#include <scene/fitted_scene.h>
 #include <scene/crowd_run.h>
+#include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <support/temp_folder.h>
