@@ -48,16 +48,14 @@ struct Arguments {
 /// "30x40" in metres.
 glm::dvec2 parse_area(const std::string& text) {
     const std::size_t cross = text.find('x');
-    const auto width = parse_double(text.substr(0, cross));
-    const auto depth = cross == std::string::npos ? std::nullopt : parse_double(text.substr(cross + 1));
-    const auto is_length = [](const std::optional<double>& value) {
-        return value && *value >= kMinArea && *value <= kMaxArea;
-    };
+    const double width = parse_double(text.substr(0, cross)).value_or(0);
+    const double depth = cross == std::string::npos ? 0 : parse_double(text.substr(cross + 1)).value_or(0);
+    const auto is_length = [](double value) { return value >= kMinArea && value <= kMaxArea; };
     if (!is_length(width) || !is_length(depth)) {
         throw std::invalid_argument(in_quotes(text) + " is no area; give metres like 30x40, each from " +
                                     brief(kMinArea) + " to " + brief(kMaxArea));
     }
-    return {*width, *depth};
+    return {width, depth};
 }
 
 std::uint64_t parse_seed(const std::string& text) {

@@ -113,9 +113,24 @@ class Chooser {
         for (const Candidate& candidate : choice_.candidates) {
             if (candidate.leaves_floor != some_stay) latest = std::max(latest, contact(candidate));
         }
-        take_one_of([&](const Candidate& candidate) {
+        const auto is_latest = [&](const Candidate& candidate) {
             return candidate.leaves_floor != some_stay && contact(candidate) == latest;
+        };
+        // Of those that two who overlap already may take, the ones that part them first.
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const Candidate& candidate : choice_.candidates) {
+            if (is_latest(candidate)) shortest = std::min(shortest, seconds_of_contact(candidate));
+        }
+        take_one_of([&](const Candidate& candidate) {
+            return is_latest(candidate) && seconds_of_contact(candidate) == shortest;
         });
+    }
+
+    /// With the motion that rules it out.
+    double seconds_of_contact(const Candidate& candidate) const {
+        if (!candidate.ruling) return 0;
+        const Motion motion = moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
+        return committed_.motions().seconds_of_contact(motion, *candidate.ruling);
     }
 
     template <class Allowed>

@@ -41,8 +41,9 @@ struct ChoicePoint {
 /// Makes a choice: of the candidates that stay on the floor, collide with nobody and end in nobody's way one is taken
 /// at random (chosen). If there is none, the agent turns on the spot, by 15 degrees either way, by 30, and so on, until
 /// there is one (pivoted); if there is none at any heading, then with the least turn that leaves one at all, in the way
-/// or not. If every candidate at every heading is discarded, one whose first contact is latest is taken at random, from
-/// those that stay on the floor if any does (forced). The random number depends on (seed, agent, play) alone.
+/// or not. If every candidate at every heading is discarded, one whose first contact is latest is taken, of those with
+/// the same one whose contact is shortest, from those that stay on the floor if any does (forced). The random number
+/// depends on (seed, agent, play) alone.
 Choice choose(const MoveSet& moves, const Commitments& committed, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked = nullptr);
 

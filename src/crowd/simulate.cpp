@@ -77,7 +77,8 @@ class Simulator {
         }
     }
 
-    /// A first move, begun some time ago, somewhere on the floor where it collides with nobody.
+    /// A first move, begun some time ago, somewhere on the floor where it collides with nobody and, if there is room,
+    /// ends in nobody's way.
     void place(int agent) {
         CounterRandom random(options_.seed, static_cast<std::uint64_t>(agent), 0);
         for (int i = 0; i < kTries; ++i) {
@@ -94,9 +95,12 @@ class Simulator {
             const Motion motion = moves_.motion(agent, 0, move, placement);
             if (leaves_floor({motion.tree->clip(), placement}, *motion.outline, options_.area)) continue;
             if (world_.motions().verdicts({&motion, 1}).front().ruling) continue;
+            const Play play{move, placement, placement.start, PlayKind::chosen};
+            // Where the floor is nearly full, any place will do.
+            if (i < kTries / 2 && world_.in_the_way(agent, 0, {&play, 1}).front()) continue;
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
             ++counts().agents;
-            commit(agent, {move, placement, placement.start, PlayKind::chosen});
+            commit(agent, play);
             return;
         }
         throw InputError("there is no room for agent " + std::to_string(agent + 1) + " of " +

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -140,6 +141,18 @@ std::vector<Verdict> World::verdicts(std::span<const Motion> candidates, std::ve
     });
     for (const std::vector<AskedPair>& of_one : pairs) asked->insert(asked->end(), of_one.begin(), of_one.end());
     return out;
+}
+
+double World::seconds_of_contact(const Motion& candidate, const Ruling& ruling) const {
+    const auto committed = std::find_if(motions_.begin(), motions_.end(), [&ruling](const Held& held) {
+        return held.motion.tree && held.motion.agent == ruling.agent && held.motion.play == ruling.play;
+    });
+    assert(committed != motions_.end());
+    const mobb::PlacedTree a(*candidate.tree, candidate.placement);
+    const mobb::PlacedTree b(*committed->motion.tree, committed->motion.placement);
+    double seconds = 0;
+    for (const mobb::Interval& interval : mobb::contact_intervals(a, b)) seconds += interval.t1 - interval.t0;
+    return seconds;
 }
 
 void World::all_pairs(const Motion& candidate, double range, std::vector<AskedPair>& pairs) const {

@@ -63,6 +63,9 @@ class World {
     /// trees were asked are appended to it, in the order of candidates. The same on any number of threads.
     std::vector<Verdict> verdicts(std::span<const Motion> candidates, std::vector<AskedPair>* asked = nullptr) const;
 
+    /// How long the candidate collides with the motion that rules it out, which must still be held.
+    double seconds_of_contact(const Motion& candidate, const Ruling& ruling) const;
+
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
     /// metres of its own, at whatever time: what the trees were asked if nobody looked at times before them, and with
     /// an infinite range if there were no grid at all.

@@ -17,7 +17,7 @@ enum class PlayKind : std::uint8_t {
     chosen,   ///< taken at random from the candidates that collide with nobody, stay on the floor and end in nobody's
               ///< way
     pivoted,  ///< none was left: the agent turned on the spot before one that was
-    forced,   ///< none was free at any heading: the one whose first contact is latest. It may collide
+    forced,   ///< none was free at any heading: the one whose first contact is latest, or shortest. It may collide
 };
 
 /// A move as an agent plays it.

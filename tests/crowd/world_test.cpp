@@ -33,8 +33,9 @@ class WorldTest : public ::testing::Test {
         std::optional<Ruling> first;
         for (const Motion& other : committed) {
             if (other.agent == candidate.agent) continue;
-            const auto contact = mobb::direct_search({candidate.tree->clip(), candidate.placement},
-                                                     {other.tree->clip(), other.placement});
+            const mobb::PlacedClip a(candidate.tree->clip(), candidate.placement);
+            const mobb::PlacedClip b(other.tree->clip(), other.placement);
+            const auto contact = mobb::direct_search(a, b);
             if (!contact) continue;
             if (!first || std::tuple(contact->time, other.agent) < std::tuple(first->contact.time, first->agent)) {
                 first = {other.agent, other.play, *contact};
