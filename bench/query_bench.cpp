@@ -37,6 +37,8 @@ void report(benchmark::State& state, const TestCounts& tests) {
     };
     state.counters["2D"] = per_query(tests.obb2d);
     state.counters["3D"] = per_query(tests.obb3d);
+    state.counters["moving"] = per_query(tests.moving);
+    state.counters["aabb"] = per_query(tests.aabb);
     state.counters["samples"] = per_query(tests.samples);
 }
 
@@ -78,7 +80,8 @@ const bool registered = [] {
     for (const double seconds : {42.0, 2.1}) {
         const std::string length = seconds > 10 ? "42s" : "2s";
         benchmark::RegisterBenchmark(("query/direct/" + length).c_str(), direct, seconds);
-        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2}) {
+        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2,
+                                    TreeKind::moving, TreeKind::aabb}) {
             for (const int levels : {1, 0}) {
                 const std::string label = std::string(name(kind)) + (levels ? "_1level/" : "/") + length;
                 benchmark::RegisterBenchmark(("query/" + label).c_str(), tree, seconds,
@@ -86,7 +89,7 @@ const bool registered = [] {
             }
         }
         for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
-            for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb}) {
+            for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving}) {
                 const std::string label = std::string(name(kind)) + "/" + std::string(name(axes)) + "/" + length;
                 benchmark::RegisterBenchmark(("fit/" + label).c_str(), fit, seconds,
                                              FitOptions{.tree = kind, .axes = axes});

@@ -6,6 +6,8 @@ A walker follows a heading h(t) at a speed that falls and rises with each step, 
     x' = v (1 + 0.08 sin 2pi s) cos h,  y' likewise    s = steps taken
     sideways offset 0.025 sin(pi s) m                  one stride is two steps
 
+A wanderer does so at a speed of its own choosing: it walks, runs, turns, stops and sets off again.
+
 Feet are planted on the floor beside that path and swing from plant to plant; hip and knee follow by inverse kinematics
 of two bones. Arms swing against the legs. The seed varies the body's size, the swing of the arms and where feet land.
 
@@ -16,6 +18,7 @@ bone lets any viewer show them.
 Usage: scripts/make_walkers.py [--seed N] [FOLDER]    (default: seed 1, assets/clips beside this script's folder)
 """
 import argparse
+import bisect
 import json
 import math
 import pathlib
@@ -141,6 +144,10 @@ class Path:
     def steps(self, t):
         return self.steps_per_second * t + self.phase
 
+    def time_of(self, s):
+        """When so many steps are taken."""
+        return (s - self.phase) / self.steps_per_second
+
     def point(self, t):
         """On the line that the body follows, without sway."""
         place = min(max((t + MARGIN) * RATE * SUBSTEPS, 0.0), len(self.points) - 1.0)
@@ -174,12 +181,114 @@ def circling(t):
     return 2 * math.pi * t / 9.0 + 0.9 * math.sin(2 * math.pi * t / 42.0)
 
 
+class Wander(Path):
+    """A path made of stretches (seconds, speed, degrees to turn by), each blending into the next; speed 0 stands."""
+
+    BLEND = 0.9  # seconds from one speed to the next
+
+    def __init__(self, stretches):
+        self.duration = sum(seconds for seconds, _, _ in stretches)
+        self.stretches = stretches
+        rate = RATE * SUBSTEPS
+        count = round((self.duration + 2 * MARGIN) * rate)
+        speeds = [self.speed_at(i / rate - MARGIN) for i in range(count)]
+        turns = [self.turn_at(i / rate - MARGIN) for i in range(count)]
+        cadences = self.whole_steps([self.cadence(v) for v in speeds], rate)
+        self.speed = max(speeds)
+        self.points, self.headings, self.counts = [(0.0, 0.0)], [0.0], [0.0]
+        for v, turn, cadence in zip(speeds, turns, cadences):
+            x, y = self.points[-1]
+            h, s = self.headings[-1], self.counts[-1]
+            v *= 1 + 0.08 * math.sin(2 * math.pi * s)
+            self.points.append((x + v * math.cos(h) / rate, y + v * math.sin(h) / rate))
+            self.headings.append(h + turn / rate)
+            self.counts.append(s + cadence / rate)
+        begin = round(MARGIN * rate)
+        self.points = [sub(point, self.points[begin]) for point in self.points]
+        self.headings = [h - self.headings[begin] for h in self.headings]
+        self.phase = 0.0
+
+    @staticmethod
+    def cadence(speed):
+        """Steps a second."""
+        return 0.0 if speed < 0.02 else min(0.95 + 0.73 * speed, 2.2 + 0.2 * speed)
+
+    @staticmethod
+    def whole_steps(cadences, rate):
+        """Stretched by a little, so that each stop comes between two steps, with both feet on the floor."""
+        out = []
+        while len(out) < len(cadences):
+            begin = end = len(out)
+            while end < len(cadences) and (cadences[end] > 0) == (cadences[begin] > 0):
+                end += 1
+            steps = sum(cadences[begin:end]) / rate
+            scale = max(round(steps), 1) / steps if steps > 0 else 1.0
+            out.extend(c * scale for c in cadences[begin:end])
+        return out
+
+    def stretch(self, t):
+        """The stretch at a time, and how long it has lasted."""
+        t = min(max(t, 0.0), self.duration - 1e-9)
+        for i, (seconds, _, _) in enumerate(self.stretches):
+            if t < seconds:
+                return i, t
+            t -= seconds
+        return len(self.stretches) - 1, self.stretches[-1][0]
+
+    def speed_at(self, t):
+        i, since = self.stretch(t)
+        before = self.stretches[max(i - 1, 0)][1]
+        speed = self.stretches[i][1]
+        return before + (speed - before) * smooth(since / self.BLEND)
+
+    def turn_at(self, t):
+        """Radians a second; slow at both ends of a stretch."""
+        if not 0 <= t < self.duration:
+            return 0.0
+        i, since = self.stretch(t)
+        seconds, _, degrees = self.stretches[i]
+        share = since / seconds
+        return math.radians(degrees) * 6 * share * (1 - share) / seconds
+
+    def sampled(self, values, t):
+        place = min(max((t + MARGIN) * RATE * SUBSTEPS, 0.0), len(values) - 1.0)
+        i = min(int(place), len(values) - 2)
+        return values[i] + (values[i + 1] - values[i]) * (place - i)
+
+    def heading(self, t):
+        return self.sampled(self.headings, t)
+
+    def steps(self, t):
+        return self.sampled(self.counts, t)
+
+    def time_of(self, s):
+        return bisect.bisect_left(self.counts, s) / (RATE * SUBSTEPS) - MARGIN
+
+
+def wandering(seed):
+    """Every way to go a few times, in an order that the seed decides."""
+    turns = [(2.4, 1.3, 0), (1.8, 1.3, 0), (2.0, 1.35, 35), (2.0, 1.35, -35), (2.2, 1.25, 65), (2.2, 1.25, -65),
+             (2.2, 1.1, 95), (2.2, 1.1, -95), (2.6, 1.0, 140), (2.6, 1.0, -140), (2.2, 0.8, 25), (2.2, 0.8, -25),
+             (2.0, 1.6, 15), (2.0, 1.6, -15)]
+    runs = [(2.6, 2.8, 0), (2.6, 2.8, 40), (2.6, 2.8, -40)]
+    stops = [(2.2, 0.0, 0), (3.0, 0.0, 0)]
+    chance = random.Random(seed)
+    stretches = []
+    for _ in range(2):
+        lap = turns + runs + stops + stops[:1]
+        chance.shuffle(lap)
+        stretches += lap
+    walk = (2.4, 1.3, 0)
+    return [walk, *stretches, walk]
+
+
 # ---- the body
 
 class Gait:
     """How a body moves along its path; angles in degrees, lengths in metres."""
 
-    def __init__(self, stance=0.6, lift=0.10, bob=0.02, crouch=0.0, lean=3.0, arms=24.0, elbow=18.0, yaw=6.0):
+    def __init__(self, stance=0.6, lift=0.10, bob=0.02, crouch=0.0, lean=3.0, arms=24.0, elbow=18.0, yaw=6.0, swing=1.0,
+                 roll=1.0):
         self.stance = stance  # share of a stride that a foot is on the floor
         self.lift = lift
         self.bob = bob
@@ -188,6 +297,19 @@ class Gait:
         self.arms = arms
         self.elbow = elbow
         self.yaw = yaw
+        self.swing = swing  # of arms, spine and pelvis, as a share
+        self.roll = roll  # of the feet, as a share
+
+    def mixed(self, other, share):
+        gait = Gait()
+        for name, value in vars(self).items():
+            setattr(gait, name, value + (getattr(other, name) - value) * share)
+        return gait
+
+
+WALK = Gait()
+RUN = Gait(stance=0.36, lift=0.26, bob=0.03, crouch=0.05, lean=10.0, arms=38.0, elbow=80.0, yaw=8.0)
+STAND = Gait(bob=0.0, crouch=-0.02, lean=1.0, elbow=22.0, swing=0.0, roll=0.0)
 
 
 def smooth(share):
@@ -201,9 +323,12 @@ class Walker:
         self.gait = gait
         chance = random.Random(seed)
         self.size = chance.uniform(0.97, 1.03)
-        self.arms = gait.arms * chance.uniform(0.9, 1.1)
+        self.arms = chance.uniform(0.9, 1.1)
         self.offsets = {name: scaled(offset, self.size) for name, _, offset in JOINTS}
         self.jitter = [chance.uniform(-0.015, 0.015) for _ in range(512)]
+
+    def gait_at(self, t):
+        return self.gait
 
     def plant(self, side, stride):
         """Where a foot stands in its so-manieth stance, and the heading it has there. side: +1 left, -1 right."""
@@ -211,13 +336,13 @@ class Walker:
             return self.path.beside(0.0, 0.1 * side), self.path.heading(0.0)
         # Sway is to the left where s is 0.5, so the left foot must carry the body there.
         s = 2 * stride + (0.5 if side > 0 else 1.5)
-        t = (s - self.path.phase) / self.path.steps_per_second
+        t = self.path.time_of(s)
         jitter = self.jitter[(2 * stride + (side > 0)) % len(self.jitter)]
         return self.path.beside(t - 0.03, (0.07 + jitter) * side), self.path.heading(t)
 
     def foot(self, side, t):
         """Ground point, height of the ankle, heading and pitch (degrees, toes down) of a foot."""
-        gait = self.gait
+        gait = self.gait_at(t)
         if self.path.speed == 0:
             point, heading = self.plant(side, 0)
             return point, ANKLE * self.size, heading, 0.0
@@ -229,13 +354,14 @@ class Walker:
         point, heading = self.plant(side, stride)
         if p < gait.stance:
             along = p / gait.stance
-            heel = smooth((along - 0.6) / 0.4)
-            return point, (ANKLE + 0.10 * heel) * self.size, heading, 45 * heel - 18 * (1 - smooth(along / 0.15))
+            heel = gait.roll * smooth((along - 0.6) / 0.4)
+            toes = gait.roll * (1 - smooth(along / 0.15))
+            return point, (ANKLE + 0.10 * heel) * self.size, heading, 45 * heel - 18 * toes
         share = smooth((p - gait.stance) / (1 - gait.stance))
         end, end_heading = self.plant(side, stride + 1)
-        height = ANKLE + 0.10 * (1 - share) + gait.lift * math.sin(math.pi * share)
+        height = ANKLE + 0.10 * gait.roll * (1 - share) + gait.lift * math.sin(math.pi * share)
         return (add(point, scaled(sub(end, point), share)), height * self.size,
-                heading + (end_heading - heading) * share, 45 * (1 - share) - 18 * share)
+                heading + (end_heading - heading) * share, gait.roll * (45 * (1 - share) - 18 * share))
 
     def leg(self, hip, knee_forward, ankle):
         """World rotations of upper and lower leg that bring the foot to `ankle`, or as near as it reaches."""
@@ -256,9 +382,9 @@ class Walker:
 
     def pose(self, t):
         """The translation of the hips, and the rotation of every joint that moves, relative to its parent."""
-        gait = self.gait
+        gait = self.gait_at(t)
         s = self.path.steps(t)
-        swing = math.sin(math.pi * (s - 0.5)) if self.path.speed else 0.12 * math.sin(1.3 * t)
+        swing = gait.swing * math.sin(math.pi * (s - 0.5)) if self.path.speed else 0.12 * math.sin(1.3 * t)
         breath = math.sin(2 * math.pi * 0.25 * t)
         x, y = self.path.hips(t) if self.path.speed else self.path.beside(t, 0.012 * math.sin(1.1 * t))
         height = self.offsets["Hips"][1] - gait.crouch
@@ -275,7 +401,7 @@ class Walker:
                  "Head": about(X, -gait.lean)}
         for side, name in ((1, "Left"), (-1, "Right")):
             out = about(Z, 11 * side)
-            local[name + "UpperArm"] = mul(out, about(X, -self.arms * swing * side + 0.2 * gait.elbow))
+            local[name + "UpperArm"] = mul(out, about(X, -gait.arms * self.arms * swing * side + 0.2 * gait.elbow))
             local[name + "LowerArm"] = about(X, -gait.elbow * (1 + 0.5 * swing * side))
             point, ankle_height, heading, pitch = self.foot(side, t)
             hip = add(hips, turned(pelvis, self.offsets[name + "UpperLeg"]))
@@ -285,6 +411,18 @@ class Walker:
             local[name + "LowerLeg"] = mul(inverse(upper), lower)
             local[name + "Foot"] = mul(inverse(lower), foot)
         return hips, local
+
+
+class Wanderer(Walker):
+    """Walks, runs or stands, as fast as its path goes."""
+
+    def __init__(self, path, seed):
+        super().__init__(path, WALK, seed)
+
+    def gait_at(self, t):
+        speed = self.path.speed_at(t)
+        walking = STAND.mixed(WALK, smooth(speed / 0.7))
+        return walking.mixed(RUN, smooth((speed - 1.6) / 1.0))
 
 
 # ---- the file
@@ -426,12 +564,11 @@ def glb(name, walker):
 
 def clips():
     """Name -> path and gait."""
-    run = Gait(stance=0.36, lift=0.26, bob=0.03, crouch=0.05, lean=10.0, arms=38.0, elbow=80.0, yaw=8.0)
     return {
         "walk": (Path(5.0, turning(-15, 1.0, 4.0)), Gait()),
         "bend": (Path(5.0, turning(35, 1.5, 3.5), phase=0.4), Gait()),
         "turn": (Path(4.0, turning(90, 1.2, 2.8), speed=1.1, steps_per_second=1.8), Gait()),
-        "run": (Path(3.0, turning(10, 0.5, 2.5), speed=3.0, steps_per_second=2.8), run),
+        "run": (Path(3.0, turning(10, 0.5, 2.5), speed=3.0, steps_per_second=2.8), RUN),
         "stand": (Path(3.0, turning(0, 0.0, 1.0), speed=0.0, steps_per_second=0.0), Gait(bob=0.0, crouch=-0.03, lean=1.0, elbow=26.0)),
         "circle": (Path(42.0, circling, speed=1.35), Gait()),
     }
@@ -447,6 +584,8 @@ def main():
     for name, (path, gait) in clips().items():
         walker = Walker(path, gait, f"{arguments.seed} {name}")
         (arguments.folder / f"{name}.glb").write_bytes(glb(name, walker))
+    seed = f"{arguments.seed} wander"
+    (arguments.folder / "wander.glb").write_bytes(glb("wander", Wanderer(Wander(wandering(seed)), seed)))
 
 
 if __name__ == "__main__":

@@ -7,8 +7,6 @@ namespace mobbscope::app {
 
 namespace {
 
-bool is_box_test(mobb::TestKind test) { return test != mobb::TestKind::time && test != mobb::TestKind::samples; }
-
 void count(mobb::TestCounts& counts, const mobb::Trace::Event& event) {
     switch (event.test) {
         case mobb::TestKind::time:
@@ -19,6 +17,12 @@ void count(mobb::TestCounts& counts, const mobb::Trace::Event& event) {
             break;
         case mobb::TestKind::obb3d:
             ++counts.obb3d;
+            break;
+        case mobb::TestKind::moving:
+            ++counts.moving;
+            break;
+        case mobb::TestKind::aabb:
+            ++counts.aabb;
             break;
         case mobb::TestKind::samples:
             counts.samples += static_cast<std::int64_t>(event.pairs.size());

@@ -85,17 +85,22 @@ Json query_json(const Session& session) {
     const mobb::TestCounts& tests = recorded->tests;
     const mobb::Trace::Event event = recorded->trace[session.step()];
     const std::vector<Subject> sides = subjects(session.fitted(), session.view());
-    return {
-        {"index", index},
-        {"a", query.a.name},
-        {"b", query.b.name},
-        {"collides", recorded->contact.has_value()},
-        {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
-        {"step", session.step()},
-        {"steps", recorded->trace.size()},
-        {"tests", {{"time", tests.time}, {"obb2d", tests.obb2d}, {"obb3d", tests.obb3d}, {"samples", tests.samples}}},
-        {"outcome", mobb::name(event.outcome)},
-        {"sentence", step_sentence(sides, recorded->trace, session.step())}};
+    return {{"index", index},
+            {"a", query.a.name},
+            {"b", query.b.name},
+            {"collides", recorded->contact.has_value()},
+            {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
+            {"step", session.step()},
+            {"steps", recorded->trace.size()},
+            {"tests",
+             {{"time", tests.time},
+              {"obb2d", tests.obb2d},
+              {"obb3d", tests.obb3d},
+              {"moving", tests.moving},
+              {"aabb", tests.aabb},
+              {"samples", tests.samples}}},
+            {"outcome", mobb::name(event.outcome)},
+            {"sentence", step_sentence(sides, recorded->trace, session.step())}};
 }
 
 Json crowd_json(const Session& session) {

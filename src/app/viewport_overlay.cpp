@@ -37,20 +37,37 @@ Subject subject_of(const FittedScene& fitted, const Participant& who) {
     return {fitted.placed(who), who.name, who.name, Rgba(1), 0};
 }
 
+const char* box_words(mobb::BoxKind kind) {
+    switch (kind) {
+        case mobb::BoxKind::obb2d:
+            return ", 2D box";
+        case mobb::BoxKind::obb3d:
+            return ", 3D box";
+        case mobb::BoxKind::moving:
+            return ", moving box";
+        case mobb::BoxKind::aabb:
+            return ", AABB";
+    }
+    return "";
+}
+
 void describe_node(Described& out, const Subject& subject, int index) {
     const mobb::PlacedTree& tree = subject.placed;
     const mobb::Node& node = tree.node(index);
     out.name = node_name(subject, index);
     const mobb::Box world = world_box(tree, index);
-    const bool upright = world.kind == mobb::BoxKind::obb2d;
-    out.facts = {
-        {"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + (upright ? ", 2D box" : ", 3D box")},
-        {"level", std::to_string(node.level)},
-        {"samples",
-         std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" + std::to_string(node.count) + ")"},
-        {"time", numbers("%.3f..%.3f s", tree.begin(node), tree.end(node))},
-        {"centre", numbers("%.3f, %.3f m", world.center.x, world.center.y)},
-        {upright ? "sides" : "sides 1, 2", numbers("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1])}};
+    const bool upright = world.kind != mobb::BoxKind::obb3d;
+    out.facts = {{"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + box_words(world.kind)},
+                 {"level", std::to_string(node.level)},
+                 {"samples", std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" +
+                                 std::to_string(node.count) + ")"},
+                 {"time", numbers("%.3f..%.3f s", tree.begin(node), tree.end(node))},
+                 {"centre", numbers("%.3f, %.3f m", world.center.x, world.center.y)},
+                 {upright ? "sides" : "sides 1, 2", numbers("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1])}};
+    if (world.kind == mobb::BoxKind::moving && world.half.z > 0) {
+        const glm::dvec2 velocity = world.drift * (tree.time_scale() / world.half.z);
+        out.facts.emplace_back("velocity", numbers("%.3f, %.3f m/s", velocity.x, velocity.y));
+    }
     if (!upright) out.facts.emplace_back("side 3", numbers("%.3f m", 2 * world.half[2], 0));
     const double volume = mobb::volume(node.box, tree.time_scale());
     double cylinders = 0;

@@ -49,26 +49,13 @@ Workload table2(const Arguments& arguments) {
     workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, arguments.seed)
                                              : clips_of(load_files(arguments.paths, arguments.import_options));
     workload.description = (arguments.paths.empty() ? std::string("built-in walks") : "clips from files") +
-                           ", at random places within 5 m, headings, and times within 1.2 clip lengths";
+                           ", at random places within 3.5 m, headings, and times within 1.2 clip lengths";
     workload.queries = random_queries(workload.clips, arguments.queries.value_or(100'000), {.seed = arguments.seed});
     return workload;
 }
 
 void show_progress(const std::string& doing, int done, int all) {
     std::cerr << "mobbscope: " << doing << ' ' << done + 1 << " of " << all << '\n';
-}
-
-int whole_number(const std::string& text, int least, int most) {
-    const std::optional<int> number = parse_int(text);
-    if (!number || *number < least || *number > most) {
-        throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(least) + " to " +
-                                    std::to_string(most));
-    }
-    return *number;
-}
-
-auto whole_number_within(int least, int most) {
-    return [least, most](const std::string& text) { return whole_number(text, least, most); };
 }
 
 void run(const Arguments& arguments) {

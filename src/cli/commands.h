@@ -11,6 +11,7 @@ void add_conflicts_command(CLI::App& program, int& status);
 void add_convert_command(CLI::App& program);
 void add_diff_command(CLI::App& program, int& status);
 void add_fit_command(CLI::App& program);
+void add_graph_command(CLI::App& program, int& status);
 void add_info_command(CLI::App& program);
 void add_query_command(CLI::App& program, int& status);
 void add_render_command(CLI::App& program);

@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
     add_convert_command(program);
     add_diff_command(program, status);
     add_fit_command(program);
+    add_graph_command(program, status);
     add_info_command(program);
     add_query_command(program, status);
     add_render_command(program);

@@ -9,6 +9,8 @@ namespace mobbscope::cli {
 
 void complain(std::string_view message) { std::cerr << "mobbscope: " + cleaned(message) + '\n' << std::flush; }
 
+void say(std::string_view message) { complain(message); }
+
 void warn(std::string_view message) { complain("warning: " + std::string(message)); }
 
 void flush_results() {

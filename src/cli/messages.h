@@ -7,6 +7,8 @@ namespace mobbscope::cli {
 
 /// One line on standard error, "mobbscope: ...", whatever characters a file's name or text brings along.
 void complain(std::string_view message);
+/// The same for how far long work is.
+void say(std::string_view message);
 /// The same for something that does not stop the program.
 void warn(std::string_view message);
 

@@ -163,6 +163,15 @@ void add_scene_file(CLI::App& command, std::filesystem::path& file) {
         ->required();
 }
 
+std::function<int(const std::string&)> whole_number_within(int least, int most) {
+    return [least, most](const std::string& text) {
+        const std::optional<int> number = parse_int(text);
+        if (number && *number >= least && *number <= most) return *number;
+        throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(least) + " to " +
+                                    std::to_string(most));
+    };
+}
+
 std::function<double(const std::string&)> number_within(double low, double high) {
     return [low, high](const std::string& text) {
         const std::optional<double> value = parse_double(text);

@@ -46,6 +46,9 @@ void add_scene_file(CLI::App& command, std::filesystem::path& file);
 /// Reads a finite number within [low, high]; throws std::invalid_argument.
 std::function<double(const std::string&)> number_within(double low, double high);
 
+/// Reads a whole number within [least, most]; throws std::invalid_argument.
+std::function<int(const std::string&)> whole_number_within(int least, int most);
+
 /// Reads text that stands for one of a few values, as `find` finds it; throws std::invalid_argument.
 template <class Find>
 auto one_of(Find find, const char* allowed) {

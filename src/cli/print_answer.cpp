@@ -48,8 +48,10 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
 void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer) {
     out << index << ": " << sentence(query, answer.contact) << '\n'
         << "   Tests: " << answer.tests.time << " of time, " << answer.tests.obb2d << " of 2D boxes, "
-        << answer.tests.obb3d << " of 3D boxes; " << counted(answer.tests.samples, "pair", "pairs")
-        << " of samples measured.\n";
+        << answer.tests.obb3d << " of 3D boxes";
+    if (answer.tests.moving > 0) out << ", " << answer.tests.moving << " of moving boxes";
+    if (answer.tests.aabb > 0) out << ", " << answer.tests.aabb << " of AABBs";
+    out << "; " << counted(answer.tests.samples, "pair", "pairs") << " of samples measured.\n";
     if (answer.contacts) {
         out << "   In contact:";
         if (answer.contacts->empty()) out << " never";

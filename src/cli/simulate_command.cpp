@@ -3,16 +3,23 @@
 #include <cli/options.h>
 #include <crowd/graph_walk.h>
 #include <crowd/simulate.h>
+#include <scene/crowd_run.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
+#include <scene/crowd_run.h>
 #include <scene/json_writer.h>
+#include <scene/load_files.h>
+#include <scene/motion_graph.h>
+#include <scene/scene_edits.h>
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -23,7 +30,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr int kMostRecorded = 100'000'000;
+constexpr int kMostRecorded = 10'000'000;
 
 struct Arguments {
     std::filesystem::path graph;
@@ -31,12 +38,12 @@ struct Arguments {
     std::filesystem::path record;
     int record_queries = 20'000;
     bool record_all_pairs = false;
+    std::optional<double> record_within;  ///< metres
     bool inline_samples = false;
     bool whole = false;
     bool json = false;
     SimulateOptions options;
     FitArguments fit;
-    ImportOptions import_options;
 };
 
 /// "30x40" in metres.
@@ -67,86 +74,175 @@ std::uint64_t parse_seed(const std::string& text) {
     return static_cast<std::uint64_t>(*value);
 }
 
-/// The scene whose graph is played.
+/// The scene whose graph is played, and nothing else of it.
 Scene load_graph(const Arguments& arguments) {
-    Scene scene = load(arguments.graph, arguments.import_options);
-    if (arguments.whole) scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
+    Scene scene = load_files({arguments.graph});
+    if (arguments.whole) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     if (!scene.graph) {
         throw InputError(arguments.graph.string(), "",
-                         "has no motion graph; make one with graph build, or let every clip follow every other with "
-                         "--whole");
+                         "there is no motion graph; make one with graph build, or give --whole, and every clip may "
+                         "follow every other");
     }
+    scene.agents.clear();
+    scene.queries.clear();
+    scene.view = {};
+    scene.fit = arguments.fit.over(scene.fit);
     return scene;
 }
 
-/// One line on standard error that is written over and over; on a file or a pipe it would be a mess, so only the end is
-/// told there.
-class ProgressLine {
-  public:
-    void operator()(const SimulationCounts& counts, double seconds) {
-        std::cerr << "\rsimulated " << brief(counts.simulated) << " of " << brief(seconds) << " s, " << counts.choices
-                  << " choices, " << counts.off_floor + counts.colliding << " of " << counts.candidates
-                  << " candidates discarded, " << counts.pivots << " pivots, " << counts.forced << " forced"
-                  << std::flush;
+void check_outputs(const Arguments& arguments) {
+    for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
+        if (!out.empty() && lower_extension(out) != ".json") {
+            throw InputError(out.string(), "", "a run and its queries are scenes; name it .json");
+        }
     }
-};
-
-void print_text(const SimulationCounts& c, double seconds, const QuerySample* sample) {
-    (void)sample;
-    std::cout << c.agents << " agents, " << c.plays << " plays, " << c.choices << " choices\n"
-              << c.candidates << " candidates: " << c.off_floor << " leave the floor, " << c.colliding << " collide\n"
-              << c.pivots << " pivots, " << c.forced << " forced\n"
-              << c.queries << " queries in " << brief(seconds)
-              << " s: " << brief(static_cast<double>(c.queries) / seconds) << " a second\n";
+    if (arguments.out == arguments.record) {
+        throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
+    }
 }
 
-void run(Arguments& arguments) {
+/// Writes a scene; its relative sources lead where they led.
+void write_scene(Scene scene, const std::filesystem::path& file, bool inline_samples) {
+    move_to_file(scene, file);
+    write_file(file, to_json(scene, inline_samples));
+}
+
+/// A line on standard error for every tenth of a run.
+class Report {
+  public:
+    explicit Report(double seconds) : seconds_(seconds) {}
+
+    void operator()(const SimulationCounts& counts) {
+        if (counts.simulated < next_ * seconds_ / 10) return;
+        next_ = std::floor(counts.simulated * 10 / seconds_) + 1;
+        say("simulated " + brief(counts.simulated) + " of " + brief(seconds_) + " s: " + std::to_string(counts.agents) +
+            " agents, " + std::to_string(counts.choices) + " choices, " +
+            std::to_string(counts.off_floor + counts.colliding) + " candidates discarded, " +
+            std::to_string(counts.pivots) + " pivots, " + std::to_string(counts.forced) + " forced");
+    }
+
+  private:
+    double seconds_;
+    double next_ = 1;  ///< tenth
+};
+
+struct Summary {
+    SimulationCounts counts;
+    double seconds = 0;                                               ///< that the run took
+    std::optional<std::pair<std::size_t, std::uint64_t>> recorded{};  ///< queries written, of how many
+};
+
+double queries_per_second(const Summary& summary) {
+    return summary.seconds > 0 ? static_cast<double>(summary.counts.queries) / summary.seconds : 0;
+}
+
+void print_json(const Summary& summary) {
+    const SimulationCounts& c = summary.counts;
+    JsonWriter out(std::cout);
+    const auto count = [&out](const char* key, auto value) { out.member(key, static_cast<std::int64_t>(value)); };
+    out.begin_object();
+    count("agents", c.agents);
+    out.member("simulated_seconds", c.simulated);
+    count("plays", c.plays);
+    count("choices", c.choices);
+    count("candidates", c.candidates);
+    count("off_floor", c.off_floor);
+    count("colliding", c.colliding);
+    count("in_the_way", c.in_the_way);
+    count("pivots", c.pivots);
+    count("forced", c.forced);
+    count("queries", c.queries);
+    count("most_held", c.most_held);
+    out.member("wall_seconds", summary.seconds);
+    out.member("queries_per_second", queries_per_second(summary));
+    if (summary.recorded) {
+        count("recorded", summary.recorded->first);
+        count("recorded_of", summary.recorded->second);
+    }
+    out.end_object();
+}
+
+void print_text(const Summary& summary) {
+    const SimulationCounts& c = summary.counts;
+    std::cout << counted(c.agents, "agent", "agents") << " for " << brief(c.simulated)
+              << " s: " << counted(c.plays, "play", "plays") << ", " << counted(c.choices, "choice", "choices") << '\n'
+              << counted(c.candidates, "candidate", "candidates") << ": " << c.off_floor << " leave the floor, "
+              << c.colliding << " collide, " << c.in_the_way << " end in somebody's way\n"
+              << counted(c.pivots, "pivot", "pivots") << ", " << c.forced << " forced\n"
+              << counted(c.queries, "query", "queries") << " in " << brief(summary.seconds)
+              << " s: " << brief(std::round(queries_per_second(summary))) << " a second\n";
+    if (summary.recorded) {
+        std::cout << "recorded " << counted(static_cast<long long>(summary.recorded->first), "query", "queries")
+                  << " of " << summary.recorded->second << '\n';
+    }
+}
+
+void run(const Arguments& arguments) {
+    check_outputs(arguments);
     Scene scene = load_graph(arguments);
-    scene.agents.clear();
-    scene.queries.clear();
-    scene.fit = arguments.fit.over(scene.fit);
     const FittedScene fitted(scene, scene.fit);
     const MoveSet moves(fitted);
     std::optional<QuerySample> sample;
     if (!arguments.record.empty()) {
-        sample.emplace(arguments.record_all_pairs ? Recorded::all : Recorded::asked,
-                       static_cast<std::size_t>(arguments.record_queries), arguments.options.seed);
+        const bool all = arguments.record_all_pairs || arguments.record_within;
+        sample.emplace(all ? Recorded::all : Recorded::asked, static_cast<std::size_t>(arguments.record_queries),
+                       arguments.options.seed,
+                       arguments.record_within.value_or(std::numeric_limits<double>::infinity()));
     }
+    Summary summary;
     const auto begin = std::chrono::steady_clock::now();
-    Simulation simulation = simulate(moves, arguments.options, sample ? &*sample : nullptr);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    scene.crowd = std::make_shared<CrowdRun>(std::move(simulation.run));
-    write_file(arguments.out, to_json(scene, arguments.inline_samples));
-    if (sample) write_file(arguments.record, to_json(sample->workload(scene), arguments.inline_samples));
-    print_text(simulation.counts, seconds, sample ? &*sample : nullptr);
+    Simulation simulation =
+        simulate(moves, arguments.options, sample ? &*sample : nullptr, Report(arguments.options.seconds));
+    summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    summary.counts = simulation.counts;
+    if (sample) {
+        summary.recorded.emplace(sample->size(), sample->offered());
+        write_scene(sample->workload(scene), arguments.record, arguments.inline_samples);
+    }
+    scene.crowd = std::make_shared<const CrowdRun>(std::move(simulation.run));
+    write_scene(std::move(scene), arguments.out, arguments.inline_samples);
+    arguments.json ? print_json(summary) : print_text(summary);
     flush_results();
 }
 
 }  // namespace
 
 void add_simulate_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("simulate", "Let a crowd play a motion graph without collisions");
+    CLI::App* command =
+        program.add_subcommand("simulate", "Let a crowd play the moves of a motion graph, and nobody collide");
     const auto arguments = std::make_shared<Arguments>();
     SimulateOptions& options = arguments->options;
-    command->add_option("GRAPH", arguments->graph, "A scene with a graph (.json)")->required();
-    command->add_option("-o,--output", arguments->out, "Where to")->required()->type_name("OUT.json");
+    add_parsed(*command, "GRAPH", arguments->graph, parse_file_name,
+               "A scene with a motion graph; with --whole clips, or a folder of them", "")
+        ->required();
+    add_parsed(*command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json")->required();
     add_parsed(*command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
     add_parsed(*command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
     add_parsed(*command, "--seconds", options.seconds, number_within(1e-3, kMaxSimulated), "Simulated (120)", "S");
     add_parsed(*command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
     add_parsed(*command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
                "Seconds before its begin at which a move is chosen (0)", "S");
+    add_parsed(*command, "--grace", options.grace, number_within(0, kMaxSimulated),
+               "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
     add_parsed(*command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
-    add_parsed(*command, "--record", arguments->record, parse_file_name, "Queries of the run as a scene", "FILE.json");
+    CLI::Option* record = add_parsed(*command, "--record", arguments->record, parse_file_name,
+                                     "Queries that the trees were asked, as a scene", "FILE.json");
     add_parsed(*command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
-               "How many, drawn at random; 0 is all (20000)", "N");
-    command->add_flag("--record-all-pairs", arguments->record_all_pairs,
-                      "Draw from candidate against everybody, not only from what the trees were asked");
-    command->add_flag("--whole", arguments->whole, "Every clip whole, and each may follow each");
-    command->add_flag("--inline", arguments->inline_samples, "Samples inside what is written");
+               "How many, drawn at random; 0 is all (20000)", "N")
+        ->needs(record);
+    CLI::Option* all = command
+                           ->add_flag("--record-all-pairs", arguments->record_all_pairs,
+                                      "Draw from every candidate against everybody, as without a broad phase")
+                           ->needs(record);
+    add_parsed(*command, "--record-within", arguments->record_within, number_within(0, kMaxArea),
+               "Draw from every candidate against all that lies within M metres, at any time", "M")
+        ->needs(record)
+        ->excludes(all);
+    command->add_flag("--whole", arguments->whole, "Instead of a graph: every clip whole, and each may follow each");
+    command->add_flag("--inline", arguments->inline_samples,
+                      "Samples stand in what is written, which then needs no other file");
     command->add_flag("--json", arguments->json, "The summary as JSON");
     add_fit_options(*command, arguments->fit);
-    add_import_options(*command, arguments->import_options);
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -2,10 +2,11 @@
 #include <crowd/counter_random.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
-#include <string>
+#include <utility>
 
 namespace mobbscope {
 
@@ -16,41 +17,61 @@ constexpr double kHalfTurn = 180;
 
 class Chooser {
   public:
-    Chooser(const MoveSet& moves, const World& world, const CrowdRun& run, const ChoicePoint& point,
+    Chooser(const MoveSet& moves, const Commitments& committed, const CrowdRun& run, const ChoicePoint& point,
             std::vector<AskedPair>* asked)
-        : moves_(moves), world_(world), run_(run), point_(point), asked_(asked) {
+        : moves_(moves), committed_(committed), run_(run), point_(point), asked_(asked) {
         choice_.time = point.time;
     }
 
     Choice choose() {
+        std::size_t straight = 0;
         for (double turn = 0; turn <= kHalfTurn; turn += kTurnStep) {
             const std::size_t first = choice_.candidates.size();
             add_candidates(turn);
             if (turn > 0 && turn < kHalfTurn) add_candidates(-turn);
+            if (turn == 0) straight = choice_.candidates.size();
             judge(first);
-            if (take_free(first)) {
-                choice_.kind = turn == 0 ? PlayKind::chosen : PlayKind::pivoted;
-                return std::move(choice_);
-            }
+            if (take_clear()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
         }
-        choice_.kind = PlayKind::forced;
+        if (take_free()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
         take_latest();
-        return std::move(choice_);
+        return done(PlayKind::forced);
     }
 
   private:
     void add_candidates(double turn) {
         const Play& before = point_.before;
         for (const int move : moves_.after(before.move)) {
-            Candidate candidate{move, turn, moves_.following(before.move, before.placement, move, turn), false, {}};
+            Candidate candidate{move,  turn, moves_.following(before.move, before.placement, move, turn),
+                                false, {},   false};
             const mobb::PlacedClip placed(moves_.tree(move).clip(), candidate.placement);
             candidate.leaves_floor = leaves_floor(placed, moves_.outline(move), run_.area);
             choice_.candidates.push_back(std::move(candidate));
         }
     }
 
-    /// Asks the world about the candidates from `first` on whose leaves_floor is `off_floor`.
-    void judge(std::size_t first, bool off_floor = false) {
+    Choice done(PlayKind kind) {
+        choice_.kind = kind;
+        return std::move(choice_);
+    }
+
+    /// Those from `first` on.
+    void judge(std::size_t first) {
+        find_rulings(first, false);
+        std::vector<Play> plays;
+        std::vector<std::size_t> of;
+        for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
+            const Candidate& candidate = choice_.candidates[i];
+            if (!candidate.is_free()) continue;
+            plays.push_back({candidate.move, candidate.placement, point_.time, PlayKind::chosen});
+            of.push_back(i);
+        }
+        const std::vector<bool> in_the_way = committed_.in_the_way(point_.agent, point_.play, plays);
+        for (std::size_t i = 0; i < of.size(); ++i) choice_.candidates[of[i]].in_the_way = in_the_way[i];
+    }
+
+    /// Of the candidates from `first` on that leave the floor, or of those that do not.
+    void find_rulings(std::size_t first, bool off_floor) {
         std::vector<Motion> motions;
         std::vector<std::size_t> of;
         for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
@@ -59,83 +80,99 @@ class Chooser {
             motions.push_back(moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement));
             of.push_back(i);
         }
-        const std::vector<Verdict> verdicts = world_.verdicts(motions, asked_);
+        const std::vector<Verdict> verdicts = committed_.motions().verdicts(motions, asked_);
         for (std::size_t i = 0; i < of.size(); ++i) {
             choice_.candidates[of[i]].ruling = verdicts[i].ruling;
             choice_.queries += verdicts[i].asked;
         }
     }
 
-    bool take_free(std::size_t first) {
-        std::vector<std::size_t> free;
-        for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
-            if (choice_.candidates[i].is_free()) free.push_back(i);
-        }
-        if (free.empty()) return false;
-        CounterRandom random(run_.seed, static_cast<std::uint64_t>(point_.agent),
-                             static_cast<std::uint64_t>(point_.play));
-        choice_.taken = free[random.below(static_cast<std::uint32_t>(free.size()))];
-        return true;
+    /// One of the free candidates that are in nobody's way. At most one heading either way has any: the last.
+    bool take_clear() {
+        return take_one_of([](const Candidate& candidate) { return candidate.is_free() && !candidate.in_the_way; });
     }
 
-    /// Of equals the one with the least turn, as turns grow with the index.
+    /// One of the free candidates at the least turn that has any.
+    bool take_free() {
+        const auto first = std::find_if(choice_.candidates.begin(), choice_.candidates.end(),
+                                        [](const Candidate& candidate) { return candidate.is_free(); });
+        if (first == choice_.candidates.end()) return false;
+        const double turn = std::abs(first->turn_deg);
+        return take_one_of(
+            [turn](const Candidate& candidate) { return candidate.is_free() && std::abs(candidate.turn_deg) == turn; });
+    }
+
     void take_latest() {
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
         const bool some_stay = std::any_of(choice_.candidates.begin(), choice_.candidates.end(), stays);
-        if (!some_stay) judge(0, true);
+        if (!some_stay) find_rulings(0, true);
+        const auto contact = [](const Candidate& candidate) {
+            return candidate.ruling ? candidate.ruling->contact.time : std::numeric_limits<double>::infinity();
+        };
         double latest = -std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < choice_.candidates.size(); ++i) {
-            const Candidate& candidate = choice_.candidates[i];
-            if (some_stay && candidate.leaves_floor) continue;
-            const double time =
-                candidate.ruling ? candidate.ruling->contact.time : std::numeric_limits<double>::infinity();
-            if (time > latest) {
-                latest = time;
-                choice_.taken = i;
-            }
+        for (const Candidate& candidate : choice_.candidates) {
+            if (candidate.leaves_floor != some_stay) latest = std::max(latest, contact(candidate));
         }
+        take_one_of([&](const Candidate& candidate) {
+            return candidate.leaves_floor != some_stay && contact(candidate) == latest;
+        });
+    }
+
+    template <class Allowed>
+    bool take_one_of(const Allowed& allowed) {
+        std::vector<std::size_t> indices;
+        for (std::size_t i = 0; i < choice_.candidates.size(); ++i) {
+            if (allowed(choice_.candidates[i])) indices.push_back(i);
+        }
+        if (indices.empty()) return false;
+        CounterRandom random(run_.seed, static_cast<std::uint64_t>(point_.agent),
+                             static_cast<std::uint64_t>(point_.play));
+        choice_.taken = indices[random.below(static_cast<std::uint32_t>(indices.size()))];
+        return true;
     }
 
     const MoveSet& moves_;
-    const World& world_;
+    const Commitments& committed_;
     const CrowdRun& run_;
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
     Choice choice_;
 };
 
-/// Commits what `agent` was committed to before a choice and still is at it.
-void commit_plays(World& world, const MoveSet& moves, const CrowdRun& run, int agent, const ChoicePoint& point) {
+/// Commits what `agent` was committed to at a choice: what has not ended, and its last play before the choice, which
+/// may end at it.
+void commit_plays(Commitments& committed, const MoveSet& moves, const CrowdRun& run, int agent,
+                  const ChoicePoint& point) {
     const std::vector<Play>& plays = run.agents[static_cast<std::size_t>(agent)].plays;
     const auto made_before = [&](const Play& play) {
         return play.chosen_at < point.time || (play.chosen_at == point.time && agent < point.agent);
     };
+    const auto ended = [&](const Play& play) { return play.placement.start + moves.duration(play.move) <= point.time; };
     // First plays come before all choices.
     const auto end = std::partition_point(plays.begin() + 1, plays.end(), made_before);
-    for (auto play = end; play != plays.begin();) {
-        --play;
-        if (play->placement.start + moves.duration(play->move) <= point.time) break;
-        world.commit(moves.motion(agent, static_cast<int>(play - plays.begin()), play->move, play->placement));
+    const auto begin = std::partition_point(plays.begin(), end - 1, ended);
+    for (auto play = begin; play != end; ++play) {
+        committed.commit(agent, static_cast<int>(play - plays.begin()), *play);
     }
 }
 
 }  // namespace
 
-Choice choose(const MoveSet& moves, const World& world, const CrowdRun& run, const ChoicePoint& point,
+Choice choose(const MoveSet& moves, const Commitments& committed, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked) {
-    return Chooser(moves, world, run, point, asked).choose();
+    return Chooser(moves, committed, run, point, asked).choose();
 }
 
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
     const std::vector<Play>& plays = run.agents.at(static_cast<std::size_t>(agent)).plays;
     const Play& made = plays.at(static_cast<std::size_t>(play));
-    if (play == 0) return {made.chosen_at, made.kind, {{made.move, 0, made.placement, false, {}}}, 0, 0};
+    if (play == 0) return {made.chosen_at, made.kind, {{made.move, 0, made.placement, false, {}, false}}, 0, 0};
     const ChoicePoint point{agent, play, plays[static_cast<std::size_t>(play) - 1], made.chosen_at};
-    World world(run.area);
+    Commitments committed(moves, run.area, run.grace);
     for (int other = 0; other < static_cast<int>(run.agents.size()); ++other) {
-        if (other != agent) commit_plays(world, moves, run, other, point);
+        if (other != agent) commit_plays(committed, moves, run, other, point);
     }
-    return choose(moves, world, run, point);
+    return choose(moves, committed, run, point);
 }
 
 }  // namespace mobbscope

@@ -1,9 +1,9 @@
 /// A choice point: all moves that may follow, what becomes of each, and which is taken (paper, Section 5).
 #pragma once
 
-#include <crowd/move_set.h>
-#include <crowd/world.h>
+#include <crowd/commitments.h>
 #include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 
 #include <optional>
 #include <vector>
@@ -16,7 +16,8 @@ struct Candidate {
     double turn_deg = 0;  ///< on the spot before it, counter-clockwise
     mobb::Placement placement;
     bool leaves_floor = false;
-    std::optional<Ruling> ruling;  ///< who rules it out; not asked of one that leaves the floor, but in a forced choice
+    std::optional<Ruling> ruling;  ///< who rules it out; of those that leave the floor only a forced choice asks
+    bool in_the_way = false;       ///< free, but somebody may be left without a choice, see Commitments::in_the_way
 
     bool is_free() const { return !leaves_floor && !ruling; }
 };
@@ -24,9 +25,9 @@ struct Candidate {
 struct Choice {
     double time = 0;  ///< global seconds at which it is made
     PlayKind kind = PlayKind::chosen;
-    std::vector<Candidate> candidates;  ///< straight on; after a pivot those at every turn that was looked at
+    std::vector<Candidate> candidates;  ///< straight on, then those at every turn that was looked at
     std::size_t taken = 0;              ///< index into candidates
-    std::int64_t queries = 0;           ///< pairs that the trees were asked
+    std::int64_t queries = 0;           ///< pairs that the trees were asked to discard candidates
 };
 
 /// Who chooses, and after what.
@@ -37,15 +38,17 @@ struct ChoicePoint {
     double time = 0;
 };
 
-/// Makes a choice: of the candidates that stay on the floor and collide with nobody one is taken at random. If there is
-/// none, the agent turns on the spot, by 15 degrees either way, by 30, and so on, until there is one (a pivot). If
-/// there is none at any heading, the candidate whose first contact is latest is taken, one that stays on the floor if
-/// any does (forced). The random number depends on (seed, agent, play) alone.
-Choice choose(const MoveSet& moves, const World& world, const CrowdRun& run, const ChoicePoint& point,
+/// Makes a choice: of the candidates that stay on the floor, collide with nobody and end in nobody's way one is taken
+/// at random (chosen). If there is none, the agent turns on the spot, by 15 degrees either way, by 30, and so on, until
+/// there is one (pivoted); if there is none at any heading, then with the least turn that leaves one at all, in the way
+/// or not. If every candidate at every heading is discarded, one whose first contact is latest is taken at random, from
+/// those that stay on the floor if any does (forced). The random number depends on (seed, agent, play) alone.
+Choice choose(const MoveSet& moves, const Commitments& committed, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked = nullptr);
 
-/// The choice of one play of a run, made again exactly as it was. Of an agent's first play, which was placed and not
-/// chosen, it has that play as its only candidate. Throws std::out_of_range if there is no such agent or play.
+/// The choice of one play of a run, made again exactly as it was if the run is as it was simulated. Of an agent's first
+/// play, which was placed and not chosen, it has that play as its only candidate. Throws std::out_of_range if there is
+/// no such agent or play.
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play);
 
 }  // namespace mobbscope

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crowd/choice.h>
+#include <scene/crowd_run.h>
 
 #include <optional>
 

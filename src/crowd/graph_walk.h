@@ -1,6 +1,7 @@
 /// Walking through a motion graph, move after move.
 #pragma once
 
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 
 #include <vector>

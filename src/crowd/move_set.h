@@ -4,6 +4,7 @@
 #include <crowd/outline.h>
 #include <crowd/world.h>
 #include <scene/fitted_scene.h>
+#include <scene/motion_graph.h>
 
 #include <vector>
 

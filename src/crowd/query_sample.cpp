@@ -20,6 +20,7 @@ void QuerySample::offer(std::span<const AskedPair> pairs) {
 
 Scene QuerySample::workload(const Scene& scene) const {
     Scene out;
+    out.file = scene.file;
     out.clips = scene.clips;
     out.fit = scene.fit;
     std::unordered_map<const mobb::Clip*, int> index;

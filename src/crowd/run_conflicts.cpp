@@ -1,5 +1,7 @@
 #include <crowd/run_conflicts.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <cstddef>

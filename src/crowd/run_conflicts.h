@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crowd/conflicts.h>
+#include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
 
 #include <vector>

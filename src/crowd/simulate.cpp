@@ -17,8 +17,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kTries = 2000;         // places looked at for an agent before the floor counts as full
-constexpr std::int64_t kTold = 4096;  // choices between two reports of progress
+constexpr int kTries = 2000;      // places looked at for an agent before the floor counts as full
+constexpr double kReports = 100;  // of progress in a run
 
 struct Turn {
     double time;
@@ -30,12 +30,17 @@ class Simulator {
   public:
     Simulator(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample,
               const SimulationProgress& progress)
-        : moves_(moves), options_(options), sample_(sample), progress_(progress), world_(options.area) {
+        : moves_(moves),
+          options_(options),
+          sample_(sample),
+          progress_(progress),
+          world_(moves, options.area, options.grace) {
         CrowdRun& run = simulation_.run;
         run.area = options.area;
         run.seconds = options.seconds;
         run.seed = options.seed;
         run.ahead = options.ahead;
+        run.grace = options.grace;
     }
 
     Simulation run() {
@@ -46,7 +51,7 @@ class Simulator {
             turns_.pop();
             world_.forget_before(turn.time);
             make_choice(turn);
-            if (counts().choices % kTold == 0) tell(turn.time);
+            if (turn.time >= counts().simulated + options_.seconds / kReports) tell(turn.time);
         }
         tell(options_.seconds);
         return std::move(simulation_);
@@ -88,10 +93,10 @@ class Simulator {
             placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
             const Motion motion = moves_.motion(agent, 0, move, placement);
             if (leaves_floor({motion.tree->clip(), placement}, *motion.outline, options_.area)) continue;
-            if (world_.verdicts({&motion, 1}).front().ruling) continue;
+            if (world_.motions().verdicts({&motion, 1}).front().ruling) continue;
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
             ++counts().agents;
-            commit({move, placement, placement.start, PlayKind::chosen}, motion);
+            commit(agent, {move, placement, placement.start, PlayKind::chosen});
             return;
         }
         throw InputError("there is no room for agent " + std::to_string(agent + 1) + " of " +
@@ -108,14 +113,14 @@ class Simulator {
         const Candidate& taken = choice.candidates[choice.taken];
         if (sample_) record(choice, point);
         count(choice);
-        commit({taken.move, taken.placement, turn.time, choice.kind},
-               moves_.motion(turn.agent, point.play, taken.move, taken.placement));
+        commit(turn.agent, {taken.move, taken.placement, turn.time, choice.kind});
     }
 
     void record(const Choice& choice, const ChoicePoint& point) {
         if (sample_->recorded() == Recorded::all) {
             for (const Candidate& candidate : choice.candidates) {
-                world_.all_pairs(moves_.motion(point.agent, point.play, candidate.move, candidate.placement), asked_);
+                world_.motions().all_pairs(moves_.motion(point.agent, point.play, candidate.move, candidate.placement),
+                                           sample_->range(), asked_);
             }
         }
         sample_->offer(asked_);
@@ -130,6 +135,8 @@ class Simulator {
                 ++c.off_floor;
             } else if (candidate.ruling) {
                 ++c.colliding;
+            } else if (candidate.in_the_way) {
+                ++c.in_the_way;
             }
         }
         c.queries += choice.queries;
@@ -137,20 +144,21 @@ class Simulator {
         if (choice.kind == PlayKind::forced) ++c.forced;
     }
 
-    void commit(const Play& play, const Motion& motion) {
-        simulation_.run.agents[static_cast<std::size_t>(motion.agent)].plays.push_back(play);
+    void commit(int agent, const Play& play) {
+        std::vector<Play>& plays = simulation_.run.agents[static_cast<std::size_t>(agent)].plays;
+        world_.commit(agent, static_cast<int>(plays.size()), play);
+        plays.push_back(play);
         ++counts().plays;
-        world_.commit(motion);
-        counts().most_held = std::max(counts().most_held, world_.size());
+        counts().most_held = std::max(counts().most_held, world_.motions().size());
         const double end = play.placement.start + moves_.duration(play.move);
-        if (end < options_.seconds) turns_.push({std::max(0.0, end - options_.ahead), motion.agent});
+        if (end < options_.seconds) turns_.push({std::max(0.0, end - options_.ahead), agent});
     }
 
     const MoveSet& moves_;
     const SimulateOptions& options_;
     QuerySample* sample_;
     const SimulationProgress& progress_;
-    World world_;
+    Commitments world_;
     Simulation simulation_;
     std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
     std::vector<AskedPair> asked_;  ///< at the present choice point
@@ -172,6 +180,7 @@ void check(const SimulateOptions& options) {
     check_range("seconds", options.seconds, kLeast, kMaxSimulated);
     check_range("seed", static_cast<double>(options.seed), 0, static_cast<double>(kMaxSeed));
     check_range("ahead", options.ahead, 0, kMaxSimulated);
+    check_range("grace", options.grace, 0, kMaxSimulated);
     check_range("threads", options.threads, 0, kMaxThreads);
 }
 

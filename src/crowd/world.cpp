@@ -47,7 +47,7 @@ World::Held World::held(const Motion& motion) const {
     return {motion, bounds, cells_of(bounds), placed.time(0), placed.time(placed.count())};
 }
 
-void World::commit(const Motion& motion) {
+std::size_t World::commit(const Motion& motion) {
     auto slot = static_cast<std::uint32_t>(motions_.size());
     if (free_.empty()) {
         motions_.push_back(held(motion));
@@ -61,17 +61,27 @@ void World::commit(const Motion& motion) {
         for (int x = range.x0; x <= range.x1; ++x) cells_[index(x, y)].push_back(slot);
     }
     endings_.push({motions_[slot].end, slot});
+    return slot;
+}
+
+void World::withdraw(std::size_t committed) {
+    // Its slot is used again when it would have ended.
+    take_from_cells(static_cast<std::uint32_t>(committed));
+    motions_[committed].motion.tree = nullptr;
+}
+
+void World::take_from_cells(std::uint32_t slot) {
+    const CellRange& range = motions_[slot].cells;
+    for (int y = range.y0; y <= range.y1; ++y) {
+        for (int x = range.x0; x <= range.x1; ++x) std::erase(cells_[index(x, y)], slot);
+    }
 }
 
 void World::forget_before(double now) {
     while (!endings_.empty() && endings_.top().end <= now) {
         const std::uint32_t slot = endings_.top().slot;
         endings_.pop();
-        const CellRange& range = motions_[slot].cells;
-        for (int y = range.y0; y <= range.y1; ++y) {
-            for (int x = range.x0; x <= range.x1; ++x) std::erase(cells_[index(x, y)], slot);
-        }
-        motions_[slot].motion.tree = nullptr;
+        if (motions_[slot].motion.tree) withdraw(slot);
         free_.push_back(slot);
     }
 }
@@ -110,7 +120,7 @@ Verdict World::verdict(const Motion& candidate, std::vector<AskedPair>* asked) c
         if (verdict.ruling && other.begin > verdict.ruling->contact.time) break;
         ++verdict.asked;
         if (asked) asked->push_back({candidate, other.motion});
-        const auto contact = mobb::query(placed, {*other.motion.tree, other.motion.placement});
+        const auto contact = mobb::query(placed, mobb::PlacedTree(*other.motion.tree, other.motion.placement));
         if (!contact) continue;
         if (!verdict.ruling || std::tuple(contact->time, other.motion.agent) <
                                    std::tuple(verdict.ruling->contact.time, verdict.ruling->agent)) {
@@ -132,9 +142,13 @@ std::vector<Verdict> World::verdicts(std::span<const Motion> candidates, std::ve
     return out;
 }
 
-void World::all_pairs(const Motion& candidate, std::vector<AskedPair>& pairs) const {
+void World::all_pairs(const Motion& candidate, double range, std::vector<AskedPair>& pairs) const {
+    FloorRect reach = candidate.outline->bounds(candidate.placement);
+    reach.low -= range;
+    reach.high += range;
     for (const Held& other : motions_) {
-        if (other.motion.tree && other.motion.agent != candidate.agent) pairs.push_back({candidate, other.motion});
+        if (!other.motion.tree || other.motion.agent == candidate.agent || !reach.meets(other.bounds)) continue;
+        pairs.push_back({candidate, other.motion});
     }
 }
 

@@ -51,18 +51,22 @@ class World {
     /// The grid covers the floor from -area/2 to area/2, in metres; what lies beyond is kept at its edges.
     explicit World(glm::dvec2 area);
 
-    void commit(const Motion& motion);
+    /// Returns what `withdraw` takes until the motion is forgotten.
+    std::size_t commit(const Motion& motion);
+    /// From now on the motion rules nothing out.
+    void withdraw(std::size_t committed);
     /// Motions that end at `now` or before are dropped: no candidate that begins later can meet them.
     void forget_before(double now);
-    std::size_t size() const { return motions_.size() - free_.size(); }  ///< motions held
+    std::size_t size() const { return motions_.size() - free_.size(); }  ///< motions not forgotten
 
     /// For each candidate the motion of another agent that rules it out, or none. With `asked`, the pairs that the
     /// trees were asked are appended to it, in the order of candidates. The same on any number of threads.
     std::vector<Verdict> verdicts(std::span<const Motion> candidates, std::vector<AskedPair>* asked = nullptr) const;
 
-    /// Appends every pair of the candidate and a motion of another agent: what the trees were asked if there were no
-    /// grid.
-    void all_pairs(const Motion& candidate, std::vector<AskedPair>& pairs) const;
+    /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
+    /// metres of its own, at whatever time: what the trees were asked if nobody looked at times before them, and with
+    /// an infinite range if there were no grid at all.
+    void all_pairs(const Motion& candidate, double range, std::vector<AskedPair>& pairs) const;
 
   private:
     struct CellRange {
@@ -85,6 +89,7 @@ class World {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
     Held held(const Motion& motion) const;
+    void take_from_cells(std::uint32_t slot);
     /// Slots of the motions of other agents whose bounds and times meet the candidate's, earliest first.
     void find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const;
     Verdict verdict(const Motion& candidate, std::vector<AskedPair>* asked) const;

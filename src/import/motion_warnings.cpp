@@ -36,6 +36,11 @@ double median(std::vector<double> values) {
 /// Three decimals: millimetres, milliseconds.
 std::string rounded(double value) { return short_double(std::round(value * 1000) / 1000); }
 
+/// The sample that shows what comes after the first pose.
+std::size_t next_pose(const mobb::Clip& clip) {
+    return std::max<std::size_t>(static_cast<std::size_t>(std::lround(kPoseTime / clip.dt())), 1);
+}
+
 class Inspection {
   public:
     Inspection(const mobb::Clip& clip, double begin, SourceFacts& facts)
@@ -47,13 +52,12 @@ class Inspection {
     }
 
     void first_pose() {
-        const auto next = std::max<std::size_t>(static_cast<std::size_t>(std::lround(kPoseTime / clip_.dt())), 1);
-        if (next >= samples_.size()) return;
-        const double first = radii_.front();
-        if (first < kPoseShare * median(radii_) || first - radii_[next] < kPoseChange) return;
+        if (!begins_in_other_pose(clip_)) return;
+        const std::size_t next = next_pose(clip_);
         say("sample 0" + file_frames(0, 0) +
-            " is a pose that the motion does not begin with, such as a T-pose: its radius is " + rounded(first) +
-            " m, that of sample " + std::to_string(next) + " " + rounded(radii_[next]) + " m; begin later with trim");
+            " is a pose that the motion does not begin with, such as a T-pose: its radius is " +
+            rounded(radii_.front()) + " m, that of sample " + std::to_string(next) + " " + rounded(radii_[next]) +
+            " m; begin later with trim");
     }
 
     void jumps() {
@@ -154,6 +158,16 @@ class Inspection {
 };
 
 }  // namespace
+
+bool begins_in_other_pose(const mobb::Clip& clip) {
+    const std::size_t next = next_pose(clip);
+    if (next >= clip.samples().size()) return false;
+    std::vector<double> radii;
+    for (const mobb::Disk& disk : clip.samples()) radii.push_back(disk.r);
+    const double first = radii.front();
+    const double change = first - radii[next];
+    return first >= kPoseShare * median(std::move(radii)) && change >= kPoseChange;
+}
 
 void add_motion_warnings(const mobb::Clip& clip, double begin, const Skeleton* skeleton, SourceFacts& facts) {
     Inspection inspection(clip, begin, facts);

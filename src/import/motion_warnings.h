@@ -6,6 +6,10 @@
 
 namespace mobbscope {
 
+/// Whether the first sample is a pose that the motion does not begin with, such as a T-pose: a body far wider than in
+/// the next pose and in the usual one.
+bool begins_in_other_pose(const mobb::Clip& clip);
+
 /// Adds to facts.warnings, one sentence each with sample numbers: a first sample in the T-pose, jumps, paths that stay
 /// in place, bodies below the floor, sizes and speeds that no person has. `begin`: seconds from the first key to the
 /// first sample; `skeleton` may be null.

@@ -74,6 +74,21 @@ struct Rotation {
     Rotation operator*(const Rotation& other) const { return {c * other.c - s * other.s, s * other.c + c * other.s}; }
 };
 
+/// A disk that is rotated about the origin and then translated. Every sample that is placed comes through here, so that
+/// all of them agree bit for bit.
+inline Disk placed(const Disk& d, const Rotation& rotation, glm::dvec2 translate) {
+    return {rotation.c * d.x - rotation.s * d.y + translate.x, rotation.s * d.x + rotation.c * d.y + translate.y, d.r};
+}
+
+/// A frame on the floor and in time as it is placed in the world, and how far what lies in it reaches.
+struct PlacedFrame {
+    Rotation rotation;
+    glm::dvec2 translate{0, 0};  ///< metres
+    double start = 0;            ///< seconds, global
+    double reach = 0;            ///< an upper bound in metres on |x| + |y| + r over the disks, in the frame
+    double duration = 0;         ///< seconds from the frame's time 0 to the end of the last disk
+};
+
 /// A clip seen through a placement: samples in world metres and global seconds. It refers to the clip, which must
 /// outlive it and stay where it is. Requires is_valid(placement).
 class PlacedClip {
@@ -82,32 +97,32 @@ class PlacedClip {
         : samples_(clip.samples().data()),
           dt_(clip.dt()),
           clip_(&clip),
-          placement_(placement),
-          rotation_(Rotation::from_degrees(placement.rotate_deg)) {
+          rotate_deg_(placement.rotate_deg),
+          frame_{Rotation::from_degrees(placement.rotate_deg), placement.translate, placement.start, clip.reach(),
+                 clip.duration()} {
         assert(is_valid(placement));
     }
     PlacedClip(const Clip&&, const Placement&) = delete;
 
     const Clip& clip() const { return *clip_; }
     int count() const { return clip_->count(); }
-    const Placement& placement() const { return placement_; }
-    const Rotation& rotation() const { return rotation_; }
+    int first() const { return 0; }      ///< index of the first sample
+    int end() const { return count(); }  ///< one past the index of the last
+    Placement placement() const { return {frame_.translate, rotate_deg_, frame_.start}; }
+    const Rotation& rotation() const { return frame_.rotation; }
+    const PlacedFrame& frame() const { return frame_; }
 
     /// Sample i in the world.
-    Disk disk(int i) const {
-        const Disk& d = samples_[i];
-        return {rotation_.c * d.x - rotation_.s * d.y + placement_.translate.x,
-                rotation_.s * d.x + rotation_.c * d.y + placement_.translate.y, d.r};
-    }
+    Disk disk(int i) const { return placed(samples_[i], frame_.rotation, frame_.translate); }
     /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
-    double time(int i) const { return placement_.start + i * dt_; }
+    double time(int i) const { return frame_.start + i * dt_; }
 
   private:
     const Disk* samples_;
     double dt_;
     const Clip* clip_;
-    Placement placement_;
-    Rotation rotation_;
+    double rotate_deg_;
+    PlacedFrame frame_;
 };
 
 }  // namespace mobb

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <vector>
 
 namespace mobb {
 
@@ -49,8 +50,9 @@ std::array<Extent, 2> extents(std::span<const Disk> disks, glm::dvec2 u) {
     return e;
 }
 
-Box rectangle_over_time(const Clip& clip, SampleRange range, glm::dvec2 u, double w) {
-    const std::array<Extent, 2> e = extents(disks(clip, range), u);
+/// Around `disks`, over the time of the range.
+Box rectangle_over_time(const Clip& clip, SampleRange range, std::span<const Disk> disks, glm::dvec2 u, double w) {
+    const std::array<Extent, 2> e = extents(disks, u);
     const glm::dvec2 v = perpendicular(u);
     const glm::dvec2 center = e[0].center() * u + e[1].center() * v;
     const double t0 = w * (range.first * clip.dt());
@@ -61,6 +63,10 @@ Box rectangle_over_time(const Clip& clip, SampleRange range, glm::dvec2 u, doubl
     box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{v.x, v.y, 0}, glm::dvec3{0, 0, 1}};
     box.half = {e[0].half(), e[1].half(), (t1 - t0) / 2};
     return box;
+}
+
+Box rectangle_over_time(const Clip& clip, SampleRange range, glm::dvec2 u, double w) {
+    return rectangle_over_time(clip, range, disks(clip, range), u, w);
 }
 
 /// The box along given axes. A cylinder spans p.a -/+ r*|a_xy|, and its height w*dt shifts one side by w*dt*a_t: Fig.
@@ -103,8 +109,8 @@ glm::dvec2 travel_axis(std::span<const Disk> disks) {
 }
 
 /// The direction of the smallest rectangle around the disks, over 1,800 angles in a quarter turn and the two other
-/// axes.
-glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks) {
+/// axes, of which `along` is one.
+glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along) {
     constexpr int kCells = 90;
     constexpr int kAnglesPerCell = 20;
     constexpr double kCellAngle = std::numbers::pi / 2 / kCells;
@@ -115,7 +121,7 @@ glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks) {
     };
     const auto direction = [](double angle) { return glm::dvec2{std::cos(angle), std::sin(angle)}; };
 
-    glm::dvec2 best = travel_axis(disks);
+    glm::dvec2 best = along;
     double best_area = std::numeric_limits<double>::infinity();
     const auto consider = [&](glm::dvec2 u, glm::dvec2 side) {
         if (side.x * side.y < best_area) {
@@ -151,16 +157,36 @@ glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks) {
     return best;
 }
 
-glm::dvec2 axis_2d(std::span<const Disk> disks, Axes axes) {
+/// Of a rectangle around the disks of a walk along `along`.
+glm::dvec2 axis_2d(std::span<const Disk> disks, glm::dvec2 along, Axes axes) {
     switch (axes) {
         case Axes::endpoints:
-            return travel_axis(disks);
+            return along;
         case Axes::covariance:
             return principal_axis(disks);
         case Axes::minarea:
-            return smallest_rectangle_axis(disks);
+            return smallest_rectangle_axis(disks, along);
     }
     return {1, 0};
+}
+
+/// How far the centre of a moving box gets in one hold interval, metres.
+glm::dvec2 drift_per_sample(std::span<const Disk> disks) {
+    return disks.size() == 1 ? glm::dvec2(0) : travel(disks) / static_cast<double>(disks.size() - 1);
+}
+
+/// Where the disks are against a centre that drifts so and passes the origin in the middle of their time: each at the
+/// beginning and at the end of its hold interval, over which it stands still and so falls behind.
+std::vector<Disk> drifting(std::span<const Disk> disks, glm::dvec2 per_sample) {
+    std::vector<Disk> out;
+    out.reserve(2 * disks.size());
+    double samples = -0.5 * static_cast<double>(disks.size());
+    for (const Disk& d : disks) {
+        out.push_back({d.x - samples * per_sample.x, d.y - samples * per_sample.y, d.r});
+        samples += 1;
+        out.push_back({d.x - samples * per_sample.x, d.y - samples * per_sample.y, d.r});
+    }
+    return out;
 }
 
 bool is_along_time(glm::dvec3 a) { return std::hypot(a.x, a.y) < 1e-12; }
@@ -241,7 +267,8 @@ Box smallest_box(const Clip& clip, SampleRange range, double w) {
 
 Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
     assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
-    return rectangle_over_time(clip, range, axis_2d(disks(clip, range), axes), time_scale);
+    const std::span<const Disk> all = disks(clip, range);
+    return rectangle_over_time(clip, range, axis_2d(all, travel_axis(all), axes), time_scale);
 }
 
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
@@ -255,6 +282,38 @@ Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale)
             return box_along_or_upright(clip, range, covariance_axes(clip, range, time_scale), time_scale);
         case Axes::minarea:
             return smallest_box(clip, range, time_scale);
+    }
+    return {};
+}
+
+Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
+    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
+    const std::span<const Disk> all = disks(clip, range);
+    const glm::dvec2 per_sample = drift_per_sample(all);
+    const std::vector<Disk> seen = drifting(all, per_sample);
+    Box box = rectangle_over_time(clip, range, seen, axis_2d(seen, travel_axis(all), axes), time_scale);
+    box.kind = BoxKind::moving;
+    box.drift = 0.5 * range.count * per_sample;
+    return box;
+}
+
+Box fit_aabb(const Clip& clip, SampleRange range, double time_scale) {
+    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
+    Box box = rectangle_over_time(clip, range, {1, 0}, time_scale);
+    box.kind = BoxKind::aabb;
+    return box;
+}
+
+Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double time_scale) {
+    switch (kind) {
+        case BoxKind::obb2d:
+            return fit_obb2d(clip, range, axes, time_scale);
+        case BoxKind::obb3d:
+            return fit_obb3d(clip, range, axes, time_scale);
+        case BoxKind::moving:
+            return fit_moving(clip, range, axes, time_scale);
+        case BoxKind::aabb:
+            return fit_aabb(clip, range, time_scale);
     }
     return {};
 }

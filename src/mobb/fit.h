@@ -42,4 +42,15 @@ Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale)
 /// paper's UMOBB rows come from.
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale);
 
+/// The tight moving rectangle, under the same conditions. Its centre moves at (last centre - first)/((count - 1)*dt), 0
+/// for one sample, and it holds each disk at both ends of the disk's hold interval. `axes` are those of the disks as
+/// they drift in the moving frame; endpoints keep the direction of travel. `time_scale` scales the time axis only.
+Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale);
+
+/// The tight rectangle along the clip's x and y, extruded over its time, under the same conditions.
+Box fit_aabb(const Clip& clip, SampleRange range, double time_scale);
+
+/// The box of that kind; an aabb has no axes to choose.
+Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double time_scale);
+
 }  // namespace mobb

@@ -9,10 +9,10 @@ namespace mobb {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kBoxKindNames{"obb2d", "obb3d"};
+constexpr std::array<std::string_view, 4> kBoxKindNames{"obb2d", "obb3d", "moving", "aabb"};
 constexpr std::array<std::string_view, 3> kAxesNames{"endpoints", "covariance", "minarea"};
-constexpr std::array<std::string_view, 4> kTreeKindNames{"mobb", "umobb", "hybrid1", "hybrid2"};
-constexpr std::array<std::string_view, 4> kTestKindNames{"time", "obb2d", "obb3d", "samples"};
+constexpr std::array<std::string_view, 6> kTreeKindNames{"mobb", "umobb", "hybrid1", "hybrid2", "moving", "aabb"};
+constexpr std::array<std::string_view, 6> kTestKindNames{"time", "obb2d", "obb3d", "moving", "aabb", "samples"};
 constexpr std::array<std::string_view, 5> kOutcomeNames{"disjoint_in_time", "separated", "overlap", "hit", "no_hit"};
 
 /// `names` lists the names of the enumerators 0, 1, 2, ...

@@ -10,12 +10,16 @@
 
 namespace mobb {
 
-/// How many tests of each kind a query made: what the paper's tables count.
+/// How many tests of each kind a query made: what the paper's tables count, and those of the kinds beyond it.
 struct TestCounts {
     std::int64_t time = 0;
     std::int64_t obb2d = 0;
     std::int64_t obb3d = 0;
+    std::int64_t moving = 0;
+    std::int64_t aabb = 0;
     std::int64_t samples = 0;  ///< pairs (i, j) whose distance was measured
+
+    std::int64_t boxes() const { return obb2d + obb3d + moving + aabb; }
 
     friend bool operator==(const TestCounts&, const TestCounts&) = default;
 };
@@ -60,6 +64,12 @@ struct Statistics : ObserverBase {
                 break;
             case BoxKind::obb3d:
                 ++tests.obb3d;
+                break;
+            case BoxKind::moving:
+                ++tests.moving;
+                break;
+            case BoxKind::aabb:
+                ++tests.aabb;
                 break;
         }
     }

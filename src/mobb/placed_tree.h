@@ -17,6 +17,11 @@ class PlacedTree {
     const Node& node(int i) const { return nodes_[i]; }
     double time_scale() const { return tree_->time_scale(); }
     const PlacedClip& placed_clip() const { return placed_; }
+    const PlacedFrame& frame() const { return placed_.frame(); }
+    const Box& box(const Node& node) const { return node.box; }
+    /// The placed samples below a node, with their indices in the clip.
+    const PlacedClip& samples(const Node&) const { return placed_; }
+    const PlacedClip& samples() const { return placed_; }
     /// Global time, as the samples that bound the node have it: so a node is never apart from what its samples meet.
     double begin(const Node& node) const { return placed_.time(node.first); }
     double end(const Node& node) const { return placed_.time(node.end()); }

@@ -5,12 +5,16 @@
 #include <mobb/box.h>
 #include <mobb/clip.h>
 
+#include <cmath>
+
 namespace mobb {
 
 /// The result of a box test. axis < 0: no axis separates the boxes.
 struct Separation {
-    int axis = -1;   ///< 2D: A0 A1 B0 B1 are 0..3. 3D: A0-2 are 0..2, B0-2 are 3..5, Ai x Bj is 6 + 3i + j
-    double gap = 0;  ///< metres along that unit axis, without slack
+    /// 2D and moving: A0 A1 B0 B1 are 0..3. 3D: A0-2 are 0..2, B0-2 are 3..5, Ai x Bj is 6 + 3i + j. Along the axes:
+    /// the world's x and y are 0 and 1.
+    int axis = -1;
+    double gap = 0;  ///< metres along that unit axis, without slack; moving: the least over the common time
 
     bool separated() const { return axis >= 0; }
 };
@@ -19,7 +23,7 @@ struct Separation {
 class RelativeFrame {
   public:
     /// `time_scale` w is that of both trees.
-    RelativeFrame(const PlacedClip& a, const PlacedClip& b, double time_scale);
+    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale);
 
     glm::dvec2 direction(glm::dvec2 v) const { return rotation_(v); }
     glm::dvec3 direction(glm::dvec3 v) const {
@@ -29,14 +33,18 @@ class RelativeFrame {
         const glm::dvec3 d = direction(p);
         return {d.x + offset_.x, d.y + offset_.y, d.z + offset_.z};
     }
+    const Rotation& rotation() const { return rotation_; }
     double slack2d() const { return slack2d_; }
     double slack3d() const { return slack3d_; }
+    /// Of times, in metres of w*t.
+    double slack_time() const { return slack_time_; }
 
   private:
     Rotation rotation_;  ///< from B's frame to A's
     glm::dvec3 offset_;  ///< B's origin in A's frame, (x, y, w*t)
     double slack2d_;
     double slack3d_;
+    double slack_time_;
 };
 
 /// Edge-edge axes (cross products of unit axes) shorter than this are skipped.
@@ -49,5 +57,20 @@ Separation separate_obb2d(const Box& a, const Box& b, const RelativeFrame& frame
 /// than kShortestEdgeAxis is skipped: its direction is poorly known and the face axes next to it decide almost the
 /// same.
 Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame);
+
+/// Two moving boxes: four axes. Separated along one if, at both ends of their common time, one box lies on the same
+/// side of the other: conservative, as between the ends the gap is linear in time. Both of one time scale.
+Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& frame);
+
+/// Two boxes along x and y of their clips, each wrapped again along x and y of the world: two axes. `to_world` is A's
+/// rotation.
+Separation separate_aabb(const Box& a, const Box& b, const Rotation& to_world, const RelativeFrame& frame);
+
+/// Half extents along the world's x and y of a rectangle along x and y of a frame that `to_world` turns.
+inline glm::dvec2 half_in_world(const Box& box, const Rotation& to_world) {
+    const double c = std::abs(to_world.c);
+    const double s = std::abs(to_world.s);
+    return {c * box.half.x + s * box.half.y, s * box.half.x + c * box.half.y};
+}
 
 }  // namespace mobb

@@ -14,11 +14,31 @@ TestKind test_kind(BoxKind kind) {
             return TestKind::obb2d;
         case BoxKind::obb3d:
             return TestKind::obb3d;
+        case BoxKind::moving:
+            return TestKind::moving;
+        case BoxKind::aabb:
+            return TestKind::aabb;
     }
     return TestKind::obb3d;
 }
 
 }  // namespace
+
+int axis_count(TestKind test) {
+    switch (test) {
+        case TestKind::obb2d:
+        case TestKind::moving:
+            return 4;
+        case TestKind::obb3d:
+            return 15;
+        case TestKind::aabb:
+            return 2;
+        case TestKind::time:
+        case TestKind::samples:
+            break;
+    }
+    return 0;
+}
 
 Trace::Event Trace::operator[](int step) const& {
     assert(step >= 0 && step < size());
@@ -47,6 +67,8 @@ TestCounts Trace::counts() const {
     counts.time = std::ranges::count(test_, TestKind::time);
     counts.obb2d = std::ranges::count(test_, TestKind::obb2d);
     counts.obb3d = std::ranges::count(test_, TestKind::obb3d);
+    counts.moving = std::ranges::count(test_, TestKind::moving);
+    counts.aabb = std::ranges::count(test_, TestKind::aabb);
     counts.samples = static_cast<std::int64_t>(pool_.size());
     return counts;
 }

@@ -13,8 +13,12 @@
 
 namespace mobb {
 
-enum class TestKind : std::uint8_t { time, obb2d, obb3d, samples };
+enum class TestKind : std::uint8_t { time, obb2d, obb3d, moving, aabb, samples };
 enum class Outcome : std::uint8_t { disjoint_in_time, separated, overlap, hit, no_hit };
+
+inline bool is_box_test(TestKind test) { return test != TestKind::time && test != TestKind::samples; }
+/// How many axes a box test may try (see Separation); 0 of another test.
+int axis_count(TestKind test);
 
 std::string_view name(TestKind test);
 std::string_view name(Outcome outcome);

@@ -10,25 +10,43 @@
 
 namespace mobb {
 
-/// What the traversal reads: nodes (box, children, sample range) and the placed samples below them.
+/// Placed samples: sample i is a disk in the world that holds over [time(i), time(i + 1)).
+template <class S>
+concept PlacedSamples = requires(const S& samples, int i) {
+    { samples.disk(i) } -> std::convertible_to<Disk>;
+    { samples.time(i) } -> std::convertible_to<double>;
+};
+
+/// Placed samples [first(), end()) that the direct search can run through.
+template <class S>
+concept SampleSource = PlacedSamples<S> && requires(const S& samples) {
+    { samples.first() } -> std::convertible_to<int>;
+    { samples.end() } -> std::convertible_to<int>;
+};
+
+/// What the traversal reads: nodes (children, sample range), their boxes, and the placed samples below them. Node 0 is
+/// the root. A node may be a view that the source makes as it is asked for; so may its box.
 template <class S>
 concept NodeSource = requires(const S& source, int i) {
     { source.node(i).is_leaf() } -> std::convertible_to<bool>;
     { source.node(i).children[0] } -> std::convertible_to<int>;
     { source.node(i).first } -> std::convertible_to<int>;
     { source.node(i).end() } -> std::convertible_to<int>;
-    { source.node(i).box } -> std::convertible_to<const Box&>;
+    { source.box(source.node(i)) } -> std::convertible_to<const Box&>;
     { source.begin(source.node(i)) } -> std::convertible_to<double>;
     { source.end(source.node(i)) } -> std::convertible_to<double>;
-    { source.placed_clip() } -> std::convertible_to<const PlacedClip&>;
+    { source.samples(source.node(i)) } -> PlacedSamples;
+    { source.samples() } -> SampleSource;
+    { source.frame() } -> std::convertible_to<const PlacedFrame&>;
     { source.time_scale() } -> std::convertible_to<double>;
 };
 
 /// The first index i in [first, last) with time(i + 1) > t, or last: a binary search on hold intervals.
-inline int first_ending_after(const PlacedClip& clip, int first, int last, double t) {
+template <PlacedSamples S>
+int first_ending_after(const S& samples, int first, int last, double t) {
     while (first < last) {
         const int middle = first + (last - first) / 2;
-        if (clip.time(middle + 1) > t) {
+        if (samples.time(middle + 1) > t) {
             last = middle;
         } else {
             first = middle + 1;
@@ -45,8 +63,8 @@ struct PairVisit {
 
 /// Visits, in order of time, every pair (i, j) of samples from [first_a, end_a) x [first_b, end_b) whose hold intervals
 /// overlap, measures their distance, and calls on_hit(i, j) on those that collide, until it returns true.
-template <TraversalObserver Observer, class OnHit>
-PairVisit visit_sample_pairs(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b, int end_b,
+template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer, class OnHit>
+PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int first_b, int end_b,
                              [[maybe_unused]] Observer& observer, OnHit& on_hit) {
     PairVisit visit;
     const double begin = std::max(a.time(first_a), b.time(first_b));
@@ -88,7 +106,7 @@ class Traversal {
     Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
         : a_(a),
           b_(b),
-          frame_(a.placed_clip(), b.placed_clip(), a.time_scale()),
+          frame_(a.frame(), b.frame(), a.time_scale()),
           same_scale_(a.time_scale() == b.time_scale()),
           observer_(observer),
           on_hit_(on_hit) {}
@@ -104,7 +122,7 @@ class Traversal {
         const auto& nb = b_.node(ib);
         if constexpr (Observer::watches) observer_.enter(ia, ib);
         bool stop = false;
-        if (may_meet_in_time(na, nb) && may_meet_in_space(na.box, nb.box)) {
+        if (may_meet_in_time(na, nb) && may_meet_in_space(a_.box(na), b_.box(nb))) {
             if (na.is_leaf()) {
                 stop = nb.is_leaf() ? test_samples(na, nb) : walk<Side::b>(ia, nb);
             } else if (nb.is_leaf()) {
@@ -151,19 +169,33 @@ class Traversal {
 
     bool may_meet_in_space(const Box& a, const Box& b) {
         if (a.kind == BoxKind::obb2d && b.kind == BoxKind::obb2d) {
-            const Separation separation = separate_obb2d(a, b, frame_);
-            if constexpr (Observer::watches) observer_.box_test(BoxKind::obb2d, separation);
-            return !separation.separated();
+            return may_meet(BoxKind::obb2d, separate_obb2d(a, b, frame_));
         }
         // Boxes of different time scales live in different spaces: never compared, the pair counts as overlapping.
-        if (!same_scale_) return true;
-        const Separation separation = separate_obb3d(a, b, frame_);
-        if constexpr (Observer::watches) observer_.box_test(BoxKind::obb3d, separation);
+        if (a.kind <= BoxKind::obb3d && b.kind <= BoxKind::obb3d) {
+            return !same_scale_ || may_meet(BoxKind::obb3d, separate_obb3d(a, b, frame_));
+        }
+        if (a.kind == BoxKind::aabb && b.kind == BoxKind::aabb) {
+            return may_meet(BoxKind::aabb, separate_aabb(a, b, a_.frame().rotation, frame_));
+        }
+        // Against another kind a box along the axes is an obb2d.
+        if (is_upright(a) && is_upright(b)) return may_meet(BoxKind::obb2d, separate_obb2d(a, b, frame_));
+        if (a.kind == BoxKind::moving && b.kind == BoxKind::moving) {
+            return !same_scale_ || may_meet(BoxKind::moving, separate_moving(a, b, frame_));
+        }
+        // A moving box and one of another kind have no test in common, and the rest is not worth one.
+        return true;
+    }
+
+    static bool is_upright(const Box& box) { return box.kind == BoxKind::obb2d || box.kind == BoxKind::aabb; }
+
+    bool may_meet([[maybe_unused]] BoxKind test, const Separation& separation) {
+        if constexpr (Observer::watches) observer_.box_test(test, separation);
         return !separation.separated();
     }
 
     bool test_samples(const auto& na, const auto& nb) {
-        const PairVisit pairs = visit_sample_pairs(a_.placed_clip(), na.first, na.end(), b_.placed_clip(), nb.first,
+        const PairVisit pairs = visit_sample_pairs(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first,
                                                    nb.end(), observer_, on_hit_);
         if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
         return pairs.stopped;

@@ -9,24 +9,28 @@ namespace mobb {
 
 namespace {
 
-bool is_free_box(TreeKind kind, int level) {
+BoxKind box_kind(TreeKind kind, int level) {
     switch (kind) {
         case TreeKind::mobb:
-            return false;
+            return BoxKind::obb2d;
         case TreeKind::umobb:
-            return true;
+            return BoxKind::obb3d;
         case TreeKind::hybrid1:
-            return level > 0;
+            return level > 0 ? BoxKind::obb3d : BoxKind::obb2d;
         case TreeKind::hybrid2:
-            return level == 0;
+            return level > 0 ? BoxKind::obb2d : BoxKind::obb3d;
+        case TreeKind::moving:
+            return BoxKind::moving;
+        case TreeKind::aabb:
+            return BoxKind::aabb;
     }
-    return false;
+    return BoxKind::obb2d;
 }
 
 }  // namespace
 
 void check(const FitOptions& options) {
-    if (options.tree > TreeKind::hybrid2) throw std::invalid_argument("tree is no TreeKind");
+    if (options.tree > TreeKind::aabb) throw std::invalid_argument("tree is no TreeKind");
     if (options.axes > Axes::minarea) throw std::invalid_argument("axes is no Axes");
     if (options.leaf < 1) throw std::invalid_argument("leaf must be at least 1");
     if (options.levels < 0) throw std::invalid_argument("levels must be 0 (all) or more");
@@ -49,8 +53,7 @@ Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), op
 int Tree::build(SampleRange range, int parent, int level) {
     const int index = static_cast<int>(nodes_.size());
     Node node;
-    node.box = is_free_box(options_.tree, level) ? fit_obb3d(*clip_, range, options_.axes, options_.time_scale)
-                                                 : fit_obb2d(*clip_, range, options_.axes, options_.time_scale);
+    node.box = fit(box_kind(options_.tree, level), *clip_, range, options_.axes, options_.time_scale);
     node.first = range.first;
     node.count = range.count;
     node.parent = parent;

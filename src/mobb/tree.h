@@ -1,4 +1,4 @@
-/// MOBB and UMOBB trees (paper, Sections 3 and 4) over one clip.
+/// MOBB and UMOBB trees (paper, Sections 3 and 4), and two kinds beyond the paper, over one clip.
 #pragma once
 
 #include <mobb/box.h>
@@ -18,6 +18,8 @@ enum class TreeKind : std::uint8_t {
     umobb,    ///< free boxes in space-time
     hybrid1,  ///< MOBB root, UMOBB below (paper, Section 5)
     hybrid2,  ///< UMOBB root, MOBB below
+    moving,   ///< 2D oriented boxes that move with the walk
+    aabb,     ///< boxes along the axes: the baseline of other fields
 };
 
 struct FitOptions {
@@ -33,7 +35,7 @@ struct FitOptions {
 /// Largest time_scale taken (m/s); the smallest is its inverse.
 inline constexpr double kMaxTimeScale = 1e6;
 
-/// As in files and on the command line: "mobb", "umobb", "hybrid1", "hybrid2".
+/// As in files and on the command line: "mobb", "umobb", "hybrid1", "hybrid2", "moving", "aabb".
 std::string_view name(TreeKind kind);
 std::optional<TreeKind> tree_kind_from_name(std::string_view name);
 std::span<const std::string_view> tree_kind_names();

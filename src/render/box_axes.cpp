@@ -12,7 +12,7 @@ namespace mobbscope {
 namespace {
 
 /// Of one box, in a test.
-int own_axes(mobb::TestKind test) { return test == mobb::TestKind::obb2d ? 2 : 3; }
+int own_axes(mobb::TestKind test) { return test == mobb::TestKind::obb3d ? 3 : 2; }
 
 glm::dvec3 axis_of(const mobb::Box& box, int i) { return box.axes[static_cast<std::size_t>(i)]; }
 
@@ -21,13 +21,12 @@ glm::dvec3 axis_of(const mobb::Box& box, int i) { return box.axes[static_cast<st
 Projection project(const mobb::Box& box, glm::dvec3 axis) {
     const double center = glm::dot(box.center, axis);
     double reach = 0;
-    for (int i = 0; i < 3; ++i) reach += box.half[i] * std::abs(glm::dot(box.axes[static_cast<std::size_t>(i)], axis));
+    for (const glm::dvec3& edge : mobb::half_edges(box)) reach += std::abs(glm::dot(edge, axis));
     return {center - reach, center + reach};
 }
 
-int axis_count(mobb::TestKind test) { return test == mobb::TestKind::obb2d ? 4 : 15; }
-
 AxisOrigin axis_origin(mobb::TestKind test, int axis) {
+    if (test == mobb::TestKind::aabb) return {};
     const int own = own_axes(test);
     if (axis < own) return {axis, -1};
     if (axis < 2 * own) return {-1, axis - own};
@@ -43,6 +42,7 @@ bool is_tried(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int a
 
 glm::dvec3 test_axis(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis) {
     const AxisOrigin origin = axis_origin(test, axis);
+    if (origin.a < 0 && origin.b < 0) return axis == 0 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     if (origin.b < 0) return axis_of(a, origin.a);
     if (origin.a < 0) return axis_of(b, origin.b);
     return glm::normalize(glm::cross(axis_of(a, origin.a), axis_of(b, origin.b)));

@@ -13,21 +13,21 @@ struct Projection {
     double min = 0;
     double max = 0;
     double middle() const { return 0.5 * (min + max); }
+    /// Counted from another place.
+    Projection minus(double origin) const { return {min - origin, max - origin}; }
 };
 
 /// `axis`: unit.
 Projection project(const mobb::Box& box, glm::dvec3 axis);
 
-/// How many axes there are at most: 4 of an obb2d test, 15 of an obb3d test.
-int axis_count(mobb::TestKind test);
-
 /// Whether the test tries that axis: it skips edge-edge axes that are too short. Both boxes in one frame.
 bool is_tried(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis);
 
-/// The direction of axis number `axis` of a box test (see mobb::Separation), unit; of one that it tries.
+/// The direction of axis number `axis` of a box test (see mobb::Separation), unit; of one that it tries. Both boxes in
+/// one frame; of an aabb test in the world's directions.
 glm::dvec3 test_axis(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis);
 
-/// Where an axis comes from: an axis of A's box, one of B's, or one of each, across both. -1: none.
+/// Where an axis comes from: an axis of A's box, one of B's, one of each, across both, or none: the world's. -1: none.
 struct AxisOrigin {
     int a = -1;
     int b = -1;

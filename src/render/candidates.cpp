@@ -1,5 +1,7 @@
 #include <render/candidates.h>
 #include <render/query_sentence.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>
 

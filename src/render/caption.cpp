@@ -36,8 +36,10 @@ void cut(std::vector<std::string>& lines, std::size_t most, float text_size, flo
     for (std::string& line : lines) line = fit_text(line, FontFace::text, text_size, room);
 }
 
-/// "mobb" as "MOBB", "hybrid1" as it stands.
+/// "mobb" as "MOBB", "moving" as "moving boxes", "hybrid1" as it stands.
 std::string tree_title(mobb::TreeKind kind) {
+    if (kind == mobb::TreeKind::moving) return "moving boxes";
+    if (kind == mobb::TreeKind::aabb) return "AABB";
     std::string text(mobb::name(kind));
     if (text.find("mobb") != std::string::npos) {
         std::transform(text.begin(), text.end(), text.begin(),

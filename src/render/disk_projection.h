@@ -27,7 +27,7 @@ struct DiskExtents {
     double radius = 0;      ///< metres
     double height = 0;      ///< w*dt, metres
     /// Of a free box along its axes 0 and 2, as axis 1 lies on the floor, where the disk reaches its radius either way;
-    /// of an upright box along the two on the floor.
+    /// of any other box along the two on the floor.
     std::array<AxisExtent, 2> along;
 };
 

@@ -1,7 +1,9 @@
 #include <import/text.h>
 #include <mobb/clip.h>
 #include <render/follow.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 
 #include <glm/common.hpp>
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <set>
 
 namespace mobbscope {
@@ -120,6 +121,18 @@ bool has_sheared_boxes(const DrawList& list, std::span<const Subject> subjects) 
     });
 }
 
+/// What kinds of boxes look like that the paper does not have.
+std::optional<std::string> beyond_the_paper(const DrawList& list, std::span<const Subject> subjects) {
+    for (const BoxInstance& box : list.boxes) {
+        if (!box.pickable) continue;
+        const mobb::PlacedTree& tree = subjects[static_cast<std::size_t>(box.id.participant)].placed;
+        const mobb::BoxKind kind = tree.node(box.id.index).box.kind;
+        if (kind == mobb::BoxKind::moving) return "boxes lean: each moves with its walk";
+        if (kind == mobb::BoxKind::aabb) return "boxes lie along the world's x and y";
+    }
+    return std::nullopt;
+}
+
 std::string short_number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", value);
@@ -175,6 +188,7 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Su
     }
     if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, kSolid, 1.3f}, "time cursor"));
     if (emphasis.cuts()) entries.push_back(entry_of(LegendEntry::Mark::ring, list.palette.text, "sample at that time"));
+    if (const auto text = beyond_the_paper(list, subjects)) remarks.push_back(remark(*text));
     if (has_sheared_boxes(list, subjects)) {
         remarks.push_back(remark("boxes look sheared: fitted"));
         remarks.push_back(remark("with " + short_number(subjects[0].placed.time_scale()) + " m/s, drawn with " +

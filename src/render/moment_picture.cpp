@@ -10,6 +10,7 @@
 #include <render/paths.h>
 #include <render/walls.h>
 #include <render/words.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
 #include <glm/common.hpp>

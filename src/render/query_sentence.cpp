@@ -14,6 +14,7 @@ std::string separating_axis(std::span<const Subject> sides, const mobb::Trace::E
     const auto axis_of = [&](const Subject& side, int node, int axis) {
         return side.label + "'s " + axis_word(side.placed.node(node).box, event.test, axis) + " axis";
     };
+    if (event.test == mobb::TestKind::aabb) return event.axis == 0 ? "along x" : "along y";
     const AxisOrigin origin = axis_origin(event.test, event.axis);
     if (origin.b < 0) return "along " + axis_of(sides[0], event.a, origin.a);
     if (origin.a < 0) return "along " + axis_of(sides[1], event.b, origin.b);
@@ -86,10 +87,13 @@ std::string outcome_text(std::span<const Subject> sides, const mobb::Trace::Even
             return sample_outcome(sides, event);
         case mobb::TestKind::obb2d:
         case mobb::TestKind::obb3d:
+        case mobb::TestKind::moving:
+        case mobb::TestKind::aabb:
             break;
     }
     if (event.outcome == mobb::Outcome::separated) {
-        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m");
+        const char* when = event.test == mobb::TestKind::moving ? " at the nearest" : "";
+        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m") + when;
     }
     return "the boxes overlap, " + what_next(sides, event);
 }
@@ -127,6 +131,8 @@ std::string answer_sentence(std::span<const Subject> sides, const RecordedQuery&
     text += "; " + counted(tests.time, "time test", "time tests");
     if (tests.obb2d > 0) text += ", " + counted(tests.obb2d, "2D box test", "2D box tests");
     if (tests.obb3d > 0) text += ", " + counted(tests.obb3d, "3D box test", "3D box tests");
+    if (tests.moving > 0) text += ", " + counted(tests.moving, "moving box test", "moving box tests");
+    if (tests.aabb > 0) text += ", " + counted(tests.aabb, "AABB test", "AABB tests");
     return text + ", " + counted(tests.samples, "pair of samples", "pairs of samples");
 }
 

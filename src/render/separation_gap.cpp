@@ -1,4 +1,5 @@
 #include <render/box_axes.h>
+#include <render/nearest_moment.h>
 #include <render/query_boxes.h>
 #include <render/separation_gap.h>
 #include <render/world_box.h>
@@ -23,9 +24,9 @@ Projection shared(Projection a, Projection b) {
 
 std::optional<SeparationGap> separation_gap(std::span<const Subject> sides, const mobb::Trace::Event& event) {
     if (event.outcome != mobb::Outcome::separated) return std::nullopt;
-    const mobb::Box a = world_box(sides[0].placed, event.a);
-    const mobb::Box b = world_box(sides[1].placed, event.b);
-    const glm::dvec3 axis = test_axis(a, b, event.test, event.axis);
+    const BoxPair boxes{world_box(sides[0].placed, event.a), world_box(sides[1].placed, event.b)};
+    const glm::dvec3 axis = test_axis(boxes.a, boxes.b, event.test, event.axis);
+    const auto [a, b] = event.test == mobb::TestKind::moving ? at_nearest_moment(boxes, axis) : boxes;
     // One direction level with the floor where there is a choice, so that the rectangles stand upright.
     const bool upright_axis = std::abs(axis.z) > 0.999;
     const glm::dvec3 across = upright_axis ? glm::normalize(glm::cross(axis, glm::dvec3(0, 1, 0)))

@@ -11,7 +11,8 @@
 
 namespace mobbscope {
 
-/// A gap in world (x, y, w*t): two parallel rectangles that face each other across it.
+/// A gap in world (x, y, w*t): two parallel rectangles that face each other across it; of moving boxes two lines, at
+/// the moment when they are nearest.
 struct SeparationGap {
     glm::dvec3 from{0};    ///< middle of the rectangle on A's side
     glm::dvec3 to{0};      ///< ... and on B's: from + axis * gap

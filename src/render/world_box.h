@@ -6,7 +6,7 @@
 
 namespace mobbscope {
 
-/// A node's box in world (x, y, w*t), global time.
+/// A node's box in world (x, y, w*t), global time. An aabb is wrapped again along the world's x and y.
 mobb::Box world_box(const mobb::PlacedTree& tree, int node);
 
 /// A node's box as it is drawn, with its place in the order and its id; the style is left to the caller.

@@ -63,8 +63,8 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
     out.member("time", answer.tests.time);
     out.member("obb2d", answer.tests.obb2d);
     out.member("obb3d", answer.tests.obb3d);
-    out.member("moving", 0);
-    out.member("aabb", 0);
+    out.member("moving", answer.tests.moving);
+    out.member("aabb", answer.tests.aabb);
     out.member("samples", answer.tests.samples);
     out.end_object();
     if (answer.contacts) {

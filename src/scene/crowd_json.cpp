@@ -1,5 +1,6 @@
 #include <import/text.h>
 #include <scene/crowd_json.h>
+#include <scene/motion_graph.h>
 
 #include <array>
 #include <cmath>
@@ -38,7 +39,7 @@ class CrowdReader {
         if (!scene_.agents.empty() || !scene_.queries.empty()) {
             place_.fail("a scene has a crowd, or agents and queries, not both; remove one");
         }
-        place_.allow_only({"area", "seconds", "seed", "ahead", "agents"});
+        place_.allow_only({"area", "seconds", "seed", "ahead", "grace", "agents"});
         CrowdRun run;
         const JsonPlace area = place_.require("area");
         area.require_size(2, "[width, depth] in metres");
@@ -46,6 +47,7 @@ class CrowdReader {
         run.seconds = positive(place_.require("seconds"), mobb::kMaxTime);
         run.seed = read_seed(place_.require("seed"));
         if (const auto ahead = place_.find("ahead")) run.ahead = ahead->number(0, mobb::kMaxTime);
+        if (const auto grace = place_.find("grace")) run.grace = grace->number(0, mobb::kMaxTime);
         const JsonPlace agents = place_.require("agents");
         if (agents.size() == 0) agents.fail("there is no agent; add one");
         for (int i = 0; i < agents.size(); ++i) run.agents.push_back(read_agent(agents[i]));
@@ -167,6 +169,7 @@ void write_crowd(JsonWriter& out, const CrowdRun& crowd) {
     out.member("seconds", crowd.seconds);
     out.member("seed", static_cast<std::int64_t>(crowd.seed));
     out.member("ahead", crowd.ahead);
+    out.member("grace", crowd.grace);
     out.key("agents");
     out.begin_array();
     for (const CrowdAgent& agent : crowd.agents) {

@@ -1,6 +1,6 @@
 /// The `crowd` of a scene file: what every agent of a run played, in order.
 ///
-///     {"area": [30, 40], "seconds": 120, "seed": 1, "ahead": 0,
+///     {"area": [30, 40], "seconds": 120, "seed": 1, "ahead": 0, "grace": 1,
 ///      "agents": [{"name": "1", "plays": [
 ///        {"move": 3, "translate": [1.5, -2], "rotate_deg": 30, "start": -0.4},
 ///        {"move": 7, "translate": [2.5, -2], "rotate_deg": 75, "start": 1.6, "chosen_at": 1.1, "kind": "pivoted"}]}]}

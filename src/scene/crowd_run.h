@@ -14,8 +14,9 @@ namespace mobbscope {
 
 /// Why an agent plays a move.
 enum class PlayKind : std::uint8_t {
-    chosen,   ///< taken at random from the candidates that collide with nobody and stay on the floor
-    pivoted,  ///< none was free: the agent turned on the spot before a free one
+    chosen,   ///< taken at random from the candidates that collide with nobody, stay on the floor and end in nobody's
+              ///< way
+    pivoted,  ///< none was left: the agent turned on the spot before one that was
     forced,   ///< none was free at any heading: the one whose first contact is latest. It may collide
 };
 
@@ -44,6 +45,7 @@ struct CrowdRun {
     double seconds = 120;     ///< simulated
     std::uint64_t seed = 1;   ///< at most kMaxSeed
     double ahead = 0;         ///< seconds before its begin at which a move is chosen; 0: at the end of the one before
+    double grace = 1;         ///< seconds for which agents keep out of each other's way where moves end; 0: not at all
     std::vector<CrowdAgent> agents;
     friend bool operator==(const CrowdRun&, const CrowdRun&) = default;
 };

@@ -1,4 +1,5 @@
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,7 @@
 /// A run as a scene: what its agents play around a time, as agents that pictures and panels show.
 #pragma once
 
+#include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
 #include <scene/scene.h>
 

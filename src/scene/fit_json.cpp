@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kMaxInt = std::numeric_limits<int>::max();
 
-/// Trees of the contract that this version cannot build.
-bool is_planned(std::string_view tree) { return tree == "moving" || tree == "aabb" || tree == "production"; }
+/// A tree of the contract that this version cannot build.
+bool is_planned(std::string_view tree) { return tree == "production"; }
 
 mobb::TreeKind read_tree_kind(const JsonPlace& place) {
     const std::string& name = place.string();

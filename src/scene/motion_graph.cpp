@@ -1,6 +1,8 @@
 #include <scene/motion_graph.h>
+#include <scene/strong_components.h>
 
 #include <cmath>
+#include <utility>
 
 namespace mobbscope {
 
@@ -12,6 +14,12 @@ mobb::Placement following(const mobb::Placement& before, const Stance& exit, dou
     next.translate = joint - mobb::Rotation::from_degrees(next.rotate_deg)(entry.position);
     next.start = before.start + duration;
     return next;
+}
+
+std::vector<int> hub_components(const MotionGraph& graph) {
+    std::vector<std::pair<int, int>> edges;
+    for (const GraphMove& move : graph.moves) edges.emplace_back(move.from, move.to);
+    return strong_components(static_cast<int>(graph.hubs.size()), edges);
 }
 
 }  // namespace mobbscope

@@ -53,4 +53,8 @@ struct MotionGraph {
 /// duration later. `duration` is that of the move before, in seconds.
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry);
 
+/// For each hub the number of the part of the graph that it belongs to: from all hubs of a part moves lead to all
+/// others of it. Counted from 0 in the order of their first hubs.
+std::vector<int> hub_components(const MotionGraph& graph);
+
 }  // namespace mobbscope

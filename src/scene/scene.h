@@ -6,8 +6,6 @@
 #include <mobb/query.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
-#include <scene/crowd_run.h>
-#include <scene/motion_graph.h>
 #include <scene/view_state.h>
 
 #include <cstddef>
@@ -21,6 +19,9 @@
 #include <vector>
 
 namespace mobbscope {
+
+struct CrowdRun;     // scene/crowd_run.h
+struct MotionGraph;  // scene/motion_graph.h
 
 struct Color {
     std::uint8_t r = 0, g = 0, b = 0;

@@ -11,15 +11,11 @@ namespace {
 
 constexpr double kAnyTime = 2 * mobb::kMaxTime;        // a start plus a clip's duration
 constexpr double kAnyLength = 1e2 * mobb::kMaxLength;  // sums and differences of placed coordinates
-constexpr int kLastAxis2d = 3;
-constexpr int kLastAxis3d = 14;
 
 /// A tree over n samples has at most 2n - 1 nodes.
 int last_node(int samples) {
     return samples > std::numeric_limits<int>::max() / 2 ? std::numeric_limits<int>::max() : 2 * samples - 2;
 }
-
-bool is_box_test(mobb::TestKind test) { return test == mobb::TestKind::obb2d || test == mobb::TestKind::obb3d; }
 
 /// Whether a test can end so.
 bool fits(mobb::TestKind test, mobb::Outcome outcome) {
@@ -27,7 +23,7 @@ bool fits(mobb::TestKind test, mobb::Outcome outcome) {
         case mobb::Outcome::disjoint_in_time:
             return test == mobb::TestKind::time;
         case mobb::Outcome::separated:
-            return is_box_test(test);
+            return mobb::is_box_test(test);
         case mobb::Outcome::overlap:
             return test != mobb::TestKind::samples;
         case mobb::Outcome::hit:
@@ -39,9 +35,7 @@ bool fits(mobb::TestKind test, mobb::Outcome outcome) {
 
 mobb::TestKind read_test(const JsonPlace& place) {
     if (const auto test = mobb::test_from_name(place.string())) return *test;
-    if (place.string() == "moving" || place.string() == "aabb")
-        place.fail("tests of " + in_quotes(place.string()) + " boxes are not in this version yet");
-    place.fail(in_quotes(place.string()) + " is no test; give time, obb2d, obb3d or samples");
+    place.fail(in_quotes(place.string()) + " is no test; give time, obb2d, obb3d, moving, aabb or samples");
 }
 
 mobb::Outcome read_outcome(const JsonPlace& place, mobb::TestKind test) {
@@ -138,8 +132,7 @@ mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b) {
         event.test = read_test(entry.require("test"));
         event.outcome = read_outcome(entry.require("outcome"), event.test);
         if (event.outcome == mobb::Outcome::separated) {
-            event.axis =
-                entry.require("axis").integer(0, event.test == mobb::TestKind::obb2d ? kLastAxis2d : kLastAxis3d);
+            event.axis = entry.require("axis").integer(0, mobb::axis_count(event.test) - 1);
             event.gap = entry.require("gap").number(0, kAnyLength);
         } else {
             for (const char* key : {"axis", "gap"}) {

@@ -16,7 +16,8 @@ void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
 
 void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     const mobb::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
-    const int dimensions = node.box.kind == mobb::BoxKind::obb2d ? 2 : 3;
+    const mobb::Box& box = node.box;
+    const int dimensions = box.kind == mobb::BoxKind::obb3d ? 3 : 2;
     out.begin_object(Layout::row);
     out.member("index", index);
     out.member("parent", node.parent);
@@ -24,15 +25,20 @@ void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     out.member("first", node.first);
     out.member("count", node.count);
     out.member("leaf", node.is_leaf());
-    out.member("kind", mobb::name(node.box.kind));
+    out.member("kind", mobb::name(box.kind));
     out.key("center");
-    write_vector(out, node.box.center, dimensions);
+    // A moving box has its centre in the middle of its time; files give it at t0.
+    write_vector(out, box.center - glm::dvec3(box.drift, 0), dimensions);
     out.key("axes");
     out.begin_array();
-    for (int i = 0; i < dimensions; ++i) write_vector(out, node.box.axes[static_cast<std::size_t>(i)], dimensions);
+    for (int i = 0; i < dimensions; ++i) write_vector(out, box.axes[static_cast<std::size_t>(i)], dimensions);
     out.end_array();
     out.key("half");
-    write_vector(out, node.box.half, dimensions);
+    write_vector(out, box.half, dimensions);
+    if (box.kind == mobb::BoxKind::moving) {
+        out.key("velocity");
+        write_vector(out, glm::dvec3(2.0 * box.drift / (tree.t1(node) - tree.t0(node)), 0), 2);
+    }
     out.member("t0", tree.t0(node));
     out.member("t1", tree.t1(node));
     out.end_object();

@@ -23,12 +23,12 @@ mobb::ClipPtr clip_of(std::vector<mobb::Disk> samples) {
 
 /// Wanders about; near the edge of the volume it turns back, now and then it slows down.
 mobb::ClipPtr walk_in_a_volume(Uniform& uniform, double seconds) {
-    constexpr double kVolume = 1.2;  // metres from the middle at which it turns back
-    const double speed = uniform.within(0.5, 1.1);
-    const double mean_radius = uniform.within(0.38, 0.55);
+    constexpr double kVolume = 2.0;  // metres from the middle at which it turns back
+    const double speed = uniform.within(1.0, 1.5);
+    const double mean_radius = uniform.within(0.33, 0.45);
     const double step_rate = uniform.within(1.5, 2.1);
     const double pause_rate = uniform.within(0.03, 0.12);
-    double x = uniform.within(-1, 1), y = uniform.within(-1, 1);
+    double x = uniform.within(-1.5, 1.5), y = uniform.within(-1.5, 1.5);
     double heading = uniform.within(0, 2 * std::numbers::pi);
     double turn = 0;  // radians per second
     std::vector<mobb::Disk> samples;

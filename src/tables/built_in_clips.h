@@ -9,7 +9,7 @@
 namespace mobbscope {
 
 /// `count` walks at 30 samples a second that last `mean_seconds` on average, each within a third of it more or less,
-/// and stay within a capture volume of about 3 m.
+/// and stay within about 3 m of the middle of a capture volume.
 std::vector<mobb::ClipPtr> walks_in_a_volume(int count, double mean_seconds, std::uint64_t seed);
 
 /// `count` short clips at 30 samples a second, `mean_seconds` on average: straight and curved walks, runs, quarter

@@ -93,6 +93,8 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
         sum.time += counts.tests.time;
         sum.obb2d += counts.tests.obb2d;
         sum.obb3d += counts.tests.obb3d;
+        sum.moving += counts.tests.moving;
+        sum.aabb += counts.tests.aabb;
         sum.samples += counts.tests.samples;
         steps += counts.sample_steps;
     }
@@ -103,6 +105,8 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
     row.time_tests = mean(sum.time);
     row.obb2d = mean(sum.obb2d);
     row.obb3d = mean(sum.obb3d);
+    row.moving = mean(sum.moving);
+    row.aabb = mean(sum.aabb);
     row.samples = mean(sum.samples);
     row.sample_steps = mean(steps);
     row.root_rejected = mean(rejected);

@@ -26,8 +26,13 @@ struct BoxPair {
     std::size_t frame;  ///< index of the query's frame
 };
 
+struct QueryFrame {
+    mobb::RelativeFrame relative;
+    mobb::Rotation to_world;  ///< of A
+};
+
 struct BoxPairs {
-    std::vector<mobb::RelativeFrame> frames;
+    std::vector<QueryFrame> frames;
     std::vector<BoxPair> pairs;
 };
 
@@ -56,7 +61,7 @@ BoxPairs collect(const std::vector<mobb::Tree>& trees, const Workload& workload,
         for (const auto& [ia, ib] : collector.tested) {
             out.pairs.push_back({&a.node(ia).box, &b.node(ib).box, out.frames.size()});
         }
-        out.frames.emplace_back(a.placed_clip(), b.placed_clip(), a.time_scale());
+        out.frames.push_back({{a.frame(), b.frame(), a.time_scale()}, a.frame().rotation});
     }
     return out;
 }
@@ -88,9 +93,17 @@ std::optional<double> time_box_tests(const Workload& workload, mobb::FitOptions 
     const BoxPairs pairs = collect(trees, workload, box);
     switch (box) {
         case mobb::BoxKind::obb2d:
-            return time_pairs(pairs, mobb::separate_obb2d);
+            return time_pairs(pairs,
+                              [](auto& a, auto& b, auto& at) { return mobb::separate_obb2d(a, b, at.relative); });
         case mobb::BoxKind::obb3d:
-            return time_pairs(pairs, mobb::separate_obb3d);
+            return time_pairs(pairs,
+                              [](auto& a, auto& b, auto& at) { return mobb::separate_obb3d(a, b, at.relative); });
+        case mobb::BoxKind::moving:
+            return time_pairs(pairs,
+                              [](auto& a, auto& b, auto& at) { return mobb::separate_moving(a, b, at.relative); });
+        case mobb::BoxKind::aabb:
+            return time_pairs(
+                pairs, [](auto& a, auto& b, auto& at) { return mobb::separate_aabb(a, b, at.to_world, at.relative); });
     }
     return std::nullopt;
 }
@@ -122,6 +135,8 @@ TestCosts measure_test_costs(const Workload& workload, const mobb::FitOptions& b
     TestCosts costs;
     costs.obb2d = time_box_tests(workload, base, mobb::TreeKind::mobb, mobb::BoxKind::obb2d);
     costs.obb3d = time_box_tests(workload, base, mobb::TreeKind::umobb, mobb::BoxKind::obb3d);
+    costs.moving = time_box_tests(workload, base, mobb::TreeKind::moving, mobb::BoxKind::moving);
+    costs.aabb = time_box_tests(workload, base, mobb::TreeKind::aabb, mobb::BoxKind::aabb);
     costs.sample_pair = time_sample_pairs(workload);
     return costs;
 }

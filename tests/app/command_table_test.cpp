@@ -93,7 +93,7 @@ TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
         {"agent.rename", "B", "there is an agent 'B' already"},
         {"agent.rename", " ", "an agent needs a name"},
         {"agent.add", "wolk", "there is no clip 'wolk' (did you mean 'walk'?)"},
-        {"tree.kind", "rtree", "the trees cannot be 'rtree': give one of mobb, umobb, hybrid1, hybrid2"},
+        {"tree.kind", "rtree", "the trees cannot be 'rtree': give one of mobb, umobb, hybrid1, hybrid2, moving, aabb"},
         {"tree.axes", "x", "the axes cannot be 'x': give one of endpoints, covariance, minarea"},
         {"tree.leaf", "0", "the samples of a leaf cannot be '0': give a whole number from 1 to 2147483647"},
         {"view.zoom", "0", "the factor cannot be '0': give a number from 0.001 to 1000"},

@@ -68,7 +68,7 @@ TEST(Conflicts, TextIsALineAPairAndASummary) {
               "1 conflict among 3 agents, 0.5 s in all; 1 of 3 pairs tested\n");
     EXPECT_NE(run.err.find("0.2 m are taken"), std::string::npos) << "what was assumed is said";
     const Result none = run_program({"conflicts", file, "--radius", "0.1"});
-    EXPECT_EQ(none.out, "0 conflicts among 3 agents, 0 s in all; 1 of 3 pairs tested\n");
+    EXPECT_EQ(none.out, "0 conflicts among 3 agents, 0 s in all; 0 of 3 pairs tested\n");
     EXPECT_EQ(none.err, "");
 }
 

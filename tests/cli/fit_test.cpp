@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 
 namespace mobbscope {
 namespace {
@@ -69,6 +70,54 @@ TEST(Fit, JsonIsTheTree) {
     EXPECT_EQ(printed["levels"][2]["nodes"], figures[2].nodes);
     EXPECT_EQ(printed["levels"][2]["volume"], figures[2].volume);
     EXPECT_EQ(printed["levels"][2]["tightness"], *figures[2].tightness);
+}
+
+TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
+    const Result run = run_program({"fit", kScenes + "crossing.json", "--json", "--tree", "moving"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json printed = json::parse(run.out)["trees"][1];
+    EXPECT_EQ(printed["tree"], "moving");
+    const Scene scene = load_scene(kScenes + "crossing.json");
+    const std::span<const mobb::Disk> samples = scene.clips[1].clip->samples();
+    for (const json& node : printed["nodes"]) {
+        EXPECT_EQ(keys(node), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
+                                                     "center", "axes", "half", "velocity", "t0", "t1"}));
+        EXPECT_EQ(node["kind"], "moving");
+        ASSERT_EQ(node["velocity"].size(), 2u);
+        ASSERT_EQ(node["axes"].size(), 2u);
+        // What the file says must hold every disk at both ends of its hold interval, and touch one on each side.
+        const double t0 = node["t0"];
+        const double dt = scene.clips[1].clip->dt();
+        for (std::size_t k = 0; k < 2; ++k) {
+            double low = 0, high = 0;
+            for (std::size_t i = node["first"]; i < node["first"].get<std::size_t>() + node["count"].get<std::size_t>();
+                 ++i) {
+                for (const std::size_t end : {i, i + 1}) {
+                    const double t = static_cast<double>(end) * dt - t0;
+                    const auto apart = [&](std::size_t m, double x) {
+                        return (x - node["center"][m].get<double>() - t * node["velocity"][m].get<double>()) *
+                               node["axes"][k][m].get<double>();
+                    };
+                    const double along = apart(0, samples[i].x) + apart(1, samples[i].y);
+                    low = std::min(low, along - samples[i].r);
+                    high = std::max(high, along + samples[i].r);
+                }
+            }
+            EXPECT_NEAR(-low, node["half"][k], 1e-9);
+            EXPECT_NEAR(high, node["half"][k], 1e-9);
+        }
+    }
+}
+
+TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
+    const Result run = run_program({"fit", kScenes + "crossing.json", "--json", "--tree", "aabb", "--axes", "minarea"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    for (const json& node : json::parse(run.out)["trees"][1]["nodes"]) {
+        EXPECT_EQ(node["kind"], "aabb");
+        EXPECT_EQ(node["axes"], (json{{1.0, 0.0}, {0.0, 1.0}}));
+        EXPECT_EQ(node["center"].size(), 2u);
+        EXPECT_FALSE(node.contains("velocity"));
+    }
 }
 
 TEST(Fit, TextHasALineForEachLevel) {

@@ -67,10 +67,11 @@ TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {
     EXPECT_GT(brute[0]["tests"]["samples"], 0);
     ASSERT_FALSE(brute[0]["contacts"].empty());
     EXPECT_EQ(brute[0]["contacts"][0][0], brute[0]["contact"]["time"]);
-    for (const std::string tree : {"mobb", "umobb", "hybrid1", "hybrid2"}) {
+    for (const std::string tree : {"mobb", "umobb", "hybrid1", "hybrid2", "moving", "aabb"}) {
         const json found = results({"query", file, "--json", "--all-contacts", "--tree", tree, "--leaf", "3"});
         EXPECT_EQ(found[0]["contact"], brute[0]["contact"]) << tree;
         EXPECT_EQ(found[0]["contacts"], brute[0]["contacts"]) << tree;
+        for (const std::string kind : {"moving", "aabb"}) EXPECT_EQ(found[0]["tests"][kind] > 0, tree == kind) << tree;
     }
 }
 

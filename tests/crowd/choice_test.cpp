@@ -41,7 +41,9 @@ class ChoiceTest : public ::testing::Test {
                 EXPECT_EQ(taken.move, play.move);
                 EXPECT_EQ(taken.placement, play.placement);
                 EXPECT_EQ(taken.is_free(), play.kind != PlayKind::forced);
-                EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
+                if (play.kind != PlayKind::forced) {
+                    EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
+                }
                 counts.candidates += static_cast<std::int64_t>(choice.candidates.size());
                 counts.queries += choice.queries;
                 for (const Candidate& candidate : choice.candidates) {
@@ -91,30 +93,57 @@ ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area) {
 TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
     CrowdRun crowd;
     crowd.area = {20, 20};
-    World world(crowd.area);
+    Commitments world(moves, crowd.area, crowd.grace);
     const Choice choice = choose(moves, world, crowd, at_wall(moves, crowd.area));
     EXPECT_EQ(choice.kind, PlayKind::pivoted);
     double least = 360;
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_FALSE(candidate.ruling);
-        if (candidate.is_free()) least = std::min(least, std::abs(candidate.turn_deg));
+        if (candidate.is_free() && !candidate.in_the_way) least = std::min(least, std::abs(candidate.turn_deg));
     }
     EXPECT_EQ(std::abs(choice.candidates[choice.taken].turn_deg), least);
+    EXPECT_FALSE(choice.candidates[choice.taken].in_the_way);
     EXPECT_GT(least, 0);
-    // No heading was looked at beyond the one that had a free candidate.
+    // No heading was looked at beyond the one that left a candidate.
     for (const Candidate& candidate : choice.candidates) EXPECT_LE(std::abs(candidate.turn_deg), least);
+}
+
+TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
+    CrowdRun crowd;
+    crowd.area = {30, 30};
+    ChoicePoint point;
+    point.play = 1;
+    point.time = moves.duration(0);
+    // Agent 1 ends 1.5 m before agent 0, when agent 0 has gone half of its next move; it goes on from there.
+    const double exit = moves.move(0).exit.position.x;
+    const Play other{0, {{2 * exit + 1.5, 0}, 180, -0.8}, -0.8, PlayKind::chosen};
+    for (const double grace : {0.0, 1.0}) {
+        Commitments committed(moves, crowd.area, grace);
+        committed.commit(1, 0, other);
+        const Choice choice = choose(moves, committed, crowd, point);
+        int in_the_way = 0;
+        for (const Candidate& candidate : choice.candidates) {
+            if (candidate.turn_deg == 0) in_the_way += candidate.in_the_way;
+        }
+        EXPECT_EQ(in_the_way > 0, grace > 0);
+        EXPECT_FALSE(choice.candidates[choice.taken].in_the_way);
+        // Once agent 1 has chosen, its room moves on with it.
+        committed.commit(1, 1, {0, {{2 * exit + 1.5, 20}, 180, 0.7}, 0.7, PlayKind::chosen});
+        for (const Candidate& candidate : choose(moves, committed, crowd, point).candidates) {
+            EXPECT_FALSE(candidate.in_the_way);
+        }
+    }
 }
 
 TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
     CrowdRun crowd;
     crowd.area = {20, 20};
-    World world(crowd.area);
+    Commitments world(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
     // Somebody stands all around: slow walkers at the very spot, a little later.
     for (int other = 1; other < 4; ++other) {
-        const Motion motion =
-            moves.motion(other, 0, 4, {{-9.3 + 0.2 * other, 0.1 * other}, 90.0 * other, point.time + 0.1 * other});
-        world.commit(motion);
+        const mobb::Placement at{{-9.3 + 0.2 * other, 0.1 * other}, 90.0 * other, point.time + 0.1 * other};
+        world.commit(other, 0, {4, at, 0, PlayKind::chosen});
     }
     const Choice choice = choose(moves, world, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
@@ -123,19 +152,21 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
     ASSERT_TRUE(taken.ruling);
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_FALSE(candidate.is_free());
-        if (!candidate.leaves_floor) EXPECT_LE(candidate.ruling->contact.time, taken.ruling->contact.time);
+        if (candidate.leaves_floor) continue;
+        EXPECT_LE(candidate.ruling->contact.time, taken.ruling->contact.time);
     }
 }
 
 TEST_F(ChoiceTest, OnNoFloorAtAllTheLatestContactIsStillFound) {
     CrowdRun crowd;
     crowd.area = {0.5, 0.5};
-    World world(crowd.area);
+    Commitments world(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
     const Choice choice = choose(moves, world, crowd, point);
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
-    EXPECT_EQ(choice.candidates[choice.taken].turn_deg, 0);
+    // In a room of one's own no contact is the latest.
+    EXPECT_FALSE(choice.candidates[choice.taken].ruling);
 }
 
 }  // namespace

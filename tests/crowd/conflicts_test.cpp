@@ -108,7 +108,7 @@ TEST(Conflicts, RandomCrowdsAreAsTheDirectSearchHasThem) {
         found += direct.found.size();
         spared += direct.pairs_tested - trees.pairs_tested;
     }
-    EXPECT_GT(found, 300u);
+    EXPECT_GT(found, 100u);
     EXPECT_GT(spared, 1000);
 }
 

@@ -3,6 +3,7 @@
 
 #include <crowd/graph_walk.h>
 #include <crowd/move_set.h>
+#include <scene/motion_graph.h>
 
 #include <cmath>
 #include <memory>
@@ -26,9 +27,9 @@ inline SceneClip walk(const std::string& name, double speed, double turn_deg, in
 /// Seven walks of 0.6 to 2.4 seconds, one of them backwards, each of which may follow each.
 inline Scene walker_scene() {
     Scene scene;
-    scene.clips = {walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4),      walk("left", 1.2, 60, 40, 1.0 / 30, 0.42),
-                   walk("right", 1.2, -60, 40, 1.0 / 30, 0.42),   walk("run", 3.5, 10, 36, 1.0 / 60, 0.5),
-                   walk("slow", 0.5, -20, 72, 1.0 / 30, 0.35),    walk("around", 0.9, 150, 60, 1.0 / 25, 0.4),
+    scene.clips = {walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4),    walk("left", 1.2, 60, 40, 1.0 / 30, 0.42),
+                   walk("right", 1.2, -60, 40, 1.0 / 30, 0.42), walk("run", 3.5, 10, 36, 1.0 / 60, 0.5),
+                   walk("slow", 0.5, -20, 72, 1.0 / 30, 0.35),  walk("around", 0.9, 150, 60, 1.0 / 25, 0.4),
                    walk("step", 0.8, 30, 18, 1.0 / 30, 0.38)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     return scene;

@@ -9,6 +9,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace mobbscope {
@@ -123,13 +125,37 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     }
 }
 
-TEST_F(WorldTest, AllPairsAreThoseOfOtherAgents) {
+TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     World world({20, 20});
-    for (int agent = 0; agent < 5; ++agent) world.commit(random_motion(agent, 0, {20, 20}, 3));
+    const mobb::Placement placement{{1, 2}, 30, 0};
+    const std::size_t first = world.commit(moves.motion(1, 0, 0, placement));
+    world.commit(moves.motion(2, 0, 0, placement));
+    const Motion candidate = moves.motion(0, 0, 0, placement);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 1);
+    world.withdraw(first);
+    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 2);
     std::vector<AskedPair> pairs;
-    world.all_pairs(random_motion(2, 1, {20, 20}, 3), pairs);
-    EXPECT_EQ(pairs.size(), 4u);
-    for (const AskedPair& pair : pairs) EXPECT_NE(pair.committed.agent, 2);
+    world.all_pairs(candidate, 0, pairs);
+    EXPECT_EQ(pairs.size(), 1u);
+    world.forget_before(1000);
+    EXPECT_EQ(world.size(), 0u);
+    EXPECT_FALSE(world.verdicts({&candidate, 1}).front().ruling);
+}
+
+TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
+    World world({40, 20});
+    const auto at = [&](int agent, double x, double start) { return moves.motion(agent, 0, 0, {{x, 0}, 90, start}); };
+    for (int agent = 0; agent < 5; ++agent) world.commit(at(agent, 4.0 * agent - 8, 100.0 * agent));
+    const auto others = [&](double range) {
+        std::vector<AskedPair> pairs;
+        world.all_pairs(at(2, 0, 0), range, pairs);
+        std::vector<int> agents;
+        for (const AskedPair& pair : pairs) agents.push_back(pair.committed.agent);
+        return agents;
+    };
+    EXPECT_EQ(others(std::numeric_limits<double>::infinity()), (std::vector<int>{0, 1, 3, 4}));
+    EXPECT_EQ(others(4), (std::vector<int>{1, 3}));
+    EXPECT_EQ(others(2), (std::vector<int>{}));
 }
 
 TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
@@ -146,8 +172,9 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
         EXPECT_TRUE(bounds.low.x <= tight.low.x && bounds.low.y <= tight.low.y);
         EXPECT_TRUE(bounds.high.x >= tight.high.x && bounds.high.y >= tight.high.y);
         const glm::dvec2 wide = bounds.high - bounds.low, least = tight.high - tight.low;
-        EXPECT_LT(wide.x, least.x * 1.05 + 0.05);
-        EXPECT_LT(wide.y, least.y * 1.05 + 0.05);
+        const double most = 1.04 * std::hypot(least.x, least.y) - std::hypot(least.x, least.y);
+        EXPECT_LT(wide.x, least.x + most);
+        EXPECT_LT(wide.y, least.y + most);
         // A wall exactly at the tight bound is touched, one just inside is crossed.
         const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
         EXPECT_FALSE(leaves_floor(clip, *motion.outline, {2 * (reach + 1e-9), 1e6}));

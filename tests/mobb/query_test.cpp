@@ -66,7 +66,7 @@ TEST(Query, EveryTreeGivesTheDirectSearchsAnswerAndContact) {
     while (asked < budget) {
         const ClipPtr a = test::random_clip(random), b = test::random_partner(random, *a);
         const FitOptions fit_a = test::random_fit(random);
-        FitOptions fit_b = test::random_fit(random);
+        FitOptions fit_b = test::random_partner_fit(random, fit_a);
         // Trees of different scales do not compare free boxes: mostly the same, so that they do.
         if (random.chance(0.9)) fit_b.time_scale = fit_a.time_scale;
         const Tree tree_a(a, fit_a), tree_b(b, fit_b);
@@ -88,7 +88,7 @@ TEST(Query, EveryTreeGivesTheDirectSearchsAnswerAndContact) {
 TEST(Query, EveryLeafSizeFrom1To50) {
     Random random(12);
     for (int leaf = 1; leaf <= 50; ++leaf) {
-        for (int kind = 0; kind < 4; ++kind) {
+        for (int kind = 0; kind < static_cast<int>(tree_kind_names().size()); ++kind) {
             const ClipPtr a = test::random_clip(random, 300), b = test::random_partner(random, *a, 300);
             const FitOptions fit{.tree = static_cast<TreeKind>(kind), .leaf = leaf};
             const Tree tree_a(a, fit), tree_b(b, fit);
@@ -106,7 +106,8 @@ TEST(Query, DoesNotDependOnWhoIsAsked) {
     Random random(13);
     for (int round = 0; round < 500; ++round) {
         const ClipPtr a = test::random_clip(random, 200), b = test::random_partner(random, *a, 200);
-        const Tree tree_a(a, test::random_fit(random)), tree_b(b, test::random_fit(random));
+        const FitOptions fit_a = test::random_fit(random);
+        const Tree tree_a(a, fit_a), tree_b(b, test::random_partner_fit(random, fit_a));
         for (int k = 0; k < 40; ++k) {
             Placement place_a, place_b;
             test::random_placements(random, *a, *b, place_a, place_b);
@@ -171,7 +172,7 @@ TEST(Query, MixedTimeScalesStillGiveTheAnswer) {
     Random random(15);
     for (int round = 0; round < 3000; ++round) {
         const ClipPtr a = test::random_clip(random, 200), b = test::random_partner(random, *a, 200);
-        FitOptions fit_a = test::random_fit(random), fit_b = test::random_fit(random);
+        FitOptions fit_a = test::random_fit(random), fit_b = test::random_partner_fit(random, fit_a);
         fit_a.time_scale = random.real(0.01, 50);
         fit_b.time_scale = random.chance(0.5) ? fit_a.time_scale : random.real(0.01, 50);
         const Tree tree_a(a, fit_a), tree_b(b, fit_b);
@@ -182,8 +183,11 @@ TEST(Query, MixedTimeScalesStillGiveTheAnswer) {
     }
 }
 
+/// Of boxes that follow a walk in space-time.
+constexpr TreeKind kFlushKinds[] = {TreeKind::umobb, TreeKind::umobb, TreeKind::hybrid1, TreeKind::moving};
+
 TEST(Query, WalksSideBySideThatOverlapByAHairAreHits) {
-    // The free boxes' sides lie flush against each other: only the slack keeps them from counting as separated.
+    // The boxes' sides lie flush against each other: only the slack keeps them from counting as separated.
     Random random(17);
     int hits = 0;
     for (int round = 0; round < 20000; ++round) {
@@ -192,7 +196,7 @@ TEST(Query, WalksSideBySideThatOverlapByAHairAreHits) {
         for (int i = 0; i < 24; ++i) path.push_back({speed * i / 30, 0, r});
         const auto clip = std::make_shared<const Clip>(1.0 / 30, path);
         FitOptions fit = test::random_fit(random);
-        fit.tree = random.chance(0.7) ? TreeKind::umobb : TreeKind::hybrid1;
+        fit.tree = kFlushKinds[random.integer(0, 3)];
         const Tree tree(clip, fit);
         const Rotation turn = Rotation::from_degrees(heading);
         const double apart = 2 * r * (1 - random.integer(0, 4) * 1e-16);
@@ -222,7 +226,7 @@ TEST(Query, ExtremeNumbersChangeNoAnswer) {
         const int n = random.integer(2, 40);
         for (int i = 0; i < n; ++i) path.push_back({size * i, size * random.real(0, 0.1), size});
         const auto clip = std::make_shared<const Clip>(dt, path);
-        const FitOptions fit{.tree = random.chance(0.7) ? TreeKind::umobb : TreeKind::hybrid1,
+        const FitOptions fit{.tree = kFlushKinds[random.integer(0, 3)],
                              .leaf = random.integer(1, 5),
                              .axes = static_cast<Axes>(random.integer(0, 2)),
                              .time_scale = w};
@@ -263,7 +267,7 @@ TEST(Query, LongClipsRoundTimesAndTheSlackKnows) {
             path_a.push_back({0.1 * i, 0, i == last_a ? 0.02 : 0});
             path_b.push_back({0.1 * i, 0, i == first_b ? 0.02 : 0});
         }
-        const FitOptions fit{.tree = TreeKind::umobb,
+        const FitOptions fit{.tree = random.chance(0.5) ? TreeKind::umobb : TreeKind::moving,
                              .leaf = random.integer(1, 4),
                              .axes = static_cast<Axes>(random.integer(0, 2)),
                              .time_scale = std::pow(10, random.real(-1, 6))};
@@ -284,7 +288,7 @@ TEST(Query, DisksSoSmallThatTheirSquaresVanish) {
     // The predicate squares the distance to 0 here; the boxes, which square nothing, must not know better.
     for (const double scale : {1e-162, 3e-162, 1e-160, 1e-155, 1e-150}) {
         const auto clip = std::make_shared<const Clip>(1, std::vector<Disk>{{0, 0, 0.8 * scale}});
-        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb}) {
+        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb}) {
             const Tree tree(clip, {.tree = kind});
             const PlacedTree a(tree, {.rotate_deg = 45});
             const PlacedTree b(tree, {.translate = {1.5 * scale, 1.5 * scale}, .rotate_deg = 45});

@@ -105,12 +105,19 @@ inline ClipPtr random_partner(Random& random, const Clip& clip, int most = 2000)
 
 inline FitOptions random_fit(Random& random) {
     FitOptions fit;
-    fit.tree = static_cast<TreeKind>(random.integer(0, 3));
+    fit.tree = static_cast<TreeKind>(random.integer(0, 5));
     fit.leaf = random.chance(0.5) ? 10 : random.integer(1, 50);
     fit.levels = random.chance(0.6) ? 0 : random.integer(1, 6);
     fit.axes = static_cast<Axes>(random.integer(0, 2));
     // From 1e-3 to 1e3 m/s, evenly in orders of magnitude; mostly the paper's.
     if (random.chance(0.3)) fit.time_scale = std::pow(10, random.real(-3, 3));
+    return fit;
+}
+
+/// For a second tree: as often as not of the first one's kind, as trees of different kinds prune little.
+inline FitOptions random_partner_fit(Random& random, const FitOptions& first) {
+    FitOptions fit = random_fit(random);
+    if (random.chance(0.5)) fit.tree = first.tree;
     return fit;
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <map>
 
 namespace mobb {
 namespace {
@@ -17,6 +18,7 @@ struct WorldBox {
     glm::dvec3 center;
     glm::dvec3 axes[3];
     glm::dvec3 half;
+    glm::dvec2 velocity;  ///< per w*t
 };
 WorldBox world_box(const Box& box, const Placement& placement, double w) {
     const double angle = placement.rotate_deg * std::acos(-1.0) / 180;
@@ -28,6 +30,21 @@ WorldBox world_box(const Box& box, const Placement& placement, double w) {
     out.center = turned(box.center) + glm::dvec3{placement.translate, w * placement.start};
     for (std::size_t k = 0; k < 3; ++k) out.axes[k] = turned(box.axes[k]);
     out.half = box.half;
+    out.velocity = turned(glm::dvec3(box.drift / box.half.z, 0));
+    return out;
+}
+
+/// The rectangle of a moving box at a time, without extent in time.
+WorldBox at_time(WorldBox box, double wt) {
+    box.center += glm::dvec3(box.velocity * (wt - box.center.z), wt - box.center.z);
+    box.half.z = 0;
+    return box;
+}
+
+/// The box along the world's axes around it.
+WorldBox wrapped(const WorldBox& box) {
+    WorldBox out{box.center, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}, {0, 0}};
+    for (int k = 0; k < 3; ++k) out.half += glm::abs(box.half[k] * box.axes[k]);
     return out;
 }
 
@@ -45,6 +62,16 @@ double gap_along(const WorldBox& a, const WorldBox& b, glm::dvec3 axis) {
     };
     const double offset = glm::dot(b.center - a.center, axis);
     return std::max(offset - reach(b, -1) - reach(a, 1), -offset - reach(b, 1) - reach(a, -1));
+}
+
+/// Of two moving boxes over their common time: the lesser of the gaps at its ends, if they are on one side; else below
+/// zero.
+double moving_gap_along(const WorldBox& a, const WorldBox& b, glm::dvec3 axis) {
+    const double begin = std::max(a.center.z - a.half.z, b.center.z - b.half.z);
+    const double end = std::min(a.center.z + a.half.z, b.center.z + b.half.z);
+    const auto gap = [&](double wt) { return gap_along(at_time(a, wt), at_time(b, wt), axis); };
+    const auto side = [&](double wt) { return glm::dot(at_time(b, wt).center - at_time(a, wt).center, axis) > 0; };
+    return side(begin) == side(end) ? std::min(gap(begin), gap(end)) : -1;
 }
 
 /// Replays a trace against the contract's description of the traversal, with box tests of its own.
@@ -115,17 +142,24 @@ class Replay {
     }
 
     bool box(int ia, int ib, int depth, int parent) {
-        const Trace::Event event = next(ia, ib, depth, parent);
         const Box& box_a = a_.node(ia).box;
         const Box& box_b = b_.node(ib).box;
-        const bool flat = box_a.kind == BoxKind::obb2d && box_b.kind == BoxKind::obb2d;
-        EXPECT_EQ(event.test, flat ? mobb::TestKind::obb2d : mobb::TestKind::obb3d);
+        const auto free_or_not = [](BoxKind kind) { return kind == BoxKind::obb2d || kind == BoxKind::obb3d; };
+        if (box_a.kind != box_b.kind && !(free_or_not(box_a.kind) && free_or_not(box_b.kind))) return true;
+        const Trace::Event event = next(ia, ib, depth, parent);
+        EXPECT_EQ(name(event.test), box_a.kind == box_b.kind ? name(box_a.kind) : "obb3d");
         const double w = a_.time_scale();
-        const WorldBox a = world_box(box_a, a_.placed_clip().placement(), w);
-        const WorldBox b = world_box(box_b, b_.placed_clip().placement(), w);
+        WorldBox a = world_box(box_a, a_.placed_clip().placement(), w);
+        WorldBox b = world_box(box_b, b_.placed_clip().placement(), w);
+        const bool moving = event.test == mobb::TestKind::moving;
+        const auto gap = moving ? moving_gap_along : gap_along;
 
         std::vector<glm::dvec3> axes;
-        if (flat) {
+        if (event.test == mobb::TestKind::aabb) {
+            a = wrapped(a);
+            b = wrapped(b);
+            axes = {{1, 0, 0}, {0, 1, 0}};
+        } else if (moving || event.test == mobb::TestKind::obb2d) {
             axes = {a.axes[0], a.axes[1], b.axes[0], b.axes[1]};
         } else {
             for (const auto& axis : a.axes) axes.push_back(axis);
@@ -141,13 +175,13 @@ class Replay {
             const glm::dvec3 axis = axes[static_cast<std::size_t>(k)];
             const double length = glm::length(axis);
             if (length < 1e-3) continue;
-            EXPECT_LE(gap_along(a, b, axis / length), 1e-8 / length) << "axis " << k;
+            EXPECT_LE(gap(a, b, axis / length), 1e-8 / length) << "axis " << k;
         }
         if (separated) {
             const glm::dvec3 axis = axes[static_cast<std::size_t>(event.axis)];
             EXPECT_GE(glm::length(axis), 0.9e-3);
             EXPECT_GT(event.gap, 0);
-            EXPECT_NEAR(gap_along(a, b, glm::normalize(axis)), event.gap, 1e-8 / glm::length(axis));
+            EXPECT_NEAR(gap(a, b, glm::normalize(axis)), event.gap, 1e-8 / glm::length(axis));
         }
         return !separated;
     }
@@ -192,10 +226,11 @@ class Replay {
 
 TEST(Trace, EveryEventReEvaluatedGivesTheSame) {
     Random random(20);
-    std::int64_t events = 0, separations_3d = 0, edge_axes = 0;
+    std::int64_t events = 0, edge_axes = 0;
+    std::map<std::string_view, std::int64_t> separations;
     for (int round = 0; round < 1500; ++round) {
         const ClipPtr a = test::random_clip(random, 400), b = test::random_partner(random, *a, 400);
-        FitOptions fit_a = test::random_fit(random), fit_b = test::random_fit(random);
+        FitOptions fit_a = test::random_fit(random), fit_b = test::random_partner_fit(random, fit_a);
         fit_b.time_scale = fit_a.time_scale;
         const Tree tree_a(a, fit_a), tree_b(b, fit_b);
         for (int k = 0; k < 5; ++k) {
@@ -212,15 +247,14 @@ TEST(Trace, EveryEventReEvaluatedGivesTheSame) {
             ASSERT_EQ(trace.counts(), statistics.tests);
             events += trace.size();
             for (int step = 0; step < trace.size(); ++step) {
-                separations_3d +=
-                    trace[step].test == mobb::TestKind::obb3d && trace[step].outcome == Outcome::separated;
+                separations[name(trace[step].test)] += trace[step].outcome == Outcome::separated;
                 edge_axes += trace[step].axis >= 6;
             }
             if (HasFailure()) FAIL() << "round " << round << ", " << name(fit_a.tree) << " / " << name(fit_b.tree);
         }
     }
     EXPECT_GT(events, 50000);
-    EXPECT_GT(separations_3d, 2000);
+    for (const char* test : {"obb2d", "obb3d", "moving", "aabb"}) EXPECT_GT(separations[test], 200) << test;
     EXPECT_GT(edge_axes, 20);
 }
 
@@ -249,6 +283,25 @@ TEST(Trace, FreeBoxesOfDifferentScalesAreNotTested) {
     Statistics statistics;
     EXPECT_TRUE(query(PlacedTree(tree_a, {}), PlacedTree(tree_b, {.translate = {0.5, 0}}), statistics));
     EXPECT_EQ(statistics.tests.obb3d, 0);
+}
+
+TEST(Trace, BoxesWithoutACommonTestAreNotTested) {
+    std::vector<Disk> walk;
+    for (int i = 0; i < 40; ++i) walk.push_back({0.1 * i, 0.001 * i * i, 0.3});
+    const auto clip = std::make_shared<const Clip>(0.1, walk);
+    const Tree moving(clip, {.tree = TreeKind::moving}), faster(clip, {.tree = TreeKind::moving, .time_scale = 2});
+    const Tree aligned(clip, {.tree = TreeKind::aabb}), mobb(clip, {});
+    const auto box_tests = [](const Tree& a, const Tree& b) {
+        Statistics statistics;
+        EXPECT_FALSE(query(PlacedTree(a, {}), PlacedTree(b, {.translate = {0, 9}}), statistics));
+        const TestCounts& tests = statistics.tests;
+        return tests.obb2d + tests.obb3d + tests.moving + tests.aabb;
+    };
+    EXPECT_EQ(box_tests(moving, moving), 1);
+    EXPECT_EQ(box_tests(aligned, aligned), 1);
+    EXPECT_EQ(box_tests(moving, faster), 0);
+    EXPECT_EQ(box_tests(moving, mobb), 0);
+    EXPECT_EQ(box_tests(mobb, aligned), 0);
 }
 
 TEST(Trace, OfTheDirectSearchIsOneEvent) {

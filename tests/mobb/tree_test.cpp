@@ -64,13 +64,18 @@ TEST(Tree, KindsSayWhichBoxesStandWhere) {
     std::vector<Disk> walk;
     for (int i = 0; i < 64; ++i) walk.push_back({0.1 * i, 0.01 * i * i, 0.4});
     const auto clip = std::make_shared<const Clip>(0.1, walk);
-    for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2}) {
+    for (const TreeKind kind :
+         {TreeKind::mobb, TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2, TreeKind::moving, TreeKind::aabb}) {
         const Tree tree(clip, {.tree = kind});
         for (const Node& node : tree.nodes()) {
             const bool root = node.level == 0;
             const bool free =
                 kind == TreeKind::umobb || (kind == TreeKind::hybrid1 && !root) || (kind == TreeKind::hybrid2 && root);
-            EXPECT_EQ(node.box.kind == BoxKind::obb3d, free) << name(kind);
+            const BoxKind expected = kind == TreeKind::moving ? BoxKind::moving
+                                     : kind == TreeKind::aabb ? BoxKind::aabb
+                                     : free                   ? BoxKind::obb3d
+                                                              : BoxKind::obb2d;
+            EXPECT_EQ(node.box.kind, expected) << name(kind);
         }
     }
 }

@@ -53,8 +53,11 @@ TEST(DrawList, ALevelCoversTheWholeClip) {
 
 /// Every disk's rim, both ends of its hold, lies in the box that bounds it, also once both are drawn.
 TEST(DrawList, DrawnBoxesHoldTheirDisks) {
-    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
-        const FittedScene fitted = testing::hit_scene(kind);
+    for (const mobb::TreeKind kind :
+         {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving, mobb::TreeKind::aabb}) {
+        mobb::FitOptions options;
+        options.tree = kind;
+        const FittedScene fitted(testing::scene_of({{}, {{1, -1}, 70, 0}}), options);
         ViewState view;
         view.time_height = 0.37;
         const DrawList list = build_draw_list(fitted, view, kSize);
@@ -91,6 +94,17 @@ TEST(DrawList, AFreeBoxIsShearedByTheDrawnTime) {
         return entry.text.find("sheared") != std::string::npos;
     });
     EXPECT_TRUE(told);
+}
+
+TEST(DrawList, TheLegendSaysWhatBoxesBeyondThePaperAre) {
+    const auto told = [](mobb::TreeKind kind, const char* text) {
+        const DrawList list = build_draw_list(testing::hit_scene(kind), {}, kSize);
+        return std::any_of(list.legend.begin(), list.legend.end(),
+                           [&](const LegendEntry& entry) { return entry.text.find(text) != std::string::npos; });
+    };
+    EXPECT_TRUE(told(mobb::TreeKind::moving, "each moves with its walk"));
+    EXPECT_TRUE(told(mobb::TreeKind::aabb, "along the world's x and y"));
+    EXPECT_FALSE(told(mobb::TreeKind::mobb, "boxes l"));
 }
 
 TEST(DrawList, ASceneIsAboutAsTallAsWide) {

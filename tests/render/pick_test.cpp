@@ -123,7 +123,8 @@ INSTANTIATE_TEST_SUITE_P(Backends, PickTest, ::testing::Values(Backend::osmesa, 
 /// How far from a box's surface a place is, metres: 0 on it.
 double off_surface(const mobb::PlacedTree& tree, int node, glm::dvec3 place) {
     const mobb::Box box = world_box(tree, node);
-    const glm::dvec3 from = glm::dvec3(place.x, place.y, place.z * tree.time_scale()) - box.center;
+    glm::dvec3 from = glm::dvec3(place.x, place.y, place.z * tree.time_scale()) - box.center;
+    from -= glm::dvec3(box.drift * (from.z / box.half.z), 0);
     double outside = -1e9;
     for (int i = 0; i < 3; ++i) {
         const double along = std::abs(glm::dot(from, box.axes[static_cast<std::size_t>(i)]));
@@ -139,12 +140,14 @@ double off_surface(const mobb::PlacedClip& clip, int sample, glm::dvec3 place) {
     return std::abs(std::max(beyond_rim, beyond_faces));
 }
 
-TEST(Pick, PlacesLieOnWhatIsPicked) {
+class PickedPlaces : public ::testing::TestWithParam<mobb::TreeKind> {};
+
+TEST_P(PickedPlaces, LieOnWhatIsPicked) {
     for (const bool far : {false, true}) {
         const glm::dvec2 there = far ? glm::dvec2(10'000, -10'000) : glm::dvec2(0);
         const double then = far ? 1e5 : 0;
         mobb::FitOptions options;
-        options.tree = mobb::TreeKind::umobb;
+        options.tree = GetParam();
         options.time_scale = 2;
         const FittedScene fitted(testing::scene_of({{there, 0, then}, {there + glm::dvec2(1, -1), 90, then}}), options);
         for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::top, CameraPreset::side}) {
@@ -177,6 +180,10 @@ TEST(Pick, PlacesLieOnWhatIsPicked) {
         }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, PickedPlaces,
+                         ::testing::Values(mobb::TreeKind::umobb, mobb::TreeKind::moving, mobb::TreeKind::aabb),
+                         [](const auto& test) { return std::string(mobb::name(test.param)); });
 
 TEST(Pick, NothingIsPickedBesideTheScene) {
     const FittedScene fitted = testing::miss_scene();

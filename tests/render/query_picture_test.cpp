@@ -245,7 +245,8 @@ TEST(QuerySentence, LongNamesKeepBothEnds) {
 }
 
 TEST(QueryPicture, TheGapIsAsWideAsTheTraceSays) {
-    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
+    for (const mobb::TreeKind kind :
+         {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving, mobb::TreeKind::aabb}) {
         for (const bool hits : {true, false}) {
             const Query query(hits ? testing::hit_scene(kind) : testing::miss_scene(kind));
             int separated = 0;
@@ -277,6 +278,22 @@ TEST(QuerySentence, SaysWhatAStepShows) {
     EXPECT_NE(sentence.find(with_unit(query.recorded.trace[step].gap, "m")), std::string::npos) << sentence;
     EXPECT_EQ(query.recorded.contact, std::nullopt);
     EXPECT_TRUE(answer_sentence(query.sides, query.recorded).starts_with("A and B never collide; "));
+}
+
+TEST(QuerySentence, SaysWhatBoxesBeyondThePaperAre) {
+    const auto sentences = [](mobb::TreeKind kind, mobb::TestKind test) {
+        const Query query(testing::miss_scene(kind));
+        const int step = query.find(test, mobb::Outcome::separated);
+        return step_sentence(query.sides, query.recorded.trace, step) + '\n' +
+               answer_sentence(query.sides, query.recorded);
+    };
+    const std::string moving = sentences(mobb::TreeKind::moving, mobb::TestKind::moving);
+    EXPECT_NE(moving.find("'s short axis by "), std::string::npos) << moving;
+    EXPECT_NE(moving.find(" m at the nearest"), std::string::npos) << moving;
+    EXPECT_NE(moving.find(" moving box test"), std::string::npos) << moving;
+    const std::string aabb = sentences(mobb::TreeKind::aabb, mobb::TestKind::aabb);
+    EXPECT_NE(aabb.find("separated along y by "), std::string::npos) << aabb;
+    EXPECT_NE(aabb.find(" AABB test"), std::string::npos) << aabb;
 }
 
 TEST(QuerySentence, SaysWhenAndHowDeepAHitIs) {

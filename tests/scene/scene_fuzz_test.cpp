@@ -23,12 +23,22 @@ constexpr const char* kScene = R"({"$schema": "x", "mobbscope": 1,
  "view": {"camera": {"preset": "free", "yaw_deg": 10, "target": [0, 0, 1], "distance": 5}, "levels": "1:3", "step": "40%"}}
 )";
 
-TEST(SceneFuzz, DamagedScenesAreReadOrRefused) {
-    std::mt19937 random(20240608);
+constexpr const char* kCrowd = R"({"clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.5]]}},
+ "graph": {"hubs": [{"name": "h"}],
+   "moves": [{"clip": "walk", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [2, 0, 0]}]},
+ "crowd": {"area": [30, 40], "seconds": 2, "seed": 3, "ahead": 0.5, "grace": 1, "agents": [
+   {"name": "1", "plays": [{"move": 0, "translate": [1, 2], "rotate_deg": 0, "start": -0.5},
+     {"move": 0, "translate": [3, 2], "rotate_deg": 0, "start": 0.5, "chosen_at": 0},
+     {"move": 0, "translate": [5, 2], "rotate_deg": 30, "start": 1.5, "chosen_at": 1, "kind": "pivoted"}]},
+   {"name": "2", "plays": [{"move": 0, "translate": [-1, 2], "rotate_deg": 0, "start": 0}]}]}}
+)";
+
+void read_damaged(const char* scene_text, unsigned seed) {
+    std::mt19937 random(seed);
     int read = 0;
     int refused = 0;
     for (int round = 0; round < 30'000; ++round) {
-        const std::string text = testing::mutated(kScene, random);
+        const std::string text = testing::mutated(scene_text, random);
         try {
             const Scene scene = parse_scene(text, "fuzz.json", "");
             // What was let in must be fit for use.
@@ -44,6 +54,10 @@ TEST(SceneFuzz, DamagedScenesAreReadOrRefused) {
     EXPECT_GT(read, 1000);
     EXPECT_GT(refused, 1000);
 }
+
+TEST(SceneFuzz, DamagedScenesAreReadOrRefused) { read_damaged(kScene, 20240608); }
+
+TEST(SceneFuzz, DamagedRunsAreReadOrRefused) { read_damaged(kCrowd, 20240609); }
 
 }  // namespace
 }  // namespace mobbscope

@@ -1,5 +1,7 @@
 // What is written is read back as the same scene, bit for bit.
+#include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <support/temp_folder.h>
 
@@ -42,7 +44,8 @@ Scene random_scene(std::mt19937_64& random) {
                                {{length(random), length(random)}, length(random)}});
     }
     scene.graph = std::make_shared<MotionGraph>(std::move(graph));
-    scene.fit = {mobb::TreeKind::hybrid2, 4, 3, mobb::Axes::covariance, positive(random)};
+    scene.fit = {static_cast<mobb::TreeKind>(random() % mobb::tree_kind_names().size()), 4, 3, mobb::Axes::covariance,
+                 positive(random)};
     scene.view.camera = {
         CameraPreset::free, length(random), length(random), false, 33.3, glm::dvec3{0.1, 0.2, 0.3}, 9.7, {0.1, -0.7}};
     scene.view.levels = {1, 4, false};

@@ -34,6 +34,15 @@ std::string scene_with(const std::string& definition, const nlohmann::json& obje
     if (definition == "bounds") graph["bounds"] = object;
     if (definition == "move") graph["moves"] = {object};
     if (definition == "hub" || definition == "bounds" || definition == "move") scene["graph"] = graph;
+    const std::set<std::string> of_crowd{"crowd", "crowd_agent", "play"};
+    if (of_crowd.contains(definition)) {
+        scene["graph"] = graph;
+        nlohmann::json agent = {{"name", "1"}, {"plays", nlohmann::json::array({object})}};
+        if (definition == "crowd_agent") agent = object;
+        nlohmann::json crowd = {{"area", {9, 9}}, {"seconds", 1}, {"seed", 1}};
+        crowd["agents"] = nlohmann::json::array({agent});
+        scene["crowd"] = definition == "crowd" ? object : crowd;
+    }
     if (definition == "fit") scene["fit"] = object;
     if (definition == "view") scene["view"] = object;
     if (definition == "camera") scene["view"] = {{"camera", object}};
@@ -57,8 +66,9 @@ nlohmann::json properties(const std::string& definition) {
 }
 
 TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
-    for (const std::string definition : {"", "imported", "inline", "agent", "fit", "query", "participant", "expect",
-                                         "contact", "event", "view", "camera", "graph", "hub", "bounds", "move"}) {
+    for (const std::string definition :
+         {"", "imported", "inline", "agent", "fit", "query", "participant", "expect", "contact", "event", "view",
+          "camera", "graph", "hub", "bounds", "move", "crowd", "crowd_agent", "play"}) {
         const nlohmann::json known = properties(definition);
         ASSERT_FALSE(known.empty()) << definition;
         for (const auto& [key, unused] : known.items()) {
@@ -153,6 +163,13 @@ TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
     std::set<std::string> keys;
     collect_properties(schema(), keys);
     expect_known(nlohmann::json::parse(to_json(scene)), keys);
+    const Scene run = parse_scene(R"({"clips": {"root": {"dt": 1, "samples": [[0, 0, 1]]}},
+        "graph": {"hubs": [{"name": "h"}],
+          "moves": [{"clip": "root", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [1, 0, 0]}]},
+        "crowd": {"area": [9, 9], "seconds": 1, "seed": 1, "ahead": 2, "grace": 0, "agents": [{"name": "1", "plays":
+          [{"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "chosen_at": -1, "kind": "forced"}]}]}})",
+                                  "s.json", "");
+    expect_known(nlohmann::json::parse(to_json(run)), keys);
 }
 
 }  // namespace

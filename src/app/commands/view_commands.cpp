@@ -4,6 +4,7 @@
 #include <import/text.h>
 #include <render/lens.h>
 #include <render/navigate.h>
+#include <scene/crowd_run.h>
 
 #include <algorithm>
 #include <array>

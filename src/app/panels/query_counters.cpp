@@ -12,12 +12,16 @@ struct Counter {
     const char* label;
     const char* doc;
     std::int64_t (*of)(const StepCounts&);
+    bool beyond_the_paper = false;  ///< shown only where there was one
 };
 
-constexpr std::array<Counter, 5> kCounters{{
+constexpr std::array<Counter, 7> kCounters{{
     {"time tests", "Do two nodes share time?", [](const StepCounts& c) { return c.tests.time; }},
     {"2D box tests", "Four axes on the floor", [](const StepCounts& c) { return c.tests.obb2d; }},
     {"3D box tests", "Up to fifteen axes in space-time", [](const StepCounts& c) { return c.tests.obb3d; }},
+    {"moving box tests", "Four axes on the floor, at both ends of the common time",
+     [](const StepCounts& c) { return c.tests.moving; }, true},
+    {"AABB tests", "The world's x and y", [](const StepCounts& c) { return c.tests.aabb; }, true},
     {"sample pairs", "Pairs of disks whose distance was measured", [](const StepCounts& c) { return c.tests.samples; }},
     {"wasted", "Box tests that found an overlap which led to no hit", [](const StepCounts& c) { return c.wasted; }},
 }};
@@ -47,6 +51,7 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
     right_aligned("in all", second, ui.look.quiet);
     ImGui::PopFont();
     for (const Counter& counter : kCounters) {
+        if (counter.beyond_the_paper && counter.of(total) == 0) continue;
         ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
         ImGui::TextUnformatted(counter.label);
         ImGui::PopStyleColor();

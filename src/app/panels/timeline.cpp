@@ -8,6 +8,7 @@
 #include <render/paths.h>
 #include <render/subject.h>
 #include <render/ticks.h>
+#include <scene/crowd_run.h>
 
 #include <algorithm>
 #include <cstdio>

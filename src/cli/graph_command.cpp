@@ -1,0 +1,252 @@
+#include <cli/commands.h>
+#include <cli/exit_status.h>
+#include <cli/graph_info.h>
+#include <cli/messages.h>
+#include <cli/options.h>
+#include <crowd/build_graph.h>
+#include <crowd/graph_walk.h>
+#include <crowd/recordings.h>
+#include <import/file.h>
+#include <import/text.h>
+#include <render/graph_picture.h>
+#include <render/metrics.h>
+#include <render/png.h>
+#include <render/render.h>
+#include <render/renderer.h>
+
+#include <unistd.h>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::cli {
+
+namespace {
+
+constexpr double kMostSeconds = 3600;  // of a move
+constexpr int kMostCount = 10'000;
+
+struct BuildArguments {
+    std::vector<std::filesystem::path> places;
+    std::filesystem::path out;
+    GraphOptions options;
+    bool whole = false;
+    bool inline_samples = false;
+    ImportOptions import_options;
+};
+
+struct InfoArguments {
+    std::filesystem::path file;
+    bool json = false;
+};
+
+struct DrawArguments {
+    std::filesystem::path file;
+    std::filesystem::path out;
+    PictureSize size{1280, 720};
+    double scale = 0;
+    Theme theme = Theme::dark;
+    Backend backend = Backend::automatic;
+};
+
+/// Tells a person who waits how far the work is; a script's log stays empty.
+Progress tell(const std::string& doing, const std::string& things) {
+    using Clock = std::chrono::steady_clock;
+    const auto said = std::make_shared<Clock::time_point>(Clock::now());
+    const bool watched = ::isatty(STDERR_FILENO) == 1;
+    return [=](std::size_t done, std::size_t all) {
+        constexpr std::chrono::seconds kPause{2};
+        if (!watched || Clock::now() - *said < kPause) return;
+        *said = Clock::now();
+        complain(doing + ' ' + std::to_string(done) + " of " + std::to_string(all) + ' ' + things);
+    };
+}
+
+std::string moves_text(std::size_t count) { return counted(static_cast<long long>(count), "move", "moves"); }
+
+std::string hubs_text(std::size_t count) { return counted(static_cast<long long>(count), "hub", "hubs"); }
+
+void print_report(const BuildReport& report) {
+    std::cout << "from " << counted(static_cast<long long>(report.recordings), "recording", "recordings") << ", "
+              << brief(report.seconds) << " s of " << counted(static_cast<long long>(report.rigs), "rig", "rigs")
+              << ": " << counted(static_cast<long long>(report.pieces), "piece", "pieces") << " between the hubs\n"
+              << "left out: " << report.alike << " that go like others or are more than --moves; "
+              << moves_text(report.dead_ends) << " and " << hubs_text(report.dropped_hubs)
+              << " at dead ends or in parts of fewer than --least-moves\n";
+    if (report.rigs_left_out > 0) {
+        warn(counted(static_cast<long long>(report.rigs_left_out), "rig has", "rigs have") +
+             " no pose that comes again often enough, and no part in the graph");
+    }
+    if (report.without_joints > 0) {
+        warn(counted(static_cast<long long>(report.without_joints), "clip has", "clips have") +
+             " no joints, and no part in the graph");
+    }
+}
+
+BuiltGraph whole_graph(Scene recordings) {
+    recordings.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(recordings));
+    return {std::move(recordings), {}};
+}
+
+/// What names the input in a message.
+std::string place_of(const std::vector<std::filesystem::path>& places) {
+    return places.size() == 1 ? places.front().string()
+                              : counted(static_cast<long long>(places.size()), "place", "places");
+}
+
+void build(const BuildArguments& arguments) {
+    check_file_name(arguments.out);
+    if (lower_extension(arguments.out) != ".json") {
+        throw InputError(arguments.out.string(), "", "a graph is written as .json; rename the output");
+    }
+    const auto files = clip_files(arguments.places);
+    Scene recordings = load_recordings(files, arguments.out, arguments.import_options, tell("read", "files"));
+    const BuiltGraph built = arguments.whole ? whole_graph(std::move(recordings))
+                                             : build_graph(recordings, arguments.options, place_of(arguments.places),
+                                                           tell("compared", "moments"));
+    write_file(arguments.out, to_json(built.scene, arguments.inline_samples));
+    const MotionGraph& graph = *built.scene.graph;
+    std::cout << cleaned(arguments.out.string()) << ": " << hubs_text(graph.hubs.size()) << ", "
+              << moves_text(graph.moves.size()) << '\n';
+    if (!arguments.whole) print_report(built.report);
+    flush_results();
+}
+
+/// A scene with a graph. Throws InputError.
+Scene load_graph(const std::filesystem::path& file) {
+    Scene scene = load_scene(file, {}, tell("read", "clips"));
+    if (!scene.graph) {
+        throw InputError(file.string(), "", "there is no motion graph in it; make one with mobbscope graph build");
+    }
+    return scene;
+}
+
+int info(const InfoArguments& arguments) {
+    const Scene scene = load_graph(arguments.file);
+    const GraphFigures figures = graph_figures(scene);
+    const JointMeasures joints = measure_joints(scene, tell("measured", "clips"));
+    if (arguments.json) {
+        write_graph_info(std::cout, scene, figures, joints);
+    } else {
+        print_graph_info(std::cout, scene, figures, joints);
+    }
+    flush_results();
+    const std::vector<std::string> broken = broken_bounds(scene, joints);
+    for (const std::string& sentence : broken) complain(arguments.file.string() + ": " + sentence);
+    return broken.empty() ? kDone : kFailed;
+}
+
+void draw(const DrawArguments& arguments) {
+    check_file_name(arguments.out);
+    if (lower_extension(arguments.out) != ".png") {
+        throw InputError(arguments.out.string(), "", "a picture is written as .png; rename the output");
+    }
+    const Scene scene = load_graph(arguments.file);
+    const DrawList list = graph_picture(scene, arguments.size, arguments.theme, arguments.scale);
+    Renderer renderer(arguments.backend);
+    write_png(arguments.out, renderer.draw(list));
+}
+
+std::uint64_t parse_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, seed);
+    if (error != std::errc{} || stop != end) {
+        throw std::invalid_argument(in_quotes(text) + " is no whole number from 0 to " +
+                                    std::to_string(std::numeric_limits<std::uint64_t>::max()));
+    }
+    return seed;
+}
+
+/// "1:4" in seconds.
+std::pair<double, double> parse_seconds(const std::string& text) {
+    const auto range = parse_range(text);
+    if (!range || !(range->first > 0) || !(range->second >= range->first) || range->second > kMostSeconds) {
+        throw std::invalid_argument(in_quotes(text) + " is no range of seconds over 0 and up to " +
+                                    brief(kMostSeconds) + "; write it like 1:4");
+    }
+    return *range;
+}
+
+void add_build(CLI::App& graph) {
+    CLI::App* command = graph.add_subcommand("build", "Cut a motion graph out of recordings, at poses that come again");
+    const auto arguments = std::make_shared<BuildArguments>();
+    GraphOptions& options = arguments->options;
+    command->add_option("PLACE", arguments->places, "Clip files, and folders of them with their subfolders")
+        ->required()
+        ->type_name("");
+    command->add_option("-o,--output", arguments->out, "The graph, a scene")->required()->type_name("GRAPH.json");
+    add_parsed(*command, "--pose-distance", options.bounds.pose_distance, number_within(0, 1e9),
+               "Metres that poses may differ by where moves join: root mean square over the joints (0.16)", "D");
+    add_parsed(*command, "--root-speed", options.bounds.root_speed, number_within(0, 1e9),
+               "Metres per second that the root's velocity may change by there (0.6)", "V");
+    command
+        ->add_option_function<std::string>(
+            "--seconds",
+            [&options](const std::string& text) {
+                try {
+                    std::tie(options.least_seconds, options.most_seconds) = parse_seconds(text);
+                } catch (const std::invalid_argument& error) {
+                    throw CLI::ValidationError("--seconds", error.what());
+                }
+            },
+            "How long moves last (1:4)")
+        ->type_name("A:B");
+    add_parsed(*command, "--hubs", options.hubs, whole_number_within(1, kMostCount), "Most hubs for each rig (8)", "N");
+    add_parsed(*command, "--moves", options.moves, whole_number_within(1, kMostCount),
+               "Most moves from one hub to another; those that differ most are taken (16)", "N");
+    add_parsed(*command, "--least-moves", options.least_moves, whole_number_within(1, kMostCount),
+               "Parts of the graph with fewer are left out (3)", "N");
+    add_parsed(*command, "--candidates", options.candidates, whole_number_within(1, kMostCount),
+               "Moments of each rig that are looked at as hubs (400)", "N");
+    add_parsed(*command, "--seed", options.seed, parse_seed, "Decides which moments those are (1)", "S");
+    command->add_flag("--whole", arguments->whole, "Takes clips whole, from one hub to itself, and bounds nothing");
+    command->add_flag("--inline", arguments->inline_samples,
+                      "Writes samples, so that the file stands alone; without it clips lead to their files");
+    add_import_options(*command, arguments->import_options);
+    command->callback([arguments] { build(*arguments); });
+}
+
+void add_info(CLI::App& graph, int& status) {
+    CLI::App* command =
+        graph.add_subcommand("info", "What is in a graph, and whether its bounds hold; exit status 1 if they do not");
+    const auto arguments = std::make_shared<InfoArguments>();
+    add_parsed(*command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "")->required();
+    command->add_flag("--json", arguments->json, "The same as JSON");
+    command->callback([arguments, &status] { status = info(*arguments); });
+}
+
+void add_draw(CLI::App& graph) {
+    CLI::App* command = graph.add_subcommand("draw", "Draw a graph: hubs, moves and the floor paths from each hub");
+    const auto arguments = std::make_shared<DrawArguments>();
+    add_parsed(*command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "")->required();
+    command->add_option("-o,--output", arguments->out, "The picture")->required()->type_name("OUT.png");
+    add_parsed(*command, "--size", arguments->size, parse_size, "In pixels (1280x720)", "WxH");
+    add_parsed(*command, "--scale", arguments->scale, number_within(kLeastScale, kMostScale),
+               "Of text and lines; by itself it suits the size", "X");
+    add_parsed(*command, "--theme", arguments->theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
+    add_parsed(*command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
+               "OpenGL without a display: auto, osmesa or egl", "NAME");
+    command->callback([arguments] { draw(*arguments); });
+}
+
+}  // namespace
+
+void add_graph_command(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand("graph", "Motion graphs: build, info, draw");
+    command->require_subcommand(1);
+    add_build(*command);
+    add_info(*command, status);
+    add_draw(*command);
+}
+
+}  // namespace mobbscope::cli

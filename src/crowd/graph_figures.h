@@ -1,0 +1,51 @@
+/// A motion graph in figures.
+#pragma once
+
+#include <scene/motion_graph.h>
+#include <scene/scene.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+struct HubFigures {
+    std::string name;
+    std::size_t begin = 0;  ///< moves that begin here: the choices
+    std::size_t end = 0;    ///< moves that end here
+    double speed = 0;       ///< of the root on average as moves begin and end here, metres per second
+};
+
+/// Hubs that all lead to each other, and the moves between them.
+struct ComponentFigures {
+    std::vector<int> hubs;
+    std::size_t moves = 0;
+    double seconds = 0;
+};
+
+/// What the graph takes from a file; from the scene's own samples if `file` is empty.
+struct SourceFigures {
+    std::string file;
+    std::size_t moves = 0;
+    double seconds = 0;
+};
+
+struct GraphFigures {
+    std::vector<HubFigures> hubs;
+    std::vector<ComponentFigures> components;
+    std::vector<SourceFigures> sources;  ///< in the order of their first moves
+    std::vector<int> dead_ends;          ///< hubs in which no move begins
+    std::size_t moves = 0;
+    double seconds = 0;                  ///< of all moves
+    double choices = 0;                  ///< moves that may follow a move, on average
+    double seconds_between_choices = 0;  ///< a move lasts so long on average
+};
+
+/// The scene has a graph.
+GraphFigures graph_figures(const Scene& scene);
+
+/// Metres that the root goes in a move, from its first sample to its exit.
+double way_of(const mobb::Clip& clip, const GraphMove& move);
+
+}  // namespace mobbscope

@@ -1,0 +1,174 @@
+#include <mobb/chain.h>
+#include <mobb/principal_axes.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace mobb {
+
+namespace {
+
+std::shared_ptr<const Tree> checked(std::shared_ptr<const Tree> tree) {
+    if (!tree) throw std::invalid_argument("a chain part needs a tree");
+    return tree;
+}
+
+/// An upper bound on |x| + |y| + r over the link's disks, in the chain's frame.
+double reach_of(const ChainLink& link) {
+    return std::abs(link.translate.x) + std::abs(link.translate.y) + std::numbers::sqrt2 * link.part->clip().reach();
+}
+
+/// How many bits tell the nodes of a tree apart.
+int bits_for(const Tree& tree) { return static_cast<int>(std::bit_width(tree.nodes().size() - 1)); }
+
+/// From the first centre to the last; where they coincide, what stands in for it.
+glm::dvec2 travel_axis(const Disk& first, const Disk& last, glm::dvec2 stand_in) {
+    const glm::dvec2 travel{last.x - first.x, last.y - first.y};
+    const double length = glm::length(travel);
+    return length > kStandingStill ? travel / length : stand_in;
+}
+
+Outline outline_of(std::span<const Disk> disks) {
+    return {disks, travel_axis(disks.front(), disks.back(), principal_axis(disks))};
+}
+
+/// The rectangle around an outline along its axis, a little wider for rounding errors, from t0 to t1 (w*t).
+Box rectangle_over_time(const Outline& outline, double rounding, double t0, double t1) {
+    const glm::dvec2 u = outline.axis(), center = outline.center(), half = outline.half() + rounding;
+    Box box;
+    box.kind = BoxKind::obb2d;
+    box.center = {center.x, center.y, (t0 + t1) / 2};
+    box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{-u.y, u.x, 0}, glm::dvec3{0, 0, 1}};
+    box.half = {half.x, half.y, (t1 - t0) / 2};
+    return box;
+}
+
+}  // namespace
+
+ChainPart::ChainPart(std::shared_ptr<const Tree> tree)
+    : tree_(checked(std::move(tree))), outline_(outline_of(tree_->clip().samples())) {}
+
+Chain::Chain(std::span<const ChainLink> links) {
+    if (links.empty()) throw std::invalid_argument("a chain needs at least one link");
+    append(links);
+}
+
+void Chain::append(std::span<const ChainLink> links) {
+    // Everything is checked first: a chain that refuses a link is as it was.
+    const ChainPart* like = !links_.empty() ? links_.front().part.get() : nullptr;
+    std::size_t samples = links_.empty() ? 0 : static_cast<std::size_t>(end());
+    int shift = shift_;
+    double reach = reach_;
+    for (std::size_t k = 0; k < links.size(); ++k) {
+        const ChainLink& link = links[k];
+        const auto fail = [k](const char* what) {
+            throw std::invalid_argument("link " + std::to_string(k) + ": " + what);
+        };
+        if (!link.part) fail("it has no part");
+        if (!like) like = link.part.get();
+        const Tree& tree = link.part->tree();
+        if (tree.clip().dt() != like->clip().dt()) fail("its dt must be that of the chain's other clips");
+        if (tree.time_scale() != like->tree().time_scale())
+            fail("its time_scale must be that of the chain's other trees");
+        if (!is_valid({.translate = link.translate, .rotate_deg = link.rotate_deg}) || reach_of(link) > kMaxLength) {
+            fail("its placement must be finite and keep the clip within 1e9 m");
+        }
+        samples += static_cast<std::size_t>(tree.clip().count());
+        if (samples > kMaxSamples) fail("with it the chain has more than 500000000 samples");
+        if (static_cast<double>(samples) * tree.clip().dt() > kMaxTime)
+            fail("with it the chain lasts longer than 1e12 s");
+        shift = std::max(shift, bits_for(tree));
+        reach = std::max(reach, reach_of(link));
+    }
+    const auto count = static_cast<std::int64_t>(links_.size() + links.size());
+    if ((count << shift) + count > std::numeric_limits<int>::max()) {
+        throw std::invalid_argument("the chain has too many nodes: use fewer links, or trees with larger leaves");
+    }
+    if (links_.empty()) {
+        dt_ = like->clip().dt();
+        time_scale_ = like->tree().time_scale();
+        links_.reserve(links.size());
+        upper_.reserve(links.size());
+    }
+    shift_ = shift;
+    reach_ = reach;
+    for (const ChainLink& link : links) {
+        const Tree& tree = link.part->tree();
+        push({link.part, tree.nodes().data(), tree.clip().samples().data(), Rotation::from_degrees(link.rotate_deg),
+              link.translate, links_.empty() ? 0 : end(), tree.clip().count()});
+    }
+    join_peaks();
+}
+
+void Chain::drop_before(double seconds) {
+    const auto ends_later = [&](const Link& link) { return link.end() * dt_ > seconds; };
+    auto stays = std::find_if(links_.begin(), links_.end() - 1, ends_later);
+    if (stays == links_.begin()) return;
+    std::vector<Link> kept(std::make_move_iterator(stays), std::make_move_iterator(links_.end()));
+    links_.clear();
+    upper_.clear();
+    peaks_.clear();
+    perfect_ = 0;
+    for (Link& link : kept) push(std::move(link));
+    join_peaks();
+}
+
+/// A binary counter: two perfect trees of one size become one of the next.
+void Chain::push(Link link) {
+    upper_.resize(perfect_);
+    const int k = static_cast<int>(links_.size());
+    Peak peak{~k, k, 1, link.part->outline().placed(link.rotation, link.translate)};
+    links_.push_back(std::move(link));
+    while (!peaks_.empty() && peaks_.back().links == peak.links) {
+        peak = joined(peaks_.back(), peak);
+        peaks_.pop_back();
+    }
+    peaks_.push_back(peak);
+    perfect_ = upper_.size();
+}
+
+/// The spine: from the smallest tree at the end to the largest in front.
+void Chain::join_peaks() {
+    Peak all = peaks_.back();
+    for (std::size_t i = peaks_.size() - 1; i > 0; --i) all = joined(peaks_[i - 1], all);
+}
+
+Chain::Peak Chain::joined(const Peak& left, const Peak& right) {
+    const int links = left.links + right.links;
+    const Link& first = links_[static_cast<std::size_t>(left.first_link)];
+    const Link& last = links_[static_cast<std::size_t>(left.first_link + links - 1)];
+    const glm::dvec2 axis = travel_axis(first.disk(first.first), last.disk(last.end() - 1), left.outline.axis());
+    Peak peak{static_cast<int>(upper_.size()), left.first_link, links, {left.outline, right.outline, axis}};
+    const double w = time_scale_;
+    upper_.push_back(
+        {rectangle_over_time(peak.outline, kOutlineRounding * reach_, w * (first.first * dt_), w * (last.end() * dt_)),
+         first.first,
+         last.end() - first.first,
+         {left.child, right.child}});
+    return peak;
+}
+
+Disk Chain::disk(int i) const {
+    const auto after = std::ranges::upper_bound(links_, i, {}, &Link::first);
+    return std::prev(after)->disk(i);
+}
+
+Clip flattened(const Chain& chain) {
+    std::vector<Disk> samples;
+    samples.reserve(static_cast<std::size_t>(chain.end() - chain.first()));
+    for (int i = chain.first(); i < chain.end(); ++i) samples.push_back(chain.disk(i));
+    return {chain.dt(), std::move(samples)};
+}
+
+}  // namespace mobb

@@ -1,0 +1,182 @@
+/// Chains: clips played back to back, under one tree that is composed of theirs (the future work of the paper, Section
+/// 6). A motion graph makes them as it runs.
+#pragma once
+
+#include <mobb/outline.h>
+#include <mobb/tree.h>
+
+#include <glm/vec2.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace mobb {
+
+/// A tree that may become a link of chains, with what chains need to know of its clip. Immutable: made once per clip,
+/// shared by every chain that plays it.
+class ChainPart {
+  public:
+    /// Takes time in proportion to the clip's samples. Throws std::invalid_argument if there is no tree.
+    explicit ChainPart(std::shared_ptr<const Tree> tree);
+
+    const Tree& tree() const { return *tree_; }
+    const Clip& clip() const { return tree_->clip(); }
+    const Outline& outline() const { return outline_; }  ///< of all the clip's disks, in the clip's frame
+
+  private:
+    std::shared_ptr<const Tree> tree_;
+    Outline outline_;
+};
+
+using ChainPartPtr = std::shared_ptr<const ChainPart>;
+
+/// A clip of a chain: rotate about the clip's origin, then translate, into the chain's frame.
+struct ChainLink {
+    ChainPartPtr part;
+    glm::dvec2 translate{0, 0};  ///< metres
+    double rotate_deg = 0;       ///< degrees, counter-clockwise; multiples of 90 rotate exactly
+};
+
+/// A node of a chain, seen in the chain's frame. Valid until the chain changes.
+struct ChainNode {
+    int first = 0;  ///< sample of the chain
+    int count = 0;
+    int children[2] = {-1, -1};  ///< in time order; -1 in a leaf
+    int link = -1;               ///< the link whose tree's node this is; -1: a node above the links
+    const Box* box = nullptr;    ///< in the frame of the link's clip; of a node above the links, in the chain's
+
+    bool is_leaf() const { return children[0] < 0; }
+    int end() const { return first + count; }
+};
+
+/// One or more links in order of time, without gaps. Sample I of the chain is sample I - F of the link whose first
+/// sample in the chain is F, and holds over [I*dt, (I+1)*dt) of chain time.
+///
+/// The nodes of the links' trees are used where they are: seen through the link's placement, not copied. Above them
+/// stand MOBB boxes, fitted to merged outlines: perfect binary trees over 2^k links each, the oldest the largest,
+/// joined along a spine. A value: copies are independent, and any number of threads may ask one that nobody changes.
+class Chain {
+  public:
+    /// Time is linear in the number of links and does not depend on their samples. Throws std::invalid_argument, naming
+    /// the link, if there is none, one has no part, another dt or time scale than the first, a number that is not
+    /// finite or out of range, or lies beyond kMaxLength; or if the chain gets longer than a clip may be (kMaxSamples,
+    /// kMaxTime) or has more nodes than an int can tell apart (the links times those of the largest tree).
+    explicit Chain(std::span<const ChainLink> links);
+
+    /// Adds links at the end; throws like the constructor, and then the chain is as it was. The time per link is
+    /// constant but for the spine: at most log2(links) boxes a call.
+    void append(std::span<const ChainLink> links);
+    void append(const ChainLink& link) { append({&link, 1}); }
+
+    /// Drops the links that end at or before a chain time (seconds), except the last. What stays keeps its sample
+    /// indices and times, so the answers keep theirs. Takes time in proportion to the links that stay if one goes.
+    void drop_before(double seconds);
+
+    double dt() const { return dt_; }
+    double time_scale() const { return time_scale_; }
+    int links() const { return static_cast<int>(links_.size()); }
+    /// 0 <= k < links(). The first sample of link k, and where it lies.
+    int first_sample(int k) const { return links_[static_cast<std::size_t>(k)].first; }
+    const ChainPart& part(int k) const { return *links_[static_cast<std::size_t>(k)].part; }
+
+    int first() const { return links_.front().first; }  ///< the first sample that has not been dropped
+    int end() const { return links_.back().end(); }     ///< one past the last sample
+    double duration() const { return end() * dt_; }     ///< chain time at which the last sample ends, seconds
+    /// An upper bound in metres on |x| + |y| + r over the samples.
+    double reach() const { return reach_; }
+
+    /// Nodes are numbered anew whenever the chain changes, with gaps: 0 is the root, the others come from `children`.
+    ChainNode node(int id) const;
+    /// The node's box in the chain's frame and time.
+    Box box(const ChainNode& node) const;
+
+    /// Sample i in the chain's frame, first() <= i < end(); in O(log links).
+    Disk disk(int i) const;
+
+  private:
+    friend class ChainSamples;
+
+    struct Link {
+        ChainPartPtr part;
+        const Node* nodes;    ///< of the part's tree
+        const Disk* samples;  ///< of its clip
+        Rotation rotation;
+        glm::dvec2 translate;
+        int first;  ///< in the chain
+        int count;
+
+        int end() const { return first + count; }
+        Disk disk(int i) const { return placed(samples[i - first], rotation, translate); }
+    };
+    /// A box over several links. A child >= 0 is one of upper_; ~k is the root of link k.
+    struct Upper {
+        Box box;
+        int first;
+        int count;
+        int children[2];
+    };
+    /// A tree that is not yet part of a larger one.
+    struct Peak {
+        int child;  ///< as in Upper
+        int first_link;
+        int links;
+        Outline outline;
+    };
+
+    int id_of(int child) const {
+        const int uppers = static_cast<int>(upper_.size());
+        return child >= 0 ? uppers - 1 - child : uppers + (~child << shift_);
+    }
+    void push(Link link);
+    Peak joined(const Peak& left, const Peak& right);
+    void join_peaks();
+
+    std::vector<Link> links_;
+    std::vector<Upper> upper_;  ///< the perfect trees in post-order, then the spine; the root is the last
+    std::vector<Peak> peaks_;   ///< the perfect trees, ever smaller
+    std::size_t perfect_ = 0;   ///< how many of upper_ are not of the spine
+    int shift_ = 0;             ///< a link's nodes have 2^shift_ numbers
+    double dt_ = 0;
+    double time_scale_ = 0;
+    double reach_ = 0;
+};
+
+inline ChainNode Chain::node(int id) const {
+    const int uppers = static_cast<int>(upper_.size());
+    if (id < uppers) {
+        const Upper& upper = upper_[static_cast<std::size_t>(uppers - 1 - id)];
+        return {upper.first, upper.count, {id_of(upper.children[0]), id_of(upper.children[1])}, -1, &upper.box};
+    }
+    const int k = (id - uppers) >> shift_;
+    const int root = uppers + (k << shift_);
+    const Link& link = links_[static_cast<std::size_t>(k)];
+    const Node& node = link.nodes[id - root];
+    ChainNode out{link.first + node.first, node.count, {-1, -1}, k, &node.box};
+    if (!node.is_leaf()) {
+        out.children[0] = root + node.children[0];
+        out.children[1] = root + node.children[1];
+    }
+    return out;
+}
+
+inline Box Chain::box(const ChainNode& node) const {
+    Box box = *node.box;
+    if (node.link < 0) return box;
+    const Link& link = links_[static_cast<std::size_t>(node.link)];
+    const auto turned = [&](glm::dvec3 v) {
+        const glm::dvec2 on_floor = link.rotation(glm::dvec2{v.x, v.y});
+        return glm::dvec3{on_floor.x, on_floor.y, v.z};
+    };
+    box.center = turned(box.center) + glm::dvec3{link.translate, time_scale_ * (link.first * dt_)};
+    for (glm::dvec3& axis : box.axes) axis = turned(axis);
+    box.drift = link.rotation(box.drift);
+    if (box.kind == BoxKind::aabb) box.kind = BoxKind::obb2d;  // turned, it no longer lies along x and y
+    return box;
+}
+
+/// The clip of all samples of a chain that have not been dropped, in its frame: bit for bit the same disks.
+Clip flattened(const Chain& chain);
+
+}  // namespace mobb

@@ -1,0 +1,62 @@
+/// Chains where they are placed.
+#pragma once
+
+#include <mobb/chain.h>
+
+namespace mobb {
+
+/// The placed samples of one link, with their indices in the chain.
+class ChainSamples {
+  public:
+    ChainSamples(const Chain& chain, int link, const PlacedFrame& frame)
+        : link_(&chain.links_[static_cast<std::size_t>(link)]), frame_(&frame), dt_(chain.dt()) {}
+
+    Disk disk(int i) const { return placed(link_->disk(i), frame_->rotation, frame_->translate); }
+    double time(int i) const { return frame_->start + i * dt_; }
+
+  private:
+    const Chain::Link* link_;
+    const PlacedFrame* frame_;
+    double dt_;
+};
+
+/// A chain seen through a placement: a node source of the traversal and a sample source of the direct search. Its
+/// answers are bit for bit those of the clip of all its samples. It refers to the chain, which must outlive it, stay
+/// where it is, and not change meanwhile. Requires is_valid(placement).
+class PlacedChain {
+  public:
+    PlacedChain(const Chain& chain, const Placement& placement)
+        : chain_(&chain),
+          dt_(chain.dt()),
+          frame_{Rotation::from_degrees(placement.rotate_deg), placement.translate, placement.start, chain.reach(),
+                 chain.duration()} {
+        assert(is_valid(placement));
+    }
+    PlacedChain(const Chain&&, const Placement&) = delete;
+
+    const Chain& chain() const { return *chain_; }
+    ChainNode node(int id) const { return chain_->node(id); }
+    Box box(const ChainNode& node) const { return chain_->box(node); }
+    double time_scale() const { return chain_->time_scale(); }
+    const PlacedFrame& frame() const { return frame_; }
+    /// The placed samples below a node of a link.
+    ChainSamples samples(const ChainNode& node) const { return {*chain_, node.link, frame_}; }
+    const PlacedChain& samples() const { return *this; }
+    /// Global time, as the samples that bound the node have it.
+    double begin(const ChainNode& node) const { return time(node.first); }
+    double end(const ChainNode& node) const { return time(node.end()); }
+
+    int first() const { return chain_->first(); }
+    int end() const { return chain_->end(); }
+    /// Sample i in the world; in O(log links).
+    Disk disk(int i) const { return placed(chain_->disk(i), frame_.rotation, frame_.translate); }
+    /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
+    double time(int i) const { return frame_.start + i * dt_; }
+
+  private:
+    const Chain* chain_;
+    double dt_;
+    PlacedFrame frame_;
+};
+
+}  // namespace mobb

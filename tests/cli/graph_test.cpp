@@ -1,0 +1,166 @@
+// `mobbscope graph`, as a user runs it.
+#include "run_program.h"
+
+#include <render/png.h>
+#include <support/temp_folder.h>
+
+#include "render/backends.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+using testing::is_one_line;
+using testing::Result;
+using testing::run_program;
+using testing::slurp;
+using testing::TempFolder;
+
+const std::string kClips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
+
+class GraphTest : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<TempFolder>();
+        built_ = run_program({"graph", "build", kClips, "-o", graph()});
+    }
+    static void TearDownTestSuite() { folder_.reset(); }
+    static std::string graph() { return folder_->path() / "graph.json"; }
+    static std::string path(const std::string& name) { return folder_->path() / name; }
+    /// The graph as JSON, to be damaged.
+    static nlohmann::json json() { return nlohmann::json::parse(slurp(graph())); }
+
+    static void expect_refused(const std::vector<std::string>& arguments, const std::string& why, int status = 2) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, status) << run.err;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    }
+
+    static std::unique_ptr<TempFolder> folder_;
+    static Result built_;
+};
+
+std::unique_ptr<TempFolder> GraphTest::folder_;
+Result GraphTest::built_;
+
+TEST_F(GraphTest, IsBuiltAndItsBoundsHold) {
+    EXPECT_EQ(built_.status, 0) << built_.err;
+    EXPECT_EQ(built_.err, "");
+    EXPECT_NE(built_.out.find(" hubs, "), std::string::npos) << built_.out;
+    const Result run = run_program({"graph", "info", graph(), "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const nlohmann::json info = nlohmann::json::parse(run.out);
+    EXPECT_TRUE(info["holds"]);
+    EXPECT_EQ(info["moves"], json()["graph"]["moves"].size());
+    EXPECT_EQ(info["hubs"].size(), json()["graph"]["hubs"].size());
+    EXPECT_LE(info["joints"]["pose_distance"]["largest"], info["bounds"]["pose_distance"]);
+    EXPECT_LE(info["joints"]["root_speed"]["largest"], info["bounds"]["root_speed"]);
+    EXPECT_EQ(info["joints"]["pose_distance"]["count"], info["joints"]["count"]);
+    EXPECT_EQ(info["dead_ends"].size(), 0u);
+    double seconds = 0;
+    for (const auto& source : info["sources"]) seconds += source["seconds"].get<double>();
+    EXPECT_NEAR(seconds, info["seconds"].get<double>(), 1e-9);
+    const Result words = run_program({"graph", "info", graph()});
+    EXPECT_EQ(words.status, 0);
+    for (const char* part : {"hubs, ", "a choice", "pose distance", "root velocity", "wander.glb"}) {
+        EXPECT_NE(words.out.find(part), std::string::npos) << part << " in " << words.out;
+    }
+}
+
+TEST_F(GraphTest, TheSameInputAndSeedGiveTheSameFile) {
+    ASSERT_EQ(run_program({"graph", "build", kClips, "-o", path("again.json")}).status, 0);
+    EXPECT_TRUE(slurp(path("again.json")) == slurp(graph()));
+    ASSERT_EQ(run_program({"graph", "build", kClips, "--seed", "9", "-o", path("other.json")}).status, 0);
+    EXPECT_FALSE(slurp(path("other.json")) == slurp(graph()));
+}
+
+TEST_F(GraphTest, ABrokenBoundIsExitStatus1) {
+    nlohmann::json broken = json();
+    broken["graph"]["bounds"]["pose_distance"] = 0.01;
+    folder_->write("pose.json", broken.dump());
+    expect_refused({"graph", "info", path("pose.json")}, "over the bound of 0.01 m", 1);
+    EXPECT_FALSE(nlohmann::json::parse(run_program({"graph", "info", path("pose.json"), "--json"}).out)["holds"]);
+    broken = json();
+    broken["graph"]["moves"][3]["exit"][0] = broken["graph"]["moves"][3]["exit"][0].get<double>() + 0.2;
+    folder_->write("speed.json", broken.dump());
+    expect_refused({"graph", "info", path("speed.json")}, "the change of the root's velocity is", 1);
+}
+
+TEST_F(GraphTest, WithSamplesInsideItStandsAlone) {
+    const TempFolder elsewhere;
+    const std::string file = elsewhere.path() / "g.json";
+    ASSERT_EQ(run_program({"graph", "build", kClips, "--inline", "--moves", "2", "-o", file}).status, 0);
+    EXPECT_EQ(slurp(file).find("\"source\""), std::string::npos);
+    const Result run = run_program({"graph", "info", file, "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const nlohmann::json info = nlohmann::json::parse(run.out);
+    EXPECT_TRUE(info["joints"]["pose_distance"]["largest"].is_null());
+    EXPECT_GT(info["joints"]["root_speed"]["largest"], 0);
+    EXPECT_NE(run_program({"graph", "info", file}).out.find("not measured"), std::string::npos);
+}
+
+TEST_F(GraphTest, WholeClipsHaveOneHubAndNoBounds) {
+    ASSERT_EQ(run_program({"graph", "build", kClips, "--whole", "-o", path("whole.json")}).status, 0);
+    const nlohmann::json whole = nlohmann::json::parse(slurp(path("whole.json")));
+    EXPECT_EQ(whole["graph"]["hubs"].size(), 1u);
+    EXPECT_EQ(whole["graph"]["moves"].size(), 7u);
+    EXPECT_TRUE(whole["graph"]["bounds"]["pose_distance"].is_null());
+    const Result run = run_program({"graph", "info", path("whole.json")});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("bound none"), std::string::npos) << run.out;
+}
+
+TEST_F(GraphTest, ClipsLeadToTheirFilesFromWhereverTheGraphIs) {
+    std::filesystem::create_directories(path("a/b"));
+    ASSERT_EQ(run_program({"graph", "build", kClips + "/wander.glb", "-o", path("a/b/g.json")}).status, 0);
+    EXPECT_EQ(run_program({"graph", "info", path("a/b/g.json")}).status, 0);
+}
+
+TEST_F(GraphTest, WhatCannotBeDoneIsSaidInOneLine) {
+    const std::string none = path("none.json");
+    std::filesystem::create_directory(path("empty"));
+    folder_->write("plain.json", R"({"clips": {"c": {"dt": 1, "samples": [[0, 0, 1]]}}})");
+    folder_->write("track.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n");
+    expect_refused({"graph", "build", path("empty"), "-o", none}, "there are no clips in this folder");
+    expect_refused({"graph", "build", path("missing.bvh"), "-o", none}, "no such file");
+    expect_refused({"graph", "build", path("plain.json"), "-o", none}, "a graph is built from clip files");
+    expect_refused({"graph", "build", path("track.csv"), "-o", none}, "no clip has joints");
+    expect_refused({"graph", "build", kClips, "-o", path("none.txt")}, "a graph is written as .json");
+    expect_refused({"graph", "build", kClips, "-o", none, "--pose-distance", "0"}, "no pose comes again often enough");
+    expect_refused({"graph", "build", kClips, "-o", none, "--seconds", "4:1"}, "--seconds");
+    expect_refused({"graph", "build", kClips, "-o", none, "--seconds", "0:1"}, "--seconds");
+    expect_refused({"graph", "build", kClips, "-o", none, "--seed", "-1"}, "--seed");
+    expect_refused({"graph", "build", kClips, "-o", none, "--hubs", "0"}, "--hubs");
+    expect_refused({"graph", "build", kClips, "-o", none, "--root-speed", "x"}, "--root-speed");
+    expect_refused({"graph", "build", kClips}, "output");
+    expect_refused({"graph", "info", path("plain.json")}, "there is no motion graph in it");
+    expect_refused({"graph", "draw", path("plain.json"), "-o", path("x.png")}, "there is no motion graph in it");
+    expect_refused({"graph", "draw", graph(), "-o", path("x.jpg")}, "a picture is written as .png");
+    expect_refused({"graph"}, "subcommand");
+    EXPECT_FALSE(std::filesystem::exists(none));
+    EXPECT_FALSE(std::filesystem::exists(path("x.png")));
+    expect_refused({"graph", "build", kClips, "--hubs", "1", "-o", path("nowhere/g.json")}, "nowhere", 3);
+}
+
+TEST_F(GraphTest, IsDrawnWithoutADisplay) {
+    const auto renderer = testing::open_or_skip(Backend::automatic);
+    if (!renderer) return;
+    for (const std::string size : {"640x360", "300x700", "64x64"}) {
+        const Result run =
+            run_program({"graph", "draw", graph(), "-o", path("g.png"), "--size", size, "--theme", "light"});
+        ASSERT_EQ(run.status, 0) << run.err;
+        const Image image = read_png(path("g.png"));
+        EXPECT_EQ(std::to_string(image.width) + 'x' + std::to_string(image.height), size);
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope

@@ -1,0 +1,163 @@
+#include "run_program.h"
+
+#include <mobb/query.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
+#include <scene/scene.h>
+#include <support/json_keys.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+using nlohmann::json;
+using testing::is_one_line;
+using testing::Result;
+using testing::run_program;
+using testing::slurp;
+using testing::TempFolder;
+
+/// A straight walk and one that turns, as tracks of a file in a folder of its own.
+class Simulate : public ::testing::Test {
+  protected:
+    Simulate() {
+        std::filesystem::create_directories(folder.path() / "clips");
+        folder.write("clips/walk.csv", "t,x,y,r\n0,0,0,0.4\n0.2,0.2,0,0.4\n0.4,0.4,0,0.4\n0.6,0.6,0,0.4\n");
+        folder.write("clips/turn.csv", "t,x,y,r\n0,0,0,0.4\n0.2,0.2,0,0.4\n0.4,0.35,0.15,0.4\n");
+        graph = folder.write("graph.json", R"({"clips": {"walk": {"source": "clips/walk.csv"},
+            "turn": {"source": "clips/turn.csv"}}, "graph": {"hubs": [{"name": "step"}], "moves": [
+            {"clip": "walk", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [0.8, 0, 0]},
+            {"clip": "turn", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [0.4, 0.3, 60]}]}})");
+        run = (folder.path() / "run.json").string();
+    }
+
+    Result simulate(std::vector<std::string> more = {}) const {
+        std::vector<std::string> arguments{"simulate", graph.string(), "-o",        run,  "--agents", "12",
+                                           "--area",   "8x9",          "--seconds", "12", "--seed",   "3"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_program(arguments);
+    }
+
+    TempFolder folder;
+    std::filesystem::path graph;
+    std::string run;
+};
+
+TEST_F(Simulate, WritesARunThatIsReadAgain) {
+    const Result result = simulate({"--ahead", "0.5"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out.substr(0, result.out.find(',')),
+              "12 agents for 12 s: " + result.out.substr(20, result.out.find(',') - 20));
+    EXPECT_NE(result.err.find("mobbscope: simulated 12 of 12 s: 12 agents"), std::string::npos) << result.err;
+    const Scene scene = load_scene(run);
+    ASSERT_TRUE(scene.crowd);
+    EXPECT_EQ(scene.crowd->agents.size(), 12u);
+    EXPECT_EQ(scene.crowd->area, glm::dvec2(8, 9));
+    EXPECT_EQ(scene.crowd->seed, 3u);
+    EXPECT_EQ(scene.crowd->ahead, 0.5);
+    EXPECT_EQ(scene.clips[0].source, "clips/walk.csv");
+}
+
+TEST_F(Simulate, TheSameBytesOnAnyNumberOfThreads) {
+    ASSERT_EQ(simulate({"--threads", "1"}).status, 0);
+    const std::string one = slurp(run);
+    for (const char* threads : {"2", "5"}) {
+        ASSERT_EQ(simulate({"--threads", threads}).status, 0);
+        EXPECT_EQ(slurp(run), one);
+    }
+    ASSERT_EQ(simulate().status, 0);
+    EXPECT_EQ(slurp(run), one);
+    ASSERT_EQ(simulate({"--grace", "0"}).status, 0);
+    EXPECT_NE(slurp(run), one);
+}
+
+TEST_F(Simulate, SourcesLeadWhereTheyLed) {
+    std::filesystem::create_directories(folder.path() / "out");
+    const std::string moved = (folder.path() / "out" / "moved.json").string();
+    const std::string queries = (folder.path() / "out" / "queries.json").string();
+    ASSERT_EQ(run_program({"simulate", graph.string(), "-o", moved, "--agents", "12", "--area", "8x9", "--seconds", "5",
+                           "--record", queries})
+                  .status,
+              0);
+    EXPECT_EQ(load_scene(moved).clips[0].source, "../clips/walk.csv");
+    EXPECT_EQ(load_scene(queries).clips[0].source, "../clips/walk.csv");
+    ASSERT_EQ(simulate({"--inline"}).status, 0);
+    EXPECT_FALSE(load_scene(run).clips[0].source);
+}
+
+TEST_F(Simulate, TheSummaryAsJson) {
+    const Result result = simulate({"--json"});
+    const json summary = json::parse(result.out);
+    EXPECT_EQ(testing::keys(summary),
+              (std::set<std::string>{"agents", "simulated_seconds", "plays", "choices", "candidates", "off_floor",
+                                     "colliding", "in_the_way", "pivots", "forced", "queries", "most_held",
+                                     "wall_seconds", "queries_per_second"}));
+    const Scene scene = load_scene(run);
+    std::size_t plays = 0;
+    for (const CrowdAgent& agent : scene.crowd->agents) plays += agent.plays.size();
+    EXPECT_EQ(summary["plays"], plays);
+    EXPECT_EQ(summary["choices"], plays - 12);
+    EXPECT_EQ(summary["simulated_seconds"], 12);
+}
+
+TEST_F(Simulate, RecordedQueriesAreAnswered) {
+    const std::string recorded = (folder.path() / "queries.json").string();
+    const Result result = simulate({"--json", "--record", recorded, "--record-queries", "40"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const json summary = json::parse(result.out);
+    EXPECT_EQ(summary["recorded"], 40);
+    EXPECT_EQ(summary["recorded_of"], summary["queries"]);
+    const Result answers = run_program({"query", recorded, "--json"});
+    ASSERT_EQ(answers.status, 0) << answers.err;
+    const json results = json::parse(answers.out)["results"];
+    ASSERT_EQ(results.size(), 40u);
+    int positive = 0;
+    for (const json& found : results) positive += found["collides"].get<bool>();
+    EXPECT_GT(positive, 0);
+    EXPECT_LT(positive, 40);
+    ASSERT_EQ(simulate({"--json", "--record", recorded, "--record-queries", "0"}).status, 0);
+    EXPECT_EQ(load_scene(recorded).queries.size(), summary["queries"].get<std::size_t>());
+    const Result all = simulate({"--json", "--record", recorded, "--record-all-pairs"});
+    EXPECT_GT(json::parse(all.out)["recorded_of"], summary["queries"]);
+}
+
+TEST_F(Simulate, WholeClipsOfAFolder) {
+    const Result bare = run_program({"simulate", (folder.path() / "clips").string(), "-o", run});
+    EXPECT_EQ(bare.status, 2);
+    EXPECT_NE(bare.err.find("there is no motion graph; make one with graph build, or give --whole"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(run));
+    const Result whole = run_program(
+        {"simulate", (folder.path() / "clips").string(), "-o", run, "--whole", "--agents", "5", "--seconds", "5"});
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    EXPECT_EQ(load_scene(run).graph->moves.size(), 2u);
+}
+
+TEST_F(Simulate, BadUsageIsRefusedAndNothingWritten) {
+    const std::vector<std::vector<std::string>> cases = {
+        {"--agents", "0"},  {"--agents", "x"}, {"--area", "30"},      {"--area", "30x"},         {"--area", "-3x4"},
+        {"--seconds", "0"}, {"--seed", "1.5"}, {"--seed", "-1"},      {"--ahead", "-1"},         {"--grace", "-1"},
+        {"--threads", "0"}, {"--record", ""},  {"--record", "q.csv"}, {"--record-queries", "5"}, {"--record-all-pairs"},
+        {"--record", run},  {"--area", "2x2"}, {"-o", run + ".png"},  {"--area", "1e9x1"},
+    };
+    for (const std::vector<std::string>& more : cases) {
+        std::vector<std::string> arguments{"simulate", graph.string()};
+        if (more.front() != "-o") arguments.insert(arguments.end(), {"-o", run});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Result result = run_program(arguments);
+        EXPECT_EQ(result.status, 2) << more.front() << " " << result.err;
+        EXPECT_TRUE(is_one_line(result.err)) << result.err;
+        EXPECT_EQ(result.out, "");
+        EXPECT_FALSE(std::filesystem::exists(run));
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope
