@@ -5,7 +5,9 @@
 
 #include <crowd/graph_walk.h>
 #include <crowd/simulate.h>
+#include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
+#include <scene/motion_graph.h>
 
 #include <cmath>
 #include <memory>

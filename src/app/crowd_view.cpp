@@ -1,4 +1,5 @@
 #include <app/crowd_view.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <app/session.h>
+#include <scene/crowd_run.h>
 
 #include <optional>
 #include <string>

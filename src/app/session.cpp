@@ -87,18 +87,18 @@ void Session::edit(const EditName& name, const std::function<void(Scene&)>& chan
     if (next.fit != document().fitted->options()) drop_traces(next);
     const std::shared_ptr<const FittedScene> before = document().fitted;
     if (quick_to_fit(next, *before)) {
-        change(document_of(std::move(next), before.get()), name);
+        change_document(document_of(std::move(next), before.get()), name);
         return;
     }
     start("Fitting trees", [this, name, before, next = std::move(next)](JobControl& control) -> Job::Finish {
         Document document =
             document_of(next, before.get(), [&](std::size_t done, std::size_t all) { control.step(done, all); });
-        return [this, name, document = std::move(document)] { change(document, name); };
+        return [this, name, document = std::move(document)] { change_document(document, name); };
     });
 }
 
 /// The present excerpt stays one.
-void Session::change(Document next, const EditName& name) {
+void Session::change_document(Document next, const EditName& name) {
     next.origin = document().origin;
     history_.change(std::move(next), name);
     changed();
@@ -337,7 +337,7 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
         Scene next = present;
         merge(next, load_files(files, {}, progress_of(control)));
         Document document = document_of(std::move(next), before.get());
-        return [this, document = std::move(document)] { change(document, {"adding files", ""}); };
+        return [this, document = std::move(document)] { change_document(document, {"adding files", ""}); };
     });
 }
 

@@ -12,6 +12,7 @@
 #include <mobb/level_figures.h>
 #include <render/image.h>
 #include <scene/answer.h>
+#include <scene/crowd_run.h>
 
 #include <filesystem>
 #include <functional>
@@ -199,7 +200,7 @@ class Session {
     void start(std::string title, Job::Work work);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
-    void change(Document next, const EditName& name);
+    void change_document(Document next, const EditName& name);
     void changed();
 
     bool attended_;

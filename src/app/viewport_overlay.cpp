@@ -5,6 +5,7 @@
 #include <render/query_sentence.h>
 #include <render/subject.h>
 #include <render/world_box.h>
+#include <scene/motion_graph.h>
 
 #include <array>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <render/framing.h>
 #include <render/lens.h>
 #include <render/subject.h>
+#include <scene/crowd_run.h>
 
 #include <algorithm>
 #include <cmath>

@@ -180,7 +180,8 @@ Fate fate_of(const Choice& choice, std::size_t candidate) {
     if (candidate == choice.taken) return Fate::taken;
     const Candidate& asked = choice.candidates[candidate];
     if (asked.leaves_floor) return Fate::leaves_floor;
-    return asked.ruling ? Fate::ruled_out : Fate::free;
+    if (asked.ruling) return Fate::ruled_out;
+    return asked.in_the_way ? Fate::in_the_way : Fate::free;
 }
 
 FateStyle fate_style(Fate fate, const Palette& palette) {
@@ -189,6 +190,8 @@ FateStyle fate_style(Fate fate, const Palette& palette) {
             return {palette.text, kSolid, 3};
         case Fate::free:
             return {palette.separated, kSolid, 1.6f};
+        case Fate::in_the_way:
+            return {palette.overlap, {10, 3, 2, 3}, 1.5f};
         case Fate::leaves_floor:
             return {palette.apart_in_time, {1.5f, 4, 1.5f, 4}, 1.4f};
         case Fate::ruled_out:
@@ -198,7 +201,7 @@ FateStyle fate_style(Fate fate, const Palette& palette) {
 }
 
 std::string_view fate_words(Fate fate) {
-    constexpr std::array<std::string_view, 4> kWords{"taken", "free", "leaves the floor", "ruled out"};
+    constexpr std::array<std::string_view, 5> kWords{"taken", "free", "in the way", "leaves the floor", "ruled out"};
     return kWords[static_cast<std::size_t>(fate)];
 }
 
@@ -273,7 +276,7 @@ std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitt
 
 std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice) {
     std::vector<LegendEntry> out;
-    for (const Fate fate : {Fate::taken, Fate::free, Fate::ruled_out, Fate::leaves_floor}) {
+    for (const Fate fate : {Fate::taken, Fate::free, Fate::in_the_way, Fate::ruled_out, Fate::leaves_floor}) {
         bool any = false;
         for (const std::size_t i : shown_candidates(choice)) any = any || fate_of(choice, i) == fate;
         if (!any) continue;

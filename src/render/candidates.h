@@ -13,7 +13,7 @@
 namespace mobbscope {
 
 /// What became of a candidate.
-enum class Fate { taken, free, leaves_floor, ruled_out };
+enum class Fate { taken, free, in_the_way, leaves_floor, ruled_out };
 Fate fate_of(const Choice& choice, std::size_t candidate);
 
 /// How its way is drawn: each fate has a colour and a line of its own.
@@ -24,7 +24,7 @@ struct FateStyle {
 };
 FateStyle fate_style(Fate fate, const Palette& palette);
 
-/// "taken", "free", "leaves the floor", "ruled out".
+/// "taken", "free", "in the way", "leaves the floor", "ruled out".
 std::string_view fate_words(Fate fate);
 
 /// Those that are drawn: straight on, and turned as the one that was taken.

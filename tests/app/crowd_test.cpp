@@ -8,6 +8,7 @@
 #include <import/file.h>
 #include <mobb/predicate.h>
 #include <render/candidates.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <support/temp_folder.h>
 

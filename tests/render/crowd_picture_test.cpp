@@ -5,6 +5,7 @@
 #include <render/build_draw_list.h>
 #include <render/candidates.h>
 #include <render/follow.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
 #include <gtest/gtest.h>
@@ -175,7 +176,7 @@ TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
 
 TEST(Candidates, EveryFateHasAColourAndALineOfItsOwn) {
     const Palette& colors = palette(Theme::dark);
-    const Fate all[] = {Fate::taken, Fate::free, Fate::leaves_floor, Fate::ruled_out};
+    const Fate all[] = {Fate::taken, Fate::free, Fate::in_the_way, Fate::leaves_floor, Fate::ruled_out};
     for (const Fate a : all) {
         for (const Fate b : all) {
             if (a == b) continue;

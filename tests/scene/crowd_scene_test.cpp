@@ -1,5 +1,7 @@
 // A run as a scene: who plays what around a time, and whose it is.
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 
 #include <gtest/gtest.h>
 

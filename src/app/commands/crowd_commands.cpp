@@ -6,7 +6,9 @@
 #include <render/candidates.h>
 #include <render/follow.h>
 #include <render/navigate.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,9 @@
 #include <app/panels/list_rows.h>
 #include <app/panels/section.h>
 #include <render/candidates.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
 
 #include <cmath>
 #include <cstdio>

@@ -23,8 +23,9 @@ void agent_menu(Ui& ui, const Selection& self) {
     ui.session.select(self);
     for (const char* id : {"view.frame", "crowd.follow", "agent.duplicate", "agent.remove"}) {
         const Command& command = *find_command(id);
-        const bool of_crowds = command.id.starts_with("crowd.");
-        if (of_crowds != ui.session.is_crowd() && (of_crowds || ui.session.crowd())) continue;
+        if (command.id.starts_with("crowd.") ? !ui.session.is_crowd()
+                                             : command.id.starts_with("agent.") && ui.session.crowd())
+            continue;
         const std::string title(command.title);
         const std::string shortcut(first_shortcut(command));
         const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));

@@ -9,6 +9,7 @@
 #include <render/subject.h>
 #include <render/ticks.h>
 #include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <cstdio>
