@@ -5,6 +5,7 @@
 #include <import/error.h>
 #include <scene/load_files.h>
 #include <tables/built_in_clips.h>
+#include <tables/crowd_queries.h>
 #include <tables/machine.h>
 #include <tables/random_queries.h>
 #include <tables/table_report.h>
@@ -32,10 +33,12 @@ struct Arguments {
     bool sweep = false;
     std::optional<int> queries;
     int rounds = 5;
-    std::uint64_t seed = 1;
+    int seed = 1;
     FitArguments fit;
     ImportOptions import_options;
 };
+
+std::uint64_t seed_of(const Arguments& arguments) { return static_cast<std::uint64_t>(arguments.seed); }
 
 std::vector<mobb::ClipPtr> clips_of(const Scene& scene) {
     std::vector<mobb::ClipPtr> clips;
@@ -43,14 +46,23 @@ std::vector<mobb::ClipPtr> clips_of(const Scene& scene) {
     return clips;
 }
 
+Scene scene_of(const std::vector<mobb::ClipPtr>& clips) {
+    Scene scene;
+    for (const mobb::ClipPtr& clip : clips) {
+        scene.clips.push_back({"move" + std::to_string(scene.clips.size()), std::nullopt, {}, clip});
+    }
+    return scene;
+}
+
 Workload table2(const Arguments& arguments) {
     Workload workload;
     workload.name = "table2";
-    workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, arguments.seed)
+    workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, seed_of(arguments))
                                              : clips_of(load_files(arguments.paths, arguments.import_options));
     workload.description = (arguments.paths.empty() ? std::string("built-in walks") : "clips from files") +
                            ", at random places within 3.5 m, headings, and times within 1.2 clip lengths";
-    workload.queries = random_queries(workload.clips, arguments.queries.value_or(100'000), {.seed = arguments.seed});
+    workload.queries =
+        random_queries(workload.clips, arguments.queries.value_or(100'000), {.seed = seed_of(arguments)});
     return workload;
 }
 
@@ -58,15 +70,36 @@ void show_progress(const std::string& doing, int done, int all) {
     std::cerr << "mobbscope: " << doing << ' ' << done + 1 << " of " << all << '\n';
 }
 
+/// Queries that a file brings, or those that a crowd asks that plays the clips or the graph of the files.
+Workload table1(const Arguments& arguments) {
+    Scene scene = arguments.paths.empty() ? scene_of(short_moves(51, 2.1, seed_of(arguments)))
+                                          : load_files(arguments.paths, arguments.import_options);
+    const int most = arguments.queries.value_or(100'000);
+    Workload workload;
+    if (!scene.queries.empty()) {
+        if (scene.queries.size() > static_cast<std::size_t>(most)) scene.queries.resize(static_cast<std::size_t>(most));
+        workload = workload_of_scene(scene);
+        workload.description = "recorded queries";
+    } else {
+        SimulateOptions options;
+        options.seed = seed_of(arguments);
+        const std::string who = arguments.paths.empty() ? "built-in moves" : scene.graph ? "a motion graph" : "clips";
+        workload = crowd_queries(std::move(scene), options, most);
+        workload.description = "what a crowd of 100 on 30 x 40 m asks in 120 s, playing " + who;
+    }
+    workload.name = "table1";
+    return workload;
+}
+
 void run(const Arguments& arguments) {
-    const Workload workload = table2(arguments);
+    const Workload workload = arguments.workload == "table1" ? table1(arguments) : table2(arguments);
     const mobb::FitOptions base = arguments.fit.over({});
     const MeasureProgress progress = arguments.json ? MeasureProgress{} : show_progress;
     TableReport report;
     report.workload = workload.name;
     report.description = workload.description;
     report.machine = machine_words();
-    report.seed = arguments.seed;
+    report.seed = seed_of(arguments);
     report.rounds = arguments.rounds;
     report.queries = static_cast<std::int64_t>(workload.queries.size());
     report.clips = static_cast<int>(workload.clips.size());
@@ -88,11 +121,14 @@ void add_bench_command(CLI::App& program, int& status) {
         ->required()
         ->type_name("")
         ->check(CLI::IsMember({"table1", "table2"}));
-    command->add_option("PATH", arguments->paths, "Clips, or folders of them; without any, built-in ones")
+    command
+        ->add_option("PATH", arguments->paths,
+                     "Clips or folders of them; for table1 also a motion graph, or a scene with queries; without any, "
+                     "built-in clips")
         ->type_name("");
     command->add_flag("--json", arguments->json, "The figures as JSON");
     add_parsed(*command, "--queries", arguments->queries, whole_number_within(1, kMaxQueries),
-               "How many queries (100000)", "N");
+               "How many queries, at most (100000)", "N");
     add_parsed(*command, "--seed", arguments->seed, whole_number_within(0, std::numeric_limits<int>::max()),
                "Of whatever is random (1)", "S");
     add_parsed(*command, "--rounds", arguments->rounds, whole_number_within(1, kMostRounds),

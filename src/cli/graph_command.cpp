@@ -13,6 +13,7 @@
 #include <render/png.h>
 #include <render/render.h>
 #include <render/renderer.h>
+#include <scene/motion_graph.h>
 
 #include <unistd.h>
 #include <charconv>

@@ -1,6 +1,7 @@
 #include <cli/graph_info.h>
 #include <import/text.h>
 #include <scene/json_writer.h>
+#include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <cmath>

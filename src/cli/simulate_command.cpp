@@ -3,7 +3,6 @@
 #include <cli/options.h>
 #include <crowd/graph_walk.h>
 #include <crowd/simulate.h>
-#include <scene/crowd_run.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
@@ -51,19 +50,14 @@ glm::dvec2 parse_area(const std::string& text) {
     const std::size_t cross = text.find('x');
     const auto width = parse_double(text.substr(0, cross));
     const auto depth = cross == std::string::npos ? std::nullopt : parse_double(text.substr(cross + 1));
-    if (!width || !depth) throw std::invalid_argument(in_quotes(text) + " is no area; give metres like 30x40");
-    return {*width, *depth};
-}
-
-std::function<int(const std::string&)> whole_number_within(int low, int high) {
-    return [low, high](const std::string& text) {
-        const std::optional<int> value = parse_int(text);
-        if (!value || *value < low || *value > high) {
-            throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(low) + " to " +
-                                        std::to_string(high));
-        }
-        return *value;
+    const auto is_length = [](const std::optional<double>& value) {
+        return value && *value >= kMinArea && *value <= kMaxArea;
     };
+    if (!is_length(width) || !is_length(depth)) {
+        throw std::invalid_argument(in_quotes(text) + " is no area; give metres like 30x40, each from " +
+                                    brief(kMinArea) + " to " + brief(kMaxArea));
+    }
+    return {*width, *depth};
 }
 
 std::uint64_t parse_seed(const std::string& text) {
@@ -115,8 +109,8 @@ class Report {
     void operator()(const SimulationCounts& counts) {
         if (counts.simulated < next_ * seconds_ / 10) return;
         next_ = std::floor(counts.simulated * 10 / seconds_) + 1;
-        say("simulated " + brief(counts.simulated) + " of " + brief(seconds_) + " s: " + std::to_string(counts.agents) +
-            " agents, " + std::to_string(counts.choices) + " choices, " +
+        say("simulated " + brief(std::round(counts.simulated * 10) / 10) + " of " + brief(seconds_) +
+            " s: " + std::to_string(counts.agents) + " agents, " + std::to_string(counts.choices) + " choices, " +
             std::to_string(counts.off_floor + counts.colliding) + " candidates discarded, " +
             std::to_string(counts.pivots) + " pivots, " + std::to_string(counts.forced) + " forced");
     }
@@ -218,7 +212,8 @@ void add_simulate_command(CLI::App& program) {
     add_parsed(*command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json")->required();
     add_parsed(*command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
     add_parsed(*command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
-    add_parsed(*command, "--seconds", options.seconds, number_within(1e-3, kMaxSimulated), "Simulated (120)", "S");
+    add_parsed(*command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated), "Simulated (120)",
+               "S");
     add_parsed(*command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
     add_parsed(*command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
                "Seconds before its begin at which a move is chosen (0)", "S");

@@ -18,7 +18,7 @@ struct FloorRect {
 };
 
 /// A polygon around all disks of a clip: the tight one whose sides face 16 directions. It reaches past them by
-/// 2 % of the clip's extent at most.
+/// a tenth of the clip's extent at most.
 class Outline {
   public:
     explicit Outline(const mobb::Clip& clip);

@@ -1,5 +1,6 @@
 #include <crowd/recordings.h>
 #include <import/file.h>
+#include <import/motion.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
@@ -13,9 +14,8 @@ namespace mobbscope {
 namespace {
 
 bool is_clip(const std::filesystem::path& file) {
-    const auto known = openable_extensions();
     const std::string extension = lower_extension(file);
-    return extension != ".json" && std::find(known.begin(), known.end(), extension) != known.end();
+    return is_motion_extension(extension) || extension == ".csv";
 }
 
 std::vector<std::filesystem::path> clips_below(const std::filesystem::path& folder) {

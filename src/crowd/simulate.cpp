@@ -173,11 +173,10 @@ void check_range(const char* option, double value, double low, double high) {
 }  // namespace
 
 void check(const SimulateOptions& options) {
-    constexpr double kLeast = 1e-3;
     check_range("agents", options.agents, 1, kMaxAgents);
-    check_range("the area's width", options.area.x, kLeast, kMaxArea);
-    check_range("the area's depth", options.area.y, kLeast, kMaxArea);
-    check_range("seconds", options.seconds, kLeast, kMaxSimulated);
+    check_range("the area's width", options.area.x, kMinArea, kMaxArea);
+    check_range("the area's depth", options.area.y, kMinArea, kMaxArea);
+    check_range("seconds", options.seconds, kMinSimulated, kMaxSimulated);
     check_range("seed", static_cast<double>(options.seed), 0, static_cast<double>(kMaxSeed));
     check_range("ahead", options.ahead, 0, kMaxSimulated);
     check_range("grace", options.grace, 0, kMaxSimulated);

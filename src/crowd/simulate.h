@@ -22,8 +22,10 @@ struct SimulateOptions {
 
 inline constexpr int kMaxAgents = 1'000'000;
 inline constexpr int kMaxThreads = 1024;
-inline constexpr double kMaxSimulated = 1e6;  ///< seconds, also of `ahead` and `grace`
-inline constexpr double kMaxArea = 1e6;       ///< metres along a wall
+inline constexpr double kMinSimulated = 1e-3;  ///< seconds
+inline constexpr double kMaxSimulated = 1e6;   ///< seconds, also of `ahead` and `grace`
+inline constexpr double kMinArea = 1e-3;       ///< metres along a wall
+inline constexpr double kMaxArea = 1e6;
 
 /// Throws std::invalid_argument, naming the option, if one is out of range.
 void check(const SimulateOptions& options);

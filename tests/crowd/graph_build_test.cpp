@@ -6,6 +6,7 @@
 #include <crowd/graph_walk.h>
 #include <crowd/pose_distance.h>
 #include <crowd/recordings.h>
+#include <scene/motion_graph.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -248,6 +249,7 @@ TEST(GraphBuild, RefusesWhatCannotBeCut) {
     EXPECT_NE(testing::input_error([&] { clip_files({folder.path() / "x.json"}); }).find("from clip files"),
               std::string::npos);
     std::filesystem::create_directory(folder.path() / "empty");
+    folder.write("empty/readme.txt", "no motion");
     EXPECT_NE(testing::input_error([&] { clip_files({folder.path() / "empty"}); }).find("no clips in this folder"),
               std::string::npos);
 }

@@ -64,7 +64,7 @@ TEST_F(Simulate, NobodyCollidesButWhoIsForcedTo) {
             ASSERT_EQ(simulation.run.agents.size(), 24u);
             EXPECT_GT(simulation.counts.colliding, 100);
             EXPECT_GT(simulation.counts.off_floor, 100);
-            EXPECT_LT(simulation.counts.forced, simulation.counts.choices / 100);
+            EXPECT_LT(simulation.counts.forced, simulation.counts.choices / 10);
             for (const auto& [p, q] : contacts(simulation.run)) {
                 EXPECT_TRUE(p->kind == PlayKind::forced || q->kind == PlayKind::forced)
                     << "seed " << seed << ", ahead " << ahead << ", at " << p->placement.start;

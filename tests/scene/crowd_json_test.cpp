@@ -1,5 +1,6 @@
 // The key crowd: what is written is read back, and what does not fit together is refused at its place.
 #include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <support/input_error.h>
 
