@@ -1,4 +1,5 @@
 #include <render/candidates.h>
+#include <render/paths.h>
 #include <render/query_sentence.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
@@ -272,6 +273,49 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
                                          const Metrics& metrics) {
     return Drawer(list, fitted, followed, metrics).draw();
+}
+
+std::vector<LabelRequest> add_followed(DrawList& list, std::span<const Subject> paths, int person, double time,
+                                       double height, const Metrics& metrics) {
+    for (const Subject& path : paths) {
+        const std::optional<int> sample = path.person == person ? sample_at(path, time) : std::nullopt;
+        if (!sample) continue;
+        const mobb::Disk disk = path.clip().disk(*sample);
+        const double level = list.moment ? 0 : time;
+        constexpr int kPieces = 48;
+        std::int64_t order = 0;
+        for (const auto& [radius, width] : {std::pair(1.25, 2.2f), std::pair(1.5, 1.2f)}) {
+            const auto at = [&, r = radius * disk.r](int i) {
+                const double angle = 2 * std::numbers::pi * i / kPieces;
+                return list.space.point(disk.x + r * std::cos(angle), disk.y + r * std::sin(angle), level);
+            };
+            for (int i = 0; i < kPieces; ++i) {
+                LineInstance line;
+                line.from = at(i);
+                line.to = at(i + 1);
+                line.color = list.palette.accent;
+                line.width = width * metrics.scale;
+                line.cap = 0.3f * line.width;
+                line.hidden = kThrough;
+                line.order = {kLayer, 1, order++};
+                list.lines.push_back(line);
+            }
+        }
+        const glm::vec3 top = list.space.point(disk.x, disk.y, list.moment ? height : time);
+        const auto anchor = list.lens.project(top);
+        if (!anchor) return {};
+        LabelRequest label;
+        label.text = path.label;
+        label.size = metrics.text;
+        label.color = readable(path.color, list.palette);
+        label.border = list.palette.accent;
+        label.anchor = *anchor;
+        label.directions = {{0, -1}, {-1, -1}, {1, -1}, {-1, 0}, {1, 0}};
+        label.distance = 1.8f * metrics.text;
+        label.pill = true;
+        return {label};
+    }
+    return {};
 }
 
 std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice) {

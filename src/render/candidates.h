@@ -5,9 +5,12 @@
 #include <render/draw_list.h>
 #include <render/label_layout.h>
 #include <render/metrics.h>
+#include <render/subject.h>
 #include <scene/fitted_scene.h>
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -40,6 +43,11 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
 /// outlined, with a cross between them; the returned labels name the agents that rule out, each once.
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
                                          const Metrics& metrics);
+
+/// Two rings around a person's disk at a time, on the floor or in space-time; the returned label has the name, above a
+/// body that is so high.
+std::vector<LabelRequest> add_followed(DrawList& list, std::span<const Subject> paths, int person, double time,
+                                       double height, const Metrics& metrics);
 
 /// A line for each fate among them.
 std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice);

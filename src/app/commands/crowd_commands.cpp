@@ -47,8 +47,6 @@ void follow_agent(Session& session, const std::string& name, double metres) {
     select_in_crowd(session, name);
 }
 
-bool can_follow_one(const Session& session) { return !agent_in_question(session).empty(); }
-
 void stop_following(Session& session, const std::string&) {
     session.candidate = -1;
     const double time = run_or_cursor_time(session);
@@ -63,6 +61,7 @@ void stop_following(Session& session, const std::string&) {
 void follow(Session& session, const std::string& name) {
     if (!name.empty()) return follow_agent(session, name, kAround);
     const std::string who = agent_in_question(session);
+    if (who.empty()) return session.tell(Message::Level::info, "Click somebody first to follow them");
     if (who == session.view().follow) return stop_following(session, "");
     follow_agent(session, who, kAround);
 }
@@ -210,8 +209,7 @@ std::span<const Command> crowd_commands() {
          .shortcut = "W",
          .argument = "[AGENT]",
          .doc = "Lets the camera go along with the selected agent, and shows a run's last choice; once more: stops.",
-         .enabled =
-             [](const Session& session) { return has_scene(session) && (can_follow_one(session) || follows(session)); },
+         .enabled = has_scene,
          .run = follow,
          .checked = follows},
         {.id = "crowd.stop",

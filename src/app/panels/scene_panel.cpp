@@ -138,7 +138,7 @@ void scene_panel(Ui& ui) {
         return;
     }
     agents(ui);
-    placement_panel(ui);
+    if (!ui.session.crowd()) placement_panel(ui);
     clips(ui);
     // A run is asked for its conflicts.
     if (!ui.session.crowd()) queries(ui);
