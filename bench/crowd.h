@@ -3,8 +3,14 @@
 
 #include "walks.h"
 
+#include <crowd/graph_walk.h>
+#include <crowd/simulate.h>
+#include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
+#include <scene/motion_graph.h>
 
+#include <cmath>
+#include <memory>
 #include <string>
 
 namespace mobbscope::bench {
@@ -20,6 +26,24 @@ inline Scene crowd(int agents) {
                                         .start = random.real(0, 8)};
         scene.agents.push_back({"agent " + std::to_string(i), i, somewhere, std::nullopt});
     }
+    return scene;
+}
+
+/// A run of so many agents, 12 m^2 for each, that play walks of two seconds for `seconds`.
+inline Scene run(int agents, double seconds) {
+    mobb::test::Random random(3);
+    Scene scene;
+    for (int i = 0; i < 8; ++i) {
+        scene.clips.push_back({"walk" + std::to_string(i), std::nullopt, {}, mobb::bench::walk(random, 2)});
+    }
+    scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
+    const FittedScene fitted(scene, {});
+    SimulateOptions options;
+    options.agents = agents;
+    const double side = std::sqrt(12.0 * agents);
+    options.area = {side, side};
+    options.seconds = seconds;
+    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
     return scene;
 }
 

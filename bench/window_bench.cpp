@@ -1,6 +1,7 @@
 /// What a frame of the whole window costs while somebody uses it: process CPU time and frames a second, 1280x720.
 #include "crowd.h"
 
+#include <app/command.h>
 #include <app/shell.h>
 #include <import/error.h>
 #include <render/gl_context.h>
@@ -113,6 +114,20 @@ void hover(benchmark::State& state, Backend backend, int agents) {
     measure(state, window, [&](std::size_t frame) { return around(middle, 150, frame); });
 }
 
+/// A run plays: everybody is elsewhere in each frame. `follows`: with somebody's choice, seen from near.
+void play(benchmark::State& state, Backend backend, int agents, Show show, bool follows) {
+    Scene scene = bench::run(agents, 20);
+    scene.view.show = show;
+    scene.view.time = 5;
+    BenchWindow window(backend, scene);
+    if (follows) run_command(window.session(), "crowd.follow", window.session().crowd()->agents.front().name);
+    window.rest();
+    run_command(window.session(), "time.play");
+    const double before = *window.session().view().time;
+    measure(state, window, [&](std::size_t frame) { return around({120, 400}, 60, frame); });
+    if (*window.session().view().time == before) state.SkipWithError("time stood still");
+}
+
 /// The mouse over a panel: neither picture nor what is under the mouse changes.
 void panel(benchmark::State& state, Backend backend, int agents) {
     BenchWindow window(backend, bench::crowd(agents));
@@ -142,6 +157,13 @@ void add_all() {
             add("orbit_narrow_panels" + crowd + on, orbit, backend, agents, Panels::narrow);
             add("hover" + crowd + on, hover, backend, agents);
             add("panel" + crowd + on, panel, backend, agents);
+        }
+        for (const int agents : {100, 1000}) {
+            const std::string crowd = "/" + std::to_string(agents) + "_agents";
+            add("play_moment" + crowd + on, play, backend, agents, Show::moment, false);
+            add("play_space_time" + crowd + on, play, backend, agents, Show::space_time, false);
+            add("follow_moment" + crowd + on, play, backend, agents, Show::moment, true);
+            add("follow_space_time" + crowd + on, play, backend, agents, Show::space_time, true);
         }
         add("drag/2_clips_of_42_s" + on, drag, backend, 42.0);
     }

@@ -61,6 +61,7 @@ std::span<const Command> view_commands();
 std::span<const Command> tree_commands();
 std::span<const Command> query_commands();
 std::span<const Command> go_commands();
+std::span<const Command> crowd_commands();
 std::span<const Command> help_commands();
 
 }  // namespace mobbscope::app

@@ -20,6 +20,7 @@ std::string what_changes(const ViewState& from, const ViewState& to) {
     if (only(&ViewState::camera, &ViewState::time_height)) return "moving the view";
     if (only(&ViewState::step)) return "stepping";
     if (only(&ViewState::time)) return "moving in time";
+    if (only(&ViewState::follow, &ViewState::camera, &ViewState::time_height, &ViewState::time)) return "following";
     return "what is shown";
 }
 
@@ -51,7 +52,7 @@ void History::look(const ViewState& view) {
         states_[now_].document.view = view;
         return;
     }
-    change({now().fitted, view}, {title, ""});
+    change({now().fitted, view, now().origin}, {title, ""});
     states_[now_].looked = true;
     open_ = false;
 }

@@ -12,11 +12,19 @@
 
 namespace mobbscope::app {
 
+/// Where an excerpt was taken from: two paths of a run or a crowd, opened as a scene of their own.
+struct Origin {
+    std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
+    ViewState view;                             ///< of the whole, when it was left
+    std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
+};
+
 /// The scene with its trees, and how it is seen. Values: a state once reached can be returned to at no cost, as the
 /// scene is immutable and shared.
 struct Document {
     std::shared_ptr<const FittedScene> fitted;  ///< never null
     ViewState view;
+    std::shared_ptr<const Origin> origin{};  ///< of an excerpt; else null
 };
 
 /// Groups what belongs together: one drag, one number typed.

@@ -17,6 +17,7 @@ namespace {
 // A word that a title has says more than the same in the id or the explanation.
 constexpr double kIdShare = 0.8;
 constexpr double kDocShare = 0.3;
+constexpr std::size_t kMostQueries = 2000;
 
 std::vector<std::string> words_of(const std::string& text) {
     std::istringstream in(text);
@@ -51,6 +52,7 @@ std::string why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
     if (session.job()) return "something is under way";
     if (session.empty()) return "nothing is open";
+    if (command.id.starts_with("agent.") && session.crowd()) return "a run is not edited";
     if (command.id.starts_with("agent.") || command.id == "query.add") {
         return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
     }
@@ -135,7 +137,9 @@ void add_things(Collector& out, const Session& session) {
     for (const SceneClip& clip : session.scene().clips) {
         out.add("go.clip", clip.name, clip.name, "Clip", {{clip.name}, {"clip"}});
     }
-    for (std::size_t i = 0; i < session.fitted().queries().size(); ++i) {
+    // All pairs of a crowd would take seconds with each letter; they are found from their agents.
+    const std::size_t count = session.fitted().queries().size();
+    for (std::size_t i = 0; i < (count <= kMostQueries ? count : 0); ++i) {
         const SceneQuery query = session.fitted().queries()[i];
         const std::string title = query.a.name + " against " + query.b.name;
         out.add("query.select", std::to_string(i), title, "Query", {{title}, {"query " + std::to_string(i)}});

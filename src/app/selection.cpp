@@ -1,5 +1,7 @@
 #include <app/selection.h>
 
+#include <algorithm>
+
 namespace mobbscope::app {
 
 namespace {
@@ -62,7 +64,32 @@ bool exists(const FittedScene& fitted, const Selection& selection) {
                                                           : static_cast<std::size_t>(tree.clip().count()));
 }
 
+namespace {
+
+/// Of a run the agents are others at another time: the person stays selected, and what is of one of its plays as long
+/// as that is there.
+Selection still_of_run(const Selection& selection, const FittedScene& before, const FittedScene& now) {
+    const auto& was = before.scene().agents;
+    const auto index = static_cast<std::size_t>(selection.path.participant);
+    if (selection.path.participant < 0 || index >= was.size()) return {};
+    const auto& agents = now.scene().agents;
+    const auto is_it = [&](const Agent& agent) {
+        return agent.person == was[index].person && agent.play == was[index].play;
+    };
+    const auto at = std::find_if(agents.begin(), agents.end(), is_it);
+    if (at == agents.end() || selection.kind == Selection::Kind::path) {
+        return {Selection::Kind::path, {was[index].person, -1, 0}, -1};
+    }
+    return {selection.kind, {static_cast<int>(at - agents.begin()), -1, 0}, selection.index};
+}
+
+}  // namespace
+
 Selection still(const Selection& selection, const FittedScene& before, const FittedScene& now) {
+    if (&before != &now && selection.on_path() && before.scene().crowd && before.scene().crowd == now.scene().crowd) {
+        const Selection out = still_of_run(selection, before, now);
+        return exists(now, out) ? out : Selection{};
+    }
     if (selection.kind == Selection::Kind::node) {
         const auto was = participant_of(before, selection.path);
         const auto is = participant_of(now, selection.path);

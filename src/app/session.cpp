@@ -1,7 +1,9 @@
 #include <app/session.h>
 #include <import/error.h>
 #include <import/file.h>
+#include <render/follow.h>
 #include <render/query_progress.h>
+#include <scene/crowd_scene.h>
 #include <scene/demo_scene.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
@@ -17,6 +19,11 @@ namespace mobbscope::app {
 
 namespace {
 
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
 /// Tells a job how much is done; it ends there if it was cancelled.
 Progress progress_of(JobControl& control) {
     return [&control](std::size_t done, std::size_t all) { control.step(done, all); };
@@ -29,6 +36,8 @@ constexpr std::size_t kQuickSamples = 50'000;
 /// How much longer than the paper's axes those found by searching take.
 constexpr std::size_t kSearchFactor = 100;
 constexpr std::size_t kMostMessages = 5;
+/// Agents whose pairs are still listed one by one.
+constexpr std::size_t kFewAgents = 12;
 
 Document document_of(Scene scene, const FittedScene* previous, const Progress& progress = {}) {
     const mobb::FitOptions options = scene.fit;
@@ -52,6 +61,9 @@ bool quick_to_fit(const Scene& scene, const FittedScene& present) {
 /// A view of another scene, or of this one before an edit, made to fit what there is.
 ViewState fitting(ViewState view, const FittedScene& fitted) {
     if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
+    if (!view.follow.empty() && !can_follow(fitted.scene(), view.follow)) view.follow.clear();
+    // A run is always seen at some time.
+    if (fitted.scene().crowd && !view.time) view.time = run_time(fitted.scene(), view);
     return view;
 }
 
@@ -72,27 +84,30 @@ void Session::edit(const EditName& name, const std::function<void(Scene&)>& chan
     next.view = view();
     change(next);
     mobb::check(next.fit);
-    if (next.fit != fitted().options()) drop_traces(next);
+    if (next.fit != document().fitted->options()) drop_traces(next);
     const std::shared_ptr<const FittedScene> before = document().fitted;
     if (quick_to_fit(next, *before)) {
-        history_.change(document_of(std::move(next), before.get()), name);
-        changed();
+        change_document(document_of(std::move(next), before.get()), name);
         return;
     }
     start("Fitting trees", [this, name, before, next = std::move(next)](JobControl& control) -> Job::Finish {
         Document document =
             document_of(next, before.get(), [&](std::size_t done, std::size_t all) { control.step(done, all); });
-        return [this, name, document = std::move(document)] {
-            history_.change(document, name);
-            changed();
-        };
+        return [this, name, document = std::move(document)] { change_document(document, name); };
     });
+}
+
+/// The present excerpt stays one.
+void Session::change_document(Document next, const EditName& name) {
+    next.origin = document().origin;
+    history_.change(std::move(next), name);
+    changed();
 }
 
 void Session::look(const std::function<void(ViewState&)>& change) {
     ViewState next = view();
     change(next);
-    next = fitting(next, fitted());
+    next = fitting(next, *document().fitted);
     if (next == view()) return;
     history_.look(next);
     changed();
@@ -114,7 +129,7 @@ void Session::redo() {
 void Session::changed() {
     selection = still(selection, *pointed_into_, fitted());
     hovered = still(hovered, *pointed_into_, fitted());
-    pointed_into_ = document().fitted;
+    pointed_into_ = shown();
     const RecordedQuery* query = recorded();
     if (query && view().step.unit == Step::Unit::event && view().step.value >= query->trace.size()) {
         Document next = document();
@@ -161,15 +176,109 @@ const std::vector<mobb::LevelFigures>& Session::figures_of(int clip) const {
     return at->second;
 }
 
+// --- crowds
+
+std::shared_ptr<const FittedScene> Session::shown() const {
+    const std::shared_ptr<const FittedScene>& whole = document().fitted;
+    if (!is_run(whole->scene())) return whole;
+    const ViewState& seen = view();
+    const double time = run_time(whole->scene(), seen);
+    if (shown_.of != whole || shown_.time != time || shown_.window != seen.time_window || shown_.show != seen.show) {
+        shown_ = {whole, time, seen.time_window, seen.show,
+                  std::make_shared<const FittedScene>(fitted_at(*whole, seen))};
+    }
+    return shown_.fitted;
+}
+
+bool Session::is_crowd() const {
+    return crowd() || (scene().queries.empty() && fitted().participants().size() > kFewAgents);
+}
+
+const FollowedChoice* Session::choice() const {
+    if (!crowd() || view().follow.empty()) return nullptr;
+    const auto person = person_by_name(*crowd(), view().follow);
+    if (!person) return nullptr;
+    const double time = run_time(scene(), view());
+    const std::pair made{*person, last_chosen(crowd()->agents[static_cast<std::size_t>(*person)], time).value_or(-1)};
+    if (choosing_.of != document().fitted) {
+        choosing_ = {document().fitted, std::make_unique<MoveSet>(*document().fitted), {-1, -1}, {}};
+    }
+    if (choosing_.made != made) {
+        choosing_.choice = last_choice(*choosing_.moves, *person, time);
+        choosing_.made = made;
+    }
+    return choosing_.choice ? &*choosing_.choice : nullptr;
+}
+
+const std::vector<SceneConflict>* Session::conflicts() const {
+    return found_ && found_->in == document().fitted ? &found_->conflicts : nullptr;
+}
+
+void Session::find_conflicts() {
+    start("Looking for conflicts", [this, in = document().fitted](JobControl& control) -> Job::Finish {
+        std::vector<SceneConflict> found = conflicts_in(*in, progress_of(control));
+        return [this, in, found = std::move(found)]() mutable {
+            found_ = Found{in, std::move(found)};
+            conflict = -1;
+        };
+    });
+}
+
+void Session::open_excerpt(const Participant& a, const Participant& b) {
+    Scene excerpt;
+    excerpt.file = scene().file;
+    excerpt.fit = scene().fit;
+    for (const Participant* side : {&a, &b}) {
+        int clip = 0;
+        if (side == &b && b.clip == a.clip) {
+            clip = 0;
+        } else {
+            clip = static_cast<int>(excerpt.clips.size());
+            excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(side->clip)]);
+        }
+        Agent agent{side->name, clip, side->placement, std::nullopt};
+        if (side == &b && b.name == a.name) agent.name += " (2)";
+        excerpt.agents.push_back(std::move(agent));
+    }
+    excerpt.view.theme = view().theme;
+    excerpt.view.query = 0;
+    Document next = document_of(std::move(excerpt), document().fitted.get());
+    const std::shared_ptr<const Origin> before = document().origin;
+    next.origin = std::make_shared<const Origin>(
+        Origin{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
+    playing = false;
+    history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
+    changed();
+}
+
+void Session::leave_excerpt() {
+    const std::shared_ptr<const Origin> origin = document().origin;
+    playing = false;
+    history_.change({origin->fitted, origin->view, nullptr}, {"going back to the whole", ""});
+    changed();
+}
+
 // --- files
 
+bool Session::modified() const {
+    const std::shared_ptr<const Origin>& origin = document().origin;
+    if (!origin) return document().fitted != saved_;
+    return origin->fitted != saved_ || document().fitted != origin->saved;
+}
+
 std::string Session::title() const {
+    if (in_excerpt()) {
+        std::string title = scene().agents.empty() ? "excerpt" : scene().agents.front().name;
+        if (scene().agents.size() > 1) title += " and " + scene().agents[1].name;
+        return title + " of " + (file_ ? file_->filename().string() : "a crowd");
+    }
     if (file_) return file_->filename().string();
     return scene().file.empty() ? "untitled" : scene().file.stem().string();
 }
 
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
     document.view = fitting(document.view, *document.fitted);
+    document.origin = nullptr;
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
     opened_ = opened;
@@ -177,6 +286,8 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     selection = {};
     hovered = {};
     playing = false;
+    candidate = -1;
+    conflict = -1;
     // What went wrong with the last document is over.
     std::erase_if(messages_, [](const Message& message) { return message.level != Message::Level::info; });
     history_.reset(std::move(document));
@@ -218,6 +329,7 @@ void Session::open_demo() {
 
 void Session::add(const std::vector<std::filesystem::path>& files) {
     if (empty()) return open(files);
+    if (crowd()) throw InputError("a run stands alone: open the files by themselves");
     const std::shared_ptr<const FittedScene> before = document().fitted;
     Scene present = scene();
     present.view = view();
@@ -225,15 +337,12 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
         Scene next = present;
         merge(next, load_files(files, {}, progress_of(control)));
         Document document = document_of(std::move(next), before.get());
-        return [this, document = std::move(document)] {
-            history_.change(document, {"adding files", ""});
-            changed();
-        };
+        return [this, document = std::move(document)] { change_document(document, {"adding files", ""}); };
     });
 }
 
 void Session::save() {
-    if (!file_) {
+    if (!file_ || in_excerpt()) {
         dialog = Dialog::save_as;  // what waits for the changes to be saved goes on waiting
         input = {};
         return;
@@ -254,17 +363,28 @@ void Session::save_as(const std::filesystem::path& file) {
     if (lower_extension(file) != ".json") {
         throw InputError(file.string(), "", "scenes are written as .json; rename the output");
     }
+    if (in_excerpt() && file_ && same_file(file, *file_)) {
+        throw InputError(file.string(), "", "this is what the two were taken from; save them under another name");
+    }
     Scene saved = scene();
     saved.view = view();
     move_to_file(saved, file);
     write_file(file, to_json(saved));
-    // The document is the file's now: messages and further sources refer to it.
-    const mobb::FitOptions options = saved.fit;
-    Document now{std::make_shared<const FittedScene>(std::move(saved), options, &fitted()), view()};
-    history_.amend(std::move(now));
-    saved_ = document().fitted;
-    file_ = file;
-    opened_ = {file};
+    if (in_excerpt()) {
+        // The whole stays what is open; the excerpt has a file of its own.
+        Document now = document();
+        now.origin = std::make_shared<const Origin>(Origin{now.origin->fitted, now.origin->view, now.fitted});
+        history_.amend(std::move(now));
+    } else {
+        // The document is the file's now: messages and further sources refer to it.
+        const mobb::FitOptions options = saved.fit;
+        const FittedScene* before = document().fitted.get();
+        Document now{std::make_shared<const FittedScene>(std::move(saved), options, before), view()};
+        history_.amend(std::move(now));
+        saved_ = document().fitted;
+        file_ = file;
+        opened_ = {file};
+    }
     if (attended_) settings.remember(file);
     tell(Message::Level::info, "Saved " + file.string());
     if (dialog == Dialog::save_as || dialog == Dialog::unsaved) dialog = Dialog::none;
@@ -344,6 +464,7 @@ void Session::poll() {
 // --- time
 
 mobb::Interval Session::time_span() const {
+    if (crowd()) return {0, crowd()->seconds};
     mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
     const auto add = [&](const Participant& participant) {
         const mobb::PlacedTree tree = fitted().placed(participant);

@@ -7,9 +7,12 @@
 #include <app/query_findings.h>
 #include <app/selection.h>
 #include <app/settings.h>
+#include <crowd/followed.h>
+#include <crowd/run_conflicts.h>
 #include <mobb/level_figures.h>
 #include <render/image.h>
 #include <scene/answer.h>
+#include <scene/crowd_run.h>
 
 #include <filesystem>
 #include <functional>
@@ -77,8 +80,11 @@ class Session {
 
     // The document.
     const Document& document() const { return history_.now(); }
-    const FittedScene& fitted() const { return *document().fitted; }
-    const Scene& scene() const { return fitted().scene(); }
+    /// What is edited and saved.
+    const Scene& scene() const { return document().fitted->scene(); }
+    /// What is drawn and pointed at: the document's scene; of a run what it is at the view's time (fitted_at).
+    std::shared_ptr<const FittedScene> shown() const;
+    const FittedScene& fitted() const { return *shown(); }
     const ViewState& view() const { return document().view; }
     const History& history() const { return history_; }
     bool attended() const { return attended_; }
@@ -106,6 +112,25 @@ class Session {
     /// Figures of a clip's tree; kept until the scene changes.
     const std::vector<mobb::LevelFigures>& figures_of(int clip) const;
 
+    // Crowds.
+    /// What the document's agents play, if it is a run; else null.
+    const CrowdRun* crowd() const { return scene().crowd.get(); }
+    /// Whether there are so many that they are a crowd: a run, or more agents than lists of pairs are made for.
+    bool is_crowd() const;
+    /// Of a run the last choice of the agent that the view follows; null: there is none.
+    const FollowedChoice* choice() const;
+    int candidate = -1;  ///< of that choice, the one that is pointed out; -1: none
+    /// All that collide, once they were looked for; null: not yet.
+    const std::vector<SceneConflict>* conflicts() const;
+    void find_conflicts();
+    int conflict = -1;  ///< that was gone to last; -1: none
+
+    /// Opens two paths as a scene of their own, with the query between them. Undo leads back, and so does
+    /// leave_excerpt.
+    void open_excerpt(const Participant& a, const Participant& b);
+    bool in_excerpt() const { return document().origin != nullptr; }
+    void leave_excerpt();
+
     // What is pointed at.
     Selection selection;  ///< always of something that exists
     Selection hovered;    ///< under the mouse in any panel
@@ -115,7 +140,7 @@ class Session {
     /// Where Save writes; none: Save asks.
     const std::optional<std::filesystem::path>& file() const { return file_; }
     /// The scene differs from what is in the file. How it is seen does not count.
-    bool modified() const { return document().fitted != saved_; }
+    bool modified() const;
     /// The file's name, or what stands for it.
     std::string title() const;
     /// Replaces the document, after asking if there are unsaved changes. Several files become one scene; folders stand
@@ -175,6 +200,7 @@ class Session {
     void start(std::string title, Job::Work work);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
+    void change_document(Document next, const EditName& name);
     void changed();
 
     bool attended_;
@@ -198,6 +224,28 @@ class Session {
     };
     Derived& derived() const;
     mutable Derived derived_;
+
+    /// A run at the view's time.
+    struct Shown {
+        std::shared_ptr<const FittedScene> of;
+        double time = 0;
+        double window = 0;
+        Show show = Show::space_time;
+        std::shared_ptr<const FittedScene> fitted;
+    };
+    mutable Shown shown_;
+    struct Choosing {
+        std::shared_ptr<const FittedScene> of;
+        std::unique_ptr<MoveSet> moves;
+        std::pair<int, int> made{-1, -1};  ///< agent and play
+        std::optional<FollowedChoice> choice;
+    };
+    mutable Choosing choosing_;
+    struct Found {
+        std::shared_ptr<const FittedScene> in;
+        std::vector<SceneConflict> conflicts;
+    };
+    std::optional<Found> found_;
 };
 
 }  // namespace mobbscope::app

@@ -1,4 +1,5 @@
 #include <app/state_json.h>
+#include <render/candidates.h>
 #include <render/query_sentence.h>
 #include <scene/view_json.h>
 
@@ -23,7 +24,9 @@ Json or_null(const std::optional<T>& value) {
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
+/// Of a run all but what everybody plays.
 Json scene_json(Scene scene) {
+    scene.crowd.reset();
     scene.view = {};
     for (SceneQuery& query : scene.queries) query.trace.reset();
     std::vector<int> counts;
@@ -100,6 +103,24 @@ Json query_json(const Session& session) {
             {"sentence", step_sentence(sides, recorded->trace, session.step())}};
 }
 
+Json crowd_json(const Session& session) {
+    if (!session.is_crowd()) return nullptr;
+    Json json{{"following", text_or_null(session.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
+    if (const FollowedChoice* followed = session.choice()) {
+        const Choice& choice = followed->choice;
+        json["choice"] = {{"play", followed->play},
+                          {"time", choice.time},
+                          {"candidates", choice.candidates.size()},
+                          {"taken", choice.taken},
+                          {"pointed_out", session.candidate},
+                          {"sentence", choice_sentence(session.scene(), *followed)}};
+    }
+    if (const auto* conflicts = session.conflicts()) {
+        json["conflicts"] = {{"count", conflicts->size()}, {"shown", session.conflict}};
+    }
+    return json;
+}
+
 Json messages_json(const Session& session) {
     constexpr std::array<const char*, 3> kLevels{"info", "warning", "error"};
     Json json = Json::array();
@@ -128,6 +149,8 @@ Json state_json(const Session& session) {
     json["selection"] = selection_json(session, session.selection);
     json["hovered"] = selection_json(session, session.hovered);
     json["query"] = query_json(session);
+    json["crowd"] = crowd_json(session);
+    json["excerpt"] = session.in_excerpt();
     json["time"] = or_null(session.view().time);
     json["playing"] = session.playing;
     json["dialog"] = name(session.dialog);

@@ -65,12 +65,12 @@ void welcome(Ui& ui) {
 
 // --- the picture
 
-void Viewport::build(const Key& key) {
+void Viewport::build(const Key& key, const FollowedChoice* choice) {
     list_.reset();
     why_not_.clear();
     try {
         check(key.size);
-        list_ = build_draw_list(*key.fitted, key.view, key.size, key.scale);
+        list_ = build_draw_list(*key.fitted, key.view, {.size = key.size, .scale = key.scale}, choice);
     } catch (const std::invalid_argument& error) {
         why_not_ = error.what();
     }
@@ -100,7 +100,9 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
     const Session& session = ui.session;
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.look.scale > 1 ? std::max<double>(ui.look.scale, metrics_of(size).scale) : 0;
-    const Key next{session.document().fitted, session.view(), size, words};
+    const FollowedChoice* choice = session.view().candidates ? session.choice() : nullptr;
+    const Key next{session.shown(), session.view(), size, words,
+                   choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1)};
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);
     changed_at_ = ui.now;
@@ -108,12 +110,12 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
     if (flight_ && !flight_->over(ui.now)) {
         Key on_the_way = next;
         on_the_way.view.camera = flight_->at(ui.now);
-        build(on_the_way);
+        build(on_the_way, choice);
         ui.want_frame_in(0);
         return;
     }
     flight_.reset();
-    build(next);
+    build(next, choice);
 }
 
 void Viewport::paint(Ui& ui, ImVec2 corner) {
@@ -203,7 +205,7 @@ void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
 std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& picture) {
     const Session& session = ui.session;
     // They stand where a path begins, in space-time.
-    if (picture.list.moment || !session.selection.on_path()) return std::nullopt;
+    if (picture.list.moment || !session.selection.on_path() || session.crowd()) return std::nullopt;
     const auto who = participant_of(session.fitted(), session.selection.path);
     const bool in_view = index_in_view(session.fitted(), session.view(), session.selection.path).has_value();
     if (!who || who->agent < 0 || !in_view) return std::nullopt;
@@ -351,6 +353,7 @@ void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
     ImGui::GetWindowDrawList()->PushClipRect(picture.corner, end, true);
     draw_highlight(ui, picture, session.selection, ui.look.text, ui.px(2));
     if (session.hovered != session.selection) draw_highlight(ui, picture, session.hovered, ui.look.text, ui.px(1));
+    draw_candidate(ui, picture);
     const auto held = handles(ui, picture);
     if (held) {
         draw_handles(ui, picture, held->places, lit_);

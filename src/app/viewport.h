@@ -28,12 +28,13 @@ class Viewport {
         ViewState view;
         PictureSize size;
         double scale = 0;
+        std::pair<int, int> choice{-1, -1};  ///< agent and play whose candidates are shown
         friend bool operator==(const Key&, const Key&) = default;
     };
     enum class Drag { none, orbit, pan, handle };
 
     void update_picture(Ui& ui, PictureSize size);
-    void build(const Key& key);
+    void build(const Key& key, const FollowedChoice* choice);
     void take_off(Ui& ui, const Key& next);
     void paint(Ui& ui, ImVec2 corner);
     void mouse(Ui& ui, const ShownPicture& picture);

@@ -5,6 +5,7 @@
 #include <render/query_sentence.h>
 #include <render/subject.h>
 #include <render/world_box.h>
+#include <scene/motion_graph.h>
 
 #include <array>
 #include <cmath>
@@ -172,6 +173,23 @@ void draw_highlight(Ui& ui, const ShownPicture& picture, const Selection& what, 
             draw_line(ui, picture, ring(space, clip.disk(end), middle(end)), true, color, width);
         }
     }
+}
+
+void draw_candidate(Ui& ui, const ShownPicture& picture) {
+    const Session& session = ui.session;
+    const FollowedChoice* followed = session.choice();
+    if (!followed || !session.view().candidates || session.candidate < 0) return;
+    const auto& candidates = followed->choice.candidates;
+    if (static_cast<std::size_t>(session.candidate) >= candidates.size()) return;
+    const Candidate& candidate = candidates[static_cast<std::size_t>(session.candidate)];
+    const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
+    const mobb::PlacedClip way(*session.scene().clips[static_cast<std::size_t>(move.clip)].clip, candidate.placement);
+    std::vector<glm::vec3> points;
+    for (int i = 0; i < way.count(); ++i) {
+        const mobb::Disk disk = way.disk(i);
+        points.push_back(picture.list.space.point(disk.x, disk.y, picture.list.moment ? 0 : way.time(i)));
+    }
+    draw_line(ui, picture, points, false, ui.look.accent, ui.px(3.5f));
 }
 
 Described describe(const FittedScene& fitted, const Selection& what) {

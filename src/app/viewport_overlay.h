@@ -27,6 +27,9 @@ void draw_line(Ui& ui, const ShownPicture& picture, std::span<const glm::vec3> p
 /// Outlines a node's box, a sample's disk, or the ends of a path.
 void draw_highlight(Ui& ui, const ShownPicture& picture, const Selection& what, ImU32 color, float width);
 
+/// Points out one of the moves that the followed agent could choose, if it is in the picture.
+void draw_candidate(Ui& ui, const ShownPicture& picture);
+
 /// What a selection is, in words and numbers, a line each: first its name.
 struct Described {
     std::string name;

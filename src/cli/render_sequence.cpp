@@ -4,6 +4,7 @@
 #include <render/framing.h>
 #include <render/lens.h>
 #include <render/subject.h>
+#include <scene/crowd_run.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,13 @@ Sequence steps(const FittedScene& fitted, const ViewState& view) {
 }
 
 Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
-    const Bounds bounds = bounds_of(subjects(fitted, view));
+    Bounds bounds;
+    if (fitted.scene().crowd) {
+        bounds.min.z = 0;
+        bounds.max.z = fitted.scene().crowd->seconds;
+    } else {
+        bounds = bounds_of(subjects(fitted, view));
+    }
     const double begin = bounds.min.z;
     // A picture at the very end would show nobody.
     const double count = std::max(1.0, std::ceil((bounds.max.z - begin) * rate - 1e-6));

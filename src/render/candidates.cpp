@@ -1,4 +1,5 @@
 #include <render/candidates.h>
+#include <render/paths.h>
 #include <render/query_sentence.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
@@ -180,7 +181,8 @@ Fate fate_of(const Choice& choice, std::size_t candidate) {
     if (candidate == choice.taken) return Fate::taken;
     const Candidate& asked = choice.candidates[candidate];
     if (asked.leaves_floor) return Fate::leaves_floor;
-    return asked.ruling ? Fate::ruled_out : Fate::free;
+    if (asked.ruling) return Fate::ruled_out;
+    return asked.in_the_way ? Fate::in_the_way : Fate::free;
 }
 
 FateStyle fate_style(Fate fate, const Palette& palette) {
@@ -189,6 +191,8 @@ FateStyle fate_style(Fate fate, const Palette& palette) {
             return {palette.text, kSolid, 3};
         case Fate::free:
             return {palette.separated, kSolid, 1.6f};
+        case Fate::in_the_way:
+            return {palette.overlap, {10, 3, 2, 3}, 1.5f};
         case Fate::leaves_floor:
             return {palette.apart_in_time, {1.5f, 4, 1.5f, 4}, 1.4f};
         case Fate::ruled_out:
@@ -198,7 +202,7 @@ FateStyle fate_style(Fate fate, const Palette& palette) {
 }
 
 std::string_view fate_words(Fate fate) {
-    constexpr std::array<std::string_view, 4> kWords{"taken", "free", "leaves the floor", "ruled out"};
+    constexpr std::array<std::string_view, 5> kWords{"taken", "free", "in the way", "leaves the floor", "ruled out"};
     return kWords[static_cast<std::size_t>(fate)];
 }
 
@@ -271,9 +275,52 @@ std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitt
     return Drawer(list, fitted, followed, metrics).draw();
 }
 
+std::vector<LabelRequest> add_followed(DrawList& list, std::span<const Subject> paths, int person, double time,
+                                       double height, const Metrics& metrics) {
+    for (const Subject& path : paths) {
+        const std::optional<int> sample = path.person == person ? sample_at(path, time) : std::nullopt;
+        if (!sample) continue;
+        const mobb::Disk disk = path.clip().disk(*sample);
+        const double level = list.moment ? 0 : time;
+        constexpr int kPieces = 48;
+        std::int64_t order = 0;
+        for (const auto& [radius, width] : {std::pair(1.25, 2.2f), std::pair(1.5, 1.2f)}) {
+            const auto at = [&, r = radius * disk.r](int i) {
+                const double angle = 2 * std::numbers::pi * i / kPieces;
+                return list.space.point(disk.x + r * std::cos(angle), disk.y + r * std::sin(angle), level);
+            };
+            for (int i = 0; i < kPieces; ++i) {
+                LineInstance line;
+                line.from = at(i);
+                line.to = at(i + 1);
+                line.color = list.palette.accent;
+                line.width = width * metrics.scale;
+                line.cap = 0.3f * line.width;
+                line.hidden = kThrough;
+                line.order = {kLayer, 1, order++};
+                list.lines.push_back(line);
+            }
+        }
+        const glm::vec3 top = list.space.point(disk.x, disk.y, list.moment ? height : time);
+        const auto anchor = list.lens.project(top);
+        if (!anchor) return {};
+        LabelRequest label;
+        label.text = path.label;
+        label.size = metrics.text;
+        label.color = readable(path.color, list.palette);
+        label.border = list.palette.accent;
+        label.anchor = *anchor;
+        label.directions = {{0, -1}, {-1, -1}, {1, -1}, {-1, 0}, {1, 0}};
+        label.distance = 1.8f * metrics.text;
+        label.pill = true;
+        return {label};
+    }
+    return {};
+}
+
 std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice) {
     std::vector<LegendEntry> out;
-    for (const Fate fate : {Fate::taken, Fate::free, Fate::ruled_out, Fate::leaves_floor}) {
+    for (const Fate fate : {Fate::taken, Fate::free, Fate::in_the_way, Fate::ruled_out, Fate::leaves_floor}) {
         bool any = false;
         for (const std::size_t i : shown_candidates(choice)) any = any || fate_of(choice, i) == fate;
         if (!any) continue;

@@ -5,15 +5,18 @@
 #include <render/draw_list.h>
 #include <render/label_layout.h>
 #include <render/metrics.h>
+#include <render/subject.h>
 #include <scene/fitted_scene.h>
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
 
 /// What became of a candidate.
-enum class Fate { taken, free, leaves_floor, ruled_out };
+enum class Fate { taken, free, in_the_way, leaves_floor, ruled_out };
 Fate fate_of(const Choice& choice, std::size_t candidate);
 
 /// How its way is drawn: each fate has a colour and a line of its own.
@@ -24,7 +27,7 @@ struct FateStyle {
 };
 FateStyle fate_style(Fate fate, const Palette& palette);
 
-/// "taken", "free", "leaves the floor", "ruled out".
+/// "taken", "free", "in the way", "leaves the floor", "ruled out".
 std::string_view fate_words(Fate fate);
 
 /// Those that are drawn: straight on, and turned as the one that was taken.
@@ -40,6 +43,11 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
 /// outlined, with a cross between them; the returned labels name the agents that rule out, each once.
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
                                          const Metrics& metrics);
+
+/// Two rings around a person's disk at a time, on the floor or in space-time; the returned label has the name, above a
+/// body that is so high.
+std::vector<LabelRequest> add_followed(DrawList& list, std::span<const Subject> paths, int person, double time,
+                                       double height, const Metrics& metrics);
 
 /// A line for each fate among them.
 std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice);

@@ -24,6 +24,7 @@ namespace {
 constexpr const char* kBetween = "  \u00B7  ";
 constexpr float kFinestStep = 0.6f;  // pixels: disks nearer to one another are drawn as one
 constexpr int kMostTogether = 8;
+constexpr double kFlat = 0.4;
 constexpr float kLeastRing = 3;  // pixels of radius
 
 struct Seconds {
@@ -85,6 +86,15 @@ std::string seconds_text(const Seconds& s, std::size_t people) {
     return text;
 }
 
+/// Boxes that begin before what is shown, or end behind it, would stand there empty.
+void keep_within(DrawList& list, std::span<const Subject> paths, const Seconds& seconds) {
+    std::erase_if(list.boxes, [&](const BoxInstance& box) {
+        const mobb::PlacedTree& tree = paths[static_cast<std::size_t>(box.id.participant)].placed;
+        const mobb::Node& node = tree.node(box.id.index);
+        return tree.begin(node) < seconds.begin || tree.end(node) > seconds.end;
+    });
+}
+
 std::vector<Subject> boxed(std::span<const Subject> paths, const ViewState& view, int followed) {
     std::size_t boxes = 0;
     std::vector<Subject> all;
@@ -119,6 +129,8 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     bounds.add(glm::dvec3(-0.5 * crowd.area, seconds.begin));
     bounds.add(glm::dvec3(0.5 * crowd.area, seconds.end));
     list.space = space_for(bounds, view);
+    // As tall as wide it would be a forest of poles.
+    if (view.time_height <= 0) list.space.time_height *= kFlat;
     list.space.anchor = camera_anchor(fitted, view, time);
     const Stage stage = floor_stage(crowd.area, seconds.begin, seconds.end);
 
@@ -160,6 +172,7 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     }
     if (view.boxes) {
         add_level_boxes(list, boxed(paths, view, followed), view.levels, view.color_by, metrics.scale);
+        keep_within(list, paths, seconds);
         refine_crowded_boxes(list, metrics.scale);
     }
     if (view.floor) {
@@ -181,6 +194,10 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     }
     std::vector<LabelRequest> notes;
     if (choice) notes = add_candidates(list, fitted, *choice, metrics);
+    if (followed >= 0) {
+        const auto name = add_followed(list, paths, followed, time, 0, metrics);
+        notes.insert(notes.end(), name.begin(), name.end());
+    }
 
     if (!blocks.legend) list.legend.clear();
     if (!view.labels) return list;

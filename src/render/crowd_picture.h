@@ -15,6 +15,6 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
                      const FollowedChoice* choice);
 
 /// Boxes of more people would bury everything: those of the followed one are shown alone.
-inline constexpr std::size_t kMostCrowdBoxes = 1500;
+inline constexpr std::size_t kMostCrowdBoxes = 200;
 
 }  // namespace mobbscope

@@ -3,6 +3,7 @@
 
 #include <render/draw_list.h>
 #include <render/metrics.h>
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 #include <render/annotations.h>
 #include <render/moment_caption.h>
 #include <render/query_sentence.h>
+#include <scene/crowd_scene.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -102,7 +103,8 @@ std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const S
     };
     if (view.disks && subjects.size() > 1) line(palette.hit, 3, "overlap");
     if (view.disks && may_show_radii(subjects)) line(palette.text, 1.4f, "radius, to the farthest joint");
-    if (view.floor) {
+    const bool is_run = !subjects.empty() && subjects.front().person >= 0;
+    if (view.floor && !(is_run && subjects.size() > kMostWithWays)) {
         line(palette.quiet_text, 2.6f, "way so far");
         line(with_alpha(palette.quiet_text, 0.6f), 1.2f, "way ahead");
     }

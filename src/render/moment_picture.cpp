@@ -215,6 +215,10 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
         notes.insert(notes.end(), some.begin(), some.end());
     };
     if (choice) add(add_candidates(list, fitted, *choice, metrics));
+    if (is_crowd && !view.follow.empty()) {
+        const int followed = person_by_name(*fitted.scene().crowd, view.follow).value_or(-1);
+        add(add_followed(list, people, followed, time, heights.front(), metrics));
+    }
     if (moment.nearest && view.disks && names_fit(count)) {
         const auto body = [&](int i) -> const Body& { return moment.bodies[static_cast<std::size_t>(i)]; };
         add(add_clearance(list, body(moment.nearest->a), body(moment.nearest->b), metrics));

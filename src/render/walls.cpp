@@ -9,9 +9,14 @@ constexpr float kGlass = 0.1f;  // opacity
 }  // namespace
 
 Stage floor_stage(glm::dvec2 area, double begin, double end) {
-    // A wall on a line of the grid needs no further cell behind it.
-    const glm::dvec2 half = 0.5 * area * (1 - 1e-5);
-    return make_stage({-half.x, -half.y, begin}, {half.x, half.y, end});
+    const glm::dvec2 half = 0.5 * area;
+    Stage stage = make_stage({-half.x, -half.y, begin}, {half.x, half.y, end});
+    // The floor ends at its walls, wherever the grid has a line.
+    stage.x0 = -half.x;
+    stage.x1 = half.x;
+    stage.y0 = -half.y;
+    stage.y1 = half.y;
+    return stage;
 }
 
 void add_walls(DrawList& list, glm::dvec2 area, double bottom, double top, float scale) {

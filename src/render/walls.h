@@ -3,7 +3,8 @@
 
 #include <render/draw_list.h>
 #include <render/surroundings.h>
-#include <scene/crowd_run.h>
+
+#include <glm/vec2.hpp>
 
 namespace mobbscope {
 

@@ -1,3 +1,4 @@
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 

@@ -445,7 +445,11 @@ std::string argument_in(const World& world, const std::string& argument) {
 TEST(CommandEffects, EveryCommandIsTried) {
     std::set<std::string> tried, known;
     for (const Case& c : cases()) tried.insert(c.id);
-    for (const Command& command : commands()) known.emplace(command.id);
+    for (const Command& command : commands()) {
+        // crowd_test.cpp has a crowd to try them on.
+        if (command.id.starts_with("crowd.") || command.id.starts_with("conflicts.")) continue;
+        known.emplace(command.id);
+    }
     EXPECT_EQ(tried, known);
 }
 

@@ -11,7 +11,7 @@ namespace {
 std::vector<Command> all_commands() {
     std::vector<Command> out;
     for (const auto& part : {file_commands(), edit_commands(), view_commands(), tree_commands(), query_commands(),
-                             go_commands(), help_commands()}) {
+                             go_commands(), crowd_commands(), help_commands()}) {
         out.insert(out.end(), part.begin(), part.end());
     }
     return out;

@@ -161,7 +161,7 @@ std::span<const Command> edit_commands() {
          .menu = "Edit",
          .argument = "CLIP",
          .doc = "Adds an agent that plays a clip, a little aside from the others.",
-         .enabled = has_scene,
+         .enabled = [](const Session& session) { return has_scene(session) && !session.crowd(); },
          .run = add,
          .choices = clip_names},
         {.id = "agent.duplicate",

@@ -92,7 +92,7 @@ std::string render_line(const Session& session) {
     const std::filesystem::path& file = session.scene().file;
     const bool one_file =
         session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
-    if (session.modified() || !one_file || file.empty()) ask_to_save();
+    if (session.modified() || session.in_excerpt() || !one_file || file.empty()) ask_to_save();
     const PictureSize size = viewport_size(session);
     const std::string scale = session.hooks.ui_scale ? " --scale " + short_double(session.hooks.ui_scale()) : "";
     // Of an unchanged scene, its `view` is the one in the file.

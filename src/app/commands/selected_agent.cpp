@@ -8,7 +8,8 @@
 namespace mobbscope::app {
 
 bool has_selected_agent(const Session& session) {
-    return session.selection.on_path() && session.selection.path.participant >= 0;
+    // What a run's agents play is the simulation's.
+    return !session.crowd() && session.selection.on_path() && session.selection.path.participant >= 0;
 }
 
 int selected_agent(const Session& session) { return session.selection.path.participant; }

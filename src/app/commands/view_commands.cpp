@@ -505,7 +505,7 @@ std::span<const Command> view_commands() {
          .title = "No time cursor",
          .menu = "View/Time",
          .doc = "Takes the time cursor out of the picture.",
-         .enabled = [](const Session& session) { return session.view().time.has_value(); },
+         .enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); },
          .run =
              [](Session& session, const std::string&) {
                  session.playing = false;

@@ -25,6 +25,10 @@ void query_header(Ui& ui) {
     }
     flow(button_width("close"));
     query_button(ui, "close", "query.none");
+    if (ui.session.in_excerpt()) {
+        flow(button_width("back to the crowd"));
+        command_button(ui, "back to the crowd", "crowd.back", "crowd.back");
+    }
     ImGui::PopStyleVar();
 }
 
@@ -41,7 +45,7 @@ void query_panel(Ui& ui) {
         query_list(ui);
         return;
     }
-    const std::shared_ptr<const FittedScene> kept = ui.session.document().fitted;
+    const std::shared_ptr<const FittedScene> kept = ui.session.shown();
     query_header(ui);
     if (ui.session.findings() != findings) return;  // another query, or none: drawn in the next frame
     query_answer(ui, *findings);

@@ -21,8 +21,11 @@ std::string seconds(double value) {
 void agent_menu(Ui& ui, const Selection& self) {
     if (!ImGui::BeginPopupContextItem()) return;
     ui.session.select(self);
-    for (const char* id : {"view.frame", "agent.duplicate", "agent.remove"}) {
+    for (const char* id : {"view.frame", "crowd.follow", "agent.duplicate", "agent.remove"}) {
         const Command& command = *find_command(id);
+        if (command.id.starts_with("crowd.") ? !ui.session.is_crowd()
+                                             : command.id.starts_with("agent.") && ui.session.crowd())
+            continue;
         const std::string title(command.title);
         const std::string shortcut(first_shortcut(command));
         const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));
@@ -32,6 +35,11 @@ void agent_menu(Ui& ui, const Selection& self) {
     ImGui::EndPopup();
 }
 
+/// What stands beside an agent: how long its clip is; of a run which move it plays.
+std::string remark_of(const Session& session, const SceneClip& clip) {
+    return session.crowd() ? fitted_text(clip.name, 90) : seconds(clip.clip->duration());
+}
+
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
 void path_row(Ui& ui, const FittedScene& fitted, int index) {
     Session& session = ui.session;
@@ -39,8 +47,8 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const Selection self{Selection::Kind::path, {index, -1, 0}, -1};
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const mobb::Clip& clip = *fitted.scene().clips[static_cast<std::size_t>(who.clip)].clip;
-    const bool clicked = row(ui, {"agent" + std::to_string(index), who.name, seconds(clip.duration()),
+    const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
+    const bool clicked = row(ui, {"agent" + std::to_string(index), who.name, remark_of(session, clip),
                                   on_it(session.selection), on_it(session.hovered), ui.px(18), 0});
     ui.mark("agent." + std::to_string(index));
     agent_menu(ui, self);
@@ -56,11 +64,13 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
 void agents(Ui& ui) {
     Session& session = ui.session;
     // A row's menu may remove its agent: the others are drawn as they were.
-    const std::shared_ptr<const FittedScene> kept = session.document().fitted;
+    const std::shared_ptr<const FittedScene> kept = session.shown();
     const bool has_agents = !kept->scene().agents.empty();
-    const auto count = static_cast<int>(kept->participants().size());
+    // Of a run its people; what they play before and after now is theirs.
+    const auto count = static_cast<int>(session.crowd() ? session.crowd()->agents.size() : kept->participants().size());
     heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
     rows(ui, "##agents", count, kMostRows, [&](int i) { path_row(ui, *kept, i); });
+    if (session.crowd()) return;
     if (ImGui::SmallButton("+ agent")) ImGui::OpenPopup("add agent");
     ui.mark("scene.add_agent");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add an agent that plays one of the clips");
@@ -89,6 +99,7 @@ void clips(Ui& ui) {
         ui.mark("clip." + std::to_string(i));
         if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().c_str());
     });
+    if (session.crowd()) return;
     if (ImGui::SmallButton("+ files")) invoke(session, "file.add");
     ui.mark("scene.add_files");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add clips, or the clips and agents of another scene");
@@ -127,9 +138,10 @@ void scene_panel(Ui& ui) {
         return;
     }
     agents(ui);
-    placement_panel(ui);
+    if (!ui.session.crowd()) placement_panel(ui);
     clips(ui);
-    queries(ui);
+    // A run is asked for its conflicts.
+    if (!ui.session.crowd()) queries(ui);
 }
 
 }  // namespace mobbscope::app

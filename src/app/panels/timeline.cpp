@@ -1,4 +1,5 @@
 #include <app/command.h>
+#include <app/crowd_view.h>
 #include <app/panels.h>
 #include <app/panels/command_button.h>
 #include <app/panels/list_rows.h>
@@ -8,9 +9,11 @@
 #include <render/subject.h>
 #include <render/ticks.h>
 #include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 
 namespace mobbscope::app {
 
@@ -34,6 +37,39 @@ void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) 
     }
 }
 
+/// What the agent in question plays, move after move, and of everybody what was forced.
+void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(double)>& x_of) {
+    const Session& session = ui.session;
+    const CrowdRun& crowd = *session.crowd();
+    const Palette& palette = ui.look.palette;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+    const auto duration = [&](const Play& play) {
+        const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
+        return session.scene().clips[static_cast<std::size_t>(move.clip)].clip->duration();
+    };
+    if (const auto person = person_in_question(session)) {
+        Participant who;
+        const Rgba own = agent_color(session.fitted().scene(), who, *person);
+        const float gap = ui.px(1);
+        for (const Play& play : crowd.agents[static_cast<std::size_t>(*person)].plays) {
+            const float left = x_of(play.placement.start);
+            const float right = x_of(play.placement.start + duration(play));
+            draw.AddRectFilled({left + 0.5f * gap, corner.y + ui.px(3)},
+                               {std::max(right - 0.5f * gap, left + gap), corner.y + size.y - ui.px(3)},
+                               to_im(with_alpha(own, play.kind == PlayKind::chosen ? 0.75f : 0.4f)), ui.px(1));
+        }
+    }
+    for (const CrowdAgent& agent : crowd.agents) {
+        for (const Play& play : agent.plays) {
+            if (play.kind != PlayKind::forced) continue;
+            const float x = x_of(play.placement.start);
+            draw.AddLine({x, corner.y}, {x, corner.y + size.y}, to_im(palette.hit), ui.px(1.5f));
+        }
+    }
+    draw.PopClipRect();
+}
+
 /// When each path is there, as a bar in its colour, with the time cursor over all of them; drag to scrub.
 void time_bars(Ui& ui, float width, float height) {
     Session& session = ui.session;
@@ -50,7 +86,12 @@ void time_bars(Ui& ui, float width, float height) {
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.look.window, ui.px(3));
-    const std::vector<Subject> paths = subjects(session.fitted(), session.view());
+    std::vector<Subject> paths;
+    if (session.crowd()) {
+        play_bars(ui, corner, {width, height}, x_of);
+    } else {
+        paths = subjects(session.fitted(), session.view());
+    }
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
     const float gap = std::min(ui.px(1.5f), 0.2f * each);
@@ -93,14 +134,15 @@ void time_row(Ui& ui, bool tall) {
     const float width = std::max(ui.px(60), ImGui::GetContentRegionAvail().x - clear - ui.px(8));
     const float below = ui.px(24);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const auto paths = static_cast<float>(subjects(session.fitted(), session.view()).size());
+    const std::size_t lanes = session.crowd() ? 1 : subjects(session.fitted(), session.view()).size();
+    const auto paths = static_cast<float>(lanes);
     const float most =
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
     const float height = tall ? most : clear;
     time_bars(ui, width, height);
     if (tall) time_ticks(ui, {corner.x, corner.y + height}, width, span);
     ImGui::SameLine();
-    ImGui::BeginDisabled(!session.view().time);
+    ImGui::BeginDisabled(!session.view().time || session.crowd());
     if (ImGui::Button("\u00D7", {clear, clear})) invoke(session, "time.clear");
     ImGui::EndDisabled();
     ui.mark("timeline.clear");

@@ -87,7 +87,11 @@ void window_layout(Ui& ui, Viewport& viewport) {
     spacing();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
     panel("right", {right, room.y}, [&] {
-        query_panel(ui);
+        if (ui.session.is_crowd() && !ui.session.view().query) {
+            crowd_panel(ui);
+        } else {
+            query_panel(ui);
+        }
         selection_panel(ui);
     });
     ImGui::PopStyleVar(2);

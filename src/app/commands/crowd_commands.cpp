@@ -1,0 +1,325 @@
+#include <app/command.h>
+#include <app/commands/arguments.h>
+#include <app/commands/explicit_view.h>
+#include <app/crowd_view.h>
+#include <import/text.h>
+#include <render/candidates.h>
+#include <render/follow.h>
+#include <render/navigate.h>
+#include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr double kAround = 5;      // metres around a followed agent that are brought into the picture
+constexpr double kNear = 2.5;      // ... and around two that meet
+constexpr double kBefore = 0.5;    // seconds before a conflict
+constexpr double kStanding = 1.8;  // metres: people's height
+
+bool has_scene(const Session& session) { return !session.empty(); }
+bool follows(const Session& session) { return !session.view().follow.empty(); }
+
+/// Brings what is so near to the followed agent into the picture.
+void frame_followed(Session& session, double metres) {
+    move_camera(session, [&](const Camera& camera, PictureSize size) {
+        const glm::dvec3 low(-metres, -metres, 0);
+        return framing(camera, low, {metres, metres, kStanding}, size);
+    });
+}
+
+// --- following
+
+void follow_agent(Session& session, const std::string& name, double metres) {
+    if (!can_follow(session.scene(), name)) {
+        std::vector<std::string> names = names_in_crowd(session);
+        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
+    }
+    session.candidate = -1;
+    session.look([&](ViewState& view) { view.follow = name; });
+    frame_followed(session, metres);
+    select_in_crowd(session, name);
+}
+
+void stop_following(Session& session, const std::string&) {
+    session.candidate = -1;
+    const double time = run_or_cursor_time(session);
+    const glm::dvec3 anchor = camera_anchor(session.fitted(), session.view(), time);
+    session.look([&](ViewState& view) {
+        view.follow.clear();
+        // What was in the middle stays there.
+        if (view.camera.target) *view.camera.target += glm::dvec3(anchor.x, anchor.y, 0);
+    });
+}
+
+void follow(Session& session, const std::string& name) {
+    if (!name.empty()) return follow_agent(session, name, kAround);
+    const std::string who = agent_in_question(session);
+    if (who.empty()) return session.tell(Message::Level::info, "Click somebody first to follow them");
+    if (who == session.view().follow) return stop_following(session, "");
+    follow_agent(session, who, kAround);
+}
+
+// --- plays and choices
+
+const CrowdAgent* followed(const Session& session) {
+    const auto person = person_in_question(session);
+    return person ? &session.crowd()->agents[static_cast<std::size_t>(*person)] : nullptr;
+}
+
+void to_time(Session& session, double time) {
+    session.playing = false;
+    session.candidate = -1;
+    session.look([&](ViewState& view) { view.time = time; });
+}
+
+void to_play(Session& session, const std::string& text) {
+    const CrowdAgent& agent = *followed(session);
+    const int play = whole_number_in(text, "the play", 0, static_cast<int>(agent.plays.size()) - 1);
+    to_time(session, agent.plays[static_cast<std::size_t>(play)].placement.start);
+}
+
+/// The choice after or before the present time; none if there is none.
+template <int direction>
+std::optional<double> next_choice(const Session& session) {
+    const CrowdAgent* agent = followed(session);
+    if (!agent) return std::nullopt;
+    const double now = run_time(session.scene(), session.view());
+    std::optional<double> best;
+    for (std::size_t i = 1; i < agent->plays.size(); ++i) {
+        const double at = agent->plays[i].chosen_at;
+        const bool beyond = direction > 0 ? at > now + 1e-9 : at < now - 1e-9;
+        if (beyond && (!best || (direction > 0 ? at < *best : at > *best))) best = at;
+    }
+    return best;
+}
+
+template <int direction>
+bool has_choice(const Session& session) {
+    return next_choice<direction>(session).has_value();
+}
+template <int direction>
+void to_choice(Session& session, const std::string&) {
+    to_time(session, *next_choice<direction>(session));
+}
+
+// --- candidates
+
+bool has_candidates(const Session& session) { return session.choice() != nullptr; }
+
+void point_out(Session& session, const std::string& text) {
+    const int count = static_cast<int>(session.choice()->choice.candidates.size());
+    session.candidate = whole_number_in(text, "the candidate", 0, count - 1);
+    session.look([](ViewState& view) { view.candidates = true; });
+}
+
+/// Who rules the pointed out candidate out; null if nobody does.
+const Candidate* ruled_out(const Session& session, int candidate) {
+    const FollowedChoice* choice = session.choice();
+    if (!choice || candidate < 0 || static_cast<std::size_t>(candidate) >= choice->choice.candidates.size()) {
+        return nullptr;
+    }
+    const Candidate& asked = choice->choice.candidates[static_cast<std::size_t>(candidate)];
+    return asked.ruling ? &asked : nullptr;
+}
+
+void open_candidate(Session& session, const std::string& text) {
+    int index = session.candidate;
+    if (!text.empty()) {
+        index = whole_number_in(text, "the candidate", 0, std::numeric_limits<int>::max());
+    }
+    const Candidate* candidate = ruled_out(session, index);
+    if (!candidate) {
+        throw std::invalid_argument("nobody rules this candidate out: take one that meets somebody");
+    }
+    const CrowdRun& run = *session.crowd();
+    const auto clip_of = [&](int move) { return session.scene().graph->moves[static_cast<std::size_t>(move)].clip; };
+    const CrowdAgent& other = run.agents[static_cast<std::size_t>(candidate->ruling->agent)];
+    const Play& play = other.plays[static_cast<std::size_t>(candidate->ruling->play)];
+    session.open_excerpt({session.view().follow, clip_of(candidate->move), candidate->placement, -1},
+                         {other.name, clip_of(play.move), play.placement, -1});
+}
+
+// --- conflicts
+
+bool can_find(const Session& session) { return !session.empty() && !session.job() && can_conflict(session); }
+bool has_conflicts(const Session& session) { return session.conflicts() && !session.conflicts()->empty(); }
+
+void find(Session& session, const std::string&) { session.find_conflicts(); }
+
+void to_conflict(Session& session, int index) {
+    const SceneConflict& found = (*session.conflicts())[static_cast<std::size_t>(index)];
+    session.playing = false;
+    session.conflict = index;
+    const double time = std::max(found.begin() - kBefore, session.time_span().t0);
+    session.look([&](ViewState& view) {
+        view.query.reset();
+        view.time = time;
+    });
+    follow_agent(session, found.a.name, kNear);
+}
+
+void go_conflict(Session& session, const std::string& text) {
+    to_conflict(session, whole_number_in(text, "the conflict", 0, static_cast<int>(session.conflicts()->size()) - 1));
+}
+
+template <int direction>
+bool has_next_conflict(const Session& session) {
+    if (!has_conflicts(session)) return false;
+    const int next = session.conflict + direction;
+    return next >= 0 && next < static_cast<int>(session.conflicts()->size());
+}
+template <int direction>
+void next_conflict(Session& session, const std::string&) {
+    to_conflict(session, session.conflict + direction);
+}
+
+void open_conflict(Session& session, const std::string& text) {
+    const int last = static_cast<int>(session.conflicts()->size()) - 1;
+    const int index = text.empty() ? session.conflict : whole_number_in(text, "the conflict", 0, last);
+    if (index < 0) throw std::invalid_argument("choose a conflict first: click one in the list");
+    const SceneConflict found = (*session.conflicts())[static_cast<std::size_t>(index)];
+    session.open_excerpt(found.a, found.b);
+}
+
+void open_pair(Session& session, const std::string& name) {
+    const auto path = path_in_question(session);
+    const auto other = path_in_crowd(session, name);
+    if (!other) {
+        throw std::invalid_argument("there is no agent " + in_quotes(name) +
+                                    did_you_mean(name, names_in_crowd(session)));
+    }
+    if (other->name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
+    session.open_excerpt(*path, *other);
+}
+
+}  // namespace
+
+std::span<const Command> crowd_commands() {
+    static const std::vector<Command> table{
+        {.id = "crowd.follow",
+         .title = "Follow",
+         .menu = "View/Crowd",
+         .shortcut = "W",
+         .argument = "[AGENT]",
+         .doc = "Lets the camera go along with the selected agent, and shows a run's last choice; once more: stops.",
+         .enabled = has_scene,
+         .run = follow,
+         .checked = follows},
+        {.id = "crowd.stop",
+         .title = "Stop following",
+         .menu = "View/Crowd",
+         .doc = "Leaves the camera where it is.",
+         .enabled = follows,
+         .run = stop_following},
+        {.id = "crowd.candidates",
+         .title = "Candidates",
+         .menu = "View/Crowd",
+         .shortcut = "A",
+         .doc = "Shows the moves that the followed agent could choose, and what became of each.",
+         .enabled = [](const Session& session) { return session.crowd() != nullptr; },
+         .run = [](Session& session,
+                   const std::string&) { session.look([](ViewState& view) { view.candidates = !view.candidates; }); },
+         .checked = [](const Session& session) { return session.view().candidates; }},
+        {.id = "crowd.window",
+         .title = "Seconds around the time",
+         .argument = "S",
+         .doc = "Shows so many seconds of a run before and after its time in space-time, 0.1 to 60.",
+         .enabled = [](const Session& session) { return session.crowd() != nullptr; },
+         .run =
+             [](Session& session, const std::string& text) {
+                 const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
+                 session.look([&](ViewState& view) { view.time_window = window; });
+             }},
+        {.id = "crowd.next_choice",
+         .title = "Next choice",
+         .menu = "View/Crowd",
+         .shortcut = "N",
+         .doc = "Goes to the time at which the agent chooses next.",
+         .enabled = has_choice<1>,
+         .run = to_choice<1>},
+        {.id = "crowd.previous_choice",
+         .title = "Previous choice",
+         .menu = "View/Crowd",
+         .shortcut = "Shift+N",
+         .doc = "Goes to the time at which the agent chose before.",
+         .enabled = has_choice<-1>,
+         .run = to_choice<-1>},
+        {.id = "crowd.play",
+         .title = "To a play",
+         .argument = "N",
+         .doc = "Goes to the time at which the agent's play begins, by its number from 0.",
+         .enabled = [](const Session& session) { return followed(session) != nullptr; },
+         .run = to_play},
+        {.id = "crowd.candidate",
+         .title = "Point out a candidate",
+         .argument = "N",
+         .doc = "Points out one of the moves that the followed agent could choose, by its number from 0.",
+         .enabled = has_candidates,
+         .run = point_out},
+        {.id = "crowd.open_candidate",
+         .title = "Open the candidate as a scene",
+         .menu = "View/Crowd",
+         .argument = "[N]",
+         .doc =
+             "Opens the candidate that is pointed out, and who rules it out, as a scene with the query between them.",
+         .enabled = has_candidates,
+         .run = open_candidate},
+        {.id = "crowd.open_pair",
+         .title = "Open as a scene with",
+         .menu = "View/Crowd",
+         .argument = "AGENT",
+         .doc = "Opens what the selected agent and another walk now as a scene with the query between them.",
+         .enabled = [](const Session& session) { return session.is_crowd() && path_in_question(session).has_value(); },
+         .run = open_pair},
+        {.id = "conflicts.find",
+         .title = "Find conflicts",
+         .menu = "Go/Conflicts",
+         .doc = "Looks for all that collide, through the trees.",
+         .enabled = can_find,
+         .run = find},
+        {.id = "conflicts.next",
+         .title = "Next conflict",
+         .menu = "Go/Conflicts",
+         .shortcut = "Shift+PageDown",
+         .doc = "Goes to just before the next two collide, and follows one of them.",
+         .enabled = has_next_conflict<1>,
+         .run = next_conflict<1>},
+        {.id = "conflicts.previous",
+         .title = "Previous conflict",
+         .menu = "Go/Conflicts",
+         .shortcut = "Shift+PageUp",
+         .doc = "Goes to just before the two of the conflict before.",
+         .enabled = has_next_conflict<-1>,
+         .run = next_conflict<-1>},
+        {.id = "conflicts.go",
+         .title = "To a conflict",
+         .argument = "N",
+         .doc = "Goes to just before a conflict, by its number from 0.",
+         .enabled = has_conflicts,
+         .run = go_conflict},
+        {.id = "conflicts.open",
+         .title = "Open the conflict as a scene",
+         .menu = "Go/Conflicts",
+         .argument = "[N]",
+         .doc = "Opens the two of a conflict as a scene with the query between them.",
+         .enabled = has_conflicts,
+         .run = open_conflict},
+        {.id = "crowd.back",
+         .title = "Back to the crowd",
+         .menu = "Go/Conflicts",
+         .shortcut = "Backspace",
+         .doc = "Leaves the scene of two for the crowd that they were taken from.",
+         .enabled = [](const Session& session) { return session.in_excerpt(); },
+         .run = [](Session& session, const std::string&) { session.leave_excerpt(); }},
+    };
+    return table;
+}
+
+}  // namespace mobbscope::app

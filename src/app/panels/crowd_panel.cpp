@@ -1,0 +1,200 @@
+#include <app/command.h>
+#include <app/crowd_view.h>
+#include <app/panels.h>
+#include <app/panels/command_button.h>
+#include <app/panels/list_rows.h>
+#include <app/panels/section.h>
+#include <render/candidates.h>
+#include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
+#include <scene/motion_graph.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr int kMostRows = 9;
+
+std::string at_time(double time) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.2f s", time);
+    return text;
+}
+
+/// Who is followed, and the way to change that.
+void following(Ui& ui) {
+    const Session& session = ui.session;
+    const std::string& followed = session.view().follow;
+    const std::string who = agent_in_question(session);
+    if (who.empty()) {
+        words(ui.look.quiet, "Click somebody to follow them.");
+        return;
+    }
+    if (!followed.empty()) {
+        words(ui.look.text, "Following " + followed);
+        ImGui::SameLine();
+        command_button(ui, "stop", "crowd.stop", "crowd.stop");
+    }
+    if (who == followed) return;
+    command_button(ui, ("follow " + fitted_text(who, ui.px(120))).c_str(), "crowd.follow", "crowd.follow");
+}
+
+/// The line that the picture draws it with.
+void fate_line(Ui& ui, ImVec2 corner, Fate fate) {
+    const FateStyle style = fate_style(fate, ui.look.palette);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float y = corner.y + 0.5f * ImGui::GetFrameHeight();
+    const float end = corner.x + ui.px(26);
+    float x = corner.x + ui.px(6);
+    const bool solid = style.dash == kSolid;
+    for (bool on = true; x < end; on = !on) {
+        const float length = solid ? end - x : ui.px(0.7f * (on ? style.dash.x : style.dash.y));
+        const float to = std::min(x + length, end);
+        if (on) draw.AddLine({x, y}, {to, y}, to_im(style.color), ui.px(std::max(style.width, 1.5f)));
+        x = to;
+    }
+}
+
+/// "turn_left, 45": the move's name, and how far it was turned for.
+std::string move_name(const Session& session, const Candidate& candidate) {
+    const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
+    std::string name = session.scene().clips[static_cast<std::size_t>(move.clip)].name;
+    if (candidate.turn_deg == 0) return name;
+    char turn[32];
+    std::snprintf(turn, sizeof turn, ", %+.0f\u00B0", candidate.turn_deg);
+    return name + turn;
+}
+
+std::string remark_of(const Session& session, const Choice& choice, std::size_t index) {
+    const Candidate& candidate = choice.candidates[index];
+    const Fate fate = fate_of(choice, index);
+    if (fate == Fate::leaves_floor) return "off floor";
+    if (fate != Fate::ruled_out) return std::string(fate_words(fate));
+    const std::string& other = session.crowd()->agents[static_cast<std::size_t>(candidate.ruling->agent)].name;
+    return "meets " + fitted_text(other, 60) + ' ' + at_time(candidate.ruling->contact.time);
+}
+
+void last_choice_list(Ui& ui) {
+    Session& session = ui.session;
+    const FollowedChoice* followed = session.choice();
+    if (!followed) {
+        if (!session.view().follow.empty()) words(ui.look.quiet, "No choice yet at this time.");
+        return;
+    }
+    const Choice choice = followed->choice;
+    heading(ui, "LAST CHOICE", at_time(choice.time));
+    words(ui.look.text, choice_sentence(session.scene(), *followed));
+    const std::vector<std::size_t> shown = shown_candidates(choice);
+    rows(ui, "##candidates", static_cast<int>(shown.size()), kMostRows, [&](int i) {
+        const std::size_t index = shown[static_cast<std::size_t>(i)];
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const Fate fate = fate_of(choice, index);
+        const Rgba color = fate_style(fate, ui.look.palette).color;
+        const bool pointed_out = session.candidate == static_cast<int>(index);
+        if (row(ui, {"candidate" + std::to_string(index), move_name(session, choice.candidates[index]),
+                     remark_of(session, choice, index), pointed_out, false, ui.px(26),
+                     to_im(readable(color, ui.look.palette))})) {
+            invoke(session, "crowd.candidate", std::to_string(index));
+        }
+        ui.mark("candidate." + std::to_string(index));
+        fate_line(ui, corner, fate);
+        if (!ImGui::IsItemHovered()) return;
+        ImGui::SetTooltip("%s", candidate_sentence(session.scene(), choice, index).c_str());
+        if (fate == Fate::ruled_out && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+            invoke(session, "crowd.open_candidate", std::to_string(index));
+        }
+    });
+    if (!session.crowd()) return;  // a double click has opened two of them
+    const bool opens = session.candidate >= 0 &&
+                       static_cast<std::size_t>(session.candidate) < choice.candidates.size() &&
+                       choice.candidates[static_cast<std::size_t>(session.candidate)].ruling;
+    ImGui::BeginDisabled(!opens);
+    command_button(ui, "open as a scene", "crowd.open_candidate", "crowd.open_candidate");
+    ImGui::EndDisabled();
+}
+
+void plays(Ui& ui) {
+    Session& session = ui.session;
+    const auto person = person_in_question(session);
+    if (!person) return;
+    const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(*person)];
+    const std::size_t now = play_at(agent, run_time(session.scene(), session.view()));
+    heading(ui, ("PLAYS OF " + agent.name).c_str(), std::to_string(agent.plays.size()));
+    rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostRows, [&](int i) {
+        const Play& play = agent.plays[static_cast<std::size_t>(i)];
+        const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
+        const char* kind = play.kind == PlayKind::pivoted  ? "pivoted  "
+                           : play.kind == PlayKind::forced ? "forced  "
+                                                           : "";
+        const Palette& palette = ui.look.palette;
+        const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
+                            : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
+                                                             : 0;
+        if (row(ui, {"play" + std::to_string(i), session.scene().clips[static_cast<std::size_t>(move.clip)].name,
+                     kind + at_time(play.placement.start), static_cast<std::size_t>(i) == now, false, 0, color})) {
+            invoke(session, "crowd.play", std::to_string(i));
+        }
+        ui.mark("play." + std::to_string(i));
+    });
+}
+
+void conflicts(Ui& ui) {
+    Session& session = ui.session;
+    const std::vector<SceneConflict>* found = session.conflicts();
+    heading(ui, "CONFLICTS", found ? std::to_string(found->size()) : "");
+    if (!found) {
+        command_button(ui, "find conflicts", "conflicts.find", "conflicts.find");
+        return;
+    }
+    if (found->empty()) {
+        words(to_im(readable(ui.look.palette.separated, ui.look.palette)), "Nobody collides with anybody.");
+        return;
+    }
+    // A double click may open two of them.
+    const std::vector<SceneConflict> kept = *found;
+    int open = -1;
+    rows(ui, "##conflicts", static_cast<int>(kept.size()), kMostRows, [&](int i) {
+        const SceneConflict& conflict = kept[static_cast<std::size_t>(i)];
+        char depth[48];
+        std::snprintf(depth, sizeof depth, "%.2f s  %.2f m", conflict.begin(), -conflict.facts.least_clearance);
+        if (row(ui, {"conflict" + std::to_string(i), conflict.a.name + " and " + conflict.b.name, depth,
+                     session.conflict == i, false, 0, to_im(readable(ui.look.palette.hit, ui.look.palette))})) {
+            session.conflict = i;
+        }
+        ui.mark("conflict." + std::to_string(i));
+        if (!ImGui::IsItemHovered()) return;
+        ImGui::SetTooltip("When they first touch, and how deep they overlap. Double-click goes to just before it");
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) open = i;
+    });
+    if (open >= 0) invoke(session, "conflicts.go", std::to_string(open));
+    ImGui::BeginDisabled(session.conflict < 0);
+    command_button(ui, "open as a scene", "conflicts.open", "conflicts.open");
+    ImGui::EndDisabled();
+    if (!session.conflicts()) return;
+    flow(button_width("next"));
+    command_button(ui, "next", "conflicts.next", "conflicts.next");
+}
+
+}  // namespace
+
+void crowd_panel(Ui& ui) {
+    const Session& session = ui.session;
+    const std::size_t people =
+        session.crowd() ? session.crowd()->agents.size() : session.fitted().participants().size();
+    heading(ui, "CROWD", std::to_string(people) + " agents");
+    if (session.crowd()) {
+        char text[96];
+        std::snprintf(text, sizeof text, "%.2f of %.4g s on %.4g x %.4g m", run_time(session.scene(), session.view()),
+                      session.crowd()->seconds, session.crowd()->area.x, session.crowd()->area.y);
+        words(ui.look.quiet, text);
+    }
+    following(ui);
+    if (session.crowd()) last_choice_list(ui);
+    if (session.crowd()) plays(ui);
+    conflicts(ui);
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,220 @@
+// A run in the session: its time, following, choices, conflicts, and two of it opened as a scene.
+#include "crowd/walker_moves.h"
+
+#include <app/command.h>
+#include <app/crowd_view.h>
+#include <crowd/simulate.h>
+#include <import/error.h>
+#include <import/file.h>
+#include <mobb/predicate.h>
+#include <render/candidates.h>
+#include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+/// So many on a small floor that some are forced to collide.
+Scene crowded_run() {
+    Scene scene = mobbscope::testing::walker_scene();
+    const FittedScene fitted(scene, {});
+    SimulateOptions options;
+    options.agents = 22;
+    options.area = {9, 9};
+    options.seconds = 20;
+    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
+    return scene;
+}
+
+class CrowdTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        static const std::string text = to_json(crowded_run(), true);
+        file = folder.write("run.json", text);
+        session.open({file});
+        ASSERT_TRUE(session.crowd()) << (session.messages().empty() ? "" : session.messages().front().text);
+    }
+    void run(std::string_view id, const std::string& argument = "") { run_command(session, id, argument); }
+
+    /// Follows somebody at a choice that ruled a candidate out; returns that candidate.
+    int follow_a_discarding_choice() {
+        const CrowdRun& crowd = *session.crowd();
+        for (const CrowdAgent& agent : crowd.agents) {
+            run("crowd.follow", agent.name);
+            for (std::size_t play = 1; play < agent.plays.size(); ++play) {
+                run("time.at", std::to_string(agent.plays[play].chosen_at + 1e-5));
+                const Choice& choice = session.choice()->choice;
+                for (const std::size_t i : shown_candidates(choice)) {
+                    if (fate_of(choice, i) == Fate::ruled_out) return static_cast<int>(i);
+                }
+            }
+        }
+        throw std::logic_error("nobody was ever ruled out");
+    }
+
+    TempFolder folder;
+    std::filesystem::path file;
+    Session session{false};
+};
+
+TEST_F(CrowdTest, OpensInItsMiddle) {
+    EXPECT_EQ(session.view().time, 10);
+    EXPECT_EQ(session.time_span().t1, 20);
+    EXPECT_FALSE(session.modified());
+    EXPECT_TRUE(session.scene().agents.empty());
+    EXPECT_GE(session.fitted().participants().size(), 22u);
+    EXPECT_EQ(session.fitted().queries().size(), 0u);
+}
+
+TEST_F(CrowdTest, APersonStaysSelectedWhileTimeRuns) {
+    select_in_crowd(session, session.crowd()->agents[5].name);
+    for (double time = 0; time < 20; time += 0.7) {
+        run("time.at", std::to_string(time));
+        ASSERT_EQ(session.selection.kind, Selection::Kind::path);
+        EXPECT_EQ(session.fitted().scene().agents[5].person, 5);
+        EXPECT_EQ(agent_in_question(session), session.crowd()->agents[5].name);
+    }
+}
+
+TEST_F(CrowdTest, ASampleIsForgottenWithItsPlay) {
+    const int play = session.fitted().scene().agents[2].play;
+    session.select({Selection::Kind::sample, {2, -1, 0}, 3});
+    run("time.at", "10.01");
+    if (session.fitted().scene().agents[2].play == play) {
+        EXPECT_EQ(session.selection.kind, Selection::Kind::sample);
+    }
+    run("time.at", "18");
+    EXPECT_EQ(session.selection, (Selection{Selection::Kind::path, {2, -1, 0}, -1}));
+}
+
+TEST_F(CrowdTest, FollowingMovesTheCameraAlongAndStoppingLeavesIt) {
+    const std::string name = session.crowd()->agents[1].name;
+    run("view.moment");
+    run("crowd.follow", name);
+    EXPECT_EQ(session.view().follow, name);
+    ASSERT_TRUE(session.view().camera.target);
+    const Camera along = session.view().camera;
+    run("time.at", "12");
+    EXPECT_EQ(session.view().camera, along) << "it is the agent that moves";
+    run("crowd.stop");
+    EXPECT_TRUE(session.view().follow.empty());
+    EXPECT_NE(session.view().camera, along);
+    EXPECT_THROW(run("crowd.follow", "nobody"), std::invalid_argument);
+}
+
+TEST_F(CrowdTest, WhatIsPlayedIsNotEdited) {
+    select_in_crowd(session, session.crowd()->agents[1].name);
+    for (const char* id : {"agent.remove", "agent.duplicate"}) EXPECT_THROW(run(id), std::invalid_argument) << id;
+    EXPECT_THROW(run("agent.move", "1 2"), std::invalid_argument);
+    EXPECT_THROW(run("agent.add", "ahead"), std::invalid_argument);
+    EXPECT_THROW(session.add({file}), InputError);
+}
+
+TEST_F(CrowdTest, TreesAreFittedOtherwiseAndTheRunIsSavedWhole) {
+    run("tree.leaf", "4");
+    EXPECT_TRUE(session.modified());
+    ASSERT_TRUE(session.crowd());
+    const CrowdRun before = *session.crowd();
+    run("file.save");
+    EXPECT_FALSE(session.modified());
+    const Scene again = load_scene(file);
+    ASSERT_TRUE(again.crowd);
+    EXPECT_EQ(*again.crowd, before);
+    EXPECT_EQ(again.fit.leaf, 4);
+}
+
+TEST_F(CrowdTest, ChoicesAreSteppedThrough) {
+    const CrowdAgent& agent = session.crowd()->agents[0];
+    run("crowd.follow", agent.name);
+    run("time.at", "0");
+    run("crowd.next_choice");
+    EXPECT_EQ(session.view().time, agent.plays[1].chosen_at);
+    ASSERT_TRUE(session.choice());
+    EXPECT_EQ(session.choice()->play, 1);
+    run("crowd.next_choice");
+    EXPECT_EQ(session.choice()->play, 2);
+    run("crowd.previous_choice");
+    EXPECT_EQ(session.choice()->play, 1);
+    run("crowd.play", "3");
+    EXPECT_EQ(session.view().time, agent.plays[3].placement.start);
+}
+
+TEST_F(CrowdTest, ACandidateOpensAgainstWhoRuledItOut) {
+    const int index = follow_a_discarding_choice();
+    const Candidate candidate = session.choice()->choice.candidates[static_cast<std::size_t>(index)];
+    run("crowd.candidate", std::to_string(index));
+    run("crowd.open_candidate");
+    ASSERT_TRUE(session.in_excerpt());
+    EXPECT_FALSE(session.crowd());
+    EXPECT_EQ(session.scene().agents.size(), 2u);
+    ASSERT_TRUE(session.recorded());
+    ASSERT_TRUE(session.recorded()->contact);
+    EXPECT_EQ(*session.recorded()->contact, candidate.ruling->contact);
+}
+
+TEST_F(CrowdTest, BothWaysLeadBackFromTwoToAll) {
+    const ViewState before = session.view();
+    run("view.moment");
+    const std::string other = session.crowd()->agents[4].name;
+    select_in_crowd(session, session.crowd()->agents[3].name);
+    run("crowd.open_pair", other);
+    ASSERT_TRUE(session.in_excerpt());
+    EXPECT_FALSE(session.modified()) << "nothing was changed yet";
+    run("edit.undo");
+    EXPECT_FALSE(session.in_excerpt());
+    EXPECT_EQ(session.view().show, Show::moment);
+    run("edit.redo");
+    ASSERT_TRUE(session.in_excerpt());
+    run("crowd.back");
+    EXPECT_FALSE(session.in_excerpt());
+    EXPECT_EQ(session.view().show, Show::moment);
+    EXPECT_FALSE(session.modified());
+    EXPECT_NE(session.view(), before);
+    run("edit.undo");
+    EXPECT_TRUE(session.in_excerpt());
+}
+
+TEST_F(CrowdTest, AnExcerptIsSavedBesideTheRunAndNeverOverIt) {
+    select_in_crowd(session, session.crowd()->agents[3].name);
+    run("crowd.open_pair", session.crowd()->agents[4].name);
+    select_in_crowd(session, session.scene().agents[0].name);
+    run("agent.move", "1 2");
+    EXPECT_TRUE(session.modified());
+    EXPECT_THROW(session.save_as(file), InputError);
+    run("file.save_as", (folder.path() / "two.json").string());
+    EXPECT_TRUE(load_scene(file).crowd);
+    EXPECT_EQ(load_scene(folder.path() / "two.json").agents.size(), 2u);
+    EXPECT_FALSE(session.modified());
+    EXPECT_TRUE(session.in_excerpt());
+}
+
+TEST_F(CrowdTest, AConflictIsSeenJustBeforeItHappens) {
+    EXPECT_EQ(session.conflicts(), nullptr);
+    run("conflicts.find");
+    ASSERT_TRUE(session.conflicts());
+    ASSERT_FALSE(session.conflicts()->empty()) << "nobody was forced: take a smaller floor";
+    for (const SceneConflict& found : *session.conflicts()) {
+        EXPECT_NE(found.a.agent, found.b.agent);
+        EXPECT_LT(found.facts.least_clearance, 0);
+    }
+    run("conflicts.go", "0");
+    const SceneConflict first = session.conflicts()->front();
+    EXPECT_NEAR(*session.view().time, std::max(0.0, first.begin() - 0.5), 1e-12);
+    EXPECT_EQ(session.view().follow, first.a.name);
+    EXPECT_EQ(agent_in_question(session), first.a.name);
+    run("conflicts.open");
+    ASSERT_TRUE(session.in_excerpt());
+    ASSERT_TRUE(session.recorded()->contact);
+    EXPECT_EQ(session.recorded()->contact->time, first.begin());
+    run("crowd.back");
+    EXPECT_TRUE(session.conflicts()) << "they are still those of the run";
+}
+
+}  // namespace
+}  // namespace mobbscope::app

@@ -1,0 +1,192 @@
+// Pictures of a run: its people, its walls, the window of time, the followed agent and its choice.
+#include "crowd/walker_moves.h"
+
+#include <crowd/simulate.h>
+#include <render/build_draw_list.h>
+#include <render/candidates.h>
+#include <render/follow.h>
+#include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+constexpr PictureSize kSize{640, 360};
+
+class CrowdPicture : public ::testing::Test {
+  protected:
+    FittedScene run = [] {
+        Scene scene = testing::walker_scene();
+        const FittedScene fitted(scene, {});
+        SimulateOptions options;
+        options.agents = 20;
+        options.area = {13, 13};
+        options.seconds = 20;
+        scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
+        return FittedScene(std::move(scene), {});
+    }();
+
+    static ViewState view(Show show, double time) {
+        ViewState out;
+        out.show = show;
+        out.time = time;
+        return out;
+    }
+
+    /// Somebody and a time just after a choice that some candidate did not survive.
+    std::pair<std::string, double> discarding() const {
+        const MoveSet moves(run);
+        const CrowdRun& crowd = *run.scene().crowd;
+        for (int agent = 0; agent < 20; ++agent) {
+            const CrowdAgent& who = crowd.agents[static_cast<std::size_t>(agent)];
+            for (int play = 1; play < static_cast<int>(who.plays.size()); ++play) {
+                const Choice choice = choice_of(moves, crowd, agent, play);
+                const double time = choice.time;
+                for (const std::size_t i : shown_candidates(choice)) {
+                    if (fate_of(choice, i) == Fate::ruled_out) return {who.name, time};
+                }
+            }
+        }
+        throw std::logic_error("nobody is ever ruled out");
+    }
+};
+
+std::set<int> who_has_a_disk(const DrawList& list) {
+    std::set<int> out;
+    for (const DiskInstance& disk : list.disks) out.insert(disk.id.participant);
+    return out;
+}
+
+TEST_F(CrowdPicture, AMomentShowsEverybodyOnce) {
+    const DrawList list = build_draw_list(run, view(Show::moment, 10), kSize);
+    EXPECT_EQ(list.moment, 10);
+    EXPECT_EQ(list.disks.size(), 20u);
+    EXPECT_EQ(who_has_a_disk(list).size(), 20u);
+    EXPECT_EQ(*who_has_a_disk(list).rbegin(), 19);
+}
+
+TEST_F(CrowdPicture, WithoutATimeTheMiddleIsDrawn) {
+    ViewState asked = view(Show::moment, 0);
+    asked.time.reset();
+    EXPECT_EQ(build_draw_list(run, asked, kSize).moment, 10);
+}
+
+TEST_F(CrowdPicture, WallsStandAroundTheFloor) {
+    ViewState asked = view(Show::moment, 10);
+    const auto panes = [](const DrawList& list) {
+        return std::count_if(list.boxes.begin(), list.boxes.end(), [](const BoxInstance& box) {
+            // Half the length of a wall of 13 m.
+            return !box.pickable && glm::length(box.extents[0]) == 6.5f;
+        });
+    };
+    EXPECT_EQ(panes(build_draw_list(run, asked, kSize)), 4);
+    asked.floor = false;
+    EXPECT_EQ(panes(build_draw_list(run, asked, kSize)), 0);
+}
+
+TEST_F(CrowdPicture, NothingMovesButPeopleWhileTimeRuns) {
+    const DrawList a = build_draw_list(run, view(Show::moment, 5), kSize);
+    const DrawList b = build_draw_list(run, view(Show::moment, 11), kSize);
+    EXPECT_EQ(a.lens.clip_from_world, b.lens.clip_from_world);
+    const DrawList c = build_draw_list(run, view(Show::space_time, 5), kSize);
+    const DrawList d = build_draw_list(run, view(Show::space_time, 11), kSize);
+    EXPECT_EQ(c.lens.clip_from_world, d.lens.clip_from_world);
+}
+
+TEST_F(CrowdPicture, SpaceTimeShowsTheWindowAlone) {
+    ViewState asked = view(Show::space_time, 10);
+    asked.time_window = 1;
+    asked.boxes = false;
+    const DrawList list = build_draw_list(run, asked, kSize);
+    EXPECT_EQ(who_has_a_disk(list).size() >= 20u, true);
+    for (const DiskInstance& disk : list.disks) {
+        const double begin = list.space.place(glm::dvec3(disk.base)).z;
+        const double end = begin + disk.height / list.space.time_height;
+        EXPECT_GT(end, 9 - 1e-4);
+        EXPECT_LT(begin, 11 + 1e-4);
+    }
+    asked.time_window = 3;
+    EXPECT_GT(build_draw_list(run, asked, kSize).disks.size(), list.disks.size());
+}
+
+TEST_F(CrowdPicture, WhomTheCameraFollowsStaysInTheMiddle) {
+    ViewState asked = view(Show::moment, 6);
+    asked.follow = run.scene().crowd->agents[3].name;
+    asked.camera.target = glm::dvec3(0);
+    asked.camera.distance = 40;
+    for (const Show show : {Show::moment, Show::space_time}) {
+        asked.show = show;
+        for (const double time : {6.0, 6.4, 9.0}) {
+            asked.time = time;
+            const DrawList list = build_draw_list(run, asked, kSize);
+            const auto place = followed_place(run, asked, time);
+            ASSERT_TRUE(place);
+            const auto at = list.lens.project(list.space.point(place->x, place->y, show == Show::moment ? 0 : time));
+            ASSERT_TRUE(at);
+            EXPECT_NEAR(at->x, 320, 0.01);
+            EXPECT_NEAR(at->y, 180, 0.01);
+        }
+    }
+}
+
+TEST_F(CrowdPicture, FollowingNobodyThereIsIsRefused) {
+    ViewState asked = view(Show::moment, 6);
+    asked.follow = "nobody";
+    EXPECT_THROW(build_draw_list(run, asked, kSize), std::invalid_argument);
+}
+
+TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
+    const auto [name, time] = discarding();
+    for (const Show show : {Show::moment, Show::space_time}) {
+        ViewState asked = view(show, time + 1e-3);
+        asked.follow = name;
+        const DrawList with = build_draw_list(run, asked, kSize);
+        const FateStyle style = fate_style(Fate::ruled_out, with.palette);
+        const auto is_discarded = [&](const LineInstance& line) {
+            return glm::vec3(line.color) == glm::vec3(style.color) && line.dash != kSolid;
+        };
+        EXPECT_TRUE(std::any_of(with.lines.begin(), with.lines.end(), is_discarded));
+        const MoveSet moves(run);
+        const auto choice = choice_in_view(moves, asked);
+        ASSERT_TRUE(choice);
+        EXPECT_EQ(choice->choice.time, time);
+        std::set<std::string> rulers;
+        for (const Candidate& candidate : choice->choice.candidates) {
+            if (!candidate.ruling) continue;
+            rulers.insert(run.scene().crowd->agents[static_cast<std::size_t>(candidate.ruling->agent)].name);
+        }
+        const bool named = std::any_of(with.texts.begin(), with.texts.end(),
+                                       [&](const TextRun& text) { return rulers.contains(text.text); });
+        EXPECT_TRUE(named);
+        asked.candidates = false;
+        const DrawList without = build_draw_list(run, asked, kSize);
+        EXPECT_FALSE(std::any_of(without.lines.begin(), without.lines.end(), is_discarded));
+    }
+}
+
+TEST(Candidates, EveryFateHasAColourAndALineOfItsOwn) {
+    const Palette& colors = palette(Theme::dark);
+    const Fate all[] = {Fate::taken, Fate::free, Fate::in_the_way, Fate::leaves_floor, Fate::ruled_out};
+    for (const Fate a : all) {
+        for (const Fate b : all) {
+            if (a == b) continue;
+            const FateStyle one = fate_style(a, colors);
+            const FateStyle other = fate_style(b, colors);
+            EXPECT_NE(one.color, other.color);
+            EXPECT_TRUE(one.dash != other.dash || one.width != other.width);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace mobbscope
