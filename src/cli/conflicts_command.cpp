@@ -3,6 +3,7 @@
 #include <cli/messages.h>
 #include <cli/options.h>
 #include <crowd/conflicts.h>
+#include <crowd/people.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
@@ -34,9 +35,10 @@ struct Arguments {
     ImportOptions import_options;
 };
 
-/// The crowd in the file: its agents, or the tracks of a CSV, each from the time of its first row.
+/// The crowd in the file: its agents, the people of a run, or the tracks of a CSV, each from the time of its first row.
 Scene load_crowd(const Arguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+    if (scene.crowd) return scene_of_people(scene);
     if (lower_extension(arguments.file) == ".csv") {
         add_agents_for_clips(scene);
         for (Agent& agent : scene.agents)

@@ -1,0 +1,89 @@
+// The people of a run, each as one agent with one clip.
+#include "walker_moves.h"
+
+#include <crowd/conflicts.h>
+#include <crowd/people.h>
+#include <crowd/simulate.h>
+#include <import/error.h>
+#include <scene/crowd_run.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
+
+namespace mobbscope {
+namespace {
+
+using testing::walk;
+using testing::walker_scene;
+
+/// A run of walks of one dt on a floor so small that some are forced.
+Scene crowded_run() {
+    Scene scene;
+    scene.clips = {walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4), walk("left", 1.2, 60, 40, 1.0 / 30, 0.42),
+                   walk("right", 1.2, -60, 40, 1.0 / 30, 0.42)};
+    scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
+    const FittedScene fitted(scene, {});
+    SimulateOptions options;
+    options.agents = 20;
+    options.area = {9, 9};
+    options.seconds = 20;
+    scene.crowd = std::make_shared<CrowdRun>(simulate(MoveSet(fitted), options).run);
+    return scene;
+}
+
+TEST(People, TheirClipsAreWhatTheyPlay) {
+    const Scene run = crowded_run();
+    const Scene people = scene_of_people(run);
+    ASSERT_EQ(people.agents.size(), 20u);
+    for (std::size_t who = 0; who < 20; ++who) {
+        const Agent& agent = people.agents[who];
+        const mobb::PlacedClip whole(*people.clips[static_cast<std::size_t>(agent.clip)].clip, agent.placement);
+        int sample = 0;
+        for (const Play& play : run.crowd->agents[who].plays) {
+            const mobb::PlacedClip part(*run.clips[static_cast<std::size_t>(play.move)].clip, play.placement);
+            for (int i = 0; i < part.count(); ++i, ++sample) {
+                ASSERT_EQ(whole.disk(sample).x, part.disk(i).x);
+                ASSERT_EQ(whole.disk(sample).y, part.disk(i).y);
+                ASSERT_NEAR(whole.time(sample), part.time(i), 1e-9);
+            }
+        }
+        EXPECT_EQ(sample, whole.count());
+    }
+}
+
+TEST(People, CollideWhereTheirPlaysDo) {
+    const Scene run = crowded_run();
+    std::set<std::pair<int, int>> expected;
+    const auto& agents = run.crowd->agents;
+    for (int a = 0; a < 20; ++a) {
+        for (int b = a + 1; b < 20; ++b) {
+            for (const Play& p : agents[static_cast<std::size_t>(a)].plays) {
+                for (const Play& q : agents[static_cast<std::size_t>(b)].plays) {
+                    const mobb::PlacedClip one(*run.clips[static_cast<std::size_t>(p.move)].clip, p.placement);
+                    const mobb::PlacedClip other(*run.clips[static_cast<std::size_t>(q.move)].clip, q.placement);
+                    if (mobb::direct_search(one, other)) expected.emplace(a, b);
+                }
+            }
+        }
+    }
+    ASSERT_FALSE(expected.empty());
+    const FittedScene people(scene_of_people(run), {});
+    std::vector<mobb::PlacedTree> crowd;
+    for (const Participant& person : people.participants()) crowd.push_back(people.placed(person));
+    std::set<std::pair<int, int>> found;
+    for (const Conflict& conflict : find_conflicts(crowd, Search::trees).found) found.emplace(conflict.a, conflict.b);
+    EXPECT_EQ(found, expected);
+}
+
+TEST(People, ClipsOfDifferentStepsAreNoChain) {
+    Scene scene = walker_scene();
+    CrowdRun run;
+    run.agents = {{"7", {{0, {}, 0, PlayKind::chosen}, {3, {{2, 0}, 0, 1.5}, 1.5, PlayKind::chosen}}}};
+    scene.crowd = std::make_shared<CrowdRun>(run);
+    EXPECT_THROW(scene_of_people(scene), InputError);
+}
+
+}  // namespace
+}  // namespace mobbscope
