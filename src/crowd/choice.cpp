@@ -72,7 +72,7 @@ class Chooser {
 
     /// Of the candidates from `first` on that leave the floor, or of those that do not.
     void find_rulings(std::size_t first, bool off_floor) {
-        std::vector<Motion> motions;
+        std::vector<PlayedMove> motions;
         std::vector<std::size_t> of;
         for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
             const Candidate& candidate = choice_.candidates[i];
@@ -129,7 +129,7 @@ class Chooser {
     /// With the motion that rules it out.
     double seconds_of_contact(const Candidate& candidate) const {
         if (!candidate.ruling) return 0;
-        const Motion motion = moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
+        const PlayedMove motion = moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
         return committed_.motions().seconds_of_contact(motion, *candidate.ruling);
     }
 

@@ -23,7 +23,7 @@ Commitments::Commitments(const MoveSet& moves, glm::dvec2 area, double grace)
     }
 }
 
-Motion Commitments::stand(int agent, int index, const Play& play) const {
+PlayedMove Commitments::stand(int agent, int index, const Play& play) const {
     const GraphMove& move = moves_.move(play.move);
     const Stand& stand = stand_of_clip_[static_cast<std::size_t>(move.clip)];
     const mobb::Placement& placed = play.placement;
@@ -58,7 +58,7 @@ bool Commitments::faces_wall(const Play& play) const {
 std::vector<bool> Commitments::in_the_way(int agent, int index, std::span<const Play> plays) const {
     std::vector<bool> out(plays.size(), false);
     if (stand_of_clip_.empty()) return out;
-    std::vector<Motion> bodies, stands;
+    std::vector<PlayedMove> bodies, stands;
     for (const Play& play : plays) {
         bodies.push_back(moves_.motion(agent, index, play.move, play.placement));
         stands.push_back(stand(agent, index, play));

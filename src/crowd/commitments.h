@@ -33,7 +33,7 @@ class Commitments {
 
   private:
     /// A disk that stands, for the grace, where a play ends.
-    Motion stand(int agent, int index, const Play& play) const;
+    PlayedMove stand(int agent, int index, const Play& play) const;
     bool faces_wall(const Play& play) const;
 
     struct Stand {

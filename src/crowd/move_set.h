@@ -27,7 +27,7 @@ class MoveSet {
     /// Where `next` is placed after `before`, turned by `turn_deg` on the spot between them.
     mobb::Placement following(int before, const mobb::Placement& placed, int next, double turn_deg) const;
     /// A move as an agent's play.
-    Motion motion(int agent, int play, int move, const mobb::Placement& placement) const {
+    PlayedMove motion(int agent, int play, int move, const mobb::Placement& placement) const {
         return {agent, play, &tree(move), &outline(move), placement};
     }
 

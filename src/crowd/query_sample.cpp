@@ -25,7 +25,7 @@ Scene QuerySample::workload(const Scene& scene) const {
     out.fit = scene.fit;
     std::unordered_map<const mobb::Clip*, int> index;
     for (std::size_t i = 0; i < scene.clips.size(); ++i) index[scene.clips[i].clip.get()] = static_cast<int>(i);
-    const auto participant = [&](const Motion& motion) {
+    const auto participant = [&](const PlayedMove& motion) {
         const int clip = index.at(&motion.tree->clip());
         return Participant{scene.clips[static_cast<std::size_t>(clip)].name, clip, motion.placement, -1};
     };

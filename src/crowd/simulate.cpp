@@ -92,7 +92,7 @@ class Simulator {
             const double across = random.unit(), along = random.unit();
             if (room.x < 0 || room.y < 0) continue;
             placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
-            const Motion motion = moves_.motion(agent, 0, move, placement);
+            const PlayedMove motion = moves_.motion(agent, 0, move, placement);
             if (leaves_floor({motion.tree->clip(), placement}, *motion.outline, options_.area)) continue;
             if (world_.motions().verdicts({&motion, 1}).front().ruling) continue;
             const Play play{move, placement, placement.start, PlayKind::chosen};

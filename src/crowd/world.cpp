@@ -42,13 +42,13 @@ World::CellRange World::cells_of(const FloorRect& rect) const {
             along(rect.high.x, low_.x, cell_size_.x, columns_), along(rect.high.y, low_.y, cell_size_.y, rows_)};
 }
 
-World::Held World::held(const Motion& motion) const {
+World::Held World::held(const PlayedMove& motion) const {
     const mobb::PlacedClip placed(motion.tree->clip(), motion.placement);
     const FloorRect bounds = motion.outline->bounds(motion.placement);
     return {motion, bounds, cells_of(bounds), placed.time(0), placed.time(placed.count())};
 }
 
-std::size_t World::commit(const Motion& motion) {
+std::size_t World::commit(const PlayedMove& motion) {
     auto slot = static_cast<std::uint32_t>(motions_.size());
     if (free_.empty()) {
         motions_.push_back(held(motion));
@@ -110,7 +110,7 @@ void World::find_near(const Held& candidate, std::vector<std::uint32_t>& slots) 
     });
 }
 
-Verdict World::verdict(const Motion& candidate, std::vector<AskedPair>* asked) const {
+Verdict World::verdict(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
     Verdict verdict;
     std::vector<std::uint32_t> slots;
     find_near(held(candidate), slots);
@@ -131,7 +131,7 @@ Verdict World::verdict(const Motion& candidate, std::vector<AskedPair>* asked) c
     return verdict;
 }
 
-std::vector<Verdict> World::verdicts(std::span<const Motion> candidates, std::vector<AskedPair>* asked) const {
+std::vector<Verdict> World::verdicts(std::span<const PlayedMove> candidates, std::vector<AskedPair>* asked) const {
     std::vector<Verdict> out(candidates.size());
     std::vector<std::vector<AskedPair>> pairs(asked ? candidates.size() : 0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), kGrain), [&](const auto& range) {
@@ -143,7 +143,7 @@ std::vector<Verdict> World::verdicts(std::span<const Motion> candidates, std::ve
     return out;
 }
 
-double World::seconds_of_contact(const Motion& candidate, const Ruling& ruling) const {
+double World::seconds_of_contact(const PlayedMove& candidate, const Ruling& ruling) const {
     const auto committed = std::find_if(motions_.begin(), motions_.end(), [&ruling](const Held& held) {
         return held.motion.tree && held.motion.agent == ruling.agent && held.motion.play == ruling.play;
     });
@@ -155,7 +155,7 @@ double World::seconds_of_contact(const Motion& candidate, const Ruling& ruling) 
     return seconds;
 }
 
-void World::all_pairs(const Motion& candidate, double range, std::vector<AskedPair>& pairs) const {
+void World::all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const {
     FloorRect reach = candidate.outline->bounds(candidate.placement);
     reach.low -= range;
     reach.high += range;

@@ -14,7 +14,7 @@
 namespace mobbscope {
 
 /// A clip as an agent plays it, or may. The tree and the outline are of the same clip and must outlive the world.
-struct Motion {
+struct PlayedMove {
     int agent = 0;
     int play = 0;  ///< which of the agent's: handed back with what it rules out
     const mobb::Tree* tree = nullptr;
@@ -34,8 +34,8 @@ struct Ruling {
 
 /// A pair that was given to the trees.
 struct AskedPair {
-    Motion candidate;
-    Motion committed;
+    PlayedMove candidate;
+    PlayedMove committed;
 };
 
 /// What becomes of a candidate.
@@ -52,7 +52,7 @@ class World {
     explicit World(glm::dvec2 area);
 
     /// Returns what `withdraw` takes until the motion is forgotten.
-    std::size_t commit(const Motion& motion);
+    std::size_t commit(const PlayedMove& motion);
     /// From now on the motion rules nothing out.
     void withdraw(std::size_t committed);
     /// Motions that end at `now` or before are dropped: no candidate that begins later can meet them.
@@ -61,22 +61,23 @@ class World {
 
     /// For each candidate the motion of another agent that rules it out, or none. With `asked`, the pairs that the
     /// trees were asked are appended to it, in the order of candidates. The same on any number of threads.
-    std::vector<Verdict> verdicts(std::span<const Motion> candidates, std::vector<AskedPair>* asked = nullptr) const;
+    std::vector<Verdict> verdicts(std::span<const PlayedMove> candidates,
+                                  std::vector<AskedPair>* asked = nullptr) const;
 
     /// How long the candidate collides with the motion that rules it out, which must still be held.
-    double seconds_of_contact(const Motion& candidate, const Ruling& ruling) const;
+    double seconds_of_contact(const PlayedMove& candidate, const Ruling& ruling) const;
 
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
     /// metres of its own, at whatever time: what the trees were asked if nobody looked at times before them, and with
     /// an infinite range if there were no grid at all.
-    void all_pairs(const Motion& candidate, double range, std::vector<AskedPair>& pairs) const;
+    void all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const;
 
   private:
     struct CellRange {
         int x0, y0, x1, y1;  ///< inclusive
     };
     struct Held {
-        Motion motion;
+        PlayedMove motion;
         FloorRect bounds;
         CellRange cells;
         double begin = 0, end = 0;  ///< global seconds
@@ -91,11 +92,11 @@ class World {
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
-    Held held(const Motion& motion) const;
+    Held held(const PlayedMove& motion) const;
     void take_from_cells(std::uint32_t slot);
     /// Slots of the motions of other agents whose bounds and times meet the candidate's, earliest first.
     void find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const;
-    Verdict verdict(const Motion& candidate, std::vector<AskedPair>* asked) const;
+    Verdict verdict(const PlayedMove& candidate, std::vector<AskedPair>* asked) const;
 
     glm::dvec2 low_;
     glm::dvec2 cell_size_;

@@ -23,15 +23,15 @@ class WorldTest : public ::testing::Test {
     CounterRandom random{1, 2, 3};
 
     /// Some lie over the edge of a floor of `area`.
-    Motion random_motion(int agent, int play, glm::dvec2 area, double seconds) {
+    PlayedMove random_motion(int agent, int play, glm::dvec2 area, double seconds) {
         const int move = static_cast<int>(random.below(static_cast<std::uint32_t>(moves.count())));
         const glm::dvec2 at{1.2 * area.x * (random.unit() - 0.5), 1.2 * area.y * (random.unit() - 0.5)};
         return moves.motion(agent, play, move, {at, 360 * random.unit(), seconds * random.unit()});
     }
 
-    static std::optional<Ruling> direct(const Motion& candidate, const std::vector<Motion>& committed) {
+    static std::optional<Ruling> direct(const PlayedMove& candidate, const std::vector<PlayedMove>& committed) {
         std::optional<Ruling> first;
-        for (const Motion& other : committed) {
+        for (const PlayedMove& other : committed) {
             if (other.agent == candidate.agent) continue;
             const mobb::PlacedClip a(candidate.tree->clip(), candidate.placement);
             const mobb::PlacedClip b(other.tree->clip(), other.placement);
@@ -48,7 +48,7 @@ class WorldTest : public ::testing::Test {
 TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     const glm::dvec2 area{23, 17};
     World world(area);
-    std::vector<Motion> committed;
+    std::vector<PlayedMove> committed;
     for (int agent = 0; agent < 60; ++agent) {
         for (int play = 0; play < 3; ++play) {
             committed.push_back(random_motion(agent, play, area, 8));
@@ -56,7 +56,7 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
         }
     }
     EXPECT_EQ(world.size(), 180u);
-    std::vector<Motion> candidates;
+    std::vector<PlayedMove> candidates;
     for (int i = 0; i < 1500; ++i) candidates.push_back(random_motion(i % 60, 9, area, 8));
     std::vector<AskedPair> asked;
     const std::vector<Verdict> verdicts = world.verdicts(candidates, &asked);
@@ -86,7 +86,7 @@ TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
     World world({20, 20});
     const mobb::Placement placement{{1, 2}, 30, 0};
     for (const int agent : {7, 3, 5}) world.commit(moves.motion(agent, agent, 0, placement));
-    const Motion candidate = moves.motion(3, 0, 1, placement);
+    const PlayedMove candidate = moves.motion(3, 0, 1, placement);
     const Verdict verdict = world.verdicts({&candidate, 1}).front();
     ASSERT_TRUE(verdict.ruling);
     EXPECT_EQ(verdict.ruling->agent, 5);
@@ -97,14 +97,14 @@ TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
 TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     const glm::dvec2 area{30, 30};
     World world(area);
-    std::vector<Motion> committed;
+    std::vector<PlayedMove> committed;
     for (int i = 0; i < 300; ++i) {
         committed.push_back(random_motion(i % 40, i / 40, area, 20));
         world.commit(committed.back());
     }
     for (const double now : {4.0, 9.0, 15.0}) {
         world.forget_before(now);
-        std::erase_if(committed, [&](const Motion& motion) {
+        std::erase_if(committed, [&](const PlayedMove& motion) {
             const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
             return clip.time(clip.count()) <= now;
         });
@@ -114,7 +114,7 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
             committed.back().placement.start += now;
             world.commit(committed.back());
         }
-        std::vector<Motion> candidates;
+        std::vector<PlayedMove> candidates;
         for (int i = 0; i < 200; ++i) {
             candidates.push_back(random_motion(99, 0, area, 20));
             candidates.back().placement.start += now;
@@ -131,7 +131,7 @@ TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     const mobb::Placement placement{{1, 2}, 30, 0};
     const std::size_t first = world.commit(moves.motion(1, 0, 0, placement));
     world.commit(moves.motion(2, 0, 0, placement));
-    const Motion candidate = moves.motion(0, 0, 0, placement);
+    const PlayedMove candidate = moves.motion(0, 0, 0, placement);
     EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 1);
     world.withdraw(first);
     EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 2);
@@ -161,7 +161,7 @@ TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
 
 TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
     for (int i = 0; i < 500; ++i) {
-        const Motion motion = random_motion(0, 0, {1000, 10}, 1);
+        const PlayedMove motion = random_motion(0, 0, {1000, 10}, 1);
         const FloorRect bounds = motion.outline->bounds(motion.placement);
         const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
         FloorRect tight{glm::dvec2(1e9), glm::dvec2(-1e9)};
