@@ -354,6 +354,7 @@ void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
     draw_highlight(ui, picture, session.selection, ui.look.text, ui.px(2));
     if (session.hovered != session.selection) draw_highlight(ui, picture, session.hovered, ui.look.text, ui.px(1));
     draw_candidate(ui, picture);
+    draw_other_of_conflict(ui, picture);
     const auto held = handles(ui, picture);
     if (held) {
         draw_handles(ui, picture, held->places, lit_);

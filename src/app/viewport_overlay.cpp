@@ -192,6 +192,17 @@ void draw_candidate(Ui& ui, const ShownPicture& picture) {
     draw_line(ui, picture, points, false, ui.look.accent, ui.px(3.5f));
 }
 
+void draw_other_of_conflict(Ui& ui, const ShownPicture& picture) {
+    const Session& session = ui.session;
+    const std::vector<SceneConflict>* found = session.conflicts();
+    if (!found || session.conflict < 0 || session.view().follow.empty() || !session.view().time) return;
+    const SceneConflict& conflict = (*found)[static_cast<std::size_t>(session.conflict)];
+    const bool near = std::abs(*session.view().time - conflict.begin()) < 2;
+    if (!near || conflict.a.name != session.view().follow) return;
+    const Selection other{Selection::Kind::path, {conflict.b.agent, -1, 0}, -1};
+    draw_highlight(ui, picture, other, to_im(ui.look.palette.hit), ui.px(2.5f));
+}
+
 Described describe(const FittedScene& fitted, const Selection& what) {
     Described out;
     switch (what.kind) {

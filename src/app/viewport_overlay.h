@@ -30,6 +30,9 @@ void draw_highlight(Ui& ui, const ShownPicture& picture, const Selection& what, 
 /// Points out one of the moves that the followed agent could choose, if it is in the picture.
 void draw_candidate(Ui& ui, const ShownPicture& picture);
 
+/// Points out whom the followed agent is about to meet in the conflict that was gone to.
+void draw_other_of_conflict(Ui& ui, const ShownPicture& picture);
+
 /// What a selection is, in words and numbers, a line each: first its name.
 struct Described {
     std::string name;

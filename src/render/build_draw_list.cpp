@@ -1,3 +1,4 @@
+#include <crowd/followed.h>
 #include <import/text.h>
 #include <render/aim.h>
 #include <render/annotations.h>

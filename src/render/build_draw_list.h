@@ -1,14 +1,18 @@
 /// (scene, view state, size) -> draw list: all decisions about a picture, in numbers, without OpenGL.
 #pragma once
 
-#include <crowd/followed.h>
 #include <render/draw_list.h>
 #include <render/metrics.h>
 #include <render/picture_options.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
+#include <optional>
+
 namespace mobbscope {
+
+class MoveSet;          // crowd/move_set.h
+struct FollowedChoice;  // crowd/followed.h
 
 /// `scale`: of text and lines, kLeastScale..kMostScale (1 suits 1280x720); 0: what suits the size. Throws
 /// std::invalid_argument, saying what is allowed, if the scale is another, the view names a query or a step that there

@@ -238,16 +238,17 @@ std::string candidate_sentence(const Scene& run, const Choice& choice, std::size
 std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
     const Choice& choice = followed.choice;
     int free = 0;
+    int in_the_way = 0;
     int off_floor = 0;
     int ruled_out = 0;
     std::set<int> rulers;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
         const Candidate& candidate = choice.candidates[i];
-        if (candidate.leaves_floor)
+        if (candidate.leaves_floor) {
             ++off_floor;
-        else if (!candidate.ruling)
-            ++free;
-        else {
+        } else if (!candidate.ruling) {
+            ++(candidate.in_the_way ? in_the_way : free);
+        } else {
             ++ruled_out;
             rulers.insert(candidate.ruling->agent);
         }
@@ -264,6 +265,7 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
         }
         if (rulers.size() > named) text += " and " + std::to_string(rulers.size() - named) + " more";
     }
+    if (in_the_way > 0) text += ", " + std::to_string(in_the_way) + " in the way of others";
     if (off_floor > 0) {
         text += ", " + std::to_string(off_floor) + (off_floor == 1 ? " leaves the floor" : " leave the floor");
     }

@@ -1,12 +1,13 @@
 /// Space-time above the floor of a crowd: what everybody plays within a few seconds of one time.
 #pragma once
 
-#include <crowd/followed.h>
 #include <render/draw_list.h>
 #include <render/picture_options.h>
 #include <scene/fitted_scene.h>
 
 namespace mobbscope {
+
+struct FollowedChoice;  // crowd/followed.h
 
 /// What build_draw_list makes of a run that scene_at made a scene, in space-time. The plane of the view's time stays
 /// where it is while time runs, and the stacks sink through it. `choice`: of the followed agent, or null. Throws

@@ -1,12 +1,13 @@
 /// The picture of one moment: the floor in metres with real height above it, and people in their cylinders.
 #pragma once
 
-#include <crowd/followed.h>
 #include <render/draw_list.h>
 #include <render/picture_options.h>
 #include <scene/fitted_scene.h>
 
 namespace mobbscope {
+
+struct FollowedChoice;  // crowd/followed.h
 
 /// What build_draw_list makes of a view that shows a moment: its time, or without one when the first path in it begins.
 /// With a query in the view only its two sides are there. It is framed so that nothing moves but the people while time

@@ -58,7 +58,7 @@ class CrowdTest : public ::testing::Test {
         throw std::logic_error("nobody was ever ruled out");
     }
 
-    TempFolder folder;
+    mobbscope::testing::TempFolder folder;
     std::filesystem::path file;
     Session session{false};
 };

@@ -1,6 +1,7 @@
 // Pictures of a run: its people, its walls, the window of time, the followed agent and its choice.
 #include "crowd/walker_moves.h"
 
+#include <crowd/followed.h>
 #include <crowd/simulate.h>
 #include <render/build_draw_list.h>
 #include <render/candidates.h>

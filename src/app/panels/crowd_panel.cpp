@@ -9,7 +9,8 @@
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <cstdio>
 
 namespace mobbscope::app {
@@ -87,7 +88,15 @@ void last_choice_list(Ui& ui) {
     const Choice choice = followed->choice;
     heading(ui, "LAST CHOICE", at_time(choice.time));
     words(ui.look.text, choice_sentence(session.scene(), *followed));
-    const std::vector<std::size_t> shown = shown_candidates(choice);
+    std::vector<std::size_t> shown = shown_candidates(choice);
+    // What was taken first, then why the others were not.
+    std::stable_sort(shown.begin(), shown.end(), [&](std::size_t a, std::size_t b) {
+        const auto rank = [&](std::size_t i) {
+            constexpr std::array<int, 5> kRanks{0, 2, 3, 4, 1};
+            return kRanks[static_cast<std::size_t>(fate_of(choice, i))];
+        };
+        return rank(a) < rank(b);
+    });
     rows(ui, "##candidates", static_cast<int>(shown.size()), kMostRows, [&](int i) {
         const std::size_t index = shown[static_cast<std::size_t>(i)];
         const ImVec2 corner = ImGui::GetCursorScreenPos();
