@@ -175,19 +175,13 @@ class Traversal {
         if (a.kind <= BoxKind::obb3d && b.kind <= BoxKind::obb3d) {
             return !same_scale_ || may_meet(BoxKind::obb3d, separate_obb3d(a, b, frame_));
         }
-        if (a.kind == BoxKind::aabb && b.kind == BoxKind::aabb) {
+        // So do boxes of kinds that have no test in common.
+        if (a.kind != b.kind) return true;
+        if (a.kind == BoxKind::aabb) {
             return may_meet(BoxKind::aabb, separate_aabb(a, b, a_.frame().rotation, frame_));
         }
-        // Against another kind a box along the axes is an obb2d.
-        if (is_upright(a) && is_upright(b)) return may_meet(BoxKind::obb2d, separate_obb2d(a, b, frame_));
-        if (a.kind == BoxKind::moving && b.kind == BoxKind::moving) {
-            return !same_scale_ || may_meet(BoxKind::moving, separate_moving(a, b, frame_));
-        }
-        // A moving box and one of another kind have no test in common, and the rest is not worth one.
-        return true;
+        return !same_scale_ || may_meet(BoxKind::moving, separate_moving(a, b, frame_));
     }
-
-    static bool is_upright(const Box& box) { return box.kind == BoxKind::obb2d || box.kind == BoxKind::aabb; }
 
     bool may_meet([[maybe_unused]] BoxKind test, const Separation& separation) {
         if constexpr (Observer::watches) observer_.box_test(test, separation);

@@ -33,8 +33,9 @@ TEST(Bench, CountsDependOnTheSeedAlone) {
     const auto counts = [](const std::string& seed) {
         const Result run =
             run_program({"bench", "table2", "--queries", "500", "--rounds", "1", "--seed", seed, "--json"});
+        const nlohmann::json json = nlohmann::json::parse(run.out);
         std::string out;
-        for (const nlohmann::json& row : nlohmann::json::parse(run.out)["rows"]) {
+        for (const nlohmann::json& row : json["rows"]) {
             out += row["method"].get<std::string>() + row["obb2d"].dump() + row["obb3d"].dump() + row["samples"].dump();
         }
         return out;
