@@ -288,7 +288,7 @@ TEST(QuerySentence, SaysWhatBoxesBeyondThePaperAre) {
                answer_sentence(query.sides, query.recorded);
     };
     const std::string moving = sentences(mobb::TreeKind::moving, mobb::TestKind::moving);
-    EXPECT_NE(moving.find("'s short axis by "), std::string::npos) << moving;
+    EXPECT_NE(moving.find("'s long axis by "), std::string::npos) << moving;
     EXPECT_NE(moving.find(" m at the nearest"), std::string::npos) << moving;
     EXPECT_NE(moving.find(" moving box test"), std::string::npos) << moving;
     const std::string aabb = sentences(mobb::TreeKind::aabb, mobb::TestKind::aabb);
