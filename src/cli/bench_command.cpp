@@ -92,8 +92,12 @@ Workload table1(const Arguments& arguments) {
 }
 
 void run(const Arguments& arguments) {
+    if (arguments.fit.tree || arguments.fit.levels)
+        throw InputError("bench measures every tree, with all levels and with one; leave out --tree and --levels");
     const Workload workload = arguments.workload == "table1" ? table1(arguments) : table2(arguments);
-    const mobb::FitOptions base = arguments.fit.over({});
+    if (workload.queries.empty())
+        throw InputError("the crowd came to no choice, so there is nothing to ask; give shorter clips");
+    const mobb::FitOptions base = arguments.fit.over(workload.fit);
     const MeasureProgress progress = arguments.json ? MeasureProgress{} : show_progress;
     TableReport report;
     report.workload = workload.name;

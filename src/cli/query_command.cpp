@@ -53,6 +53,9 @@ void run(Arguments& arguments, int& status) {
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
     if (fitted.queries().empty()) {
+        if (fitted.scene().crowd)
+            throw InputError(arguments.file.string(), "",
+                             "a run asks nothing; mobbscope conflicts finds who collides in it");
         throw InputError(arguments.file.string(), "", "there is nothing to ask; add queries, or two agents at least");
     }
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;

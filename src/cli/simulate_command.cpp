@@ -88,8 +88,16 @@ void check_outputs(const Arguments& arguments) {
             throw InputError(out.string(), "", "a run and its queries are scenes; name it .json");
         }
     }
-    if (arguments.out == arguments.record) {
+    const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
+        std::error_code ignored;
+        return !a.empty() && !b.empty() &&
+               std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+    };
+    if (same(arguments.out, arguments.record)) {
         throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
+    }
+    for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
+        if (same(out, arguments.graph)) throw InputError(out.string(), "", "it would replace the graph; rename it");
     }
 }
 

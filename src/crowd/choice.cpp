@@ -1,5 +1,6 @@
 #include <crowd/choice.h>
 #include <crowd/counter_random.h>
+#include <import/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +45,8 @@ class Chooser {
         for (const int move : moves_.after(before.move)) {
             Candidate candidate{move,  turn, moves_.following(before.move, before.placement, move, turn),
                                 false, {},   false};
+            // A graph whose moves lead far away would in the end leave what can be placed.
+            if (!mobb::is_valid(candidate.placement)) continue;
             const mobb::PlacedClip placed(moves_.tree(move).clip(), candidate.placement);
             candidate.leaves_floor = leaves_floor(placed, moves_.outline(move), run_.area);
             choice_.candidates.push_back(std::move(candidate));
@@ -103,6 +106,10 @@ class Chooser {
     }
 
     void take_latest() {
+        if (choice_.candidates.empty()) {
+            throw InputError(moves_.fitted().scene().file.string(), "",
+                             "the graph's moves lead beyond all bounds; check their stances");
+        }
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
         const bool some_stay = std::any_of(choice_.candidates.begin(), choice_.candidates.end(), stays);
         if (!some_stay) find_rulings(0, true);

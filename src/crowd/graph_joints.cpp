@@ -1,6 +1,7 @@
 #include <crowd/graph_joints.h>
 #include <crowd/pose_distance.h>
 #include <crowd/pose_track.h>
+#include <import/error.h>
 #include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,8 @@
 namespace mobbscope {
 
 namespace {
+
+constexpr std::size_t kMostJoints = 20'000'000;
 
 constexpr double kRounding = 1e-6;  // relative, and in metres or metres per second
 
@@ -86,7 +89,14 @@ std::vector<std::pair<int, int>> joints_of(const MotionGraph& graph) {
     for (int m = 0; m < count; ++m) {
         begin_in[static_cast<std::size_t>(graph.moves[static_cast<std::size_t>(m)].from)].push_back(m);
     }
+    std::size_t joints = 0;
+    for (const GraphMove& move : graph.moves) joints += begin_in[static_cast<std::size_t>(move.to)].size();
+    if (joints > kMostJoints) {
+        throw InputError("the graph has " + std::to_string(joints) + " joints, more than the " +
+                         std::to_string(kMostJoints) + " that are measured; give it fewer moves a hub");
+    }
     std::vector<std::pair<int, int>> out;
+    out.reserve(joints);
     for (int m = 0; m < count; ++m) {
         const int hub = graph.moves[static_cast<std::size_t>(m)].to;
         for (const int next : begin_in[static_cast<std::size_t>(hub)]) out.emplace_back(m, next);

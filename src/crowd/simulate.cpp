@@ -17,8 +17,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kTries = 2000;      // places looked at for an agent before the floor counts as full
-constexpr double kReports = 100;  // of progress in a run
+constexpr double kLeastMove = 0.01;  // seconds: of shorter ones a run would have no end of choices
+constexpr int kTries = 2000;         // places looked at for an agent before the floor counts as full
+constexpr double kReports = 100;     // of progress in a run
 
 struct Turn {
     double time;
@@ -44,7 +45,7 @@ class Simulator {
     }
 
     Simulation run() {
-        refuse_dead_ends();
+        refuse_unplayable();
         for (int agent = 0; agent < options_.agents; ++agent) place(agent);
         while (!turns_.empty()) {
             const Turn turn = turns_.top();
@@ -65,10 +66,16 @@ class Simulator {
         if (progress_) progress_(counts());
     }
 
-    void refuse_dead_ends() const {
+    void refuse_unplayable() const {
         const std::string file = moves_.fitted().scene().file.string();
         if (moves_.count() == 0) throw InputError(file, "", "the graph has no move; add one");
         for (std::size_t move = 0; move < moves_.count(); ++move) {
+            if (moves_.duration(static_cast<int>(move)) < kLeastMove) {
+                throw InputError(file, "",
+                                 "move " + std::to_string(move) + " of the graph lasts " +
+                                     brief(moves_.duration(static_cast<int>(move))) + " s; a crowd plays moves of " +
+                                     brief(kLeastMove) + " s and more: remove it");
+            }
             if (!moves_.after(static_cast<int>(move)).empty()) continue;
             const GraphMove& last = moves_.move(static_cast<int>(move));
             throw InputError(file, "",

@@ -51,7 +51,8 @@ TrackPoint read_point(const std::string& file, const YAML::Node& step) {
     return point;
 }
 
-TrackFile read_plan(const std::string& file, const YAML::Node& plan) {
+/// A plan of so many bytes has at most `most` steps, unless it repeats them by aliases.
+TrackFile read_plan(const std::string& file, const YAML::Node& plan, std::size_t most) {
     const YAML::Node schedule = plan.IsMap() ? plan["schedule"] : YAML::Node();
     if (!schedule || !schedule.IsMap()) {
         fail(file, plan.Mark(),
@@ -64,7 +65,12 @@ TrackFile read_plan(const std::string& file, const YAML::Node& plan) {
             fail(file, agent.first.Mark(), "an agent of the schedule needs a name");
         if (!agent.second.IsSequence())
             fail(file, agent.second.Mark(), in_quotes(agent.first.Scalar()) + " must have a list of t, x, y");
-        for (const YAML::Node& step : agent.second) tracks.add(agent.first.Scalar(), read_point(file, step));
+        for (const YAML::Node& step : agent.second) {
+            if (most-- == 0)
+                fail(file, agent.first.Mark(),
+                     "there are more steps than the file can hold; write them out, without aliases");
+            tracks.add(agent.first.Scalar(), read_point(file, step));
+        }
     }
     if (tracks.empty()) fail(file, schedule.Mark(), "the schedule has no step; add agents with t, x, y");
     TrackFile out;
@@ -81,7 +87,8 @@ TrackFile parse_mapf_plan(std::string_view text, const std::string& file) {
     if (text.size() > kLargestPlan) throw InputError(file, "", "is larger than 64 MiB; split the plan");
     if (text.find('\0') != std::string_view::npos) throw InputError(file, "", "holds a NUL byte; this is no text file");
     try {
-        return read_plan(file, YAML::Load(std::string(text)));
+        constexpr std::size_t kLeastStep = 6;  // bytes
+        return read_plan(file, YAML::Load(std::string(text)), text.size() / kLeastStep);
     } catch (const YAML::Exception& error) {
         fail(file, error.mark, "is no YAML: " + cleaned(error.msg));
     }

@@ -37,7 +37,7 @@ struct Columns {
 };
 
 /// The corners of a box in the image, and whether the annotators had lost it.
-enum SddColumn { kXMin = 1, kYMin, kXMax, kYMax, kSddFrame, kLost, kLabel = 9 };
+enum SddColumn { kXMin = 1, kYMin, kXMax, kYMax, kSddFrame, kLost };
 
 const Columns kObsmat{"obsmat", 8, 1, 0, 2, 4};
 const Columns kTrajnet{"trajnet", 4, 1, 0, 2, 3};

@@ -67,6 +67,7 @@ Chain::Chain(std::span<const ChainLink> links) {
 void Chain::append(std::span<const ChainLink> links) {
     // Everything is checked first: a chain that refuses a link is as it was.
     const ChainPart* like = !links_.empty() ? links_.front().part.get() : nullptr;
+    if (links.empty() && !links_.empty()) return;
     std::size_t samples = links_.empty() ? 0 : static_cast<std::size_t>(end());
     int shift = shift_;
     double reach = reach_;

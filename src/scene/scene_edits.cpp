@@ -1,3 +1,4 @@
+#include <import/error.h>
 #include <import/text.h>
 #include <scene/scene_edits.h>
 
@@ -182,6 +183,13 @@ void merge(Scene& scene, Scene other) {
     if (scene.clips.empty()) {
         scene = std::move(other);
         return;
+    }
+    for (const Scene* side : {&scene, &other}) {
+        if (side->crowd || side->graph) {
+            throw InputError(
+                side->file.string(), "",
+                std::string(side->crowd ? "a run" : "a motion graph") + " stands alone: open it by itself");
+        }
     }
     // Bare clips are seen where they are; next to agents only agents are seen.
     if (!scene.agents.empty() || !other.agents.empty()) {

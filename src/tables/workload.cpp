@@ -6,6 +6,7 @@ namespace mobbscope {
 
 Workload workload_of_scene(const Scene& scene) {
     Workload workload;
+    workload.fit = scene.fit;
     for (const SceneClip& clip : scene.clips) workload.clips.push_back(clip.clip);
     const std::size_t count = std::min(query_count(scene), static_cast<std::size_t>(kMaxQueries));
     workload.queries.reserve(count);

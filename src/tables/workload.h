@@ -20,6 +20,7 @@ struct Workload {
     std::string description;           ///< what it was made of, for people
     std::vector<mobb::ClipPtr> clips;  ///< at least one
     std::vector<WorkloadQuery> queries;
+    mobb::FitOptions fit{};  ///< the scene's, for what is not asked for otherwise
 };
 
 /// The queries of a scene, such as those that a simulation recorded. At most kMaxQueries of them are taken.

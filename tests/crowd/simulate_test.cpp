@@ -123,6 +123,15 @@ TEST_F(Simulate, MovesAreBackToBackFromBeforeTheBeginToTheEnd) {
 }
 
 TEST_F(Simulate, TheRunDependsOnTheSeedAndNotOnTheThreads) {
+    // So many moves that candidates are asked in several tasks.
+    Scene scene;
+    for (int i = 0; i < 60; ++i) {
+        scene.clips.push_back(
+            testing::walk("walk" + std::to_string(i), 0.8 + 0.02 * i, 5.0 * i - 150, 45, 1.0 / 30, 0.4));
+    }
+    scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
+    const FittedScene many(scene, {});
+    const MoveSet moves(many);
     SimulateOptions options = small_crowd(6);
     options.threads = 1;
     const Simulation one = simulate(moves, options);
