@@ -123,6 +123,7 @@ void play(benchmark::State& state, Backend backend, int agents, Show show, bool 
     if (follows) run_command(window.session(), "crowd.follow", window.session().crowd()->agents.front().name);
     window.rest();
     run_command(window.session(), "time.play");
+    window.frame();
     const double before = *window.session().view().time;
     measure(state, window, [&](std::size_t frame) { return around({120, 400}, 60, frame); });
     if (*window.session().view().time == before) state.SkipWithError("time stood still");

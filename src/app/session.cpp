@@ -247,6 +247,8 @@ void Session::open_excerpt(const Participant& a, const Participant& b) {
     next.origin = std::make_shared<const Origin>(
         Origin{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
     playing = false;
+    selection = {};
+    hovered = {};
     history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
     changed();
 }
@@ -254,6 +256,8 @@ void Session::open_excerpt(const Participant& a, const Participant& b) {
 void Session::leave_excerpt() {
     const std::shared_ptr<const Origin> origin = document().origin;
     playing = false;
+    selection = {};
+    hovered = {};
     history_.change({origin->fitted, origin->view, nullptr}, {"going back to the whole", ""});
     changed();
 }

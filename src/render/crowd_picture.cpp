@@ -21,11 +21,12 @@ namespace mobbscope {
 
 namespace {
 
-constexpr const char* kBetween = "  \u00B7  ";
 constexpr float kFinestStep = 0.6f;  // pixels: disks nearer to one another are drawn as one
 constexpr int kMostTogether = 8;
 constexpr double kFlat = 0.4;
-constexpr float kLeastRing = 3;  // pixels of radius
+constexpr double kMostHeight = 4;  // metres drawn per second: people walk about a third of it
+constexpr double kMostSpeed = 4;   // metres per second that are reckoned with
+constexpr float kLeastRing = 3;    // pixels of radius
 
 struct Seconds {
     double begin = 0, time = 0, end = 0;
@@ -59,9 +60,10 @@ bool may_be_seen(const DrawList& list, const Subject& subject) {
         const glm::vec3 at = list.space.point(disk.x, disk.y, subject.clip().time(sample));
         const auto pixel = list.lens.project(at);
         if (!pixel) continue;
-        // As far as it may get from there to the next place that is looked at.
-        const float around = 2.5f * list.lens.pixels_per_metre(at) *
-                             static_cast<float>(1 + shown.count * subject.clip().clip().dt() * list.space.time_height);
+        // As far as it may get from there to half way to the next place that is looked at.
+        const double seconds = 0.25 * shown.count * subject.clip().clip().dt();
+        const double reach = 1 + seconds * (kMostSpeed + list.space.time_height);
+        const float around = static_cast<float>(reach) * list.lens.pixels_per_metre(at);
         if (Rect{glm::vec2(0), picture}.grown(around).contains({*pixel, *pixel})) return true;
     }
     return false;
@@ -79,10 +81,15 @@ int samples_together(const DrawList& list, const Subject& subject) {
     return std::clamp(static_cast<int>(kFinestStep / step), 1, kMostTogether);
 }
 
-std::string seconds_text(const Seconds& s, std::size_t people) {
+std::string headline_of(std::size_t people, double time) {
     char text[96];
-    std::snprintf(text, sizeof text, "%zu %s at %.2f s, from %.2f to %.2f s", people, people == 1 ? "agent" : "agents",
-                  s.time, s.begin, s.end);
+    std::snprintf(text, sizeof text, "%zu %s at %.2f s", people, people == 1 ? "agent" : "agents", time);
+    return text;
+}
+
+std::string window_text(const Seconds& s) {
+    char text[96];
+    std::snprintf(text, sizeof text, "upwards from %.2f to %.2f s", s.begin, s.end);
     return text;
 }
 
@@ -130,15 +137,15 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     bounds.add(glm::dvec3(0.5 * crowd.area, seconds.end));
     list.space = space_for(bounds, view);
     // As tall as wide it would be a forest of poles.
-    if (view.time_height <= 0) list.space.time_height *= kFlat;
+    if (view.time_height <= 0) list.space.time_height = std::min(kFlat * list.space.time_height, kMostHeight);
     list.space.anchor = camera_anchor(fitted, view, time);
     const Stage stage = floor_stage(crowd.area, seconds.begin, seconds.end);
 
     float top = metrics.pad;
     if (view.labels) {
         Caption caption;
-        caption.headlines = {seconds_text(seconds, crowd.agents.size())};
-        caption.detail = choice ? choice_sentence(fitted.scene(), *choice) : "";
+        caption.headlines = {headline_of(crowd.agents.size(), time)};
+        caption.detail = choice ? choice_sentence(fitted.scene(), *choice) : window_text(seconds);
         if (!view.caption) caption = {};
         std::vector<LegendEntry> legend;
         if (view.legend) {
@@ -162,8 +169,10 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     LabelLayout layout(size);
     for (const TextRun& run : list.texts) layout.reserve(run.box);
     const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
+    // The widest labels of the whole run, so that nothing moves while time runs.
+    const Stage last = floor_stage(crowd.area, crowd.seconds - 2 * view.time_window, crowd.seconds);
     const Blocks blocks =
-        aim(list, corners, stage, view, metrics, top, glm::vec2(0), [&] { return above_floor(list.lens, corners); });
+        aim(list, corners, last, view, metrics, top, glm::vec2(0), [&] { return above_floor(list.lens, corners); });
 
     if (view.disks) {
         for (const Subject& subject : paths) {

@@ -23,7 +23,8 @@ constexpr float kBone = 0.04f;        // metres across
 constexpr float kHead = 0.09f;        // metres, radius
 constexpr float kGlassFront = 0.02f;  // opacity of the wall where it is seen face on
 constexpr float kGlassSide = 0.13f;   // ... and how much more where it is seen edge on
-constexpr int kLayer = 2;             // above grid and paths
+constexpr std::size_t kFewFigures = 50;  // are all drawn, seen or not
+constexpr int kLayer = 2;                // above grid and paths
 
 /// Lines of one body, later ones above earlier ones; bodies are drawn from the farthest to the nearest.
 class Pen {
@@ -104,6 +105,13 @@ glm::vec2 towards_eye(const Lens& lens, glm::vec3 from) {
     const glm::vec2 way = lens.perspective ? glm::vec2(lens.eye - from) : glm::vec2(lens.back);
     const float length = glm::length(way);
     return length > 1e-4f && upright(lens) > 0.02f ? way / length : glm::vec2(0);
+}
+
+/// Whether some of it may be in the picture.
+bool may_be_seen(const DrawList& list, const Figure& f) {
+    const auto at = list.lens.project(f.foot);
+    const float around = 2 * (f.height + 2 * f.radius) * f.pixels;
+    return at && Rect{glm::vec2(0), glm::vec2(list.size.width, list.size.height)}.grown(around).contains({*at, *at});
 }
 
 void add_disk(DrawList& list, const Figure& f, float height, Rgba color) {
@@ -296,7 +304,7 @@ void add_bodies(DrawList& list, std::span<const Subject> subjects, const Moment&
     std::vector<const Figure*> far_first;
     for (const Figure& f : figures) {
         // What stands behind the eye is not seen.
-        if (f.pixels > 0) far_first.push_back(&f);
+        if (f.pixels > 0 && (figures.size() <= kFewFigures || may_be_seen(list, f))) far_first.push_back(&f);
     }
     std::stable_sort(far_first.begin(), far_first.end(), [&](const Figure* a, const Figure* b) {
         return list.lens.depth(a->foot) > list.lens.depth(b->foot);

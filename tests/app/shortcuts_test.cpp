@@ -133,6 +133,9 @@ TEST(Shortcuts, EachDoesWhatItsCommandDoes) {
     World world;
     int tried = 0;
     for (const Command& command : commands()) {
+        // crowd.script presses those of crowds.
+        const bool of_crowds = command.id.starts_with("crowd.") || command.id.starts_with("conflicts.");
+        if (of_crowds && command.id != "crowd.follow") continue;
         for (const std::string& name : words(command.shortcut)) {
             SCOPED_TRACE(std::string(command.id) + " by " + name);
             expect_works(world, command, *chord_from_name(name));
