@@ -131,16 +131,16 @@ TEST_F(Simulate, TheRunDependsOnTheSeedAndNotOnTheThreads) {
     }
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     const FittedScene many(scene, {});
-    const MoveSet moves(many);
+    const MoveSet walks(many);
     SimulateOptions options = small_crowd(6);
     options.threads = 1;
-    const Simulation one = simulate(moves, options);
+    const Simulation one = simulate(walks, options);
     for (const int threads : {2, 7}) {
         options.threads = threads;
-        EXPECT_EQ(simulate(moves, options).run, one.run);
+        EXPECT_EQ(simulate(walks, options).run, one.run);
     }
     options.seed = 7;
-    EXPECT_NE(simulate(moves, options).run.agents, one.run.agents);
+    EXPECT_NE(simulate(walks, options).run.agents, one.run.agents);
 }
 
 TEST_F(Simulate, WhatIsRecordedIsWhatTheTreesWereAsked) {
