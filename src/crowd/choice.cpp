@@ -26,7 +26,8 @@ class Chooser {
 
     Choice choose() {
         std::size_t straight = 0;
-        for (double turn = 0; turn <= kHalfTurn; turn += kTurnStep) {
+        for (int step = 0; step * kTurnStep <= kHalfTurn; ++step) {
+            const double turn = step * kTurnStep;
             const std::size_t first = choice_.candidates.size();
             add_candidates(turn);
             if (turn > 0 && turn < kHalfTurn) add_candidates(-turn);
@@ -49,7 +50,7 @@ class Chooser {
             if (!mobb::is_valid(candidate.placement)) continue;
             const mobb::PlacedClip placed(moves_.tree(move).clip(), candidate.placement);
             candidate.leaves_floor = leaves_floor(placed, moves_.outline(move), run_.area);
-            choice_.candidates.push_back(std::move(candidate));
+            choice_.candidates.push_back(candidate);
         }
     }
 

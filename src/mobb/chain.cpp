@@ -54,6 +54,10 @@ Box rectangle_over_time(const Outline& outline, double rounding, double t0, doub
     return box;
 }
 
+[[noreturn]] void refuse(std::size_t link, const char* what) {
+    throw std::invalid_argument("link " + std::to_string(link) + ": " + what);
+}
+
 }  // namespace
 
 ChainPart::ChainPart(std::shared_ptr<const Tree> tree)
@@ -66,18 +70,15 @@ Chain::Chain(std::span<const ChainLink> links) {
 
 void Chain::append(std::span<const ChainLink> links) {
     // Everything is checked first: a chain that refuses a link is as it was.
-    const ChainPart* like = !links_.empty() ? links_.front().part.get() : nullptr;
-    if (links.empty() && !links_.empty()) return;
+    if (links.empty()) return;
+    const ChainPart* like = (links_.empty() ? links.front().part : links_.front().part).get();
     std::size_t samples = links_.empty() ? 0 : static_cast<std::size_t>(end());
     int shift = shift_;
     double reach = reach_;
     for (std::size_t k = 0; k < links.size(); ++k) {
         const ChainLink& link = links[k];
-        const auto fail = [k](const char* what) {
-            throw std::invalid_argument("link " + std::to_string(k) + ": " + what);
-        };
-        if (!link.part) fail("it has no part");
-        if (!like) like = link.part.get();
+        const auto fail = [k](const char* what) { refuse(k, what); };
+        if (!link.part || !like) refuse(k, "it has no part");
         const Tree& tree = link.part->tree();
         if (tree.clip().dt() != like->clip().dt()) fail("its dt must be that of the chain's other clips");
         if (tree.time_scale() != like->tree().time_scale())

@@ -60,6 +60,9 @@ struct IntervalCollector {
     }
 };
 
+template <class A, class B>
+IntervalCollector(const A&, const B&, std::vector<Interval>) -> IntervalCollector<A, B>;
+
 /// The earliest contact of two trees or chains, or none. The answer does not depend on the trees' kinds, only on the
 /// clips; it is that of direct_search bit for bit. Trees of different time scales may be asked; their 3D boxes then
 /// prune nothing.
