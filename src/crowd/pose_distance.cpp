@@ -47,9 +47,10 @@ PoseWindows::PoseWindows(const PoseTrack& track) : size_(track.joints * kWindowF
         float* to = points_.data() + first;
         double squares = 0;
         for (const int offset : offsets) {
-            const glm::vec2 root{track.root[static_cast<std::size_t>(frame + offset)] -
+            const int at_frame = frame + offset;
+            const glm::vec2 root{track.root[static_cast<std::size_t>(at_frame)] -
                                  track.root[static_cast<std::size_t>(frame)]};
-            for (const glm::vec3& p : track.at(frame + offset)) {
+            for (const glm::vec3& p : track.at(at_frame)) {
                 const glm::vec3 at{p.x + root.x, p.y + root.y, p.z};
                 to[0] = at.x;
                 to[size_] = at.y;
