@@ -97,9 +97,10 @@ double put_in_rows(std::vector<Ring>& rings, double width) {
 float fit_rings(std::vector<Ring>& rings, const Rect& area, float most) {
     const double widest = rings.front().side();
     float pitch = most;
-    for (; pitch > 4; pitch *= 0.97F) {
+    while (pitch > 4) {
         const double width = area.size().x / pitch;
         if (width >= widest && put_in_rows(rings, width) * pitch <= area.size().y) break;
+        pitch *= 0.97F;
     }
     return pitch;
 }

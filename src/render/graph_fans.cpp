@@ -117,7 +117,8 @@ class FanPicture {
             return p.x > room.min.x && p.x < room.max.x && p.y > room.min.y && p.y < room.max.y;
         };
         const double reach = glm::length(glm::dvec2(room.size()));
-        for (double r = step; r < reach; r += step) {
+        for (int ring = 1; ring * step < reach; ++ring) {
+            const double r = ring * step;
             glm::vec2 from = center + glm::vec2(static_cast<float>(r), 0);
             for (int i = 1; i <= kRingPoints; ++i) {
                 const double turn = 2 * std::numbers::pi * i / kRingPoints;
@@ -183,7 +184,8 @@ FanScale add_graph_fans(DrawList& list, const MotionGraph& graph, const std::vec
     }
     const double ring_step = nice_step(std::min(room.size().x, room.size().y) / pixels, 3);
     for (std::size_t i = 0; i < fans.size(); ++i) {
-        const glm::vec2 cell(static_cast<float>(i % grid.columns), static_cast<float>(i / grid.columns));
+        const std::size_t row = i / grid.columns;
+        const glm::vec2 cell(static_cast<float>(i % grid.columns), static_cast<float>(row));
         const glm::vec2 corner = glm::round(area.min + cell * grid.cell + glm::vec2(kGap * scale, 0));
         picture.add_card(fans[i], {corner, corner + card}, pixels, ring_step);
     }
