@@ -1,4 +1,5 @@
 #include <crowd/graph_joints.h>
+#include <crowd/graph_walk.h>
 #include <crowd/pose_distance.h>
 #include <crowd/pose_track.h>
 #include <import/error.h>
@@ -84,11 +85,7 @@ JointSpread spread_of(const std::vector<std::pair<int, int>>& joints, const std:
 }
 
 std::vector<std::pair<int, int>> joints_of(const MotionGraph& graph) {
-    std::vector<std::vector<int>> begin_in(graph.hubs.size());
-    const int count = static_cast<int>(graph.moves.size());
-    for (int m = 0; m < count; ++m) {
-        begin_in[static_cast<std::size_t>(graph.moves[static_cast<std::size_t>(m)].from)].push_back(m);
-    }
+    const std::vector<std::vector<int>> begin_in = moves_by_hub(graph);
     std::size_t joints = 0;
     for (const GraphMove& move : graph.moves) joints += begin_in[static_cast<std::size_t>(move.to)].size();
     if (joints > kMostJoints) {
@@ -97,7 +94,7 @@ std::vector<std::pair<int, int>> joints_of(const MotionGraph& graph) {
     }
     std::vector<std::pair<int, int>> out;
     out.reserve(joints);
-    for (int m = 0; m < count; ++m) {
+    for (int m = 0; m < static_cast<int>(graph.moves.size()); ++m) {
         const int hub = graph.moves[static_cast<std::size_t>(m)].to;
         for (const int next : begin_in[static_cast<std::size_t>(hub)]) out.emplace_back(m, next);
     }
