@@ -112,7 +112,9 @@ TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
 TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
     const Result run = run_program({"fit", kScenes + "crossing.json", "--json", "--tree", "aabb", "--axes", "minarea"});
     ASSERT_EQ(run.status, 0) << run.err;
-    for (const json& node : json::parse(run.out)["trees"][1]["nodes"]) {
+    const json result = json::parse(run.out);
+    ASSERT_FALSE(result["trees"][1]["nodes"].empty());
+    for (const json& node : result["trees"][1]["nodes"]) {
         EXPECT_EQ(node["kind"], "aabb");
         EXPECT_EQ(node["axes"], (json{{1.0, 0.0}, {0.0, 1.0}}));
         EXPECT_EQ(node["center"].size(), 2u);
