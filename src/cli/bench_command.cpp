@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
@@ -10,9 +11,9 @@
 #include <tables/random_queries.h>
 #include <tables/table_report.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -33,12 +34,10 @@ struct Arguments {
     bool sweep = false;
     std::optional<int> queries;
     int rounds = 5;
-    int seed = 1;
+    std::uint64_t seed = 1;
     FitArguments fit;
     ImportOptions import_options;
 };
-
-std::uint64_t seed_of(const Arguments& arguments) { return static_cast<std::uint64_t>(arguments.seed); }
 
 std::vector<mobb::ClipPtr> clips_of(const Scene& scene) {
     std::vector<mobb::ClipPtr> clips;
@@ -57,12 +56,11 @@ Scene scene_of(const std::vector<mobb::ClipPtr>& clips) {
 Workload table2(const Arguments& arguments) {
     Workload workload;
     workload.name = "table2";
-    workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, seed_of(arguments))
+    workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, arguments.seed)
                                              : clips_of(load_files(arguments.paths, arguments.import_options));
     workload.description = (arguments.paths.empty() ? std::string("built-in walks") : "clips from files") +
                            ", at random places within 3.5 m, headings, and times within 1.2 clip lengths";
-    workload.queries =
-        random_queries(workload.clips, arguments.queries.value_or(100'000), {.seed = seed_of(arguments)});
+    workload.queries = random_queries(workload.clips, arguments.queries.value_or(100'000), {.seed = arguments.seed});
     return workload;
 }
 
@@ -72,7 +70,7 @@ void show_progress(const std::string& doing, int done, int all) {
 
 /// Queries that a file brings, or those that a crowd asks that plays the clips or the graph of the files.
 Workload table1(const Arguments& arguments) {
-    Scene scene = arguments.paths.empty() ? scene_of(short_moves(51, 2.1, seed_of(arguments)))
+    Scene scene = arguments.paths.empty() ? scene_of(short_moves(51, 2.1, arguments.seed))
                                           : load_files(arguments.paths, arguments.import_options);
     const int most = arguments.queries.value_or(100'000);
     Workload workload;
@@ -82,7 +80,7 @@ Workload table1(const Arguments& arguments) {
         workload.description = "recorded queries";
     } else {
         SimulateOptions options;
-        options.seed = seed_of(arguments);
+        options.seed = arguments.seed;
         const std::string who = arguments.paths.empty() ? "built-in moves" : scene.graph ? "a motion graph" : "clips";
         workload = crowd_queries(std::move(scene), options, most);
         workload.description = "what a crowd of 100 on 30 x 40 m asks in 120 s, playing " + who;
@@ -103,7 +101,7 @@ void run(const Arguments& arguments) {
     report.workload = workload.name;
     report.description = workload.description;
     report.machine = machine_words();
-    report.seed = seed_of(arguments);
+    report.seed = arguments.seed;
     report.rounds = arguments.rounds;
     report.queries = static_cast<std::int64_t>(workload.queries.size());
     report.clips = static_cast<int>(workload.clips.size());
@@ -117,30 +115,27 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_bench_command(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand(
+void add_bench_command(Command& program, int& status) {
+    Command& command = program.add_subcommand(
         "bench", "Measure the paper's Table 1 or 2: counts and times of every kind of tree on the same queries");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("WORKLOAD", arguments->workload, "table1 (short clips in a crowd) or table2 (long clips)")
-        ->required()
-        ->type_name("")
-        ->check(CLI::IsMember({"table1", "table2"}));
-    command
-        ->add_option("PATH", arguments->paths,
-                     "Clips or folders of them; for table1 also a motion graph, or a scene with queries; without any, "
-                     "built-in clips")
-        ->type_name("");
-    command->add_flag("--json", arguments->json, "The figures as JSON");
-    add_parsed(*command, "--queries", arguments->queries, whole_number_within(1, kMaxQueries),
+    command.add_option("WORKLOAD", arguments->workload, "table1 (short clips in a crowd) or table2 (long clips)", "")
+        .required()
+        .among({"table1", "table2"});
+    command.add_option("PATH", arguments->paths,
+                       "Clips or folders of them; for table1 also a motion graph, or a scene with queries; without "
+                       "any, built-in clips",
+                       "");
+    command.add_flag("--json", arguments->json, "The figures as JSON");
+    add_parsed(command, "--queries", arguments->queries, whole_number_within(1, kMaxQueries),
                "How many queries, at most (100000)", "N");
-    add_parsed(*command, "--seed", arguments->seed, whole_number_within(0, std::numeric_limits<int>::max()),
-               "Of whatever is random (1)", "S");
-    add_parsed(*command, "--rounds", arguments->rounds, whole_number_within(1, kMostRounds),
+    add_parsed(command, "--seed", arguments->seed, parse_seed, "Of whatever is random (1)", "S");
+    add_parsed(command, "--rounds", arguments->rounds, whole_number_within(1, kMostRounds),
                "How often everything is timed; the median counts (5)", "N");
-    command->add_flag("--sweep", arguments->sweep, "Times and counts at n_min from 1 to 50 too");
-    add_fit_options(*command, arguments->fit);
-    add_import_options(*command, arguments->import_options);
-    command->callback([arguments, &status] {
+    command.add_flag("--sweep", arguments->sweep, "Times and counts at n_min from 1 to 50 too");
+    add_fit_options(command, arguments->fit);
+    add_import_options(command, arguments->import_options);
+    command.callback([arguments, &status] {
         try {
             run(*arguments);
         } catch (const DisagreementError& error) {

@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
@@ -171,17 +172,17 @@ void run(const Arguments& arguments, int& status) {
 
 }  // namespace
 
-void add_conflicts_command(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand(
+void add_conflicts_command(Command& program, int& status) {
+    Command& command = program.add_subcommand(
         "conflicts",
         "Every pair of agents whose disks overlap: when, how deep and where; --tree brute searches directly");
     const auto arguments = std::make_shared<Arguments>();
-    add_scene_file(*command, arguments->file);
-    command->add_flag("--json", arguments->json, "The same as JSON");
-    command->add_flag("--check", arguments->check, "Status 1 if there is a conflict");
-    add_fit_options(*command, arguments->fit, Brute::allowed);
-    add_import_options(*command, arguments->import_options);
-    command->callback([arguments, &status] { run(*arguments, status); });
+    add_scene_file(command, arguments->file);
+    command.add_flag("--json", arguments->json, "The same as JSON");
+    command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");
+    add_fit_options(command, arguments->fit, Brute::allowed);
+    add_import_options(command, arguments->import_options);
+    command.callback([arguments, &status] { run(*arguments, status); });
 }
 
 }  // namespace mobbscope::cli

@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
@@ -78,13 +79,13 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_convert_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("convert", "Write clips as CSV, or as a scene with its samples inside");
+void add_convert_command(Command& program) {
+    Command& command = program.add_subcommand("convert", "Write clips as CSV, or as a scene with its samples inside");
     const auto arguments = std::make_shared<Arguments>();
-    add_scene_file(*command, arguments->file);
-    command->add_option("-o,--output", arguments->out, "Where to: .csv or .json")->required()->type_name("OUT");
-    add_import_options(*command, arguments->import_options);
-    command->callback([arguments] { run(*arguments); });
+    add_scene_file(command, arguments->file);
+    command.add_option("-o,--output", arguments->out, "Where to: .csv or .json", "OUT").required();
+    add_import_options(command, arguments->import_options);
+    command.callback([arguments] { run(*arguments); });
 }
 
 }  // namespace mobbscope::cli

@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
@@ -65,14 +66,14 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_fit_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are");
+void add_fit_command(Command& program) {
+    Command& command = program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are");
     const auto arguments = std::make_shared<Arguments>();
-    add_scene_file(*command, arguments->file);
-    command->add_flag("--json", arguments->json, "Levels and nodes as JSON");
-    add_fit_options(*command, arguments->fit);
-    add_import_options(*command, arguments->import_options);
-    command->callback([arguments] { run(*arguments); });
+    add_scene_file(command, arguments->file);
+    command.add_flag("--json", arguments->json, "Levels and nodes as JSON");
+    add_fit_options(command, arguments->fit);
+    add_import_options(command, arguments->import_options);
+    command.callback([arguments] { run(*arguments); });
 }
 
 }  // namespace mobbscope::cli

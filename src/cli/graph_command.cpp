@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/graph_info.h>
@@ -16,11 +17,9 @@
 #include <scene/motion_graph.h>
 
 #include <unistd.h>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -157,17 +156,6 @@ void draw(const DrawArguments& arguments) {
     write_png(arguments.out, renderer.draw(list));
 }
 
-std::uint64_t parse_seed(const std::string& text) {
-    std::uint64_t seed = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, seed);
-    if (error != std::errc{} || stop != end) {
-        throw std::invalid_argument(in_quotes(text) + " is no whole number from 0 to " +
-                                    std::to_string(std::numeric_limits<std::uint64_t>::max()));
-    }
-    return seed;
-}
-
 /// "1:4" in seconds.
 std::pair<double, double> parse_seconds(const std::string& text) {
     const auto range = parse_range(text);
@@ -178,76 +166,67 @@ std::pair<double, double> parse_seconds(const std::string& text) {
     return *range;
 }
 
-void add_build(CLI::App& graph) {
-    CLI::App* command = graph.add_subcommand("build", "Cut a motion graph out of recordings, at poses that come again");
+void add_build(Command& graph) {
+    Command& command = graph.add_subcommand("build", "Cut a motion graph out of recordings, at poses that come again");
     const auto arguments = std::make_shared<BuildArguments>();
     GraphOptions& options = arguments->options;
-    command->add_option("PLACE", arguments->places, "Clip files, and folders of them with their subfolders")
-        ->required()
-        ->type_name("");
-    command->add_option("-o,--output", arguments->out, "The graph, a scene")->required()->type_name("GRAPH.json");
-    add_parsed(*command, "--pose-distance", options.bounds.pose_distance, number_within(0, 1e9),
+    command.add_option("PLACE", arguments->places, "Clip files, and folders of them with their subfolders", "")
+        .required();
+    command.add_option("-o,--output", arguments->out, "The graph, a scene", "GRAPH.json").required();
+    add_parsed(command, "--pose-distance", options.bounds.pose_distance, number_within(0, 1e9),
                "Metres that poses may differ by where moves join: root mean square over the joints (0.16)", "D");
-    add_parsed(*command, "--root-speed", options.bounds.root_speed, number_within(0, 1e9),
+    add_parsed(command, "--root-speed", options.bounds.root_speed, number_within(0, 1e9),
                "Metres per second that the root's velocity may change by there (0.6)", "V");
-    command
-        ->add_option_function<std::string>(
-            "--seconds",
-            [&options](const std::string& text) {
-                try {
-                    std::tie(options.least_seconds, options.most_seconds) = parse_seconds(text);
-                } catch (const std::invalid_argument& error) {
-                    throw CLI::ValidationError("--seconds", error.what());
-                }
-            },
-            "How long moves last (1:4)")
-        ->type_name("A:B");
-    add_parsed(*command, "--hubs", options.hubs, whole_number_within(1, kMostCount), "Most hubs for each rig (8)", "N");
-    add_parsed(*command, "--moves", options.moves, whole_number_within(1, kMostCount),
+    const auto set_seconds = [&options](const std::string& text) {
+        std::tie(options.least_seconds, options.most_seconds) = parse_seconds(text);
+    };
+    command.add_option("--seconds", set_seconds, "How long moves last (1:4)", "A:B");
+    add_parsed(command, "--hubs", options.hubs, whole_number_within(1, kMostCount), "Most hubs for each rig (8)", "N");
+    add_parsed(command, "--moves", options.moves, whole_number_within(1, kMostCount),
                "Most moves from one hub to another; those that differ most are taken (16)", "N");
-    add_parsed(*command, "--least-moves", options.least_moves, whole_number_within(1, kMostCount),
+    add_parsed(command, "--least-moves", options.least_moves, whole_number_within(1, kMostCount),
                "Parts of the graph with fewer are left out (3)", "N");
-    add_parsed(*command, "--candidates", options.candidates, whole_number_within(1, kMostCount),
+    add_parsed(command, "--candidates", options.candidates, whole_number_within(1, kMostCount),
                "Moments of each rig that are looked at as hubs (400)", "N");
-    add_parsed(*command, "--seed", options.seed, parse_seed, "Decides which moments those are (1)", "S");
-    command->add_flag("--whole", arguments->whole, "Takes clips whole, from one hub to itself, and bounds nothing");
-    command->add_flag("--inline", arguments->inline_samples,
-                      "Writes samples, so that the file stands alone; without it clips lead to their files");
-    add_import_options(*command, arguments->import_options);
-    command->callback([arguments] { build(*arguments); });
+    add_parsed(command, "--seed", options.seed, parse_seed, "Decides which moments those are (1)", "S");
+    command.add_flag("--whole", arguments->whole, "Takes clips whole, from one hub to itself, and bounds nothing");
+    command.add_flag("--inline", arguments->inline_samples,
+                     "Writes samples, so that the file stands alone; without it clips lead to their files");
+    add_import_options(command, arguments->import_options);
+    command.callback([arguments] { build(*arguments); });
 }
 
-void add_info(CLI::App& graph, int& status) {
-    CLI::App* command =
+void add_info(Command& graph, int& status) {
+    Command& command =
         graph.add_subcommand("info", "What is in a graph, and whether its bounds hold; exit status 1 if they do not");
     const auto arguments = std::make_shared<InfoArguments>();
-    add_parsed(*command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "")->required();
-    command->add_flag("--json", arguments->json, "The same as JSON");
-    command->callback([arguments, &status] { status = info(*arguments); });
+    add_parsed(command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "").required();
+    command.add_flag("--json", arguments->json, "The same as JSON");
+    command.callback([arguments, &status] { status = info(*arguments); });
 }
 
-void add_draw(CLI::App& graph) {
-    CLI::App* command = graph.add_subcommand("draw", "Draw a graph: hubs, moves and the floor paths from each hub");
+void add_draw(Command& graph) {
+    Command& command = graph.add_subcommand("draw", "Draw a graph: hubs, moves and the floor paths from each hub");
     const auto arguments = std::make_shared<DrawArguments>();
-    add_parsed(*command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "")->required();
-    command->add_option("-o,--output", arguments->out, "The picture")->required()->type_name("OUT.png");
-    add_parsed(*command, "--size", arguments->size, parse_size, "In pixels (1280x720)", "WxH");
-    add_parsed(*command, "--scale", arguments->scale, number_within(kLeastScale, kMostScale),
+    add_parsed(command, "GRAPH", arguments->file, parse_file_name, "A scene with a motion graph", "").required();
+    command.add_option("-o,--output", arguments->out, "The picture", "OUT.png").required();
+    add_parsed(command, "--size", arguments->size, parse_size, "In pixels (1280x720)", "WxH");
+    add_parsed(command, "--scale", arguments->scale, number_within(kLeastScale, kMostScale),
                "Of text and lines; by itself it suits the size", "X");
-    add_parsed(*command, "--theme", arguments->theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
-    add_parsed(*command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
+    add_parsed(command, "--theme", arguments->theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
+    add_parsed(command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
                "OpenGL without a display: auto, osmesa or egl", "NAME");
-    command->callback([arguments] { draw(*arguments); });
+    command.callback([arguments] { draw(*arguments); });
 }
 
 }  // namespace
 
-void add_graph_command(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand("graph", "Motion graphs: build, info, draw");
-    command->require_subcommand(1);
-    add_build(*command);
-    add_info(*command, status);
-    add_draw(*command);
+void add_graph_command(Command& program, int& status) {
+    Command& command = program.add_subcommand("graph", "Motion graphs: build, info, draw");
+    command.require_subcommand();
+    add_build(command);
+    add_info(command, status);
+    add_draw(command);
 }
 
 }  // namespace mobbscope::cli

@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
@@ -184,16 +185,16 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_info_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
+void add_info_command(Command& program) {
+    Command& command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
     const auto arguments = std::make_shared<Arguments>();
     command
-        ->add_option("FILE", arguments->files,
-                     "Scenes (.json), clips (.bvh .gltf .glb .fbx .csv) and trajectories (.txt .ndjson .yaml)")
-        ->required();
-    command->add_flag("--json", arguments->json, "The same as JSON");
-    add_import_options(*command, arguments->import_options);
-    command->callback([arguments] { run(*arguments); });
+        .add_option("FILE", arguments->files,
+                    "Scenes (.json), clips (.bvh .gltf .glb .fbx .csv) and trajectories (.txt .ndjson .yaml)")
+        .required();
+    command.add_flag("--json", arguments->json, "The same as JSON");
+    add_import_options(command, arguments->import_options);
+    command.callback([arguments] { run(*arguments); });
 }
 
 }  // namespace mobbscope::cli

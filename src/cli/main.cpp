@@ -1,39 +1,27 @@
 // mobbscope: see and debug bounding-volume trees in space-time.
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
+#include <cli/usage_error.h>
 #include <cli/window_command.h>
 #include <import/error.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
-#include <vector>
 
 namespace mobbscope::cli {
 
 namespace {
 
-/// Help and version are results; everything else that CLI11 throws is bad usage, whatever its own code is.
-int end_of_parse(const CLI::App& program, const CLI::ParseError& end) {
-    if (end.get_exit_code() == 0) {
-        program.exit(end, std::cout, std::cerr);
-        flush_results();
-        return kDone;
-    }
-    const std::vector<CLI::App*> chosen = program.get_subcommands();
-    const std::string command = chosen.empty() ? "" : chosen.front()->get_name() + " ";
-    complain(std::string(end.what()) + "; see mobbscope " + command + "--help");
-    return kBadInput;
-}
-
 int run(int argc, char** argv) {
-    CLI::App program("See and debug bounding-volume trees in space-time", "mobbscope");
-    program.set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
-    program.require_subcommand(0, 1);
+    Command program("mobbscope", "See and debug bounding-volume trees in space-time");
+    const std::string version = "mobbscope " MOBBSCOPE_VERSION;
+    program.add_version(version);
     WindowArguments window;
     add_window_options(program, window);
     int status = kDone;
@@ -48,16 +36,19 @@ int run(int argc, char** argv) {
     add_render_command(program);
     add_simulate_command(program);
     add_test_command(program, status);
-    for (CLI::App* command : program.get_subcommands({})) {
-        command->set_version_flag("--version", "mobbscope " MOBBSCOPE_VERSION);
-    }
+    for (Command& command : program.subcommands()) command.add_version(version);
     // Before any command runs: what stands in front of its name is no argument of it.
-    program.parse_complete_callback([&program] { check_not_before_command(program); });
+    program.before_subcommand([&program] { check_not_before_command(program); });
     try {
-        program.parse(argc, argv);
-        return program.get_subcommands().empty() ? open_window(program, window) : status;
-    } catch (const CLI::ParseError& end) {
-        return end_of_parse(program, end);
+        const std::string answer = program.parse({argv + std::min(argc, 1), argv + argc});
+        if (answer.empty()) return program.chosen().empty() ? open_window(program, window) : status;
+        std::cout << answer;
+        flush_results();
+        return kDone;
+    } catch (const UsageError& error) {
+        const std::string command = program.chosen().empty() ? "" : program.chosen() + " ";
+        complain(std::string(error.what()) + "; see mobbscope " + command + "--help");
+        return kBadInput;
     }
 }
 

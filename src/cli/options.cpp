@@ -1,14 +1,18 @@
+#include <cli/command_line.h>
 #include <cli/messages.h>
 #include <cli/options.h>
 #include <import/text.h>
+#include <scene/crowd_run.h>
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,31 +20,21 @@ namespace mobbscope::cli {
 
 namespace {
 
-/// What is wrong with an option, as a usage error that names the option.
-[[noreturn]] void refuse(const std::string& option, const std::string& message) {
-    throw CLI::ValidationError(option, message);
-}
-
 // CLI11's own reading of numbers takes "" for 0 and "010" for 8, so every number comes as text.
-double number(const std::string& option, const std::string& text) {
+double parse_number(const std::string& text) {
     if (const std::optional<double> value = parse_double(text)) return *value;
-    refuse(option, in_quotes(text) + " is no finite number; write it like 0.25");
+    throw std::invalid_argument(in_quotes(text) + " is no finite number; write it like 0.25");
 }
 
-int whole_number(const std::string& option, const std::string& text) {
+int parse_whole_number(const std::string& text) {
     if (const std::optional<int> value = parse_int(text)) return *value;
-    refuse(option, in_quotes(text) + " is no whole number up to " + std::to_string(std::numeric_limits<int>::max()) +
-                       "; write it like 10");
+    throw std::invalid_argument(in_quotes(text) + " is no whole number up to " +
+                                std::to_string(std::numeric_limits<int>::max()) + "; write it like 10");
 }
 
-/// Turns a complaint of `check` into a usage error.
-template <class Options>
-void check_as(const std::string& option, const Options& options) {
-    try {
-        check(options);
-    } catch (const std::invalid_argument& error) {
-        refuse(option, error.what());
-    }
+std::pair<double, double> parse_trim(const std::string& text) {
+    if (const auto range = parse_range(text)) return *range;
+    throw std::invalid_argument(in_quotes(text) + " is no range; give two times in seconds, such as 0.5:3.2");
 }
 
 mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
@@ -71,84 +65,58 @@ mobb::FitOptions FitArguments::over(mobb::FitOptions fit) const {
     return fit;
 }
 
-void add_fit_options(CLI::App& command, FitArguments& arguments, Brute brute) {
+void add_fit_options(Command& command, FitArguments& arguments, Brute brute) {
     const bool takes_brute = brute == Brute::allowed;
     const std::string trees = listed(mobb::tree_kind_names()) + (takes_brute ? ", brute" : "");
     const std::string axes = listed(mobb::axes_names());
-    const auto checked = [&arguments](const std::string& option) { check_as(option, arguments.over({})); };
     const auto set_tree = [&arguments, takes_brute, trees](const std::string& text) {
         arguments.tree = mobb::tree_kind_from_name(text);
         arguments.brute = takes_brute && text == "brute";
-        if (!arguments.tree && !arguments.brute) refuse("--tree", in_quotes(text) + " is none of " + trees);
+        if (!arguments.tree && !arguments.brute) {
+            throw std::invalid_argument(in_quotes(text) + " is none of " + trees);
+        }
     };
     const auto set_axes = [&arguments, axes](const std::string& text) {
         arguments.axes = mobb::axes_from_name(text);
-        if (!arguments.axes) refuse("--axes", in_quotes(text) + " is none of " + axes);
+        if (!arguments.axes) throw std::invalid_argument(in_quotes(text) + " is none of " + axes);
     };
-    const auto set_leaf = [&arguments, checked](const std::string& text) {
-        arguments.leaf = whole_number("--leaf", text);
-        checked("--leaf");
+    const auto checked = [&arguments](auto FitArguments::*field, auto parse) {
+        return [&arguments, field, parse](const std::string& text) {
+            arguments.*field = parse(text);
+            check(arguments.over({}));
+        };
     };
-    const auto set_levels = [&arguments, checked](const std::string& text) {
-        arguments.levels = whole_number("--levels", text);
-        checked("--levels");
+    const auto add = [&command](const char* name, auto set, const std::string& help, const char* placeholder) {
+        command.add_option(name, set, help, placeholder).group("Fit (over the scene's)");
     };
-    const auto set_time_scale = [&arguments, checked](const std::string& text) {
-        arguments.time_scale = number("--time-scale", text);
-        checked("--time-scale");
-    };
-    constexpr const char* kGroup = "Fit (over the scene's)";
-    command.add_option_function<std::string>("--tree", set_tree, trees)->group(kGroup)->type_name("K");
-    command.add_option_function<std::string>("--leaf", set_leaf, "Most samples in a leaf (10)")
-        ->group(kGroup)
-        ->type_name("N");
-    command.add_option_function<std::string>("--levels", set_levels, "Levels in a tree; 0 is all (0)")
-        ->group(kGroup)
-        ->type_name("N");
-    command.add_option_function<std::string>("--axes", set_axes, axes)->group(kGroup)->type_name("K");
-    command
-        .add_option_function<std::string>("--time-scale", set_time_scale,
-                                          "Metres per second that mix time with space (1)")
-        ->group(kGroup)
-        ->type_name("W");
+    add("--tree", set_tree, trees, "K");
+    add("--leaf", checked(&FitArguments::leaf, parse_whole_number), "Most samples in a leaf (10)", "N");
+    add("--levels", checked(&FitArguments::levels, parse_whole_number), "Levels in a tree; 0 is all (0)", "N");
+    add("--axes", set_axes, axes, "K");
+    add("--time-scale", checked(&FitArguments::time_scale, parse_number),
+        "Metres per second that mix time with space (1)", "W");
 }
 
-void add_import_options(CLI::App& command, ImportOptions& options) {
-    constexpr const char* kGroup = "Import (over the scene's, for clips with a source)";
-    const auto quantity = [&](const std::string& option, std::optional<double> ImportOptions::*field, const char* type,
-                              const char* help) {
-        const auto set = [&options, option, field](const std::string& text) {
-            options.*field = number(option, text);
-            check_as(option, options);
+void add_import_options(Command& command, ImportOptions& options) {
+    const auto as_it_is = [](const std::string& text) { return text; };
+    const auto add = [&](const char* name, auto ImportOptions::*field, auto parse, const char* help,
+                         const char* placeholder) {
+        const auto set = [&options, field, parse](const std::string& text) {
+            options.*field = parse(text);
+            check(options);
         };
-        command.add_option_function<std::string>(option, set, help)->group(kGroup)->type_name(type);
+        command.add_option(name, set, help, placeholder).group("Import (over the scene's, for clips with a source)");
     };
-    const auto word = [&](const std::string& option, std::optional<std::string> ImportOptions::*field, const char* type,
-                          const char* help) {
-        const auto set = [&options, option, field](const std::string& value) {
-            options.*field = value;
-            check_as(option, options);
-        };
-        command.add_option_function<std::string>(option, set, help)->group(kGroup)->type_name(type);
-    };
-    const auto set_trim = [&options](const std::string& text) {
-        options.trim = parse_range(text);
-        if (!options.trim)
-            refuse("--trim", in_quotes(text) + " is no range; give two times in seconds, such as 0.5:3.2");
-        check_as("--trim", options);
-    };
-    quantity("--fps", &ImportOptions::fps, "F", "Samples per second (30; trajectories: as stored)");
-    word("--unit", &ImportOptions::unit, "U", "m, cm, in, auto or metres per file unit");
-    word("--up", &ImportOptions::up, "AXIS", "y or z");
-    word("--root", &ImportOptions::root, "JOINT", "The joint whose path is taken");
-    command.add_option_function<std::string>("--trim", set_trim, "Only this part, in seconds from the first key")
-        ->group(kGroup)
-        ->type_name("A:B");
-    quantity("--dt", &ImportOptions::dt, "S",
-             "Seconds between the rows of a CSV without times, or frames of trajectories");
-    quantity("--radius", &ImportOptions::radius, "R", "Radius of every sample, in metres");
-    word("--id", &ImportOptions::id, "ID", "The track to take, of a file with several");
-    word("--animation", &ImportOptions::animation, "A", "Index or name of the animation");
+    add("--fps", &ImportOptions::fps, parse_number, "Samples per second (30; trajectories: as stored)", "F");
+    add("--unit", &ImportOptions::unit, as_it_is, "m, cm, in, auto or metres per file unit", "U");
+    add("--up", &ImportOptions::up, as_it_is, "y or z", "AXIS");
+    add("--root", &ImportOptions::root, as_it_is, "The joint whose path is taken", "JOINT");
+    add("--trim", &ImportOptions::trim, parse_trim, "Only this part, in seconds from the first key", "A:B");
+    add("--dt", &ImportOptions::dt, parse_number,
+        "Seconds between the rows of a CSV without times, or frames of trajectories", "S");
+    add("--radius", &ImportOptions::radius, parse_number, "Radius of every sample, in metres", "R");
+    add("--id", &ImportOptions::id, as_it_is, "The track to take, of a file with several", "ID");
+    add("--animation", &ImportOptions::animation, as_it_is, "Index or name of the animation", "A");
 }
 
 std::filesystem::path parse_file_name(const std::string& text) {
@@ -156,11 +124,11 @@ std::filesystem::path parse_file_name(const std::string& text) {
     return text;
 }
 
-void add_scene_file(CLI::App& command, std::filesystem::path& file) {
+void add_scene_file(Command& command, std::filesystem::path& file) {
     command
         .add_option("FILE", file,
                     "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)")
-        ->required();
+        .required();
 }
 
 std::function<int(const std::string&)> whole_number_within(int least, int most) {
@@ -180,6 +148,16 @@ std::function<double(const std::string&)> number_within(double low, double high)
         }
         return *value;
     };
+}
+
+std::uint64_t parse_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, seed);
+    if (error != std::errc{} || stop != end || seed > kMaxSeed) {
+        throw std::invalid_argument(in_quotes(text) + " is no whole number from 0 to " + std::to_string(kMaxSeed));
+    }
+    return seed;
 }
 
 Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius) {

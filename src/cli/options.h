@@ -6,7 +6,7 @@
 #include <mobb/tree.h>
 #include <scene/scene.h>
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -14,6 +14,8 @@
 #include <string>
 
 namespace mobbscope::cli {
+
+class Command;
 
 /// The fit options as given; an empty one leaves the scene's.
 struct FitArguments {
@@ -32,22 +34,25 @@ struct FitArguments {
 enum class Brute { refused, allowed };
 
 /// Adds --tree --leaf --levels --axes --time-scale. `arguments` must live until the command has run.
-void add_fit_options(CLI::App& command, FitArguments& arguments, Brute brute = Brute::refused);
+void add_fit_options(Command& command, FitArguments& arguments, Brute brute = Brute::refused);
 
 /// Adds --fps --unit --up --root --trim --dt --radius --id --animation. `options` must live until the command has run.
-void add_import_options(CLI::App& command, ImportOptions& options);
+void add_import_options(Command& command, ImportOptions& options);
 
 /// Throws std::invalid_argument if the text is empty, as an unset variable leaves it.
 std::filesystem::path parse_file_name(const std::string& text);
 
 /// Adds the FILE that a command works on: a scene or a clip.
-void add_scene_file(CLI::App& command, std::filesystem::path& file);
+void add_scene_file(Command& command, std::filesystem::path& file);
 
 /// Reads a finite number within [low, high]; throws std::invalid_argument.
 std::function<double(const std::string&)> number_within(double low, double high);
 
 /// Reads a whole number within [least, most]; throws std::invalid_argument.
 std::function<int(const std::string&)> whole_number_within(int least, int most);
+
+/// Reads what begins random numbers: a whole number up to kMaxSeed, as files keep it; throws std::invalid_argument.
+std::uint64_t parse_seed(const std::string& text);
 
 /// Reads text that stands for one of a few values, as `find` finds it; throws std::invalid_argument.
 template <class Find>
@@ -57,25 +62,6 @@ auto one_of(Find find, const char* allowed) {
         if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + allowed);
         return *value;
     };
-}
-
-/// Adds an option whose text goes through `parse`; the std::invalid_argument that it throws becomes bad usage. `target`
-/// must live until the command has run.
-template <class Parse, class T>
-CLI::Option* add_parsed(CLI::App& command, const std::string& name, T& target, Parse parse, const std::string& help,
-                        const char* placeholder) {
-    return command
-        .add_option_function<std::string>(
-            name,
-            [name, &target, parse](const std::string& text) {
-                try {
-                    target = parse(text);
-                } catch (const std::invalid_argument& error) {
-                    throw CLI::ValidationError(name, error.what());
-                }
-            },
-            help)
-        ->type_name(placeholder);
 }
 
 /// Which clips the radius of the import options is for.

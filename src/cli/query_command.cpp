@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
@@ -67,19 +68,18 @@ void run(Arguments& arguments, int& status) {
 
 }  // namespace
 
-void add_query_command(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand(
+void add_query_command(Command& program, int& status) {
+    Command& command = program.add_subcommand(
         "query",
         "Answer the scene's queries: do two clips ever collide? Status 1 if an answer is not the expected one");
     const auto arguments = std::make_shared<Arguments>();
-    add_scene_file(*command, arguments->file);
-    command->add_flag("--json", arguments->json, "Answers as JSON");
-    command->add_flag("--trace", arguments->details.trace, "Every test that was made");
-    command->add_flag("--all-contacts", arguments->details.all_contacts,
-                      "All intervals of contact, not only the first");
-    add_fit_options(*command, arguments->fit, Brute::allowed);
-    add_import_options(*command, arguments->import_options);
-    command->callback([arguments, &status] { run(*arguments, status); });
+    add_scene_file(command, arguments->file);
+    command.add_flag("--json", arguments->json, "Answers as JSON");
+    command.add_flag("--trace", arguments->details.trace, "Every test that was made");
+    command.add_flag("--all-contacts", arguments->details.all_contacts, "All intervals of contact, not only the first");
+    add_fit_options(command, arguments->fit, Brute::allowed);
+    add_import_options(command, arguments->import_options);
+    command.callback([arguments, &status] { run(*arguments, status); });
 }
 
 }  // namespace mobbscope::cli

@@ -1,15 +1,17 @@
 #include <app/script_line.h>
+#include <cli/command_line.h>
 #include <cli/render_batch.h>
+#include <cli/usage_error.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
 
-#include <algorithm>
 #include <iostream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -29,7 +31,7 @@ void at_line(const std::string& list, int number, const What& what) {
         what();
     } catch (const MachineError& error) {
         throw MachineError(place + error.what());
-    } catch (const CLI::ParseError& error) {
+    } catch (const UsageError& error) {
         throw InputError(place + error.what() + "; see mobbscope render --help");
     } catch (const InputError& error) {
         throw InputError(place + error.what());
@@ -60,8 +62,8 @@ std::vector<BatchLine> lines_of(std::string_view text, const std::string& name) 
 }
 
 /// What a line says takes the place of all that stands beside the list about the same thing.
-void drop_contradicted(const CLI::App& line, RenderArguments& arguments) {
-    const auto says = [&](const char* option) { return line.count(option) > 0; };
+void drop_contradicted(const Command& line, RenderArguments& arguments) {
+    const auto says = [&](const char* option) { return line.is_given(option); };
     const auto drop = [&](const char* option, auto& value) {
         if (!says(option)) value = {};
     };
@@ -90,11 +92,9 @@ void drop_contradicted(const CLI::App& line, RenderArguments& arguments) {
 }
 
 RenderArguments parsed(std::vector<std::string> words, RenderArguments arguments) {
-    CLI::App command;
-    command.set_help_flag();
+    Command command;
     add_render_options(command, arguments);
-    std::reverse(words.begin(), words.end());  // as CLI11 takes them
-    command.parse(words);
+    command.parse(std::move(words));
     drop_contradicted(command, arguments);
     if (arguments.backend) throw InputError("--backend: one context draws the whole list; give it beside --batch");
     return arguments;

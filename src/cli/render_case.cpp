@@ -1,4 +1,6 @@
+#include <cli/command_line.h>
 #include <cli/render_case.h>
+#include <cli/usage_error.h>
 #include <guard/case_file.h>
 #include <guard/picture_maker.h>
 #include <import/error.h>
@@ -12,11 +14,10 @@ namespace mobbscope::cli {
 
 namespace {
 
-void refuse_other_options(const CLI::App& command) {
-    for (const CLI::Option* option : command.get_options()) {
-        const std::string name = option->get_name();
-        if (option->count() == 0 || name == "FILE" || name == "--output" || name == "--backend") continue;
-        throw InputError(name + ": a case says by itself how it is drawn; leave it out");
+void refuse_other_options(const Command& command) {
+    for (const GivenOption& given : command.given()) {
+        if (given.name == "FILE" || given.name == "--output" || given.name == "--backend") continue;
+        throw InputError(given.name + ": a case says by itself how it is drawn; leave it out");
     }
 }
 
@@ -24,10 +25,10 @@ void refuse_other_options(const CLI::App& command) {
 
 bool is_case(const std::filesystem::path& file) { return file.filename().string().ends_with(".case.json"); }
 
-void render_case(const CLI::App& command, const RenderArguments& arguments) {
+void render_case(const Command& command, const RenderArguments& arguments) {
     check_names(arguments.outputs);
     refuse_other_options(command);
-    if (arguments.outputs.image.empty()) throw CLI::RequiredError("--output");
+    if (arguments.outputs.image.empty()) throw UsageError("--output is required");
     const guard::Case drawn = guard::read_case(arguments.file);
     if (drawn.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.skip);
     OutputCheck outputs;

@@ -3,8 +3,6 @@
 
 #include <cli/render_options.h>
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 
 namespace mobbscope::cli {
@@ -13,6 +11,6 @@ namespace mobbscope::cli {
 bool is_case(const std::filesystem::path& file);
 
 /// Draws it as `mobbscope test` does. Throws InputError if `command` was given options that the case decides on.
-void render_case(const CLI::App& command, const RenderArguments& arguments);
+void render_case(const Command& command, const RenderArguments& arguments);
 
 }  // namespace mobbscope::cli

@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/list_backends.h>
 #include <cli/render_batch.h>
@@ -28,7 +29,7 @@ void render_one(const RenderArguments& arguments) {
     plan.draw(arguments.backend.value_or(Backend::automatic));
 }
 
-void run(const CLI::App& command, const Arguments& arguments) {
+void run(const Command& command, const Arguments& arguments) {
     if (arguments.json && !arguments.list_backends) throw InputError("--json: it is of --list-backends");
     if (arguments.list_backends) {
         list_backends(arguments.json);
@@ -43,21 +44,20 @@ void run(const CLI::App& command, const Arguments& arguments) {
 
 }  // namespace
 
-void add_render_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("render", "Draw a scene into pictures, without a display");
+void add_render_command(Command& program) {
+    Command& command = program.add_subcommand("render", "Draw a scene into pictures, without a display");
     const auto arguments = std::make_shared<Arguments>();
-    add_render_options(*command, arguments->render);
+    add_render_options(command, arguments->render);
     constexpr const char* kGroup = "Many pictures in one process";
     command
-        ->add_option(
-            "--batch", arguments->batch,
-            "A text file with the arguments of one picture a line; - is standard input. Options beside it hold "
-            "for every line")
-        ->type_name("LIST")
-        ->group(kGroup);
-    command->add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
-    command->add_flag("--json", arguments->json, "With --list-backends: as JSON");
-    command->callback([command, arguments] { run(*command, *arguments); });
+        .add_option("--batch", arguments->batch,
+                    "A text file with the arguments of one picture a line; - is standard input. Options beside it hold "
+                    "for every line",
+                    "LIST")
+        .group(kGroup);
+    command.add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
+    command.add_flag("--json", arguments->json, "With --list-backends: as JSON");
+    command.callback([&command, arguments] { run(command, *arguments); });
 }
 
 }  // namespace mobbscope::cli

@@ -1,5 +1,7 @@
 #include <app/shell.h>
+#include <cli/command_line.h>
 #include <cli/render_options.h>
+#include <cli/usage_error.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
@@ -80,10 +82,10 @@ int parse_turntable(const std::string& text) {
     return *count;
 }
 
-void add_camera_options(CLI::App& command, ViewArguments& view) {
+void add_camera_options(Command& command, ViewArguments& view) {
     constexpr const char* kGroup = "Camera (over the scene's)";
     const auto add = [&](const char* name, auto& target, auto parse, const char* help, const char* placeholder) {
-        add_parsed(command, name, target, parse, help, placeholder)->group(kGroup);
+        add_parsed(command, name, target, parse, help, placeholder).group(kGroup);
     };
     add("--view", view.preset, one_of(camera_preset, "iso, top, front, side, free"),
         "iso, top, front, side, or free (--yaw, --pitch); frames the scene", "NAME");
@@ -91,10 +93,9 @@ void add_camera_options(CLI::App& command, ViewArguments& view) {
     add("--pitch", view.pitch, number_within(-90, 90), "Free: degrees above the floor", "DEG");
     add("--fov", view.fov, number_within(kLeastFov, kMostFov), "Vertical field of view in degrees", "DEG");
     command
-        .add_flag_function(
-            "--perspective,!--ortho", [&view](std::int64_t given) { view.perspective = given > 0; },
-            "With perspective, or without")
-        ->group(kGroup);
+        .add_flag(
+            "--perspective,!--ortho", [&view](bool with) { view.perspective = with; }, "With perspective, or without")
+        .group(kGroup);
     add("--target", view.target, parse_target, "What is looked at: metres, time as the height that it is drawn at",
         "X,Y,HEIGHT");
     add("--distance", view.distance, number_within(kLeastDistance, mobb::kMaxLength),
@@ -103,10 +104,10 @@ void add_camera_options(CLI::App& command, ViewArguments& view) {
         "Where the target is seen: widths and heights of the picture from its middle", "RIGHT,UP");
 }
 
-void add_shown_options(CLI::App& command, ViewArguments& view) {
+void add_shown_options(Command& command, ViewArguments& view) {
     constexpr const char* kGroup = "What is shown (over the scene's)";
     const auto add = [&](const char* name, auto& target, auto parse, const char* help, const char* placeholder) {
-        add_parsed(command, name, target, parse, help, placeholder)->group(kGroup);
+        add_parsed(command, name, target, parse, help, placeholder).group(kGroup);
     };
     add("--view-state", view.state, parse_file_name,
         "A view of its own: keys of a scene's view, or a scene's whole view", "FILE.json");
@@ -119,11 +120,10 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
     add("--time-window", view.time_window, number_within(kLeastTimeWindow, kMostTimeWindow),
         "Of a crowd's run: seconds before and after the time (2)", "S");
     command
-        .add_option_function<std::string>(
+        .add_option(
             "--follow", [&view](const std::string& agent) { view.follow = agent == "none" ? "" : agent; },
-            "The agent that the camera goes along with; of a run with its last choice; or none")
-        ->type_name("AGENT")
-        ->group(kGroup);
+            "The agent that the camera goes along with; of a run with its last choice; or none", "AGENT")
+        .group(kGroup);
     add("--time-height", view.time_height, parse_time_height, "Metres drawn per second; default: auto, as tall as wide",
         "M");
     add("--color-by", view.color_by, one_of(color_by_from_name, "agent, level"),
@@ -131,9 +131,9 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
     add("--theme", view.theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
     const auto toggle = [&](const char* names, bool ViewState::*value, const char* help) {
         command
-            .add_flag_function(
-                names, [&view, value](std::int64_t given) { view.toggles.emplace_back(value, given > 0); }, help)
-            ->group(kGroup);
+            .add_flag(
+                names, [&view, value](bool shown) { view.toggles.emplace_back(value, shown); }, help)
+            .group(kGroup);
     };
     toggle("--labels,!--no-labels", &ViewState::labels, "All text");
     toggle("--caption,!--no-caption", &ViewState::caption, "The sentences at the top");
@@ -148,18 +148,18 @@ void add_shown_options(CLI::App& command, ViewArguments& view) {
            "With a query: the pairs before the step's, or it alone");
 }
 
-void add_sequence_options(CLI::App& command, SequenceArguments& sequence) {
+void add_sequence_options(Command& command, SequenceArguments& sequence) {
     constexpr const char* kGroup = "Numbered pictures (OUT_0000.png, ...)";
     add_parsed(command, "--frames", sequence.frames, parse_frames,
                "Pictures A to B of the motion, or with a query its steps A to B", "A:B")
-        ->group(kGroup);
+        .group(kGroup);
     command.add_flag("--play", sequence.play, "All pictures of the motion, or with a query all its steps")
-        ->group(kGroup);
+        .group(kGroup);
     add_parsed(command, "--rate", sequence.rate, number_within(1 / kMostRate, kMostRate),
                "Pictures per second of the motion (30)", "FPS")
-        ->group(kGroup);
+        .group(kGroup);
     add_parsed(command, "--turntable", sequence.turntable, parse_turntable, "N pictures once around the scene", "N")
-        ->group(kGroup);
+        .group(kGroup);
 }
 
 [[noreturn]] void contradict(const std::string& a, const std::string& b, const std::string& why) {
@@ -264,7 +264,7 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 
 }  // namespace
 
-void add_render_options(CLI::App& command, RenderArguments& arguments) {
+void add_render_options(Command& command, RenderArguments& arguments) {
     command.add_option("FILE", arguments.file,
                        "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)");
     add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name, "The picture, a PNG file", "OUT.png");
@@ -291,9 +291,9 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
 }
 
 void check_together(const RenderArguments& arguments) {
-    if (arguments.file.empty()) throw CLI::RequiredError("FILE");
-    if (arguments.ui && arguments.outputs.image.empty()) throw CLI::RequiredError("--output");
-    if (!arguments.outputs.any()) throw CLI::RequiredError("--output, --ids or --draw-list");
+    if (arguments.file.empty()) throw UsageError("FILE is required");
+    if (arguments.ui && arguments.outputs.image.empty()) throw UsageError("--output is required");
+    if (!arguments.outputs.any()) throw UsageError("--output, --ids or --draw-list is required");
     const ViewArguments& view = arguments.view;
     if (view.query && view.levels) {
         contradict("--query", "--level", "a picture shows a query or levels; leave one out");

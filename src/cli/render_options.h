@@ -7,7 +7,6 @@
 #include <render/picture_options.h>
 #include <scene/view_state.h>
 
-#include <CLI/CLI.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -64,9 +63,9 @@ struct RenderArguments {
 };
 
 /// Adds them all, none of them required. `arguments` must live until the command has run; what it holds is the default.
-void add_render_options(CLI::App& command, RenderArguments& arguments);
+void add_render_options(Command& command, RenderArguments& arguments);
 
-/// Throws CLI::RequiredError if there is no scene or nothing to write, InputError if the options given cannot all be
+/// Throws UsageError if there is no scene or nothing to write, InputError if the options given cannot all be
 /// had, whatever the scene.
 void check_together(const RenderArguments& arguments);
 

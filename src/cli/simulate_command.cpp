@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
@@ -56,14 +57,6 @@ glm::dvec2 parse_area(const std::string& text) {
                                     brief(kMinArea) + " to " + brief(kMaxArea));
     }
     return {width, depth};
-}
-
-std::uint64_t parse_seed(const std::string& text) {
-    const std::optional<double> value = parse_double(text);
-    if (!value || *value < 0 || *value > static_cast<double>(kMaxSeed) || *value != std::floor(*value)) {
-        throw std::invalid_argument(in_quotes(text) + " is no whole number from 0 to " + std::to_string(kMaxSeed));
-    }
-    return static_cast<std::uint64_t>(*value);
 }
 
 /// The scene whose graph is played, and nothing else of it.
@@ -207,44 +200,44 @@ void run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& program) {
-    CLI::App* command =
+void add_simulate_command(Command& program) {
+    Command& command =
         program.add_subcommand("simulate", "Let a crowd play the moves of a motion graph, and nobody collide");
     const auto arguments = std::make_shared<Arguments>();
     SimulateOptions& options = arguments->options;
-    add_parsed(*command, "GRAPH", arguments->graph, parse_file_name,
+    add_parsed(command, "GRAPH", arguments->graph, parse_file_name,
                "A scene with a motion graph; with --whole clips, or a folder of them", "")
-        ->required();
-    add_parsed(*command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json")->required();
-    add_parsed(*command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
-    add_parsed(*command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
-    add_parsed(*command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated), "Simulated (120)",
+        .required();
+    add_parsed(command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json").required();
+    add_parsed(command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
+    add_parsed(command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
+    add_parsed(command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated), "Simulated (120)",
                "S");
-    add_parsed(*command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
-    add_parsed(*command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
+    add_parsed(command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
+    add_parsed(command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
                "Seconds before its begin at which a move is chosen (0)", "S");
-    add_parsed(*command, "--grace", options.grace, number_within(0, kMaxSimulated),
+    add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
                "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
-    add_parsed(*command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
-    CLI::Option* record = add_parsed(*command, "--record", arguments->record, parse_file_name,
+    add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
+    const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
                                      "Queries that the trees were asked, as a scene", "FILE.json");
-    add_parsed(*command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
+    add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
                "How many, drawn at random; 0 is all (20000)", "N")
-        ->needs(record);
-    CLI::Option* all = command
-                           ->add_flag("--record-all-pairs", arguments->record_all_pairs,
-                                      "Draw from every candidate against everybody, as without a broad phase")
-                           ->needs(record);
-    add_parsed(*command, "--record-within", arguments->record_within, number_within(0, kMaxArea),
+        .needs(record);
+    const Option all = command
+                           .add_flag("--record-all-pairs", arguments->record_all_pairs,
+                                     "Draw from every candidate against everybody, as without a broad phase")
+                           .needs(record);
+    add_parsed(command, "--record-within", arguments->record_within, number_within(0, kMaxArea),
                "Draw from every candidate against all that lies within M metres, at any time", "M")
-        ->needs(record)
-        ->excludes(all);
-    command->add_flag("--whole", arguments->whole, "Instead of a graph: every clip whole, and each may follow each");
-    command->add_flag("--inline", arguments->inline_samples,
-                      "Samples stand in what is written, which then needs no other file");
-    command->add_flag("--json", arguments->json, "The summary as JSON");
-    add_fit_options(*command, arguments->fit);
-    command->callback([arguments] { run(*arguments); });
+        .needs(record)
+        .excludes(all);
+    command.add_flag("--whole", arguments->whole, "Instead of a graph: every clip whole, and each may follow each");
+    command.add_flag("--inline", arguments->inline_samples,
+                     "Samples stand in what is written, which then needs no other file");
+    command.add_flag("--json", arguments->json, "The summary as JSON");
+    add_fit_options(command, arguments->fit);
+    command.callback([arguments] { run(*arguments); });
 }
 
 }  // namespace mobbscope::cli

@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/commands.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
@@ -253,36 +254,36 @@ void read_update(Arguments& arguments) {
 
 }  // namespace
 
-void add_test_command(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand("test", "Draw picture tests and hold them against their goldens");
+void add_test_command(Command& program, int& status) {
+    Command& command = program.add_subcommand("test", "Draw picture tests and hold them against their goldens");
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json")->required();
-    command->add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
-    command->add_flag("--list", arguments->list, "Only print the names of the cases");
-    add_parsed(*command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
+    command.add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json").required();
+    command.add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
+    command.add_flag("--list", arguments->list, "Only print the names of the cases");
+    add_parsed(command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
                "OpenGL without a display: auto, osmesa or egl", "NAME");
-    CLI::Option* update = command->add_option(
-        "--update", arguments->update_names,
-        "Take the present pictures as goldens: of these cases, or all; without names, ask for each");
-    update->expected(0, -1)->type_name("NAME");
-    add_parsed(*command, "--output", arguments->output, parse_file_name,
+    command
+        .add_option("--update", arguments->update_names,
+                    "Take the present pictures as goldens: of these cases, or all; without names, ask for each", "NAME")
+        .any_number();
+    add_parsed(command, "--output", arguments->output, parse_file_name,
                "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
-    command->add_flag("--json", arguments->json, "The report as JSON on standard output");
-    add_parsed(*command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
-    add_parsed(*command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
+    command.add_flag("--json", arguments->json, "The report as JSON on standard output");
+    add_parsed(command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
+    add_parsed(command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
                "OUT.html");
-    add_parsed(*command, "--contact-sheet", arguments->contact_sheet, parse_file_name, "All pictures of the run in one",
+    add_parsed(command, "--contact-sheet", arguments->contact_sheet, parse_file_name, "All pictures of the run in one",
                "OUT.png");
     add_parsed(
-        *command, "--columns", arguments->columns,
+        command, "--columns", arguments->columns,
         [](const std::string& text) {
             const std::optional<int> columns = parse_int(text);
             if (!columns || *columns < 1) throw std::invalid_argument(in_quotes(text) + " is no number of columns");
             return *columns;
         },
         "Of the contact sheet", "N");
-    command->callback([arguments, update, &status] {
-        if (update->count() > 0) read_update(*arguments);
+    command.callback([&command, arguments, &status] {
+        if (command.is_given("--update")) read_update(*arguments);
         status = run(*arguments);
     });
 }

@@ -1,3 +1,4 @@
+#include <cli/command_line.h>
 #include <cli/exit_status.h>
 #include <cli/messages.h>
 #include <cli/options.h>
@@ -19,16 +20,17 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace mobbscope::cli {
 
 namespace {
 
 /// All files as one scene; without any, the demo.
-Scene load_all(const CLI::App& program, const std::vector<std::filesystem::path>& files) {
+Scene load_all(const Command& program, const std::vector<std::filesystem::path>& files) {
     if (files.empty()) return demo_scene();
     std::vector<std::string> commands;
-    for (const CLI::App* command : program.get_subcommands({})) commands.push_back(command->get_name());
+    for (const Command& command : program.subcommands()) commands.push_back(command.name());
     for (const std::filesystem::path& file : files) {
         std::error_code ignored;
         if (!file.empty() && !std::filesystem::exists(file, ignored)) {
@@ -80,30 +82,25 @@ void show_window(const Scene& scene, const WindowArguments& arguments) {
 
 }  // namespace
 
-void add_window_options(CLI::App& program, WindowArguments& arguments) {
+void add_window_options(Command& program, WindowArguments& arguments) {
     program.add_option("FILE", arguments.files, "Scenes, captures or clips to open in the window, as one scene");
     add_parsed(program, "--size", arguments.size, parse_size, "The window's size in pixels", "WxH");
     add_parsed(program, "--ui-scale", arguments.ui_scale, number_within(app::kLeastScale, app::kMostScale),
                "Size of text and panels, 0.5 to 4; default: the monitor's", "X");
-    program.add_option("--script", arguments.script, "Run commands and input from this file, then end")
-        ->type_name("SCRIPT");
+    program.add_option("--script", arguments.script, "Run commands and input from this file, then end", "SCRIPT");
     program.add_flag("--headless", arguments.headless, "With --script: without a display");
 }
 
-void check_not_before_command(const CLI::App& program) {
-    const std::vector<const CLI::App*> chosen =
-        program.get_subcommands([](const CLI::App* command) { return command->parsed(); });
-    if (chosen.empty()) return;
-    for (const CLI::Option* option : program.get_options()) {
-        if (option->count() == 0) continue;
-        const bool named = !option->get_lnames().empty();
-        throw InputError((named ? option->get_name() : in_quotes(option->results().front())) +
-                         " stands before the command " + chosen.front()->get_name() +
-                         "; a command's files and options come after its name");
-    }
+void check_not_before_command(const Command& program) {
+    const std::vector<GivenOption> given = program.given();
+    if (program.chosen().empty() || given.empty()) return;
+    const GivenOption& first = given.front();
+    throw InputError((first.name.starts_with('-') ? first.name : in_quotes(first.value)) +
+                     " stands before the command " + program.chosen() +
+                     "; a command's files and options come after its name");
 }
 
-int open_window(const CLI::App& program, const WindowArguments& arguments) {
+int open_window(const Command& program, const WindowArguments& arguments) {
     if (arguments.headless && arguments.script.empty()) {
         throw InputError("--headless: give a --script to run; pictures without a display come from mobbscope render");
     }

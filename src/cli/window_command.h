@@ -3,13 +3,13 @@
 
 #include <render/image.h>
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <optional>
 #include <vector>
 
 namespace mobbscope::cli {
+
+class Command;
 
 struct WindowArguments {
     std::vector<std::filesystem::path> files;
@@ -20,13 +20,13 @@ struct WindowArguments {
 };
 
 /// Adds FILE... and the window's options. `arguments` must live until the program has run.
-void add_window_options(CLI::App& program, WindowArguments& arguments);
+void add_window_options(Command& program, WindowArguments& arguments);
 
 /// Throws InputError if an argument of the window stands before a command.
-void check_not_before_command(const CLI::App& program);
+void check_not_before_command(const Command& program);
 
 /// Returns the exit status when the window is closed or the script has ended. Throws InputError if a file cannot be
 /// used, MachineError where there is no display for a window.
-int open_window(const CLI::App& program, const WindowArguments& arguments);
+int open_window(const Command& program, const WindowArguments& arguments);
 
 }  // namespace mobbscope::cli

@@ -44,6 +44,14 @@ TEST(Bench, CountsDependOnTheSeedAlone) {
     EXPECT_NE(counts("4"), counts("5"));
 }
 
+TEST(Bench, TakesEverySeedThatStaysTheSameInJson) {
+    const auto run = [](const std::string& seed) {
+        return run_program({"bench", "table2", "--queries", "50", "--rounds", "1", "--seed", seed, "--json"});
+    };
+    EXPECT_EQ(nlohmann::json::parse(run("9007199254740992").out)["seed"], 9007199254740992);
+    EXPECT_EQ(run("9007199254740993").status, 2);
+}
+
 TEST(Bench, Table2OnAFolder) {
     const std::string folder = MOBBSCOPE_SHARED_DATA "/bvh/long";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "needs " << folder;

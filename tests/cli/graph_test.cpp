@@ -138,6 +138,7 @@ TEST_F(GraphTest, WhatCannotBeDoneIsSaidInOneLine) {
     expect_refused({"graph", "build", kClips, "-o", none, "--seconds", "4:1"}, "--seconds");
     expect_refused({"graph", "build", kClips, "-o", none, "--seconds", "0:1"}, "--seconds");
     expect_refused({"graph", "build", kClips, "-o", none, "--seed", "-1"}, "--seed");
+    expect_refused({"graph", "build", kClips, "-o", none, "--seed", "9007199254740993"}, "from 0 to 9007199254740992");
     expect_refused({"graph", "build", kClips, "-o", none, "--hubs", "0"}, "--hubs");
     expect_refused({"graph", "build", kClips, "-o", none, "--root-speed", "x"}, "--root-speed");
     expect_refused({"graph", "build", kClips}, "output");

@@ -1,0 +1,148 @@
+#include <cli/command_line.h>
+#include <cli/usage_error.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope::cli {
+
+Option& Option::required() {
+    option_->required();
+    return *this;
+}
+
+Option& Option::group(const std::string& headline) {
+    option_->group(headline);
+    return *this;
+}
+
+Option& Option::needs(const Option& other) {
+    option_->needs(other.option_);
+    return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Option& Option::among(const std::vector<std::string>& allowed) {
+    option_->check(CLI::IsMember(allowed));
+    return *this;
+}
+
+Option& Option::any_number() {
+    option_->expected(0, -1);
+    return *this;
+}
+
+Command::Command() : app_(std::make_shared<CLI::App>()) { app_->set_help_flag(); }
+
+Command::Command(const std::string& name, const std::string& description)
+    : app_(std::make_shared<CLI::App>(description, name)) {
+    app_->require_subcommand(0, 1);
+}
+
+Command::Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+
+Command& Command::add_subcommand(const std::string& name, const std::string& description) {
+    CLI::App* const added = app_->add_subcommand(name, description);
+    return subcommands_.emplace_back(app_->get_subcommand_ptr(added));
+}
+
+void Command::require_subcommand() { app_->require_subcommand(1); }
+
+void Command::add_version(const std::string& text) { app_->set_version_flag("--version", text); }
+
+Option Command::add_flag(const std::string& name, bool& target, const std::string& help) {
+    return Option(*app_->add_flag(name, target, help));
+}
+
+Option Command::add_flag(const std::string& name, std::function<void(bool)> set, const std::string& help) {
+    const auto set_sign = [set = std::move(set)](std::int64_t given) { set(given > 0); };
+    return Option(*app_->add_flag_function(name, set_sign, help));
+}
+
+Option Command::add_option(const std::string& name, std::function<void(const std::string&)> set,
+                           const std::string& help, const std::string& placeholder) {
+    const auto set_or_refuse = [name, set = std::move(set)](const std::string& text) {
+        try {
+            set(text);
+        } catch (const std::invalid_argument& error) {
+            throw UsageError(name + ": " + error.what());
+        }
+    };
+    return Option(*app_->add_option_function<std::string>(name, set_or_refuse, help)->type_name(placeholder));
+}
+
+template <class T>
+Option Command::add(const std::string& name, T& target, const std::string& help, const std::string& placeholder) {
+    return Option(*app_->add_option(name, target, help)->type_name(placeholder));
+}
+
+Option Command::add_option(const std::string& name, std::string& target, const std::string& help,
+                           const std::string& placeholder) {
+    return add(name, target, help, placeholder);
+}
+
+Option Command::add_option(const std::string& name, std::filesystem::path& target, const std::string& help,
+                           const std::string& placeholder) {
+    return add(name, target, help, placeholder);
+}
+
+Option Command::add_option(const std::string& name, std::optional<std::filesystem::path>& target,
+                           const std::string& help, const std::string& placeholder) {
+    return add(name, target, help, placeholder);
+}
+
+Option Command::add_option(const std::string& name, std::vector<std::filesystem::path>& target, const std::string& help,
+                           const std::string& placeholder) {
+    return add(name, target, help, placeholder);
+}
+
+Option Command::add_option(const std::string& name, std::vector<std::string>& target, const std::string& help,
+                           const std::string& placeholder) {
+    return add(name, target, help, placeholder);
+}
+
+void Command::callback(std::function<void()> run) { app_->callback(std::move(run)); }
+
+void Command::before_subcommand(std::function<void()> check) { app_->parse_complete_callback(std::move(check)); }
+
+std::string Command::parse(std::vector<std::string> words) {
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    try {
+        app_->parse(std::move(words));
+        return {};
+    } catch (const CLI::ParseError& end) {
+        // Help and version are results; everything else is bad usage, whatever code CLI11 has for it.
+        if (end.get_exit_code() != 0) throw UsageError(end.what());
+        std::ostringstream answer;
+        app_->exit(end, answer, answer);
+        return answer.str();
+    }
+}
+
+std::string Command::name() const { return app_->get_name(); }
+
+std::string Command::chosen() const {
+    const std::vector<CLI::App*> chosen = app_->get_subcommands();
+    return chosen.empty() ? "" : chosen.front()->get_name();
+}
+
+bool Command::is_given(const std::string& name) const { return app_->count(name) > 0; }
+
+std::vector<GivenOption> Command::given() const {
+    std::vector<GivenOption> given;
+    for (const CLI::Option* option : app_->get_options()) {
+        if (option->count() > 0) given.push_back({option->get_name(), option->results().front()});
+    }
+    return given;
+}
+
+}  // namespace mobbscope::cli
