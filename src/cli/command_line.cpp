@@ -1,5 +1,6 @@
 #include <cli/command_line.h>
 #include <cli/usage_error.h>
+#include <import/text.h>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,20 @@
 #include <utility>
 
 namespace mobbscope::cli {
+
+namespace {
+
+/// What is wrong with the value of a flag; CLI11 does not check it where a function takes the flag.
+std::string complaint_about_flag(const std::string& text) {
+    try {
+        CLI::detail::to_flag_value(text);
+        return {};
+    } catch (const std::logic_error&) {
+        return in_quotes(text) + " is neither true nor false";
+    }
+}
+
+}  // namespace
 
 Option& Option::required() {
     option_->required();
@@ -65,7 +80,7 @@ Option Command::add_flag(const std::string& name, bool& target, const std::strin
 
 Option Command::add_flag(const std::string& name, std::function<void(bool)> set, const std::string& help) {
     const auto set_sign = [set = std::move(set)](std::int64_t given) { set(given > 0); };
-    return Option(*app_->add_flag_function(name, set_sign, help));
+    return Option(*app_->add_flag_function(name, set_sign, help)->check(complaint_about_flag));
 }
 
 Option Command::add_option(const std::string& name, std::function<void(const std::string&)> set,

@@ -95,6 +95,8 @@ TEST(RenderView, CamerasThatAreNoneAreRefused) {
         {{"--ui", "--play"}, "--ui and --play"},
         {{"--ids", "i.jpg"}, ".png"},
         {{"--draw-list", "i.png"}, ".json"},
+        {{"--perspective=banana"}, "--perspective: 'banana' is neither true nor false"},
+        {{"--no-floor=maybe"}, "'maybe' is neither true nor false"},
         {{"--json"}, "--list-backends"},
         {{"--view-state", ""}, "the name is empty"},
         {{"--ids", ""}, "the name is empty"},
