@@ -9,6 +9,7 @@ layout(location = 5) in uvec2 id;
 
 uniform mat4 clip_from_world;
 uniform vec3 back;  // towards the eye
+uniform vec2 across;  // where x goes on the floor: cylinders are turned about their axes
 uniform bool runs;
 uniform float scale;  // pixels of a metre at distance 1, or anywhere without perspective
 
@@ -21,8 +22,9 @@ flat out uvec2 object_id;
 
 void main() {
     vec4 end = corner.z > 0.5 ? top_and_radius : base_and_radius;
-    gl_Position = clip_from_world * vec4(end.xyz + vec3(corner.xy * end.w, 0.0), 1.0);
-    surface_normal = normal;
+    mat2 turn = mat2(across, vec2(-across.y, across.x));
+    gl_Position = clip_from_world * vec4(end.xyz + vec3(turn * corner.xy * end.w, 0.0), 1.0);
+    surface_normal = vec3(turn * normal.xy, normal.z);
     upper = abs(normal.z);
     face_shade = 1.0;
     surface_color = color;
@@ -30,8 +32,8 @@ void main() {
     if (runs) {
         // Of each disk as much of the face is seen as its successor leaves free, beside its side.
         vec4 step = top_and_radius - base_and_radius;
-        float face = max(0.0, -(dot(step.xy, normal.xy) + step.w) * back.z);
-        float side = max(0.0, step.z * dot(normal.xy, back.xy));
+        float face = max(0.0, -(dot(step.xy, surface_normal.xy) + step.w) * back.z);
+        float side = max(0.0, step.z * dot(surface_normal.xy, back.xy));
         upper = face / max(face + side, 1e-6);
         local.y += 10.0;  // far from an edge
         // What is left free is narrow: all of it lies in the line along the rim (see disk.frag).

@@ -175,6 +175,9 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
         aim(list, corners, last, view, metrics, top, glm::vec2(0), [&] { return above_floor(list.lens, corners); });
 
     if (view.disks) {
+        std::size_t samples = 0;
+        for (const Subject& subject : paths) samples += static_cast<std::size_t>(subject.samples().count);
+        list.disks.reserve(samples);
         for (const Subject& subject : paths) {
             if (may_be_seen(list, subject)) add_disks(list, subject, {}, samples_together(list, subject));
         }
@@ -195,9 +198,11 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
             const auto sample = sample_at(subject, time);
             if (!sample) continue;
             const mobb::Disk disk = subject.clip().disk(*sample);
-            const float radius =
-                static_cast<float>(disk.r) * list.lens.pixels_per_metre(list.space.point(disk.x, disk.y, time));
-            if (radius < kLeastRing) continue;
+            const glm::vec3 middle = list.space.point(disk.x, disk.y, time);
+            const float radius = static_cast<float>(disk.r) * list.lens.pixels_per_metre(middle);
+            const auto pixel = list.lens.project(middle);
+            const Rect picture{glm::vec2(0), glm::vec2(size.width, size.height)};
+            if (radius < kLeastRing || !pixel || !picture.grown(2 * radius).contains({*pixel, *pixel})) continue;
             add_cursor_ring(list, subject, *sample, metrics.scale, std::clamp(static_cast<int>(1.5f * radius), 10, 48));
         }
     }

@@ -4,11 +4,12 @@
 #include <render/draw_list.h>
 #include <render/gl_objects.h>
 
+#include <map>
 #include <vector>
 
 namespace mobbscope {
 
-/// How true to shape. `coarse` is off by less than half a pixel, as edges without multisampling are anyway.
+/// How true to shape. `coarse` is off by less than a pixel: for what moves.
 enum class Detail { fine, coarse };
 
 class DiskPass {
@@ -20,22 +21,19 @@ class DiskPass {
 
   private:
     struct Instance;
-    /// Instances and where their numbers lie.
-    struct Batch {
+    /// What instances are made of.
+    enum class Part { side_and_upper_face, side_and_lower_face, side };
+    /// A unit cylinder, and the instances that are drawn with it.
+    struct Cylinder {
+        int sides = 0;
         VertexArray array;
-        Buffer instances;
+        Buffer vertices, indices, instances;
     };
-    void describe(const Batch& batch) const;
-    void make_cylinder(int segments);
-    enum class Face { upper, lower };
-    void draw_single(const std::vector<Instance>& disks, Face face);
+    const Cylinder& cylinder(int sides);
+    static void draw(const Cylinder& cylinder, const std::vector<Instance>& instances, Part part);
 
     ShaderProgram program_;
-    Buffer vertices_;
-    Buffer indices_;
-    Batch single_;
-    Batch runs_;
-    int segments_ = 0;
+    std::map<int, Cylinder> cylinders_;  ///< by the number of sides; made when first needed
 };
 
 }  // namespace mobbscope

@@ -14,7 +14,7 @@ namespace {
 constexpr float kHighest = 1.8f;      // pixels of a disk's side: above it the edge that the shader draws is seen
 constexpr float kWidestStep = 0.5f;   // pixels of a disk's face that its successor leaves free
 constexpr float kColorStep = 0.04f;   // between neighbours; more is a hit, or an end of what is in focus
-constexpr std::size_t kLongest = 16;  // disks, so that the colour follows
+constexpr std::size_t kLongest = 32;  // disks, so that the colour follows
 
 glm::vec2 ground(glm::vec3 p) { return {p.x, p.y}; }
 
