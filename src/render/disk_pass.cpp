@@ -54,6 +54,12 @@ int coarse_sides(float radius) {
     return *enough;
 }
 
+/// What is hidden by what was drawn before need not be shaded.
+void nearest_first(DiskGroups& groups, const Lens& lens) {
+    std::ranges::sort(groups.single, {}, [&lens](const DiskInstance* disk) { return lens.depth(disk->base); });
+    std::ranges::sort(groups.runs, {}, [&lens](const DiskRun& run) { return lens.depth(run.base); });
+}
+
 }  // namespace
 
 DiskPass::DiskPass(GlContext& context) : program_(context, "disk") {}
@@ -140,6 +146,7 @@ void DiskPass::draw(const DrawList& list, Detail detail) {
     const auto shape_of = [&](float radius, glm::vec3 at) -> OneShape& {
         return shapes[detail == Detail::fine ? sides : coarse_sides(radius * scale.at(at))];
     };
+    if (detail == Detail::coarse) nearest_first(groups, list.lens);
     for (const DiskInstance* disk : groups.single) {
         const glm::vec3 top = disk->base + glm::vec3(0, 0, disk->height);
         OneShape& shape = shape_of(disk->radius, disk->base);
