@@ -64,6 +64,12 @@ std::optional<double> common_radius(const Scene& scene) {
     return radius;
 }
 
+/// Whether two agents are one person, whose paths join: a hair of overlap in time is no meeting.
+bool same_person(const Scene& scene, const Conflict& conflict) {
+    const auto person = [&scene](int agent) { return scene.agents[static_cast<std::size_t>(agent)].person; };
+    return person(conflict.a) >= 0 && person(conflict.a) == person(conflict.b);
+}
+
 /// What is said of a crowd's conflicts.
 struct Findings {
     const FittedScene& fitted;
@@ -71,8 +77,13 @@ struct Findings {
     const Conflicts& conflicts;
 
     const std::string& name(int agent) const { return fitted.scene().agents[static_cast<std::size_t>(agent)].name; }
-    std::size_t agents() const { return crowd.size(); }
     std::size_t pairs() const { return crowd.size() * (crowd.size() - 1) / 2; }
+
+    /// People: one may have several paths.
+    std::size_t agents() const {
+        const std::vector<Agent>& all = fitted.scene().agents;
+        return all.empty() || all.back().person < 0 ? all.size() : static_cast<std::size_t>(all.back().person) + 1;
+    }
 
     /// Halfway between the two where they are closest.
     glm::dvec2 position(const Conflict& conflict) const {
@@ -163,7 +174,9 @@ void run(const Arguments& arguments, int& status) {
     const FittedScene fitted(std::move(scene), options);
     std::vector<mobb::PlacedTree> crowd;
     for (const Participant& participant : fitted.participants()) crowd.push_back(fitted.placed(participant));
-    const Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
+    Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
+    std::erase_if(conflicts.found,
+                  [&fitted](const Conflict& conflict) { return same_person(fitted.scene(), conflict); });
     const Findings findings{fitted, crowd, conflicts};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();

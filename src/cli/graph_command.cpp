@@ -4,6 +4,7 @@
 #include <cli/graph_info.h>
 #include <cli/messages.h>
 #include <cli/options.h>
+#include <cli/writable.h>
 #include <crowd/build_graph.h>
 #include <crowd/graph_walk.h>
 #include <crowd/recordings.h>
@@ -108,6 +109,7 @@ void build(const BuildArguments& arguments) {
     if (lower_extension(arguments.out) != ".json") {
         throw InputError(arguments.out.string(), "", "a graph is written as .json; rename the output");
     }
+    check_writable(arguments.out);
     const auto files = clip_files(arguments.places);
     Scene recordings = load_recordings(files, arguments.out, arguments.import_options, tell("read", "files"));
     const BuiltGraph built = arguments.whole ? whole_graph(std::move(recordings))
@@ -150,6 +152,7 @@ void draw(const DrawArguments& arguments) {
     if (lower_extension(arguments.out) != ".png") {
         throw InputError(arguments.out.string(), "", "a picture is written as .png; rename the output");
     }
+    check_writable(arguments.out);
     const Scene scene = load_graph(arguments.file);
     const DrawList list = graph_picture(scene, arguments.size, arguments.theme, arguments.scale);
     Renderer renderer(arguments.backend);

@@ -1,10 +1,8 @@
 #include <cli/render_outputs.h>
+#include <cli/writable.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <import/text.h>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <system_error>
@@ -29,33 +27,6 @@ fs::path numbered(const fs::path& file, int number, int digits) {
         static_cast<std::size_t>(digits) - std::min(static_cast<std::size_t>(digits), text.size());
     return file.parent_path() /
            (file.stem().string() + '_' + std::string(zeros, '0') + text + file.extension().string());
-}
-
-/// The file that a name means, through links; the name itself where that cannot be told.
-fs::path meant(const fs::path& file) {
-    // A bare name has no folder of its own until it is made absolute.
-    const fs::path absolute = fs::absolute(file);
-    std::error_code error;
-    const fs::path target = fs::weakly_canonical(absolute, error);
-    return error ? absolute : target;
-}
-
-void check_writable(const fs::path& output) {
-    const auto refuse = [&](const std::string& why) {
-        throw MachineError(output.string() + ": cannot be written: " + why);
-    };
-    std::error_code error;
-    if (fs::is_directory(output, error)) refuse("is a folder");
-    const fs::path target = meant(output);
-    const fs::path folder = target.parent_path();
-    if (!fs::is_directory(folder, error)) refuse("there is no folder " + in_quotes(folder.string()));
-    const bool there = fs::exists(target, error);
-    if (there && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) refuse("it is write-protected");
-    // What is no regular file is written in place.
-    if (there && !fs::is_regular_file(target, error)) return;
-    if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
-        refuse("its folder " + in_quotes(folder.string()) + " is write-protected");
-    }
 }
 
 }  // namespace

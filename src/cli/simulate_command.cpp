@@ -2,6 +2,7 @@
 #include <cli/commands.h>
 #include <cli/messages.h>
 #include <cli/options.h>
+#include <cli/writable.h>
 #include <crowd/graph_walk.h>
 #include <crowd/simulate.h>
 #include <import/error.h>
@@ -91,6 +92,7 @@ void check_outputs(const Arguments& arguments) {
     }
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
         if (same(out, arguments.graph)) throw InputError(out.string(), "", "it would replace the graph; rename it");
+        if (!out.empty()) check_writable(out);
     }
 }
 

@@ -5,8 +5,12 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,18 +29,30 @@ std::vector<mobb::ChainPartPtr> parts_of(const Scene& run) {
     return parts;
 }
 
-mobb::ClipPtr whole_motion(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts, const CrowdAgent& person) {
+const mobb::ChainPartPtr& part_of(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts, const Play& play) {
+    return parts[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(play.move)].clip)];
+}
+
+/// How many of the plays, from the first, have its dt.
+std::size_t plays_of_one_dt(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts,
+                            std::span<const Play> plays) {
+    const double dt = part_of(run, parts, plays.front())->clip().dt();
+    const auto other =
+        std::ranges::find_if(plays, [&](const Play& play) { return part_of(run, parts, play)->clip().dt() != dt; });
+    return static_cast<std::size_t>(std::distance(plays.begin(), other));
+}
+
+mobb::ClipPtr whole_motion(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts, std::span<const Play> plays,
+                           const std::string& name) {
     std::vector<mobb::ChainLink> links;
-    for (const Play& play : person.plays) {
-        const int clip = run.graph->moves[static_cast<std::size_t>(play.move)].clip;
-        links.push_back({parts[static_cast<std::size_t>(clip)], play.placement.translate, play.placement.rotate_deg});
+    for (const Play& play : plays) {
+        links.push_back({part_of(run, parts, play), play.placement.translate, play.placement.rotate_deg});
     }
     try {
         return std::make_shared<const mobb::Clip>(flattened(mobb::Chain(links)));
     } catch (const std::invalid_argument& error) {
         throw InputError(run.file.string(), "",
-                         "what " + in_quotes(person.name) + " plays is no chain: " + error.what() +
-                             "; read all clips with one --fps");
+                         "what " + in_quotes(name) + " plays is no chain: " + error.what() + "; use a shorter run");
     }
 }
 
@@ -47,11 +63,20 @@ Scene scene_of_people(const Scene& run) {
     Scene out;
     out.file = run.file;
     out.fit = run.fit;
-    for (const CrowdAgent& person : run.crowd->agents) {
-        if (person.plays.empty()) continue;
-        const int clip = static_cast<int>(out.clips.size());
-        out.clips.push_back({person.name, std::nullopt, {}, whole_motion(run, parts, person)});
-        out.agents.push_back({person.name, clip, {{0, 0}, 0, person.plays.front().placement.start}, std::nullopt});
+    int person = 0;
+    for (const CrowdAgent& agent : run.crowd->agents) {
+        if (agent.plays.empty()) continue;
+        for (std::span<const Play> rest = agent.plays; !rest.empty();) {
+            const std::span<const Play> plays = rest.first(plays_of_one_dt(run, parts, rest));
+            const double begin = plays.front().placement.start;
+            std::string name = agent.name;
+            if (rest.size() < agent.plays.size()) name += " from " + brief(begin) + " s";
+            const int clip = static_cast<int>(out.clips.size());
+            out.clips.push_back({name, std::nullopt, {}, whole_motion(run, parts, plays, agent.name)});
+            out.agents.push_back({std::move(name), clip, {{0, 0}, 0, begin}, std::nullopt, person});
+            rest = rest.subspan(plays.size());
+        }
+        ++person;
     }
     return out;
 }

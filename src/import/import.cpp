@@ -102,6 +102,10 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
         if (tracks == parsed_->tracks.end()) tracks = parsed_->tracks.emplace(file, read_tracks(file)).first;
         return track_clips(tracks->second, file, options);
     }
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+        throw InputError(file.string(), "", "no such file or folder; check the path");
+    }
     throw InputError(
         file.string(), "",
         "no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, trajectories .txt, "

@@ -79,7 +79,8 @@ class MotionImport {
         }
         out.clip = std::make_shared<mobb::Clip>(grid.step, std::move(samples));
         if (!skeleton->positions.empty()) out.skeleton = std::move(skeleton);
-        add_motion_warnings(*out.clip, options_.trim ? options_.trim->first : 0, out.skeleton.get(), facts);
+        const auto cut_at = options_.trim ? std::optional(options_.trim->first) : std::nullopt;
+        add_motion_warnings(*out.clip, cut_at, out.skeleton.get(), facts);
         return out;
     }
 

@@ -169,11 +169,12 @@ bool begins_in_other_pose(const mobb::Clip& clip) {
     return first >= kPoseShare * median(std::move(radii)) && change >= kPoseChange;
 }
 
-void add_motion_warnings(const mobb::Clip& clip, double begin, const Skeleton* skeleton, SourceFacts& facts) {
-    Inspection inspection(clip, begin, facts);
+void add_motion_warnings(const mobb::Clip& clip, std::optional<double> cut_at, const Skeleton* skeleton,
+                         SourceFacts& facts) {
+    Inspection inspection(clip, cut_at.value_or(0), facts);
     inspection.first_pose();
     inspection.jumps();
-    inspection.in_place();
+    if (!cut_at) inspection.in_place();
     inspection.speed();
     inspection.size();
     if (skeleton) inspection.height(*skeleton);

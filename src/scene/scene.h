@@ -55,7 +55,7 @@ struct Agent {
     int clip = 0;  ///< index into Scene::clips
     mobb::Placement placement;
     std::optional<Color> color;  ///< default: the palette's, by index
-    /// In a scene that scene_at made of a run: who in CrowdRun::agents this is and which of the plays; else -1.
+    /// In a scene that was made of a run: who this is and, if of scene_at, which of the plays; else -1.
     int person = -1;
     int play = -1;
 };

@@ -77,12 +77,26 @@ TEST(People, CollideWhereTheirPlaysDo) {
     EXPECT_EQ(found, expected);
 }
 
-TEST(People, ClipsOfDifferentStepsAreNoChain) {
-    Scene scene = walker_scene();
+TEST(People, GoOnAsAnotherAgentWhereTheStepChanges) {
+    const Scene scene = walker_scene();
+    ASSERT_NE(scene.clips[0].clip->dt(), scene.clips[3].clip->dt());
+    Scene with_run = scene;
     CrowdRun run;
-    run.agents = {{"7", {{0, {}, 0, PlayKind::chosen}, {3, {{2, 0}, 0, 1.5}, 1.5, PlayKind::chosen}}}};
-    scene.crowd = std::make_shared<CrowdRun>(run);
-    EXPECT_THROW(scene_of_people(scene), InputError);
+    run.agents = {{"6", {}},
+                  {"7", {{0, {}, 0, PlayKind::chosen}, {3, {{2, 0}, 0, 1.5}, 1.5, PlayKind::chosen}}},
+                  {"8", {{3, {{9, 0}, 0, 0.5}, 0.5, PlayKind::chosen}}}};
+    with_run.crowd = std::make_shared<CrowdRun>(run);
+    const Scene people = scene_of_people(with_run);
+    ASSERT_EQ(people.agents.size(), 3u);
+    EXPECT_EQ(people.agents[0].name, "7");
+    EXPECT_EQ(people.agents[1].name, "7 from 1.5 s");
+    EXPECT_EQ(people.agents[2].name, "8");
+    EXPECT_EQ(people.agents[0].person, 0);
+    EXPECT_EQ(people.agents[1].person, 0);
+    EXPECT_EQ(people.agents[2].person, 1) << "6 plays nothing";
+    EXPECT_EQ(people.agents[1].placement.start, 1.5);
+    EXPECT_EQ(people.clips[1].clip->dt(), scene.clips[3].clip->dt());
+    EXPECT_EQ(people.clips[1].clip->count(), scene.clips[3].clip->count());
 }
 
 }  // namespace

@@ -252,6 +252,10 @@ TEST(MotionClips, WarningsNameTheSamples) {
     EXPECT_TRUE(warns(clip_of(walk(glitch)), "the path jumps 0.44 m from sample 29"));
 
     EXPECT_TRUE(warns(clip_of(walk(even_steps(60, 0.01))), "an animation in place"));
+    ImportOptions piece;
+    piece.trim = {0.2, 1};
+    EXPECT_FALSE(warns(clip_of(walk(even_steps(60, 0.01)), piece), "an animation in place"))
+        << "who cuts out somebody standing knows it";
     EXPECT_TRUE(warns(clip_of(walk(even_steps(60, 60))), "the usual speed is 18 m/s"));
     ImportOptions options;
     options.unit = "m";
