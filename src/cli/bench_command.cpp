@@ -68,16 +68,20 @@ void show_progress(const std::string& doing, int done, int all) {
     std::cerr << "mobbscope: " << doing << ' ' << done + 1 << " of " << all << '\n';
 }
 
-/// Queries that a file brings, or those that a crowd asks that plays the clips or the graph of the files.
+/// Queries that a file brings, its pairs of agents if it brings none, or those that a crowd asks that plays the clips
+/// or the graph of the files.
 Workload table1(const Arguments& arguments) {
     Scene scene = arguments.paths.empty() ? scene_of(short_moves(51, 2.1, arguments.seed))
                                           : load_files(arguments.paths, arguments.import_options);
     const int most = arguments.queries.value_or(100'000);
     Workload workload;
-    if (!scene.queries.empty()) {
-        if (scene.queries.size() > static_cast<std::size_t>(most)) scene.queries.resize(static_cast<std::size_t>(most));
+    const bool asks = query_count(scene) > 0 && !scene.crowd && !scene.graph;
+    if (!scene.queries.empty() || asks) {
         workload = workload_of_scene(scene);
-        workload.description = "recorded queries";
+        if (workload.queries.size() > static_cast<std::size_t>(most)) {
+            workload.queries.resize(static_cast<std::size_t>(most));
+        }
+        workload.description = scene.queries.empty() ? "all pairs of agents" : "recorded queries";
     } else {
         SimulateOptions options;
         options.seed = arguments.seed;

@@ -146,8 +146,11 @@ std::string Command::parse(std::vector<std::string> words) {
 std::string Command::name() const { return app_->get_name(); }
 
 std::string Command::chosen() const {
-    const std::vector<CLI::App*> chosen = app_->get_subcommands();
-    return chosen.empty() ? "" : chosen.front()->get_name();
+    std::string names;
+    for (std::vector<CLI::App*> at = app_->get_subcommands(); !at.empty(); at = at.front()->get_subcommands()) {
+        names += (names.empty() ? "" : " ") + at.front()->get_name();
+    }
+    return names;
 }
 
 bool Command::is_given(const std::string& name) const { return app_->count(name) > 0; }

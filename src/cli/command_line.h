@@ -95,7 +95,7 @@ class Command {
     std::string name() const;
     std::list<Command>& subcommands() { return subcommands_; }
     const std::list<Command>& subcommands() const { return subcommands_; }
-    /// The name of the subcommand that is asked for; empty if none is.
+    /// The names of the subcommands that are asked for, as in "graph build"; empty if none is.
     std::string chosen() const;
     /// Whether the option of this name stands on the command line.
     bool is_given(const std::string& name) const;

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,7 +78,15 @@ struct Findings {
     const Conflicts& conflicts;
 
     const std::string& name(int agent) const { return fitted.scene().agents[static_cast<std::size_t>(agent)].name; }
-    std::size_t pairs() const { return crowd.size() * (crowd.size() - 1) / 2; }
+    /// Of paths of different people.
+    std::size_t pairs() const {
+        std::size_t count = crowd.size() * (crowd.size() - 1) / 2;
+        std::map<int, std::size_t> paths;
+        for (const Agent& agent : fitted.scene().agents) {
+            if (agent.person >= 0) count -= paths[agent.person]++;
+        }
+        return count;
+    }
 
     /// People: one may have several paths.
     std::size_t agents() const {

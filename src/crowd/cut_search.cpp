@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace mobbscope {
@@ -52,11 +54,14 @@ void keep_most_alike(std::vector<Cut>& cuts, std::size_t first, int apart) {
         return std::pair(a.distance, a.frame) < std::pair(b.distance, b.frame);
     });
     cuts.resize(first);
+    std::set<int> taken;  // frames; only the neighbours of a frame can be near it
     for (const Cut& cut : ranked) {
-        const bool near_better =
-            std::any_of(cuts.begin() + static_cast<std::ptrdiff_t>(first), cuts.end(),
-                        [&](const Cut& other) { return std::abs(other.frame - cut.frame) < apart; });
-        if (!near_better) cuts.push_back(cut);
+        const auto after = taken.lower_bound(cut.frame);
+        const bool near_after = after != taken.end() && *after - cut.frame < apart;
+        const bool near_before = after != taken.begin() && cut.frame - *std::prev(after) < apart;
+        if (near_after || near_before) continue;
+        taken.insert(cut.frame);
+        cuts.push_back(cut);
     }
     std::sort(cuts.begin() + static_cast<std::ptrdiff_t>(first), cuts.end(),
               [](const Cut& a, const Cut& b) { return a.frame < b.frame; });

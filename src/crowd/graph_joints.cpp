@@ -55,7 +55,9 @@ struct EndVelocities {
 };
 
 EndVelocities velocities_of(const mobb::Clip& clip, const GraphMove& move) {
+    // The stances are what joins the moves, so they stand for the ends whatever the samples say.
     const auto at = [&](int i) -> glm::dvec2 {
+        if (i == 0) return move.entry.position;
         if (i == clip.count()) return move.exit.position;
         const mobb::Disk& disk = clip.samples()[static_cast<std::size_t>(i)];
         return {disk.x, disk.y};

@@ -51,8 +51,7 @@ mobb::ClipPtr whole_motion(const Scene& run, const std::vector<mobb::ChainPartPt
     try {
         return std::make_shared<const mobb::Clip>(flattened(mobb::Chain(links)));
     } catch (const std::invalid_argument& error) {
-        throw InputError(run.file.string(), "",
-                         "what " + in_quotes(name) + " plays is no chain: " + error.what() + "; use a shorter run");
+        throw InputError(run.file.string(), "", "what " + in_quotes(name) + " plays is no chain: " + error.what());
     }
 }
 

@@ -159,9 +159,21 @@ void World::all_pairs(const PlayedMove& candidate, double range, std::vector<Ask
     FloorRect reach = candidate.outline->bounds(candidate.placement);
     reach.low -= range;
     reach.high += range;
-    for (const Held& other : motions_) {
-        if (!other.motion.tree || other.motion.agent == candidate.agent || !reach.meets(other.bounds)) continue;
-        pairs.push_back({candidate, other.motion});
+    const CellRange range_of_cells = cells_of(reach);
+    std::vector<std::uint32_t> slots;
+    for (int y = range_of_cells.y0; y <= range_of_cells.y1; ++y) {
+        for (int x = range_of_cells.x0; x <= range_of_cells.x1; ++x) {
+            const std::vector<std::uint32_t>& in_cell = cells_[index(x, y)];
+            slots.insert(slots.end(), in_cell.begin(), in_cell.end());
+        }
+    }
+    std::sort(slots.begin(), slots.end());
+    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    for (const std::uint32_t slot : slots) {
+        const Held& other = motions_[slot];
+        if (other.motion.agent != candidate.agent && reach.meets(other.bounds)) {
+            pairs.push_back({candidate, other.motion});
+        }
     }
 }
 

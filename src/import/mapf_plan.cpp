@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 
@@ -35,16 +36,14 @@ TrackPoint read_point(const std::string& file, const YAML::Node& step) {
     bool has_t = false, has_x = false, has_y = false;
     for (const auto& entry : step) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-        if (key == "t") {
-            point.frame = number(file, entry.second, key, kMaxFrame);
-            has_t = true;
-        } else if (key == "x") {
-            point.x = number(file, entry.second, key, mobb::kMaxLength);
-            has_x = true;
-        } else if (key == "y") {
-            point.y = number(file, entry.second, key, mobb::kMaxLength);
-            has_y = true;
-        }
+        const auto read = [&](double& value, bool& has, double largest) {
+            if (has) fail(file, entry.first.Mark(), in_quotes(key) + " stands twice in a step; leave one");
+            value = number(file, entry.second, key, largest);
+            has = true;
+        };
+        if (key == "t") read(point.frame, has_t, kMaxFrame);
+        if (key == "x") read(point.x, has_x, mobb::kMaxLength);
+        if (key == "y") read(point.y, has_y, mobb::kMaxLength);
     }
     if (!has_t || !has_x || !has_y) fail(file, step.Mark(), "the step lacks one of t, x and y; add it");
     point.line = step.Mark().line + 1;
@@ -53,8 +52,15 @@ TrackPoint read_point(const std::string& file, const YAML::Node& step) {
 
 /// A plan of so many bytes has at most `most` steps, unless it repeats them by aliases.
 TrackFile read_plan(const std::string& file, const YAML::Node& plan, std::size_t most) {
-    const YAML::Node schedule = plan.IsMap() ? plan["schedule"] : YAML::Node();
-    if (!schedule || !schedule.IsMap()) {
+    YAML::Node schedule;
+    if (plan.IsMap()) {
+        for (const auto& entry : plan) {
+            if (!entry.first.IsScalar() || entry.first.Scalar() != "schedule") continue;
+            if (schedule.IsMap()) fail(file, entry.first.Mark(), "'schedule' stands twice; leave one");
+            schedule.reset(entry.second);
+        }
+    }
+    if (!schedule.IsMap()) {
         fail(file, plan.Mark(),
              "there is no schedule; a plan has 'schedule:', and below it a list of t, x, y for each "
              "agent");
@@ -88,7 +94,10 @@ TrackFile parse_mapf_plan(std::string_view text, const std::string& file) {
     if (text.find('\0') != std::string_view::npos) throw InputError(file, "", "holds a NUL byte; this is no text file");
     try {
         constexpr std::size_t kLeastStep = 6;  // bytes
-        return read_plan(file, YAML::Load(std::string(text)), text.size() / kLeastStep);
+        const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
+        if (documents.size() > 1) throw InputError(file, "", "holds several documents ('---'); leave one plan");
+        const YAML::Node plan = documents.empty() ? YAML::Node() : documents.front();
+        return read_plan(file, plan, text.size() / kLeastStep);
     } catch (const YAML::Exception& error) {
         fail(file, error.mark, "is no YAML: " + cleaned(error.msg));
     }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <span>
 
@@ -38,10 +39,17 @@ float sides_for(float radius, Detail detail) {
     return std::numbers::pi_v<float> / std::acos(1 - off);
 }
 
+/// Whether all of a disk is nearer than what is drawn, or behind the eye.
+bool behind(const DiskInstance& disk, const Lens& lens) {
+    return lens.perspective && lens.depth(disk.base) + disk.radius + disk.height < lens.near_depth;
+}
+
 /// Enough sides for the largest disk: one mesh for all, so that their edges fit.
-int fine_sides(std::span<const DiskInstance* const> disks, const PixelScale& scale) {
+int fine_sides(std::span<const DiskInstance* const> disks, const Lens& lens, const PixelScale& scale) {
     float radius = 0;
-    for (const DiskInstance* disk : disks) radius = std::max(radius, disk->radius * scale.at(disk->base));
+    for (const DiskInstance* disk : disks) {
+        if (!behind(*disk, lens)) radius = std::max(radius, disk->radius * scale.at(disk->base));
+    }
     return std::clamp(4 * static_cast<int>(std::ceil(sides_for(radius, Detail::fine) / 4)), 12, 128);
 }
 
@@ -104,7 +112,7 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
     const VertexLayout corner(sizeof(Vertex), 0);
     corner.floats(0, 3, offsetof(Vertex, corner));
     corner.floats(1, 3, offsetof(Vertex, normal));
-    glBindBuffer(GL_ARRAY_BUFFER, made.instances.name());
+    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
     const VertexLayout disk(sizeof(Instance), 1);
     disk.floats(2, 4, offsetof(Instance, base));
     disk.floats(3, 4, offsetof(Instance, top));
@@ -114,10 +122,10 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
     return made;
 }
 
-void DiskPass::draw(const Cylinder& cylinder, const std::vector<Instance>& instances, Part part) {
+void DiskPass::draw(const Cylinder& cylinder, const std::vector<Instance>& instances, Part part) const {
     if (instances.empty()) return;
     glBindVertexArray(cylinder.array.name());
-    upload(cylinder.instances, instances);
+    upload(instances_, instances);
     const GLsizei count = static_cast<GLsizei>(instances.size());
     const GLsizei of_side = 6 * cylinder.sides;
     const GLsizei of_face = 3 * cylinder.sides;
@@ -137,17 +145,19 @@ void DiskPass::draw(const DrawList& list, Detail detail) {
     if (detail == Detail::coarse) {
         groups = group_runs(groups.single, list.lens, tolerance(detail));
     } else {
-        sides = fine_sides(groups.single, scale);
+        sides = fine_sides(groups.single, list.lens, scale);
     }
     struct OneShape {
         std::vector<Instance> above, below, runs;
     };
-    std::map<int, OneShape> shapes;
+    // What has more sides is nearer: first.
+    std::map<int, OneShape, std::greater<>> shapes;
     const auto shape_of = [&](float radius, glm::vec3 at) -> OneShape& {
         return shapes[detail == Detail::fine ? sides : coarse_sides(radius * scale.at(at))];
     };
     if (detail == Detail::coarse) nearest_first(groups, list.lens);
     for (const DiskInstance* disk : groups.single) {
+        if (behind(*disk, list.lens)) continue;
         const glm::vec3 top = disk->base + glm::vec3(0, 0, disk->height);
         OneShape& shape = shape_of(disk->radius, disk->base);
         std::vector<Instance>& seen_from = list.lens.below(disk->base.z) ? shape.below : shape.above;

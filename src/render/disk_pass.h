@@ -23,16 +23,17 @@ class DiskPass {
     struct Instance;
     /// What instances are made of.
     enum class Part { side_and_upper_face, side_and_lower_face, side };
-    /// A unit cylinder, and the instances that are drawn with it.
+    /// A unit cylinder. Its array reads instances from instances_.
     struct Cylinder {
         int sides = 0;
         VertexArray array;
-        Buffer vertices, indices, instances;
+        Buffer vertices, indices;
     };
     const Cylinder& cylinder(int sides);
-    static void draw(const Cylinder& cylinder, const std::vector<Instance>& instances, Part part);
+    void draw(const Cylinder& cylinder, const std::vector<Instance>& instances, Part part) const;
 
     ShaderProgram program_;
+    Buffer instances_;
     std::map<int, Cylinder> cylinders_;  ///< by the number of sides; made when first needed
 };
 

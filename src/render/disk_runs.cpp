@@ -30,9 +30,7 @@ PixelScale::PixelScale(const Lens& lens)
       scale_(0.5f * static_cast<float>(lens.size.width) * (lens.clip_from_world * glm::vec4(lens.right, 0)).x) {}
 
 float PixelScale::at(glm::vec3 point) const {
-    if (!lens_->perspective) return scale_;
-    const float depth = lens_->depth(point);
-    return depth >= lens_->near_depth ? scale_ / depth : 0;
+    return lens_->perspective ? scale_ / std::max(lens_->depth(point), lens_->near_depth) : scale_;
 }
 
 DiskGroups group_runs(std::span<const DiskInstance* const> disks, const Lens& lens, float tolerance) {
@@ -44,8 +42,7 @@ DiskGroups group_runs(std::span<const DiskInstance* const> disks, const Lens& le
         const float pixels = scale.at(disk.base);
         const float step = glm::length(ground(next.base - disk.base)) + std::abs(next.radius - disk.radius);
         const glm::vec4 change = glm::abs(next.color - disk.color);
-        return pixels > 0 && disk.height * pixels * upwards < kHighest &&
-               step * pixels * std::abs(lens.back.z) < kWidestStep &&
+        return disk.height * pixels * upwards < kHighest && step * pixels * std::abs(lens.back.z) < kWidestStep &&
                std::max({change.r, change.g, change.b, change.a}) < kColorStep;
     };
     // Whether the disks between two lie on the tube from one to the other.

@@ -56,16 +56,18 @@ void write_rows(std::ostream& out, const TableReport& report) {
 }
 
 void write_costs(std::ostream& out, const TestCosts& costs) {
-    out << "One test costs, in ns:";
-    const auto one = [&](const char* what, const std::optional<double>& cost, const char* before) {
-        if (cost) out << before << what << ' ' << cell(*cost, 0, 2);
+    const char* before = "One test costs, in ns: ";
+    const auto one = [&](const char* what, const std::optional<double>& cost) {
+        if (!cost) return;
+        out << before << what << ' ' << cell(*cost, 0, 2);
+        before = ", ";
     };
-    one("2D boxes", costs.obb2d, " ");
-    one("3D boxes", costs.obb3d, ", ");
-    one("moving boxes", costs.moving, ", ");
-    one("aabb", costs.aabb, ", ");
-    one("a pair of samples", costs.sample_pair, ", ");
-    out << ".\n";
+    one("2D boxes", costs.obb2d);
+    one("3D boxes", costs.obb3d);
+    one("moving boxes", costs.moving);
+    one("aabb", costs.aabb);
+    one("a pair of samples", costs.sample_pair);
+    out << (before[0] == ',' ? ".\n" : "No test was made, so none has a price.\n");
     if (costs.obb2d && costs.sample_pair) {
         out << "A 2D box test is worth " << cell(*costs.obb2d / *costs.sample_pair, 0, 1)
             << " sample pairs; on the paper's machine it was worth n_min/2 = 5 steps.\n";

