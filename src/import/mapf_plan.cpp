@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 namespace mobbscope {
 
@@ -87,17 +86,28 @@ TrackFile read_plan(const std::string& file, const YAML::Node& plan, std::size_t
     return out;
 }
 
+/// The YAML reader would leave out all but the first; its LoadAll never ends on some damaged texts.
+void refuse_second_document(std::string_view text, const std::string& file) {
+    bool begun = false;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view line = text.substr(at, text.find('\n', at) - at);
+        at += line.size() + 1;
+        const bool marks = line.starts_with("---") && (line.size() == 3 || line[3] == ' ' || line[3] == '\r');
+        if (marks && begun) throw InputError(file, "", "holds several documents ('---'); leave one plan");
+        const bool says_nothing = line.find_first_not_of(" \r") == std::string_view::npos;
+        begun = begun || marks || !(says_nothing || line.front() == '#' || line.front() == '%');
+    }
+}
+
 }  // namespace
 
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file) {
     if (text.size() > kLargestPlan) throw InputError(file, "", "is larger than 64 MiB; split the plan");
     if (text.find('\0') != std::string_view::npos) throw InputError(file, "", "holds a NUL byte; this is no text file");
+    refuse_second_document(text, file);
     try {
         constexpr std::size_t kLeastStep = 6;  // bytes
-        const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
-        if (documents.size() > 1) throw InputError(file, "", "holds several documents ('---'); leave one plan");
-        const YAML::Node plan = documents.empty() ? YAML::Node() : documents.front();
-        return read_plan(file, plan, text.size() / kLeastStep);
+        return read_plan(file, YAML::Load(std::string(text)), text.size() / kLeastStep);
     } catch (const YAML::Exception& error) {
         fail(file, error.mark, "is no YAML: " + cleaned(error.msg));
     }

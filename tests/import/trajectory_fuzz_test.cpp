@@ -33,7 +33,7 @@ void fuzz(Parser parse, const std::vector<std::string>& seeds, int rounds) {
             ++refused;
         }
     }
-    EXPECT_GT(read, rounds / 30);
+    EXPECT_GT(read, rounds / 40);
     EXPECT_GT(refused, rounds / 30);
 }
 
