@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -91,6 +92,15 @@ std::string headline_of(std::size_t people, double time) {
     return text;
 }
 
+/// Before a run some are there already, after it nobody is.
+std::size_t people_at(std::span<const Subject> paths, double time) {
+    std::set<int> people;
+    for (const Subject& path : paths) {
+        if (sample_at(path, time)) people.insert(path.person);
+    }
+    return people.size();
+}
+
 std::string window_text(const Seconds& s) {
     char text[96];
     std::snprintf(text, sizeof text, "upwards from %.2f to %.2f s", s.begin, s.end);
@@ -150,7 +160,7 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     float top = metrics.pad;
     if (view.labels) {
         Caption caption;
-        caption.headlines = {headline_of(outside ? 0 : crowd.agents.size(), time)};
+        caption.headlines = {headline_of(outside ? people_at(paths, time) : crowd.agents.size(), time)};
         caption.detail = choice ? choice_sentence(fitted.scene(), *choice) : window_text(seconds);
         if (outside) mention_cursor_outside(caption, time, 0, crowd.seconds);
         if (!view.caption) caption = {};
