@@ -8,6 +8,7 @@
 #include <render/build_draw_list.h>
 #include <render/common_framing.h>
 #include <render/draw_list_json.h>
+#include <render/follow.h>
 #include <render/png.h>
 #include <render/renderer.h>
 
@@ -64,10 +65,15 @@ void draw_scene(const RenderJob& job, const RenderPicture& picture, Renderer* re
     write_file(outputs.draw_list, text.str());
 }
 
+/// Whether --follow says where the camera is: it does unless there is a target.
+bool is_near_followed(const RenderJob& job) {
+    const std::optional<std::string>& follow = job.arguments.view.follow;
+    const ViewState& view = job.pictures.front().view;
+    return follow && !follow->empty() && !view.camera.target && !view.projection;
+}
+
 /// One camera for all, so that none jumps.
-void frame_in_common(std::vector<RenderPicture>& pictures, const CommonFraming& framing, bool turns) {
-    const Camera camera =
-        turns ? framing.turning(pictures.front().view.camera) : framing.still(pictures.front().view.camera);
+void see_from(std::vector<RenderPicture>& pictures, const Camera& camera, bool turns) {
     for (RenderPicture& picture : pictures) {
         const double yaw = turns ? picture.view.camera.yaw_deg : camera.yaw_deg;
         picture.view.camera = camera;
@@ -117,17 +123,29 @@ void RenderPlan::add(RenderArguments arguments) {
 }
 
 void RenderPlan::check_and_frame(RenderJob& job) {
+    const bool turns = job.arguments.sequence.turntable.has_value();
+    const bool near = is_near_followed(job);
+    std::optional<Camera> camera;  // near whom it follows
     CommonFraming framing;
     bool legends = true;
     for (const RenderPicture& picture : job.pictures) {
         const DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
         note_glyphs(list);
+        if (near) {
+            const Camera seen = framing_followed(*job.fitted, picture.view, list);
+            if (!camera) camera = seen;
+            camera->distance = std::max(camera->distance, seen.distance);
+            continue;
+        }
         if (!job.arguments.sequence.any()) return;
         framing.add(list);
         legends = legends && !list.legend.empty();
     }
-    if (job.pictures.front().view.camera.target) return;
-    frame_in_common(job.pictures, framing, job.arguments.sequence.turntable.has_value());
+    const Camera& asked = job.pictures.front().view.camera;
+    if (camera) return see_from(job.pictures, *camera, turns);
+    if (asked.target) return;
+    see_from(job.pictures, turns ? framing.turning(asked) : framing.still(asked), turns);
+    job.arguments.picture.framed = true;
     // A legend that one picture has no room for would come and go.
     for (RenderPicture& picture : job.pictures) picture.view.legend = picture.view.legend && legends;
 }

@@ -122,7 +122,10 @@ void add_shown_options(Command& command, ViewArguments& view) {
     command
         .add_option(
             "--follow", [&view](const std::string& agent) { view.follow = agent == "none" ? "" : agent; },
-            "The agent that the camera goes along with; of a run with its last choice; or none", "AGENT")
+            "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with its last "
+            "choice; or "
+            "none",
+            "AGENT")
         .group(kGroup);
     add("--time-height", view.time_height, parse_time_height, "Metres drawn per second; default: auto, as tall as wide",
         "M");

@@ -111,7 +111,7 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const
     for (const Subject& subject : paths) list.participants.push_back(subject.name);
 
     if (view.projection) {
-        add_disk_projection(list, paths, *view.projection, view, metrics);
+        add_disk_projection(list, paths, *view.projection, view, options);
         return list;
     }
     const Bounds bounds = bounds_of(paths);
@@ -139,6 +139,7 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const
                                 : scene_caption(fitted, paths, view);
         if (view.time && !has_cursor) mention_cursor_outside(caption, *view.time, stage.t0, stage.t1);
         if (!view.caption) caption = {};
+        caption.panel = scene_may_lie_behind(view, options);
         std::vector<LegendEntry> legend;
         if (view.legend) legend = legend_entries(list, paths, view, emphasis, progress);
         Words words = words_that_fit(caption, std::move(legend),
@@ -147,8 +148,7 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const
         map = words.map;
         top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
     }
-    LabelLayout layout(size);
-    for (const TextRun& run : list.texts) layout.reserve(run.box);
+    LabelLayout layout(list);
 
     const Blocks blocks = aim(list, points_to_show(list, stage, view, has_cursor), stage, view, metrics, top, map,
                               [&] { return occupied(list, stage, view, metrics); });

@@ -253,22 +253,33 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
             rulers.insert(candidate.ruling->agent);
         }
     }
-    const std::size_t count = choice.candidates.size();
-    std::string text = agent_name(run, followed.agent) + " chose among " + std::to_string(count) +
-                       (count == 1 ? " move" : " moves") + at_time(choice.time) + ": " + std::to_string(free) + " free";
+    const std::string count = std::to_string(choice.candidates.size());
+    const bool one = choice.candidates.size() == 1;
+    std::string text = agent_name(run, followed.agent);
+    std::string between = ": ";
+    const auto add = [&](int number, const std::string& fate) {
+        text += between + std::to_string(number) + ' ' + fate;
+        between = "; ";
+    };
+    if (choice.kind == PlayKind::forced) {
+        text += " was forced" + at_time(choice.time) + ", as " +
+                (one ? "its only move was not free" : "none of its " + count + " moves was free");
+    } else {
+        text += " chose among " + count + (one ? " move" : " moves") + at_time(choice.time);
+        add(free, "free");
+    }
     if (ruled_out > 0) {
-        text += ", " + std::to_string(ruled_out) + " ruled out by ";
+        std::string names;
         std::size_t named = 0;
         for (const int ruler : rulers) {
             if (named == kMostNamed) break;
-            text += (named++ > 0 ? ", " : "") + agent_name(run, ruler);
+            names += (named++ > 0 ? ", " : "") + agent_name(run, ruler);
         }
-        if (rulers.size() > named) text += " and " + std::to_string(rulers.size() - named) + " more";
+        if (rulers.size() > named) names += " and " + std::to_string(rulers.size() - named) + " more";
+        add(ruled_out, "ruled out by " + names);
     }
-    if (in_the_way > 0) text += ", " + std::to_string(in_the_way) + " in the way of others";
-    if (off_floor > 0) {
-        text += ", " + std::to_string(off_floor) + (off_floor == 1 ? " leaves the floor" : " leave the floor");
-    }
+    if (in_the_way > 0) add(in_the_way, "in the way of others");
+    if (off_floor > 0) add(off_floor, off_floor == 1 ? "leaves the floor" : "leave the floor");
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <render/query_boxes.h>
 #include <render/query_progress.h>
 #include <render/query_sentence.h>
+#include <render/word_panel.h>
 
 #include <algorithm>
 #include <cctype>
@@ -20,11 +21,14 @@ constexpr const char* kBetween = "  \u00B7  ";
 
 struct Sizes {
     float headline, detail, indent, between;
+    float legend, padding;  ///< the panel is like the legend's
     explicit Sizes(float scale)
         : headline(std::round(16 * scale)),
           detail(std::round(12 * scale)),
           indent(std::round(1.1f * headline)),
-          between(std::round(3 * scale)) {}
+          between(std::round(3 * scale)),
+          legend(std::round(11 * scale)),
+          padding(panel_padding(legend)) {}
 };
 
 /// The rest of too many lines is cut off visibly rather than run down the picture; so are words too long for a line.
@@ -104,6 +108,10 @@ Caption query_caption(const Palette& palette, std::span<const Subject> sides, co
     return caption;
 }
 
+bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options) {
+    return view.camera.target && !options.framed;
+}
+
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
     char text[96];
     std::snprintf(text, sizeof text, "%.10g s lies outside %.4g..%.4g s", time, begin, end);
@@ -112,7 +120,7 @@ void mention_cursor_outside(Caption& caption, double time, double begin, double 
 
 CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {
     const Sizes sizes(scale);
-    room -= caption.mark.a > 0 ? sizes.indent : 0;
+    room -= (caption.mark.a > 0 ? sizes.indent : 0) + (caption.panel ? 2 * sizes.padding : 0);
     CaptionLines out;
     for (const std::string& headline : caption.headlines) {
         out.headline = wrap_text(headline, FontFace::text, sizes.headline, room);
@@ -124,8 +132,10 @@ CaptionLines caption_lines(const Caption& caption, float room, float scale, std:
     return out;
 }
 
-glm::vec2 caption_size(const CaptionLines& lines, bool marked, float scale) {
+glm::vec2 caption_size(const Caption& caption, const CaptionLines& lines, float scale) {
+    if (lines.headline.empty() && lines.detail.empty()) return glm::vec2(0);
     const Sizes sizes(scale);
+    const bool marked = caption.mark.a > 0;
     glm::vec2 size(0);
     const auto add = [&](const std::string& line, float text_size) {
         size.x = std::max(size.x, Font::of(FontFace::text).width(line, text_size) + (marked ? sizes.indent : 0));
@@ -134,6 +144,7 @@ glm::vec2 caption_size(const CaptionLines& lines, bool marked, float scale) {
     for (const std::string& line : lines.headline) add(line, sizes.headline);
     if (!lines.detail.empty()) size.y += sizes.between;
     for (const std::string& line : lines.detail) add(line, sizes.detail);
+    if (caption.panel) size = glm::ceil(size) + 2 * sizes.padding;
     return size;
 }
 
@@ -141,13 +152,19 @@ float add_caption(DrawList& list, const Caption& caption, const CaptionLines& li
     if (caption.headlines.empty()) return margin;
     const Sizes sizes(scale);
     list.headline = caption.headlines.front();
-    const bool marked = caption.mark.a > 0 && !lines.headline.empty();
-    if (marked) {
-        const float r = 0.3f * sizes.headline;
-        const glm::vec2 middle(margin + r, margin + 0.56f * line_height(FontFace::text, sizes.headline));
-        list.panels.push_back({{middle - r, middle + r}, r, caption.mark, Rgba(0), 0});
+    glm::vec2 at(margin);
+    const glm::vec2 size = caption_size(caption, lines, scale);
+    const bool backed = caption.panel && size.x > 0;
+    if (backed) {
+        list.panels.push_back(word_panel({at, at + size}, list.palette, sizes.legend));
+        at += sizes.padding;
     }
-    glm::vec2 at(margin + (marked ? sizes.indent : 0), margin);
+    if (caption.mark.a > 0 && !lines.headline.empty()) {
+        const float r = 0.3f * sizes.headline;
+        const glm::vec2 middle = at + glm::vec2(r, 0.56f * line_height(FontFace::text, sizes.headline));
+        list.panels.push_back({{middle - r, middle + r}, r, caption.mark, Rgba(0), 0});
+        at.x += sizes.indent;
+    }
     const auto add = [&](const std::string& line, float text_size, Rgba color) {
         list.texts.push_back(text_at(line, FontFace::text, text_size, color, at));
         at.y += line_height(FontFace::text, text_size);
@@ -155,7 +172,7 @@ float add_caption(DrawList& list, const Caption& caption, const CaptionLines& li
     for (const std::string& line : lines.headline) add(line, sizes.headline, list.palette.text);
     if (!lines.detail.empty()) at.y += sizes.between;
     for (const std::string& line : lines.detail) add(line, sizes.detail, list.palette.quiet_text);
-    return at.y;
+    return at.y + (backed ? sizes.padding : 0);
 }
 
 }  // namespace mobbscope

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -83,8 +84,21 @@ int samples_together(const DrawList& list, const Subject& subject) {
 
 std::string headline_of(std::size_t people, double time) {
     char text[96];
+    if (people == 0) {
+        std::snprintf(text, sizeof text, "Nobody is on the floor at %.2f s", time);
+        return text;
+    }
     std::snprintf(text, sizeof text, "%zu %s at %.2f s", people, people == 1 ? "agent" : "agents", time);
     return text;
+}
+
+/// Before a run some are there already, after it nobody is.
+std::size_t people_at(std::span<const Subject> paths, double time) {
+    std::set<int> people;
+    for (const Subject& path : paths) {
+        if (sample_at(path, time)) people.insert(path.person);
+    }
+    return people.size();
 }
 
 std::string window_text(const Seconds& s) {
@@ -123,6 +137,8 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     const PictureSize size = options.size;
     const Metrics metrics = metrics_of(size, options.scale);
     const double time = run_time(fitted.scene(), view);
+    const bool outside = time < 0 || time >= crowd.seconds;
+    if (outside) choice = nullptr;
     const Seconds seconds{time - view.time_window, time, time + view.time_window};
     const std::vector<Subject> paths = subjects(fitted, view);
     const int followed = view.follow.empty() ? -1 : person_by_name(crowd, view.follow).value_or(-1);
@@ -144,9 +160,11 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
     float top = metrics.pad;
     if (view.labels) {
         Caption caption;
-        caption.headlines = {headline_of(crowd.agents.size(), time)};
+        caption.headlines = {headline_of(outside ? people_at(paths, time) : crowd.agents.size(), time)};
         caption.detail = choice ? choice_sentence(fitted.scene(), *choice) : window_text(seconds);
+        if (outside) mention_cursor_outside(caption, time, 0, crowd.seconds);
         if (!view.caption) caption = {};
+        caption.panel = scene_may_lie_behind(view, options);
         std::vector<LegendEntry> legend;
         if (view.legend) {
             if (names_fit(crowd.agents.size())) {
@@ -166,8 +184,7 @@ DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const Pic
         list.legend = std::move(words.legend);
         top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
     }
-    LabelLayout layout(size);
-    for (const TextRun& run : list.texts) layout.reserve(run.box);
+    LabelLayout layout(list);
     const std::vector<glm::vec3> corners = stage_corners(stage, list.space);
     // The widest labels of the whole run, so that nothing moves while time runs.
     const Stage last = floor_stage(crowd.area, crowd.seconds - 2 * view.time_window, crowd.seconds);

@@ -310,7 +310,8 @@ DiskExtents disk_extents(const Subject& subject, int node, int sample) {
 }
 
 void add_disk_projection(DrawList& list, std::span<const Subject> subjects, const DiskProjection& projection,
-                         const ViewState& view, const Metrics& metrics) {
+                         const ViewState& view, const PictureOptions& options) {
+    const Metrics metrics = metrics_of(list.size, options.scale);
     const Subject& subject = checked(subjects, projection);
     const double w = subject.placed.time_scale();
     const double dt = subject.clip().clip().dt();
@@ -334,12 +335,12 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
         }
         std::vector<LegendEntry> entries;
         if (view.legend) entries = legend(extents, list.palette, subject.color, projection.sample, dt);
+        caption.panel = scene_may_lie_behind(view, options);
         Words words = words_that_fit(caption, std::move(entries), glm::vec2(0), list.size, metrics);
         list.legend = std::move(words.legend);
         top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
     }
-    LabelLayout layout(list.size);
-    for (const TextRun& run : list.texts) layout.reserve(run.box);
+    LabelLayout layout(list);
 
     Frame frame{glm::vec2(metrics.pad, top), glm::vec2(list.size.width, list.size.height) - metrics.pad};
     if (view.labels) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <render/draw_list.h>
-#include <render/metrics.h>
+#include <render/picture_options.h>
 #include <render/subject.h>
 #include <scene/view_state.h>
 
@@ -39,6 +39,6 @@ DiskExtents disk_extents(const Subject& subject, int node, int sample);
 /// std::invalid_argument, saying what there is, if it names a participant, a node or a sample of the node that does
 /// not exist.
 void add_disk_projection(DrawList& list, std::span<const Subject> subjects, const DiskProjection& projection,
-                         const ViewState& view, const Metrics& metrics);
+                         const ViewState& view, const PictureOptions& options);
 
 }  // namespace mobbscope

@@ -1,6 +1,9 @@
 #include <import/text.h>
 #include <mobb/clip.h>
 #include <render/follow.h>
+#include <render/framing.h>
+#include <render/navigate.h>
+#include <render/settle.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
@@ -17,8 +20,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kGlide = 0.5;  // seconds before and after
-constexpr int kPlaces = 16;     // that the mean is of
+constexpr double kGlide = 0.5;     // seconds before and after
+constexpr int kPlaces = 16;        // that the mean is of
+constexpr double kStanding = 1.8;  // metres: people's height
 
 /// The agent's clips one after the other.
 std::vector<mobb::PlacedClip> clips_of(const FittedScene& fitted, const std::string& name, double time) {
@@ -69,6 +73,17 @@ glm::dvec3 camera_anchor(const FittedScene& fitted, const ViewState& view, doubl
     const glm::dvec2 place = followed_place(fitted, view, time).value_or(glm::dvec2(0));
     const bool time_runs = fitted.scene().crowd && view.show == Show::space_time;
     return {place.x, place.y, time_runs ? time : 0};
+}
+
+Camera framing_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list, double metres) {
+    // In a scene's space-time targets are as high as their time, else they count from the floor or from now.
+    double level = 0;
+    if (!list.moment && !fitted.scene().crowd) {
+        const double time = view.time ? *view.time : bounds_of(subjects(fitted, view)).min.z;
+        level = time * list.space.time_height;
+    }
+    return framing(settled(view.camera, list), {-metres, -metres, level}, {metres, metres, level + kStanding},
+                   list.size);
 }
 
 bool can_follow(const Scene& scene, const std::string& name) {

@@ -1,6 +1,7 @@
 /// Where the camera goes along with an agent.
 #pragma once
 
+#include <render/draw_list.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>
 
@@ -18,6 +19,14 @@ std::optional<glm::dvec2> followed_place(const FittedScene& fitted, const ViewSt
 /// What the view's camera counts its target from, in (x, y, t): the followed agent at `time`, and of a run, in
 /// space-time, that time; else the origin.
 glm::dvec3 camera_anchor(const FittedScene& fitted, const ViewState& view, double time);
+
+/// Metres around a followed agent that are in the picture where nobody says how near the camera is.
+inline constexpr double kAroundFollowed = 5;
+
+/// The explicit camera (see settle.h) that has so many metres around the followed agent in the picture, as seen from
+/// where the view's camera looks. `list`: of the view.
+Camera framing_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list,
+                        double metres = kAroundFollowed);
 
 /// Whether there is an agent, or a path, of that name to follow.
 bool can_follow(const Scene& scene, const std::string& name);

@@ -44,6 +44,11 @@ TextRun text_at(const std::string& text, FontFace face, float size, Rgba color, 
 LabelLayout::LabelLayout(PictureSize size)
     : picture_{glm::vec2(kEdge), glm::vec2(static_cast<float>(size.width), static_cast<float>(size.height)) - kEdge} {}
 
+LabelLayout::LabelLayout(const DrawList& list) : LabelLayout(list.size) {
+    for (const TextRun& run : list.texts) reserve(run.box);
+    for (const Panel& panel : list.panels) reserve(panel.rect);
+}
+
 bool LabelLayout::is_free(const Rect& rect, float room) const {
     const glm::vec2 around(std::max(room, kBetween), kBetween);
     const Rect needed{rect.min - around, rect.max + around};

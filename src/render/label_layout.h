@@ -25,6 +25,8 @@ struct LabelRequest {
 class LabelLayout {
   public:
     explicit LabelLayout(PictureSize size);
+    /// Of a picture: labels stay out of the words and panels that it has so far.
+    explicit LabelLayout(const DrawList& list);
 
     /// Keeps labels out of a rectangle.
     void reserve(const Rect& rect) { taken_.push_back(rect); }

@@ -3,6 +3,7 @@
 #include <render/level_boxes.h>
 #include <render/paths.h>
 #include <render/query_boxes.h>
+#include <render/word_panel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +145,7 @@ struct Layout {
     explicit Layout(float size)
         : row(std::round(1.55f * size)),
           mark(std::round(1.7f * size)),
-          padding(std::round(0.8f * size)),
+          padding(panel_padding(size)),
           gap(std::round(0.7f * size)) {}
 };
 
@@ -214,8 +215,7 @@ glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
 void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
     const Layout layout(text_size);
     const glm::vec2 size = legend_size(list.legend, text_size);
-    list.panels.push_back(
-        {{corner, corner + size}, 0.4f * text_size, list.palette.panel, list.palette.panel_border, 1});
+    list.panels.push_back(word_panel({corner, corner + size}, list.palette, text_size));
     glm::vec2 at = corner + layout.padding;
     const float height = line_height(FontFace::text, text_size);
     for (const LegendEntry& entry : list.legend) {

@@ -161,6 +161,8 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
     list.moment = moment.time;
     for (const Subject& subject : people) list.participants.push_back(subject.name);
     const Bounds bounds = bounds_of(fitted, people);
+    const bool outside = moment.time < bounds.min.z || moment.time >= bounds.max.z;
+    if (outside) choice = nullptr;
     const glm::dvec3 middle = 0.5 * (bounds.min + bounds.max);
     list.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view, time)};
     const double highest = *std::max_element(heights.begin(), heights.end());
@@ -176,11 +178,10 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
     float top = metrics.pad;
     if (view.labels) {
         Caption caption = moment_caption(list.palette, people, moment, count);
-        if (moment.time < bounds.min.z || moment.time >= bounds.max.z) {
-            mention_cursor_outside(caption, moment.time, bounds.min.z, bounds.max.z);
-        }
+        if (outside) mention_cursor_outside(caption, moment.time, bounds.min.z, bounds.max.z);
         if (choice) caption.detail = choice_sentence(fitted.scene(), *choice);
         if (!view.caption) caption = {};
+        caption.panel = scene_may_lie_behind(view, options);
         std::vector<LegendEntry> legend;
         if (view.legend) legend = moment_legend(list.palette, persons, view);
         if (view.legend && choice) {
@@ -191,8 +192,7 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
         list.legend = std::move(words.legend);
         top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
     }
-    LabelLayout layout(size);
-    for (const TextRun& run : list.texts) layout.reserve(run.box);
+    LabelLayout layout(list);
     const Blocks blocks = aim(list, points, stage, view, metrics, top, glm::vec2(0), [&] {
         std::vector<Rect> busy = occupied(list, stage, view, metrics);
         const std::vector<Rect> bodies = seen_at(list.lens, std::span(points).first(standing));

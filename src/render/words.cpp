@@ -9,14 +9,13 @@ Words words_that_fit(const Caption& caption, std::vector<LegendEntry> legend, gl
                      const Metrics& metrics) {
     const glm::vec2 picture(size.width, size.height);
     const float room = picture.x - 2 * metrics.pad;
-    const bool marked = caption.mark.a > 0;
     for (LegendEntry& entry : legend) {
         entry.text = fit_text(entry.text, FontFace::text, metrics.small, 0.45f * picture.x);
     }
     Words words{caption_lines(caption, room, metrics.scale, 2), std::move(legend), map};
     const auto fits = [&] {
         const auto area = [](glm::vec2 extent) { return extent.x * extent.y; };
-        const float covered = area(caption_size(words.caption, marked, metrics.scale)) +
+        const float covered = area(caption_size(caption, words.caption, metrics.scale)) +
                               area(legend_size(words.legend, metrics.small)) + area(words.map);
         return covered <= kMostWords * area(picture);
     };

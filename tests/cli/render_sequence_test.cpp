@@ -68,6 +68,42 @@ TEST_F(RenderSequenceTest, TheCameraStays) {
     EXPECT_GT(equal, first.rgba.size() / 2);
 }
 
+/// One camera for all times, near the agent.
+TEST_F(RenderSequenceTest, TheCameraGoesAlongWithTheFollowed) {
+    const std::vector<std::string> near{scene, "--show", "moment", "--follow", "A", "--time", "1"};
+    const Image alone = picture(near);
+    EXPECT_NE(alone.rgba, picture({scene, "--show", "moment", "--time", "1"}).rgba);
+    draw({"--show", "moment", "--follow", "A", "--frames", "2:2", "--rate", "2"});
+    EXPECT_EQ(read("walk_0002.png").rgba, alone.rgba);
+    std::vector<std::string> above = near;
+    above.insert(above.end(), {"--view", "top"});
+    EXPECT_NE(picture(above).rgba, alone.rgba);
+}
+
+TEST_F(RenderSequenceTest, ACameraThatIsGivenStaysWhereItIs) {
+    const std::string state = folder.write("camera.json", R"({"camera": {"target": [1, 0, 0], "distance": 70}})");
+    const std::vector<std::string> from_afar{scene, "--show",   "moment", "--time",     "1", "--follow",
+                                             "A",   "--target", "1,0,0",  "--distance", "70"};
+    EXPECT_EQ(picture({scene, "--show", "moment", "--time", "1", "--follow", "A", "--view-state", state}).rgba,
+              picture(from_afar).rgba);
+    EXPECT_NE(picture({scene, "--show", "moment", "--time", "1", "--follow", "A"}).rgba, picture(from_afar).rgba);
+    const std::vector<std::string> nobody{scene, "--show", "moment", "--time", "1", "--follow", "none"};
+    EXPECT_EQ(picture(nobody).rgba, picture({scene, "--show", "moment", "--time", "1"}).rgba);
+}
+
+/// What the common framing kept free needs no panel: the words are as in a picture alone.
+TEST_F(RenderSequenceTest, WordsBesideTheSceneLieOnNoPanel) {
+    draw({"--frames", "2:2", "--rate", "2", "--background", "#123456"});
+    const Image film = read("walk_0002.png");
+    const Image alone = picture({scene, "--time", "1", "--background", "#123456"});
+    for (int x = 0; x < 60; ++x) {
+        for (int y = 0; y < 30; ++y) {
+            const auto at = static_cast<std::size_t>(4 * (y * film.width + x));
+            ASSERT_EQ(film.rgba[at], alone.rgba[at]) << x << ' ' << y;
+        }
+    }
+}
+
 TEST_F(RenderSequenceTest, ATurntableComesBackToWhereItBegan) {
     const std::vector<std::string> bare{"--no-labels", "--no-floor", "--no-time-axis"};
     const auto turned = [&](const char* count) {

@@ -23,6 +23,7 @@ namespace mobbscope {
 namespace {
 
 constexpr PictureSize kSize{640, 360};
+constexpr PictureSize kLarge{1280, 720};
 
 class CrowdPicture : public ::testing::Test {
   protected:
@@ -140,6 +141,40 @@ TEST_F(CrowdPicture, WhomTheCameraFollowsStaysInTheMiddle) {
     }
 }
 
+TEST_F(CrowdPicture, TheFollowedIsSeenFromNear) {
+    for (const Show show : {Show::moment, Show::space_time}) {
+        ViewState asked = view(show, 6);
+        asked.follow = run.scene().crowd->agents[3].name;
+        asked.camera.preset = CameraPreset::top;
+        asked.camera = framing_followed(run, asked, build_draw_list(run, asked, kSize));
+        EXPECT_EQ(asked.camera.pitch_deg, 90) << "seen as before";
+        for (const double time : {6.0, 9.0}) {
+            asked.time = time;
+            const DrawList list = build_draw_list(run, asked, kSize);
+            const glm::dvec2 place = followed_place(run, asked, time).value();
+            const double level = show == Show::moment ? 0 : time;
+            const glm::vec2 at = list.lens.project(list.space.point(place.x, place.y + kAroundFollowed, level)).value();
+            // The picture's height has so much of it but for a margin.
+            EXPECT_NEAR(std::abs(at.y - 180), 0.8 * 180, 1);
+        }
+    }
+}
+
+TEST_F(CrowdPicture, OfASceneTheFollowedIsSeenAtItsTime) {
+    Scene scene = run.scene();
+    scene.crowd = nullptr;
+    scene.agents = {{"late", 0, {{30, 40}, 0, 500}, std::nullopt}};
+    const FittedScene fitted(std::move(scene), {});
+    ViewState asked = view(Show::space_time, 500.2);
+    asked.follow = "late";
+    asked.camera = framing_followed(fitted, asked, build_draw_list(fitted, asked, kSize));
+    const DrawList list = build_draw_list(fitted, asked, kSize);
+    const glm::dvec2 place = followed_place(fitted, asked, 500.2).value();
+    const glm::vec2 at = list.lens.project(list.space.point(place.x, place.y, 500.2)).value();
+    EXPECT_NEAR(at.x, 320, 1);
+    EXPECT_NEAR(at.y, 180, 40);
+}
+
 TEST_F(CrowdPicture, FollowingNobodyThereIsIsRefused) {
     ViewState asked = view(Show::moment, 6);
     asked.follow = "nobody";
@@ -173,6 +208,96 @@ TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
         const DrawList without = build_draw_list(run, asked, kSize);
         EXPECT_FALSE(std::any_of(without.lines.begin(), without.lines.end(), is_discarded));
     }
+}
+
+/// What a picture says at its top.
+std::string caption_of(const DrawList& list) {
+    std::string out;
+    for (const TextRun& text : list.texts) {
+        if (text.box.max.y < 0.25f * static_cast<float>(list.size.height)) out += text.text + '\n';
+    }
+    return out;
+}
+
+TEST_F(CrowdPicture, OutsideOfTheRunNobodyIsThereAndNothingIsChosen) {
+    for (const Show show : {Show::moment, Show::space_time}) {
+        for (const auto& [time, told] : {std::pair(999.0, "999 s"), std::pair(-1.0, "-1 s")}) {
+            ViewState asked = view(show, time);
+            asked.follow = run.scene().crowd->agents[3].name;
+            const DrawList list = build_draw_list(run, asked, kLarge);
+            const std::string caption = caption_of(list);
+            if (time > 20) {
+                EXPECT_EQ(caption.rfind("Nobody is on the floor at 999.00 s", 0), 0u) << caption;
+            }
+            EXPECT_NE(caption.find(std::string(told) + " lies outside 0..20 s"), std::string::npos) << caption;
+            EXPECT_EQ(caption.find("chose"), std::string::npos) << caption;
+            const auto is_fate = [](const LegendEntry& entry) { return entry.text == fate_words(Fate::taken); };
+            EXPECT_TRUE(std::none_of(list.legend.begin(), list.legend.end(), is_fate));
+        }
+        EXPECT_EQ(caption_of(build_draw_list(run, view(show, 6), kLarge)).find("outside"), std::string::npos);
+    }
+}
+
+/// Whether some panel has all words of the caption on it.
+bool has_caption_on_a_panel(const DrawList& list) {
+    const auto holds = [&](const Panel& panel) {
+        return std::count_if(list.texts.begin(), list.texts.end(), [&](const TextRun& text) {
+                   return panel.rect.contains(text.box) && text.box.min.y < 60;
+               }) >= 2;
+    };
+    return std::any_of(list.panels.begin(), list.panels.end(), holds);
+}
+
+TEST_F(CrowdPicture, WhereTheSceneMayLieBehindTheCaptionHasAPanel) {
+    Scene pair = run.scene();
+    pair.crowd = nullptr;
+    pair.agents = {{"a", 0, {}, std::nullopt}, {"b", 1, {{3, 0}, 0, 0}, std::nullopt}};
+    const FittedScene scene(std::move(pair), {});
+    for (const FittedScene* fitted : {&std::as_const(run), &scene}) {
+        for (const Show show : {Show::moment, Show::space_time}) {
+            ViewState asked = view(show, 0.2);
+            asked.legend = false;
+            EXPECT_FALSE(has_caption_on_a_panel(build_draw_list(*fitted, asked, kLarge)));
+            asked.camera.target = glm::dvec3(0);
+            asked.camera.distance = 40;
+            const DrawList near = build_draw_list(*fitted, asked, kLarge);
+            EXPECT_TRUE(has_caption_on_a_panel(near));
+            PictureOptions framed{.size = kLarge};
+            framed.framed = true;
+            EXPECT_FALSE(has_caption_on_a_panel(build_draw_list(*fitted, asked, framed)));
+            asked.caption = false;
+            EXPECT_FALSE(has_caption_on_a_panel(build_draw_list(*fitted, asked, kLarge)));
+        }
+    }
+}
+
+TEST_F(CrowdPicture, TheSentenceKeepsFatesApart) {
+    const auto named = [&](int agent) { return run.scene().crowd->agents[static_cast<std::size_t>(agent)].name; };
+    FollowedChoice followed;
+    followed.agent = 4;
+    followed.choice.time = 2.5;
+    const Candidate free;
+    Candidate off;
+    off.leaves_floor = true;
+    Candidate in_the_way;
+    in_the_way.in_the_way = true;
+    const auto met = [](int agent) {
+        Candidate out;
+        out.ruling = Ruling{agent, 1, {}};
+        return out;
+    };
+    followed.choice.candidates = {free, met(5), met(7), in_the_way, in_the_way, off};
+    EXPECT_EQ(choice_sentence(run.scene(), followed),
+              named(4) + " chose among 6 moves at 2.50 s: 1 free; 2 ruled out by " + named(5) + ", " + named(7) +
+                  "; 2 in the way of others; 1 leaves the floor");
+    followed.choice.kind = PlayKind::forced;
+    followed.choice.candidates = {met(5), off, off};
+    EXPECT_EQ(choice_sentence(run.scene(), followed),
+              named(4) + " was forced at 2.50 s, as none of its 3 moves was free: 1 ruled out by " + named(5) +
+                  "; 2 leave the floor");
+    followed.choice.candidates = {met(5)};
+    EXPECT_EQ(choice_sentence(run.scene(), followed),
+              named(4) + " was forced at 2.50 s, as its only move was not free: 1 ruled out by " + named(5));
 }
 
 TEST(Candidates, EveryFateHasAColourAndALineOfItsOwn) {

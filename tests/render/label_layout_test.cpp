@@ -15,7 +15,7 @@ LabelRequest label(const std::string& text, glm::vec2 anchor) {
 }
 
 TEST(LabelLayout, LabelsNeitherOverlapNorLeaveThePicture) {
-    LabelLayout layout({200, 120});
+    LabelLayout layout(PictureSize{200, 120});
     DrawList list;
     int placed = 0;
     for (int i = 0; i < 60; ++i) {
@@ -32,7 +32,7 @@ TEST(LabelLayout, LabelsNeitherOverlapNorLeaveThePicture) {
 }
 
 TEST(LabelLayout, ReservedPlacesStayFree) {
-    LabelLayout layout({200, 120});
+    LabelLayout layout(PictureSize{200, 120});
     layout.reserve({{0, 0}, {200, 120}});
     DrawList list;
     EXPECT_FALSE(layout.place(label("x", {100, 60}), list));
