@@ -249,6 +249,7 @@ void Session::open_excerpt(const Participant& a, const Participant& b) {
     playing = false;
     selection = {};
     hovered = {};
+    ++excerpts_opened_;
     history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
     changed();
 }
@@ -286,6 +287,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
     opened_ = opened;
+    ++files_opened_;
     if (attended_ && !opened.empty()) settings.remember(opened.front());
     selection = {};
     hovered = {};

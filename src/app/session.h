@@ -89,6 +89,8 @@ class Session {
     const History& history() const { return history_; }
     bool attended() const { return attended_; }
     bool empty() const { return scene().clips.empty(); }
+    /// Which opening the present scene is of; files and excerpts are counted apart.
+    int opening() const { return in_excerpt() ? excerpts_opened_ : files_opened_; }
 
     /// Changes the scene; its `view` is the present one and may be changed along. Throws what `change` throws, and
     /// std::invalid_argument for options out of range: nothing is changed then. Fits that take long become a job, and
@@ -209,6 +211,8 @@ class Session {
     std::shared_ptr<const FittedScene> saved_;
     std::optional<std::filesystem::path> file_;
     std::vector<std::filesystem::path> opened_;
+    int files_opened_ = 0;
+    int excerpts_opened_ = 0;
     std::vector<Message> messages_;
     std::unique_ptr<Job> job_;
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes

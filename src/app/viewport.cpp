@@ -87,12 +87,15 @@ void Viewport::take_off(Ui& ui, const Key& next) {
         if (!key_ || key_->fitted != next.fitted || key_->size != next.size) flight_.reset();
         return;
     }
-    const Camera from = settled(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
+    Camera from = settled(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
     const DrawList there = build_draw_list(*next.fitted, next.view, next.size, next.scale);
     // Heights must mean the same all the way.
     if (there.space.time_height != list_->space.time_height || there.moment.has_value() != list_->moment.has_value()) {
         return;
     }
+    // Targets may be counted from somebody else now: the way begins where the camera stands.
+    const glm::dvec3 seen = list_->space.place(list_->space.from_target(*from.target));
+    from.target = there.space.to_target(there.space.point(seen.x, seen.y, seen.z));
     flight_.emplace(from, settled(next.view.camera, there), ui.now);
 }
 

@@ -1,9 +1,6 @@
 // A run in the session: its time, following, choices, conflicts, and two of it opened as a scene.
-#include "crowd/walker_moves.h"
-
 #include <app/command.h>
 #include <app/crowd_view.h>
-#include <crowd/simulate.h>
 #include <import/error.h>
 #include <import/file.h>
 #include <mobb/predicate.h>
@@ -11,6 +8,8 @@
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <support/temp_folder.h>
+
+#include "app/crowded_run.h"
 
 #include <gtest/gtest.h>
 
@@ -20,23 +19,10 @@
 namespace mobbscope::app {
 namespace {
 
-/// So many on a small floor that some are forced to collide.
-Scene crowded_run() {
-    Scene scene = mobbscope::testing::walker_scene();
-    const FittedScene fitted(scene, {});
-    SimulateOptions options;
-    options.agents = 22;
-    options.area = {9, 9};
-    options.seconds = 20;
-    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
-    return scene;
-}
-
 class CrowdTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        static const std::string text = to_json(crowded_run(), true);
-        file = folder.write("run.json", text);
+        file = folder.write("run.json", testing::crowded_run());
         session.open({file});
         ASSERT_TRUE(session.crowd()) << (session.messages().empty() ? "" : session.messages().front().text);
     }

@@ -1,11 +1,10 @@
 #include <app/command.h>
 #include <app/commands/arguments.h>
-#include <app/commands/explicit_view.h>
+#include <app/commands/following.h>
 #include <app/crowd_view.h>
 #include <import/text.h>
 #include <render/candidates.h>
 #include <render/follow.h>
-#include <render/navigate.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
@@ -18,34 +17,12 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kAround = 5;      // metres around a followed agent that are brought into the picture
-constexpr double kNear = 2.5;      // ... and around two that meet
-constexpr double kBefore = 0.5;    // seconds before a conflict
-constexpr double kStanding = 1.8;  // metres: people's height
+constexpr double kNear = 2.5;    // metres around two that meet
+constexpr double kBefore = 0.5;  // seconds before a conflict
 
 bool has_scene(const Session& session) { return !session.empty(); }
-bool follows(const Session& session) { return !session.view().follow.empty(); }
-
-/// Brings what is so near to the followed agent into the picture.
-void frame_followed(Session& session, double metres) {
-    move_camera(session, [&](const Camera& camera, PictureSize size) {
-        const glm::dvec3 low(-metres, -metres, 0);
-        return framing(camera, low, {metres, metres, kStanding}, size);
-    });
-}
 
 // --- following
-
-void follow_agent(Session& session, const std::string& name, double metres) {
-    if (!can_follow(session.scene(), name)) {
-        std::vector<std::string> names = names_in_crowd(session);
-        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
-    }
-    session.candidate = -1;
-    session.look([&](ViewState& view) { view.follow = name; });
-    frame_followed(session, metres);
-    select_in_crowd(session, name);
-}
 
 void stop_following(Session& session, const std::string&) {
     session.candidate = -1;

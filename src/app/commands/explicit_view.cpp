@@ -39,19 +39,19 @@ PictureSize viewport_size(const Session& session) {
     return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
 }
 
-void move_camera(Session& session, const std::function<Camera(const Camera&, PictureSize)>& move) {
+void move_camera(Session& session, const std::function<Camera(const Camera&, const DrawList&)>& move) {
     const PictureSize size = viewport_size(session);
     const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
     const DrawList list = build_draw_list(session.fitted(), session.view(), size, scale);
     const Camera camera = settled(session.view().camera, list);
-    const Camera moved = move(camera, size);
+    const Camera moved = move(camera, list);
     session.look([&](ViewState& view) {
         view.camera = moved;
         if (!list.moment) view.time_height = list.space.time_height;
     });
 }
 
-std::optional<SceneBox> box_of(const Session& session, const Selection& selected) {
+std::optional<Bounds> box_of(const Session& session, const Selection& selected) {
     Bounds bounds;
     const std::vector<Subject> shown = subjects(session.fitted(), session.view());
     for (const Subject& subject : shown) {
@@ -73,12 +73,8 @@ std::optional<SceneBox> box_of(const Session& session, const Selection& selected
         const std::vector<double> heights = cylinder_heights(shown);
         bounds.min.z = 0;
         bounds.max.z = *std::max_element(heights.begin(), heights.end());
-    } else {
-        const double time_height = space_for(bounds_of(shown), session.view()).time_height;
-        bounds.min.z *= time_height;
-        bounds.max.z *= time_height;
     }
-    return SceneBox{bounds.min, bounds.max};
+    return bounds;
 }
 
 }  // namespace mobbscope::app

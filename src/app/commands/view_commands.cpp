@@ -1,6 +1,8 @@
 #include <app/command.h>
 #include <app/commands/arguments.h>
 #include <app/commands/explicit_view.h>
+#include <app/commands/following.h>
+#include <app/crowd_view.h>
 #include <import/text.h>
 #include <render/lens.h>
 #include <render/navigate.h>
@@ -56,15 +58,37 @@ void frame_all(Session& session, const std::string&) {
     session.look([](ViewState& view) { frame_by_itself(view.camera); });
 }
 
+/// Whether it is somebody that is selected, and not a part of what they walk; at a moment they stand where a sample is.
+bool is_somebody(const Session& session) {
+    const Selection& selected = session.selection;
+    if (!selected.on_path() || selected.path.participant < 0) return false;
+    return selected.kind == Selection::Kind::path ||
+           (selected.kind == Selection::Kind::sample && session.view().show == Show::moment);
+}
+
+/// Going along with one, no other stays in the picture: who is selected then is followed instead.
+void frame_somebody_along(Session& session) {
+    const std::string who = agent_in_question(session);
+    if (who == session.view().follow) return frame_followed(session, kAround);
+    follow_agent(session, who, kAround);
+}
+
 void frame_selection(Session& session, const std::string& none) {
-    const std::optional<SceneBox> box = box_of(session, session.selection);
-    if (!box) return frame_all(session, none);
-    move_camera(session,
-                [&](const Camera& camera, PictureSize size) { return framing(camera, box->min, box->max, size); });
+    const Selection selected = session.selection;
+    if (follows(session) && (selected.kind == Selection::Kind::none || is_somebody(session))) {
+        return frame_somebody_along(session);
+    }
+    const std::optional<Bounds> box = box_of(session, selected);
+    if (!box) return follows(session) ? frame_followed(session, kAround) : frame_all(session, none);
+    move_camera(session, [&](const Camera& camera, const DrawList& list) {
+        const auto target = [&](glm::dvec3 at) { return list.space.to_target(list.space.point(at.x, at.y, at.z)); };
+        return framing(camera, target(box->min), target(box->max), list.size);
+    });
 }
 
 void zoom(Session& session, double factor) {
-    move_camera(session, [&](const Camera& camera, PictureSize size) {
+    move_camera(session, [&](const Camera& camera, const DrawList& list) {
+        const PictureSize size = list.size;
         const glm::dvec2 target =
             (glm::dvec2(0.5) + camera.shift * glm::dvec2(1, -1)) * glm::dvec2(size.width, size.height);
         return zoomed(camera, factor, glm::vec2(target), size);
@@ -73,8 +97,8 @@ void zoom(Session& session, double factor) {
 
 /// The scene turns as if it was dragged to the right and downwards.
 void orbit(Session& session, glm::dvec2 degrees) {
-    move_camera(session, [&](const Camera& camera, PictureSize size) {
-        return orbited(camera, glm::vec2(degrees * (size.height / 180.0)), size);
+    move_camera(session, [&](const Camera& camera, const DrawList& list) {
+        return orbited(camera, glm::vec2(degrees * (list.size.height / 180.0)), list.size);
     });
 }
 
@@ -97,12 +121,14 @@ bool is_on(const Session& session) {
 
 bool shows_moment(const Session& session) { return session.view().show == Show::moment; }
 
-/// Heights mean something else then, so the camera frames the scene anew.
+/// Heights mean something else then, so the camera frames the scene anew; who it goes along with stays as near.
 void toggle_moment(Session& session, const std::string&) {
-    session.look([](ViewState& view) {
+    const bool goes_along = follows(session) && session.view().camera.target;
+    session.look([&](ViewState& view) {
         view.show = view.show == Show::moment ? Show::space_time : Show::moment;
-        frame_by_itself(view.camera);
+        if (!goes_along) frame_by_itself(view.camera);
     });
+    if (goes_along) center_followed(session);
 }
 
 /// Levels of the deepest tree in the picture.
@@ -285,7 +311,9 @@ std::span<const Command> view_commands() {
          .title = "Frame the selection",
          .menu = "View",
          .shortcut = "F",
-         .doc = "Brings what is selected into the middle, as large as it fits; without a selection everything.",
+         .doc =
+             "Brings what is selected into the middle, as large as it fits; without a selection everything. Following "
+             "somebody, it goes along with who is selected.",
          .enabled = has_scene,
          .run = frame_selection},
         {.id = "view.frame_all",
@@ -358,8 +386,9 @@ std::span<const Command> view_commands() {
          .run =
              [](Session& session, const std::string& text) {
                  const glm::vec2 pixels(two_numbers(text, "the way"));
-                 move_camera(session,
-                             [&](const Camera& camera, PictureSize size) { return panned(camera, pixels, size); });
+                 move_camera(session, [&](const Camera& camera, const DrawList& list) {
+                     return panned(camera, pixels, list.size);
+                 });
              }},
         {.id = "view.moment",
          .title = "Show the moment",

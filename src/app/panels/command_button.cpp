@@ -6,7 +6,9 @@ namespace mobbscope::app {
 void command_button(Ui& ui, const char* label, const char* id, const std::string& mark) {
     const Command& command = *find_command(id);
     ImGui::BeginDisabled(!command.enabled(ui.session));
+    ImGui::PushID(mark.c_str());  // labels may be alike
     const bool pressed = ImGui::Button(label);
+    ImGui::PopID();
     ImGui::EndDisabled();
     ui.mark(mark);
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {

@@ -1,6 +1,8 @@
 #include <app/panels.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -23,9 +25,15 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
     return active ? (upright ? moved.x : moved.y) : 0;
 }
 
+/// A newly opened scene's begins at its top; an excerpt has panels of its own, so that those of the whole stay where
+/// they were scrolled to.
 template <class Draw>
-void panel(const char* name, ImVec2 size, const Draw& draw) {
-    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+void panel(const Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
+    const Session& session = ui.session;
+    ImGui::BeginChild((session.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
+                      ImGuiWindowFlags_AlwaysUseWindowPadding);
+    int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
+    if (std::exchange(shown, session.opening()) != session.opening()) ImGui::SetScrollY(0);
     draw();
     ImGui::EndChild();
 }
@@ -63,7 +71,7 @@ void window_layout(Ui& ui, Viewport& viewport) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
-    panel("left", {left, room.y}, [&] {
+    panel(ui, "left", {left, room.y}, [&] {
         scene_panel(ui);
         tree_panel(ui);
     });
@@ -79,14 +87,14 @@ void window_layout(Ui& ui, Viewport& viewport) {
     ImGui::EndChild();
     settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.look.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
-    panel("timeline", {middle, bottom}, [&] { timeline(ui); });
+    panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui); });
     ImGui::PopStyleVar();
     ImGui::EndGroup();
     spacing();
     settings.right_width -= splitter(ui, "splitter.right", {bar, room.y}, true) / ui.look.scale;
     spacing();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
-    panel("right", {right, room.y}, [&] {
+    panel(ui, "right", {right, room.y}, [&] {
         if (ui.session.is_crowd() && !ui.session.view().query) {
             crowd_panel(ui);
         } else {

@@ -1,0 +1,247 @@
+// A run in the window, by keys and clicks: who is followed stays in the picture, and buttons do what they say.
+#include <app/crowd_view.h>
+#include <app/headless_window.h>
+#include <render/build_draw_list.h>
+#include <render/follow.h>
+#include <render/gl_context.h>
+#include <render/png.h>
+#include <scene/crowd_scene.h>
+#include <support/temp_folder.h>
+
+#include "app/crowded_run.h"
+
+#include <glm/geometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+constexpr PictureSize kTall{900, 1400};  // all panels unscrolled
+
+struct CrowdWindow {
+    mobbscope::testing::TempFolder folder;
+    Session session;
+    HeadlessWindow window;
+
+    explicit CrowdWindow(PictureSize size = kTall, bool attended = false)
+        : session(attended), window(GlContext::open(Backend::automatic), session, size, 1) {
+        session.open({folder.write("run.json", testing::crowded_run())});
+        while (session.job()) session.poll();
+        window.settle();
+    }
+
+    const std::string& name(std::size_t agent) const { return session.crowd()->agents[agent].name; }
+    const Camera& camera() const { return session.view().camera; }
+
+    void key(const std::string& chord_name) {
+        const Chord chord = *chord_from_name(chord_name);
+        window.shell().feed(KeyPress{chord.key, true});
+        window.shell().feed(KeyPress{chord.key, false});
+        window.settle();
+    }
+    glm::vec2 place(const std::string& mark) { return window.shell().marks().all().at(mark).center(); }
+    /// As a person does it: frames go by while the button is down.
+    void click(const std::string& mark) {
+        ASSERT_TRUE(window.shell().marks().all().contains(mark)) << mark;
+        window.shell().feed(MouseMove{place(mark)});
+        window.settle();
+        window.shell().feed(MouseButton{0, true});
+        window.settle();
+        window.shell().feed(MouseButton{0, false});
+        window.settle();
+    }
+    void double_click(const std::string& mark) {
+        ASSERT_TRUE(window.shell().marks().all().contains(mark)) << mark;
+        window.shell().feed(MouseMove{place(mark)});
+        for (const bool down : {true, false, true, false}) window.shell().feed(MouseButton{0, down});
+        window.settle();
+    }
+
+    DrawList list() const {
+        return build_draw_list(session.fitted(), session.view(), session.hooks.viewport_size(),
+                               session.hooks.viewport_scale());
+    }
+    /// Where in the picture somebody stands now: (0, 0) in its middle, 1 at its borders.
+    glm::vec2 seen_at(std::size_t agent) const {
+        const DrawList shown = list();
+        ViewState of = session.view();
+        of.follow = name(agent);
+        const double time = run_or_cursor_time(session);
+        const glm::dvec2 at = *followed_place(session.fitted(), of, time);
+        const auto pixel = shown.lens.project(shown.space.point(at.x, at.y, shown.moment ? 0.9 : time));
+        if (!pixel) return glm::vec2(1e9f);
+        const glm::vec2 size(shown.size.width, shown.size.height);
+        return 2.0f * *pixel / size - 1.0f;
+    }
+    void expect_in_the_middle(std::size_t agent) const {
+        EXPECT_LT(glm::length(seen_at(agent)), 0.15) << "agent " << name(agent);
+    }
+    /// A picture to look at, where MOBBSCOPE_LOOK names a folder.
+    void look(const std::string& file) {
+        const char* const there = std::getenv("MOBBSCOPE_LOOK");
+        if (there) write_png(std::filesystem::path(there) / (file + ".png"), window.shell().read_back());
+    }
+};
+
+/// In space-time, and at a moment.
+class CrowdWindowTest : public ::testing::TestWithParam<Show> {
+  protected:
+    void SetUp() override {
+        if (GetParam() == Show::moment) w.key("M");
+        ASSERT_EQ(w.session.view().show, GetParam());
+    }
+    CrowdWindow w;
+};
+
+TEST_P(CrowdWindowTest, FramingGoesOnFollowing) {
+    w.click("agent.1");
+    w.key("W");
+    ASSERT_EQ(w.session.view().follow, w.name(1));
+    const Camera followed = w.camera();
+    w.expect_in_the_middle(1);
+    w.key("-");
+    w.key("F");
+    EXPECT_EQ(w.camera(), followed) << "as W frames them";
+    w.session.select({});
+    w.key("=");
+    w.key("F");
+    EXPECT_EQ(w.camera(), followed) << "nobody else is selected";
+    w.look("framed");
+}
+
+TEST_P(CrowdWindowTest, ADoubleClickOnAnotherNameFollowsThatOne) {
+    w.click("agent.1");
+    w.key("W");
+    w.double_click("agent.4");
+    EXPECT_EQ(w.session.view().follow, w.name(4));
+    w.expect_in_the_middle(4);
+    w.look("another");
+}
+
+TEST_P(CrowdWindowTest, WhoIsFramedIsInThePictureThoughNobodyIsFollowed) {
+    w.double_click("agent.3");
+    EXPECT_EQ(w.session.view().follow, "");
+    const glm::vec2 at = w.seen_at(3);
+    EXPECT_LT(std::max(std::abs(at.x), std::abs(at.y)), 1);
+    EXPECT_TRUE(w.camera().target);
+}
+
+TEST_P(CrowdWindowTest, TheMomentIsShownFromAsNear) {
+    w.click("agent.1");
+    w.key("W");
+    w.key("=");
+    w.key("=");
+    const double distance = w.camera().distance;
+    for (int i = 0; i < 2; ++i) {
+        w.key("M");
+        ASSERT_TRUE(w.camera().target);
+        EXPECT_EQ(w.session.view().follow, w.name(1));
+        EXPECT_NEAR(w.camera().distance, distance, 1e-9);
+        w.expect_in_the_middle(1);
+        w.look("m" + std::to_string(i));
+    }
+    w.key("Home");
+    w.key("M");
+    EXPECT_FALSE(w.camera().target) << "everything is shown, and stays shown";
+}
+
+TEST_P(CrowdWindowTest, WhoIsLeftStaysWhereTheyWere) {
+    w.click("agent.1");
+    w.key("W");
+    w.key("F");
+    const glm::vec2 before = w.seen_at(1);
+    w.key("W");
+    ASSERT_EQ(w.session.view().follow, "");
+    EXPECT_LT(glm::length(w.seen_at(1) - before), 1e-3);
+    w.key("F");
+    const glm::vec2 at = w.seen_at(1);
+    EXPECT_LT(std::max(std::abs(at.x), std::abs(at.y)), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, CrowdWindowTest, ::testing::Values(Show::space_time, Show::moment),
+                         [](const auto& shown) { return shown.param == Show::moment ? "moment" : "space_time"; });
+
+/// The share of pixels that differ.
+double difference(const Image& a, const Image& b) {
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+        other += a.rgba[i] != b.rgba[i] || a.rgba[i + 1] != b.rgba[i + 1] || a.rgba[i + 2] != b.rgba[i + 2];
+    }
+    return 4.0 * static_cast<double>(other) / static_cast<double>(a.rgba.size());
+}
+
+TEST(CrowdWindow, NothingFliesWhenFollowingEnds) {
+    CrowdWindow w({1000, 700}, true);
+    w.click("agent.1");
+    w.key("A");  // the ways of a choice are drawn of who is followed
+    w.key("W");
+    w.window.run_for(1);
+    const Image before = w.window.shell().viewport_picture();
+    w.window.shell().feed(KeyPress{Key::w, true});
+    w.window.frame();
+    ASSERT_EQ(w.session.view().follow, "");
+    EXPECT_LT(difference(before, w.window.shell().viewport_picture()), 0.1);
+}
+
+TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {
+    CrowdWindow w;
+    w.click("agent.1");
+    w.key("W");
+    w.session.select({Selection::Kind::sample, {4, -1, 0}, 3});
+    w.key("F");
+    EXPECT_EQ(w.session.view().follow, w.name(1));
+    const DrawList shown = w.list();
+    const mobb::PlacedTree tree = w.session.fitted().placed(w.session.fitted().participants()[4]);
+    const mobb::Disk disk = tree.placed_clip().disk(3);
+    const auto pixel = shown.lens.project(shown.space.point(disk.x, disk.y, tree.placed_clip().time(3)));
+    ASSERT_TRUE(pixel);
+    const glm::vec2 middle(0.5f * static_cast<float>(shown.size.width), 0.5f * static_cast<float>(shown.size.height));
+    EXPECT_LT(glm::length(*pixel - middle), 0.2f * middle.x);
+}
+
+TEST(CrowdWindow, AConflictOpensByItsButtonWhileSomebodyIsFollowed) {
+    CrowdWindow w;
+    w.click("conflicts.find");
+    ASSERT_TRUE(w.session.conflicts());
+    w.double_click("conflict.0");
+    ASSERT_NE(w.session.view().follow, "");
+    ASSERT_TRUE(w.window.shell().marks().all().contains("crowd.open_candidate")) << "a button of the same words";
+    w.click("conflicts.open");
+    EXPECT_TRUE(w.session.in_excerpt());
+}
+
+TEST(CrowdWindow, AnExcerptBeginsAtTheTopOfItsPanels) {
+    CrowdWindow w({1280, 600});
+    w.click("conflicts.find");
+    w.double_click("conflict.0");
+    const auto scroll_down = [&] {
+        const glm::vec2 splitter = w.place("splitter.right");
+        w.window.shell().feed(MouseMove{{splitter.x + 20, 60}});
+        for (int i = 0; i < 20; ++i) w.window.shell().feed(Wheel{{0, -10}});
+        w.window.settle();
+    };
+    const float at_top = w.place("crowd.stop").y;
+    scroll_down();
+    ASSERT_LT(w.place("crowd.stop").y, at_top - 50);
+    w.click("conflicts.open");
+    ASSERT_TRUE(w.session.in_excerpt());
+    const float answer = w.place("query.answer").y;
+    EXPECT_GT(answer, 40);
+    EXPECT_LT(answer, 300);
+    scroll_down();
+    ASSERT_LT(w.place("query.answer").y, answer - 50);
+    w.key("Backspace");
+    ASSERT_FALSE(w.session.in_excerpt());
+    EXPECT_LT(w.place("crowd.stop").y, at_top - 50) << "the crowd's panel is where it was left";
+    w.click("conflicts.open");
+    EXPECT_EQ(w.place("query.answer").y, answer) << "another excerpt";
+}
+
+}  // namespace
+}  // namespace mobbscope::app
