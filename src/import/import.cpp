@@ -103,7 +103,7 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
         return track_clips(tracks->second, file, options);
     }
     std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
+    if (extension.empty() && !std::filesystem::exists(file, ignored)) {
         throw InputError(file.string(), "", "no such file or folder; check the path");
     }
     throw InputError(
