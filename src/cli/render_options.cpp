@@ -123,8 +123,7 @@ void add_shown_options(Command& command, ViewArguments& view) {
         .add_option(
             "--follow", [&view](const std::string& agent) { view.follow = agent == "none" ? "" : agent; },
             "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with its last "
-            "choice; or "
-            "none",
+            "choice; or none",
             "AGENT")
         .group(kGroup);
     add("--time-height", view.time_height, parse_time_height, "Metres drawn per second; default: auto, as tall as wide",

@@ -20,9 +20,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kGlide = 0.5;     // seconds before and after
-constexpr int kPlaces = 16;        // that the mean is of
-constexpr double kStanding = 1.8;  // metres: people's height
+constexpr double kGlide = 0.5;  // seconds before and after
+constexpr int kPlaces = 16;     // that the mean is of
 
 /// The agent's clips one after the other.
 std::vector<mobb::PlacedClip> clips_of(const FittedScene& fitted, const std::string& name, double time) {
@@ -75,15 +74,17 @@ glm::dvec3 camera_anchor(const FittedScene& fitted, const ViewState& view, doubl
     return {place.x, place.y, time_runs ? time : 0};
 }
 
-Camera framing_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list, double metres) {
+glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list) {
     // In a scene's space-time targets are as high as their time, else they count from the floor or from now.
-    double level = 0;
-    if (!list.moment && !fitted.scene().crowd) {
-        const double time = view.time ? *view.time : bounds_of(subjects(fitted, view)).min.z;
-        level = time * list.space.time_height;
-    }
-    return framing(settled(view.camera, list), {-metres, -metres, level}, {metres, metres, level + kStanding},
-                   list.size);
+    if (list.moment || fitted.scene().crowd) return glm::dvec3(0);
+    const double time = view.time ? *view.time : bounds_of(subjects(fitted, view)).min.z;
+    return {0, 0, time * list.space.time_height};
+}
+
+Camera framing_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list, double metres) {
+    const glm::dvec3 at = target_of_followed(fitted, view, list);
+    return framing(settled(view.camera, list), at - glm::dvec3(metres, metres, 0),
+                   at + glm::dvec3(metres, metres, kStanding), list.size);
 }
 
 bool can_follow(const Scene& scene, const std::string& name) {

@@ -23,6 +23,11 @@ glm::dvec3 camera_anchor(const FittedScene& fitted, const ViewState& view, doubl
 /// Metres around a followed agent that are in the picture where nobody says how near the camera is.
 inline constexpr double kAroundFollowed = 5;
 
+inline constexpr double kStanding = 1.8;  ///< metres: people's height
+
+/// Where the followed agent stands at the view's time, as a camera's target, which counts from it. `list`: of the view.
+glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list);
+
 /// The explicit camera (see settle.h) that has so many metres around the followed agent in the picture, as seen from
 /// where the view's camera looks. `list`: of the view.
 Camera framing_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list,

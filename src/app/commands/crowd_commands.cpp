@@ -36,11 +36,11 @@ void stop_following(Session& session, const std::string&) {
 }
 
 void follow(Session& session, const std::string& name) {
-    if (!name.empty()) return follow_agent(session, name, kAround);
+    if (!name.empty()) return follow_agent(session, name, kAroundFollowed);
     const std::string who = agent_in_question(session);
     if (who.empty()) return session.tell(Message::Level::info, "Click somebody first to follow them");
     if (who == session.view().follow) return stop_following(session, "");
-    follow_agent(session, who, kAround);
+    follow_agent(session, who, kAroundFollowed);
 }
 
 // --- plays and choices

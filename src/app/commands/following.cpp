@@ -3,24 +3,11 @@
 #include <app/crowd_view.h>
 #include <import/text.h>
 #include <render/follow.h>
-#include <render/navigate.h>
 
 #include <stdexcept>
 #include <vector>
 
 namespace mobbscope::app {
-
-namespace {
-
-constexpr double kStanding = 1.8;  // metres: people's height
-
-/// Where the followed agent stands, as a target: counted from itself, so only its height in the picture counts.
-glm::dvec3 foot(const Session& session, const DrawList& list) {
-    if (list.moment) return glm::dvec3(0);
-    return {0, 0, (run_or_cursor_time(session) - list.space.anchor.z) * list.space.time_height};
-}
-
-}  // namespace
 
 bool follows(const Session& session) { return !session.view().follow.empty(); }
 
@@ -36,16 +23,15 @@ void follow_agent(Session& session, const std::string& name, double metres) {
 }
 
 void frame_followed(Session& session, double metres) {
-    move_camera(session, [&](const Camera& camera, const DrawList& list) {
-        const glm::dvec3 at = foot(session, list);
-        const glm::dvec3 low = at - glm::dvec3(metres, metres, 0);
-        return framing(camera, low, at + glm::dvec3(metres, metres, kStanding), list.size);
+    move_camera(session, [&](const Camera&, const DrawList& list) {
+        return framing_followed(session.fitted(), session.view(), list, metres);
     });
 }
 
 void center_followed(Session& session) {
     move_camera(session, [&](Camera camera, const DrawList& list) {
-        camera.target = foot(session, list) + glm::dvec3(0, 0, 0.5 * kStanding);
+        const glm::dvec3 foot = target_of_followed(session.fitted(), session.view(), list);
+        camera.target = foot + glm::dvec3(0, 0, 0.5 * kStanding);
         camera.shift = {0, 0};
         return camera;
     });

@@ -7,9 +7,6 @@
 
 namespace mobbscope::app {
 
-/// Metres around a followed agent that are brought into the picture.
-inline constexpr double kAround = 5;
-
 bool follows(const Session& session);
 
 /// Follows and selects an agent, with so many metres around it in the picture. Throws std::invalid_argument if there is

@@ -4,6 +4,7 @@
 #include <app/commands/following.h>
 #include <app/crowd_view.h>
 #include <import/text.h>
+#include <render/follow.h>
 #include <render/lens.h>
 #include <render/navigate.h>
 #include <scene/crowd_run.h>
@@ -69,8 +70,8 @@ bool is_somebody(const Session& session) {
 /// Going along with one, no other stays in the picture: who is selected then is followed instead.
 void frame_somebody_along(Session& session) {
     const std::string who = agent_in_question(session);
-    if (who == session.view().follow) return frame_followed(session, kAround);
-    follow_agent(session, who, kAround);
+    if (who == session.view().follow) return frame_followed(session, kAroundFollowed);
+    follow_agent(session, who, kAroundFollowed);
 }
 
 void frame_selection(Session& session, const std::string& none) {
@@ -79,7 +80,7 @@ void frame_selection(Session& session, const std::string& none) {
         return frame_somebody_along(session);
     }
     const std::optional<Bounds> box = box_of(session, selected);
-    if (!box) return follows(session) ? frame_followed(session, kAround) : frame_all(session, none);
+    if (!box) return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session, none);
     move_camera(session, [&](const Camera& camera, const DrawList& list) {
         const auto target = [&](glm::dvec3 at) { return list.space.to_target(list.space.point(at.x, at.y, at.z)); };
         return framing(camera, target(box->min), target(box->max), list.size);
