@@ -12,9 +12,14 @@
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -26,7 +31,6 @@ constexpr float kFinestStep = 0.6f;  // pixels: disks nearer to one another are 
 constexpr int kMostTogether = 8;
 constexpr double kFlat = 0.4;
 constexpr double kMostHeight = 4;  // metres drawn per second: people walk about a third of it
-constexpr double kMostSpeed = 4;   // metres per second that are reckoned with
 constexpr float kLeastRing = 3;    // pixels of radius
 
 struct Seconds {
@@ -50,24 +54,28 @@ std::vector<Rect> above_floor(const Lens& lens, const std::vector<glm::vec3>& co
     return out;
 }
 
-/// Whether some of a path may be seen.
+/// Whether some of a path may be seen: a ball around all of it reaches into what the camera sees.
 bool may_be_seen(const DrawList& list, const Subject& subject) {
     const mobb::SampleRange shown = subject.samples();
     if (shown.count == 0) return false;
-    const glm::vec2 picture(list.size.width, list.size.height);
-    for (const int part : {0, 1, 2}) {
-        const int sample = shown.first + part * (shown.count - 1) / 2;
-        const mobb::Disk disk = subject.clip().disk(sample);
-        const glm::vec3 at = list.space.point(disk.x, disk.y, subject.clip().time(sample));
-        const auto pixel = list.lens.project(at);
-        if (!pixel) continue;
-        // As far as it may get from there to half way to the next place that is looked at.
-        const double seconds = 0.25 * shown.count * subject.clip().clip().dt();
-        const double reach = 1 + seconds * (kMostSpeed + list.space.time_height);
-        const float around = static_cast<float>(reach) * list.lens.pixels_per_metre(at);
-        if (Rect{glm::vec2(0), picture}.grown(around).contains({*pixel, *pixel})) return true;
+    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    float widest = 0;
+    for (int i = shown.first; i < shown.end(); ++i) {
+        const mobb::Disk disk = subject.clip().disk(i);
+        const glm::vec3 at = list.space.point(disk.x, disk.y, subject.clip().time(i));
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+        widest = std::max(widest, static_cast<float>(disk.r));
     }
-    return false;
+    high.z += static_cast<float>(subject.clip().clip().dt() * list.space.time_height);
+    const glm::vec4 middle(0.5f * (low + high), 1);
+    const float reach = 0.5f * glm::length(high - low) + widest;
+    const glm::mat4 rows = glm::transpose(list.lens.clip_from_world);
+    for (const glm::vec4& across : {rows[0], -rows[0], rows[1], -rows[1]}) {
+        const glm::vec4 edge = rows[3] + across;
+        if (glm::dot(edge, middle) < -reach * glm::length(glm::vec3(edge))) return false;
+    }
+    return true;
 }
 
 /// So many samples cannot be told apart in the picture.
