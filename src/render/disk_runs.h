@@ -29,7 +29,7 @@ struct DiskGroups {
 class PixelScale {
   public:
     explicit PixelScale(const Lens& lens);
-    /// Of a point that is nearer than what is drawn first: as if it were there, for it may be the middle of what is seen.
+    /// A point nearer than what is drawn counts as if it lay there, for it may be the middle of what is seen.
     float at(glm::vec3 point) const;
     /// At distance 1 from the eye; without perspective anywhere.
     float near() const { return scale_; }
