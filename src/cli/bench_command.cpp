@@ -75,13 +75,13 @@ Workload table1(const Arguments& arguments) {
                                           : load_files(arguments.paths, arguments.import_options);
     const int most = arguments.queries.value_or(100'000);
     Workload workload;
-    const bool asks = query_count(scene) > 0 && !scene.crowd && !scene.graph;
-    if (!scene.queries.empty() || asks) {
+    const bool pairs_alone = scene.queries.empty();
+    if (query_count(scene) > 0 && (!pairs_alone || (!scene.crowd && !scene.graph))) {
         workload = workload_of_scene(scene);
         if (workload.queries.size() > static_cast<std::size_t>(most)) {
             workload.queries.resize(static_cast<std::size_t>(most));
         }
-        workload.description = scene.queries.empty() ? "all pairs of agents" : "recorded queries";
+        workload.description = pairs_alone ? "all pairs of agents" : "recorded queries";
     } else {
         SimulateOptions options;
         options.seed = arguments.seed;

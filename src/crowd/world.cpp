@@ -87,20 +87,24 @@ void World::forget_before(double now) {
     }
 }
 
-void World::find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const {
-    const CellRange& range = candidate.cells;
+template <class Visit>
+void World::visit_cells(const CellRange& range, const Visit& visit) const {
     for (int y = range.y0; y <= range.y1; ++y) {
         for (int x = range.x0; x <= range.x1; ++x) {
             for (const std::uint32_t slot : cells_[index(x, y)]) {
-                const Held& other = motions_[slot];
-                // Of the cells that both reach into, the first one reports the pair.
-                if (x != std::max(range.x0, other.cells.x0) || y != std::max(range.y0, other.cells.y0)) continue;
-                if (other_and_overlapping(candidate, other) && candidate.bounds.meets(other.bounds)) {
-                    slots.push_back(slot);
-                }
+                // Of the cells of the range that a motion reaches into, the first one reports it.
+                const CellRange& cells = motions_[slot].cells;
+                if (x == std::max(range.x0, cells.x0) && y == std::max(range.y0, cells.y0)) visit(slot);
             }
         }
     }
+}
+
+void World::find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const {
+    visit_cells(candidate.cells, [&](std::uint32_t slot) {
+        const Held& other = motions_[slot];
+        if (other_and_overlapping(candidate, other) && candidate.bounds.meets(other.bounds)) slots.push_back(slot);
+    });
     std::sort(slots.begin(), slots.end(), [this](std::uint32_t a, std::uint32_t b) {
         const auto order = [this](std::uint32_t slot) {
             const Held& held = motions_[slot];
@@ -159,22 +163,13 @@ void World::all_pairs(const PlayedMove& candidate, double range, std::vector<Ask
     FloorRect reach = candidate.outline->bounds(candidate.placement);
     reach.low -= range;
     reach.high += range;
-    const CellRange range_of_cells = cells_of(reach);
     std::vector<std::uint32_t> slots;
-    for (int y = range_of_cells.y0; y <= range_of_cells.y1; ++y) {
-        for (int x = range_of_cells.x0; x <= range_of_cells.x1; ++x) {
-            const std::vector<std::uint32_t>& in_cell = cells_[index(x, y)];
-            slots.insert(slots.end(), in_cell.begin(), in_cell.end());
-        }
-    }
-    std::sort(slots.begin(), slots.end());
-    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-    for (const std::uint32_t slot : slots) {
+    visit_cells(cells_of(reach), [&](std::uint32_t slot) {
         const Held& other = motions_[slot];
-        if (other.motion.agent != candidate.agent && reach.meets(other.bounds)) {
-            pairs.push_back({candidate, other.motion});
-        }
-    }
+        if (other.motion.agent != candidate.agent && reach.meets(other.bounds)) slots.push_back(slot);
+    });
+    std::sort(slots.begin(), slots.end());
+    for (const std::uint32_t slot : slots) pairs.push_back({candidate, motions_[slot].motion});
 }
 
 }  // namespace mobbscope

@@ -94,6 +94,9 @@ class World {
     }
     Held held(const PlayedMove& motion) const;
     void take_from_cells(std::uint32_t slot);
+    /// Calls visit(slot) once for each motion that reaches into a cell of the range.
+    template <class Visit>
+    void visit_cells(const CellRange& range, const Visit& visit) const;
     /// Slots of the motions of other agents whose bounds and times meet the candidate's, earliest first.
     void find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const;
     Verdict verdict(const PlayedMove& candidate, std::vector<AskedPair>* asked) const;

@@ -8,6 +8,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace mobbscope {
@@ -51,19 +52,20 @@ TrackPoint read_point(const std::string& file, const YAML::Node& step) {
 
 /// A plan of so many bytes has at most `most` steps, unless it repeats them by aliases.
 TrackFile read_plan(const std::string& file, const YAML::Node& plan, std::size_t most) {
-    YAML::Node schedule;
+    std::optional<YAML::Node> found;
     if (plan.IsMap()) {
         for (const auto& entry : plan) {
             if (!entry.first.IsScalar() || entry.first.Scalar() != "schedule") continue;
-            if (schedule.IsMap()) fail(file, entry.first.Mark(), "'schedule' stands twice; leave one");
-            schedule.reset(entry.second);
+            if (found) fail(file, entry.first.Mark(), "'schedule' stands twice; leave one");
+            found = entry.second;
         }
     }
-    if (!schedule.IsMap()) {
+    if (!found || !found->IsMap()) {
         fail(file, plan.Mark(),
              "there is no schedule; a plan has 'schedule:', and below it a list of t, x, y for each "
              "agent");
     }
+    const YAML::Node& schedule = *found;
     TrackCollector tracks;
     for (const auto& agent : schedule) {
         if (!agent.first.IsScalar() || agent.first.Scalar().empty() || !is_utf8(agent.first.Scalar()))
@@ -88,14 +90,16 @@ TrackFile read_plan(const std::string& file, const YAML::Node& plan, std::size_t
 
 /// The YAML reader would leave out all but the first; its LoadAll never ends on some damaged texts.
 void refuse_second_document(std::string_view text, const std::string& file) {
+    constexpr const char* kBlanks = " \t\r";
     bool begun = false;
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     for (std::size_t at = 0; at < text.size();) {
         const std::string_view line = text.substr(at, text.find('\n', at) - at);
         at += line.size() + 1;
-        const bool marks = line.starts_with("---") && (line.size() == 3 || line[3] == ' ' || line[3] == '\r');
+        const bool marks = line.starts_with("---") && line.find_first_not_of(kBlanks, 3) != 3;
         if (marks && begun) throw InputError(file, "", "holds several documents ('---'); leave one plan");
-        const bool says_nothing = line.find_first_not_of(" \r") == std::string_view::npos;
-        begun = begun || marks || !(says_nothing || line.front() == '#' || line.front() == '%');
+        const std::size_t first = line.find_first_not_of(kBlanks);
+        begun = begun || marks || !(first == std::string_view::npos || line[first] == '#' || line.front() == '%');
     }
 }
 

@@ -9,17 +9,16 @@
 #include <render/paths.h>
 #include <render/walls.h>
 #include <render/words.h>
+#include <render/world_box.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -54,22 +53,13 @@ std::vector<Rect> above_floor(const Lens& lens, const std::vector<glm::vec3>& co
     return out;
 }
 
-/// Whether some of a path may be seen: a ball around all of it reaches into what the camera sees.
+/// Whether some of a path may be seen: a ball around its tree's root reaches into what the camera sees.
 bool may_be_seen(const DrawList& list, const Subject& subject) {
-    const mobb::SampleRange shown = subject.samples();
-    if (shown.count == 0) return false;
-    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-    float widest = 0;
-    for (int i = shown.first; i < shown.end(); ++i) {
-        const mobb::Disk disk = subject.clip().disk(i);
-        const glm::vec3 at = list.space.point(disk.x, disk.y, subject.clip().time(i));
-        low = glm::min(low, at);
-        high = glm::max(high, at);
-        widest = std::max(widest, static_cast<float>(disk.r));
-    }
-    high.z += static_cast<float>(subject.clip().clip().dt() * list.space.time_height);
-    const glm::vec4 middle(0.5f * (low + high), 1);
-    const float reach = 0.5f * glm::length(high - low) + widest;
+    if (subject.samples().count == 0) return false;
+    const BoxInstance all = node_box(subject, 0, list.space);
+    const glm::vec4 middle(all.center, 1);
+    float reach = 0;
+    for (const glm::vec3& half : all.extents) reach += glm::length(half);
     const glm::mat4 rows = glm::transpose(list.lens.clip_from_world);
     for (const glm::vec4& across : {rows[0], -rows[0], rows[1], -rows[1]}) {
         const glm::vec4 edge = rows[3] + across;

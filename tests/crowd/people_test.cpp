@@ -24,13 +24,7 @@ Scene crowded_run() {
     scene.clips = {walk("ahead", 1.4, 0, 45, 1.0 / 30, 0.4), walk("left", 1.2, 60, 40, 1.0 / 30, 0.42),
                    walk("right", 1.2, -60, 40, 1.0 / 30, 0.42)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
-    const FittedScene fitted(scene, {});
-    SimulateOptions options;
-    options.agents = 20;
-    options.area = {9, 9};
-    options.seconds = 20;
-    scene.crowd = std::make_shared<CrowdRun>(simulate(MoveSet(fitted), options).run);
-    return scene;
+    return testing::with_run(std::move(scene), 20, {9, 9});
 }
 
 TEST(People, TheirClipsAreWhatTheyPlay) {

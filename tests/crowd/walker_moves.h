@@ -3,6 +3,8 @@
 
 #include <crowd/graph_walk.h>
 #include <crowd/move_set.h>
+#include <crowd/simulate.h>
+#include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 
 #include <cmath>
@@ -32,6 +34,17 @@ inline Scene walker_scene() {
                    walk("slow", 0.5, -20, 72, 1.0 / 30, 0.35),  walk("around", 0.9, 150, 60, 1.0 / 25, 0.4),
                    walk("step", 0.8, 30, 18, 1.0 / 30, 0.38)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
+    return scene;
+}
+
+/// What `agents` do with the scene's graph in 20 s on a floor of `area` metres, as its crowd.
+inline Scene with_run(Scene scene, int agents, glm::dvec2 area) {
+    SimulateOptions options;
+    options.agents = agents;
+    options.area = area;
+    options.seconds = 20;
+    const FittedScene fitted(scene, {});
+    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
     return scene;
 }
 

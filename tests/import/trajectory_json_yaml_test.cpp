@@ -95,6 +95,13 @@ TEST(MapfPlan, AgentsAreReadByName) {
     EXPECT_EQ(told[1].clip->samples()[1].y, 2);
 }
 
+TEST(MapfPlan, WhatStandsBeforeItsDocumentIsNone) {
+    for (const std::string before :
+         {"---\n", "\xef\xbb\xbf# by a solver\n---\n", "%YAML 1.2\n--- # plan\n", "  # a\n\n \t\n---\n"}) {
+        EXPECT_EQ(plan(before + kPlan).size(), plan(kPlan).size()) << before;
+    }
+}
+
 TEST(MapfPlan, BadPlansAreRefused) {
     const struct {
         std::string text, message;
@@ -111,6 +118,7 @@ TEST(MapfPlan, BadPlansAreRefused) {
         {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0, x: 7}\n", "line 3: 'x' stands twice in a step"},
         {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\nschedule:\n  b: []\n", "line 4: 'schedule' stands twice"},
         {"schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n---\nschedule: {}\n", "holds several documents"},
+        {"schedule: 3\nschedule:\n  b:\n  - {t: 0, x: 0, y: 0}\n", "line 2: 'schedule' stands twice"},
         {"schedule: [\n", "is no YAML"},
         {std::string("a\0b", 3), "NUL byte"},
         {std::string(100000, '['), "is no YAML"},

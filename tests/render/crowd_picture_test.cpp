@@ -27,16 +27,7 @@ constexpr PictureSize kLarge{1280, 720};
 
 class CrowdPicture : public ::testing::Test {
   protected:
-    FittedScene run = [] {
-        Scene scene = testing::walker_scene();
-        const FittedScene fitted(scene, {});
-        SimulateOptions options;
-        options.agents = 20;
-        options.area = {13, 13};
-        options.seconds = 20;
-        scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
-        return FittedScene(std::move(scene), {});
-    }();
+    FittedScene run{testing::with_run(testing::walker_scene(), 20, {13, 13}), {}};
 
     static ViewState view(Show show, double time) {
         ViewState out;
