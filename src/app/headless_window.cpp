@@ -6,7 +6,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
+constexpr double kHeadlessFrame = 1.0 / 60;
 /// What still wants frames after that many is an animation.
 constexpr int kMostToSettle = 120;
 
@@ -17,7 +17,7 @@ HeadlessWindow::HeadlessWindow(std::unique_ptr<GlContext> context, Session& sess
 
 void HeadlessWindow::frame() {
     next_ = shell_.frame(size_, now_);
-    now_ += kFrame;
+    now_ += kHeadlessFrame;
 }
 
 void HeadlessWindow::run_for(double seconds) {

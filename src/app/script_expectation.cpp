@@ -82,7 +82,7 @@ std::string instead(const std::string& pointer, const Json& is, const std::strin
 
 }  // namespace
 
-Expectation parse_expectation(std::string_view text) {
+ScriptExpectation parse_expectation(std::string_view text) {
     text = trimmed(text);
     if (text.empty()) throw std::invalid_argument("it needs a JSON pointer and a value");
     const std::string name(take_word(text));

@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kLeastStep = 0.1;  // metres: shorter steps are sway, not a direction
 
-double degrees(glm::dvec2 v) { return std::atan2(v.y, v.x) * 180 / std::numbers::pi; }
-
 glm::dvec2 center(const mobb::Disk& disk) { return {disk.x, disk.y}; }
 
 double distance(glm::dvec2 a, glm::dvec2 b) { return std::hypot(b.x - a.x, b.y - a.y); }
@@ -20,7 +18,7 @@ Stance stance_at_begin(const mobb::Clip& clip) {
     const auto samples = clip.samples();
     const glm::dvec2 first = center(samples.front());
     for (const mobb::Disk& disk : samples) {
-        if (distance(first, center(disk)) >= kLeastStep) return {first, degrees(center(disk) - first)};
+        if (distance(first, center(disk)) >= kLeastStep) return {first, heading_of(center(disk) - first)};
     }
     return {first, 0};
 }
@@ -31,7 +29,8 @@ Stance stance_at_end(const mobb::Clip& clip) {
     // The pose after the last sample: one more step like the last one.
     const glm::dvec2 step = samples.size() > 1 ? last - center(samples[samples.size() - 2]) : glm::dvec2{0};
     for (std::size_t i = samples.size(); i-- > 0;) {
-        if (distance(center(samples[i]), last) >= kLeastStep) return {last + step, degrees(last - center(samples[i]))};
+        if (distance(center(samples[i]), last) >= kLeastStep)
+            return {last + step, heading_of(last - center(samples[i]))};
     }
     return {last + step, stance_at_begin(clip).heading_deg};
 }

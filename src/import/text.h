@@ -1,6 +1,7 @@
 /// Numbers and words in text, the same in every locale.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -31,6 +32,10 @@ std::string brief(double value);
 
 /// "1 sample", "12 samples".
 std::string counted(long long count, std::string_view singular, std::string_view plural);
+template <std::integral Count>
+std::string counted(Count count, std::string_view singular, std::string_view plural) {
+    return counted(static_cast<long long>(count), singular, plural);
+}
 
 /// "mobb, umobb, hybrid1".
 std::string listed(std::span<const std::string_view> names);

@@ -21,8 +21,8 @@ namespace mobbscope {
 namespace {
 
 constexpr int kCirclePieces = 64;
-constexpr double kBeyond = 0.35;  // of the radius: how far axes go beyond what is marked on them
-constexpr double kAside = 0.16;   // ... and perpendiculars, and how far the height stands beside the disk
+constexpr double kAxisBeyond = 0.35;  // of the radius: how far axes go beyond what is marked on them
+constexpr double kAside = 0.16;       // ... and perpendiculars, and how far the height stands beside the disk
 
 const Subject& checked(std::span<const Subject> subjects, const DiskProjection& projection) {
     if (projection.participant < 0 || static_cast<std::size_t>(projection.participant) >= subjects.size()) {
@@ -122,8 +122,12 @@ class Diagram {
     float scale_;
 };
 
-glm::dvec3 axis_begin(const AxisExtent& axis, double radius) { return axis.direction * (axis.min - kBeyond * radius); }
-glm::dvec3 axis_end(const AxisExtent& axis, double radius) { return axis.direction * (axis.max + kBeyond * radius); }
+glm::dvec3 axis_begin(const AxisExtent& axis, double radius) {
+    return axis.direction * (axis.min - kAxisBeyond * radius);
+}
+glm::dvec3 axis_end(const AxisExtent& axis, double radius) {
+    return axis.direction * (axis.max + kAxisBeyond * radius);
+}
 
 /// Where the height is marked: left of the disk, its middle.
 glm::dvec3 beside_disk(const DiskExtents& extents) {

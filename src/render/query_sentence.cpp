@@ -57,10 +57,6 @@ std::string sample_outcome(std::span<const Subject> sides, const mobb::Trace::Ev
            with_unit(clearance, "m") + " apart";
 }
 
-std::string counted(std::int64_t count, const char* one, const char* many) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : many);
-}
-
 }  // namespace
 
 std::string with_unit(double value, const char* unit) {

@@ -49,6 +49,9 @@ struct MotionGraph {
     friend bool operator==(const MotionGraph&, const MotionGraph&) = default;
 };
 
+/// Degrees from +x, counter-clockwise.
+double heading_of(glm::dvec2 way);
+
 /// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and the clip's
 /// duration later. `duration` is that of the move before, in seconds.
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry);

@@ -23,14 +23,14 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::TempFolder;
+using mobbscope::testing::TempFolder;
 
 constexpr PictureSize kSize{800, 500};
 
 class ShellTest : public ::testing::TestWithParam<Backend> {
   protected:
     void SetUp() override {
-        if (!testing::open_or_skip(GetParam())) return;
+        if (!mobbscope::testing::open_or_skip(GetParam())) return;
         window = std::make_unique<HeadlessWindow>(GlContext::open(GetParam()), session, kSize, 1);
         session.open_demo();
         window->settle();
@@ -88,7 +88,7 @@ TEST_P(ShellTest, MarksGoToAFile) {
     const TempFolder folder;
     const std::string file = folder.path() / "marks.txt";
     EXPECT_EQ(run("marks " + file), "");
-    EXPECT_EQ(testing::slurp(file), run("marks"));
+    EXPECT_EQ(mobbscope::testing::slurp(file), run("marks"));
 }
 
 TEST_P(ShellTest, ADragOfAWidgetByNameMovesIt) {
@@ -199,12 +199,13 @@ TEST_P(ShellTest, AnExpectationThatFailsNamesItsLine) {
     EXPECT_THROW(run("click no.such.widget"), InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl),
+                         mobbscope::testing::backend_name);
 
 class UiPassTest : public ::testing::TestWithParam<Backend> {};
 
 TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
-    const std::unique_ptr<Renderer> renderer = testing::open_or_skip(GetParam());
+    const std::unique_ptr<Renderer> renderer = mobbscope::testing::open_or_skip(GetParam());
     if (!renderer) return;
     ImGuiContext* imgui = ImGui::CreateContext();
     ImGui::SetCurrentContext(imgui);
@@ -238,7 +239,8 @@ TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
     ImGui::DestroyContext(imgui);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, UiPassTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+INSTANTIATE_TEST_SUITE_P(Backends, UiPassTest, ::testing::Values(Backend::osmesa, Backend::egl),
+                         mobbscope::testing::backend_name);
 
 }  // namespace
 }  // namespace mobbscope::app

@@ -22,7 +22,7 @@ using testing::run_program;
 using testing::slurp;
 using testing::TempFolder;
 
-const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
+const std::string kProgramScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
 TEST(Program, HelpAndVersionAreResults) {
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
@@ -40,7 +40,7 @@ TEST(Program, HelpAndVersionAreResults) {
 }
 
 TEST(Program, BadUsageIsOneLineAndStatusTwo) {
-    const std::string scene = kScenes + "crossing.json";
+    const std::string scene = kProgramScenes + "crossing.json";
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"querry", scene},
                                                       {"fit"},
                                                       {"fit", scene, "more"},
@@ -77,7 +77,7 @@ TEST(Program, BadUsageNamesTheHelpThatListsTheOption) {
 }
 
 TEST(Program, NumbersAreReadAsTheFilesHaveThem) {
-    const std::string csv = kScenes + "walk.csv";
+    const std::string csv = kProgramScenes + "walk.csv";
     for (const char* option : {"--leaf", "--levels", "--time-scale", "--fps", "--dt", "--radius", "--unit", "--trim"}) {
         for (const char* bad : {"", "0x10", " 5", "5 ", "nan", "inf", "1e999", "1,5", "5m"}) {
             const Result run = run_program({"fit", csv, option, bad});
@@ -92,7 +92,7 @@ TEST(Program, NumbersAreReadAsTheFilesHaveThem) {
 }
 
 TEST(Program, RangesAreToldWithBothTheirBounds) {
-    const std::string csv = kScenes + "walk.csv";
+    const std::string csv = kProgramScenes + "walk.csv";
     const auto complaint = [&](const std::vector<std::string>& option) {
         std::vector<std::string> arguments{"fit", csv};
         arguments.insert(arguments.end(), option.begin(), option.end());
@@ -107,8 +107,8 @@ TEST(Program, RangesAreToldWithBothTheirBounds) {
 }
 
 TEST(Program, FilesBeforeACommandAreNotDropped) {
-    for (const std::string& file : {std::string("nofile.json"), kScenes + "crossing.json"}) {
-        const Result run = run_program({file, "query", kScenes + "crossing.json"});
+    for (const std::string& file : {std::string("nofile.json"), kProgramScenes + "crossing.json"}) {
+        const Result run = run_program({file, "query", kProgramScenes + "crossing.json"});
         EXPECT_EQ(run.status, 2);
         EXPECT_EQ(run.out, "");
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
@@ -117,8 +117,10 @@ TEST(Program, FilesBeforeACommandAreNotDropped) {
 }
 
 TEST(Program, AnEmptyNameIsSaidToBeEmpty) {
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"fit", ""}, {"info", ""}, {"convert", kScenes + "walk.csv", "-o", ""}, {""}}) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"fit", ""},
+                                                      {"info", ""},
+                                                      {"convert", kProgramScenes + "walk.csv", "-o", ""},
+                                                      {""}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 2);
         EXPECT_NE(run.err.find("the name of a file is empty"), std::string::npos) << run.err;
@@ -158,7 +160,7 @@ TEST(Program, BadInputIsOneLineAndStatusTwoForEveryCommand) {
 
 TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-    const std::string scene = kScenes + "crossing.json";
+    const std::string scene = kProgramScenes + "crossing.json";
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                       {"fit", scene},
                                                       {"fit", scene, "--json"},
@@ -195,7 +197,7 @@ class NoDisplay {
 TEST(Program, WithoutADisplayTheWindowSaysWhatWorks) {
     const NoDisplay no_display;
     for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{}, {kScenes + "crossing.json"}, {"--size", "800x600", "--ui-scale", "2"}}) {
+         {std::vector<std::string>{}, {kProgramScenes + "crossing.json"}, {"--size", "800x600", "--ui-scale", "2"}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 3);
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
@@ -207,17 +209,18 @@ TEST(Program, WithoutADisplayTheWindowSaysWhatWorks) {
 }
 
 TEST(Program, OptionsOfTheWindowAreChecked) {
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--ui-scale", "0.4"},
-                                                      {"--ui-scale", "4.1"},
-                                                      {"--ui-scale", "big"},
-                                                      {"--ui-scale", "0"},
-                                                      {"--ui-scale", "nan"},
-                                                      {"--size", "0x0"},
-                                                      {"--size", "-1x100"},
-                                                      {"--size", "999999x999999"},
-                                                      {"--size", "10x10"},
-                                                      {"--size", "1280"},
-                                                      {"--size", "800x600", "query", kScenes + "crossing.json"}}) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--ui-scale", "0.4"},
+          {"--ui-scale", "4.1"},
+          {"--ui-scale", "big"},
+          {"--ui-scale", "0"},
+          {"--ui-scale", "nan"},
+          {"--size", "0x0"},
+          {"--size", "-1x100"},
+          {"--size", "999999x999999"},
+          {"--size", "10x10"},
+          {"--size", "1280"},
+          {"--size", "800x600", "query", kProgramScenes + "crossing.json"}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 2) << arguments[1];
         EXPECT_TRUE(is_one_line(run.err)) << run.err;

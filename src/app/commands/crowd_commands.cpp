@@ -20,8 +20,6 @@ namespace {
 constexpr double kNear = 2.5;    // metres around two that meet
 constexpr double kBefore = 0.5;  // seconds before a conflict
 
-bool has_scene(const Session& session) { return !session.empty(); }
-
 // --- following
 
 void stop_following(Session& session, const std::string&) {

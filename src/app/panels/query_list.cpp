@@ -12,7 +12,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr int kMostRows = 12;  // a longer list scrolls by itself
+constexpr int kMostQueryRows = 12;  // a longer list scrolls by itself
 
 /// "A against B", the names shortened until it fits; the tooltip has them in full.
 std::string pair_that_fits(const SceneQuery& query, float room) {
@@ -69,7 +69,7 @@ void query_list(Ui& ui) {
     const float height = 2 * ImGui::GetTextLineHeight() + ui.px(6);
     const float spacing = ImGui::GetStyle().ItemSpacing.y;
     const int rows = static_cast<int>(count);
-    const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostRows)) + spacing;
+    const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostQueryRows)) + spacing;
     ImGui::BeginChild("queries", {0, room});
     ImGuiListClipper clipper;
     clipper.Begin(rows, height + spacing);
