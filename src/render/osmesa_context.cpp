@@ -2,6 +2,7 @@
 #include <render/shared_library.h>
 
 #include <GL/osmesa.h>
+#include <opened_libraries.h>
 
 #include <array>
 #include <stdexcept>
@@ -39,7 +40,7 @@ class OsmesaContext final : public GlContext {
 
     static constexpr int kSide = 8;
 
-    SharedLibrary library_{{"libOSMesa.so.8", "libOSMesa.so.6"}};
+    SharedLibrary library_{osmesa_libraries()};
     decltype(&OSMesaCreateContextAttribs) create_ =
         library_.function<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
     decltype(&OSMesaDestroyContext) destroy_ =
