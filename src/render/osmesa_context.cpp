@@ -2,6 +2,7 @@
 #include <render/shared_library.h>
 
 #include <glad/gl.h>
+#include <opened_libraries.h>
 
 #include <array>
 #include <stdexcept>
@@ -56,7 +57,7 @@ class OsmesaContext final : public GlContext {
 
     static constexpr int kSide = 8;
 
-    SharedLibrary library_{{"libOSMesa.so.8", "libOSMesa.so.6"}};
+    SharedLibrary library_{osmesa_libraries()};
     osmesa::Create create_ = library_.function<osmesa::Create>("OSMesaCreateContextAttribs");
     osmesa::Destroy destroy_ = library_.function<osmesa::Destroy>("OSMesaDestroyContext");
     osmesa::MakeCurrent make_current_ = library_.function<osmesa::MakeCurrent>("OSMesaMakeCurrent");
