@@ -1,10 +1,10 @@
 #include <import/text.h>
 #include <render/subject.h>
 #include <scene/crowd_scene.h>
+#include <scene/view_mismatch.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 
 namespace mobbscope {
@@ -51,8 +51,8 @@ std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view) 
     }
     const std::size_t count = fitted.queries().size();
     if (*view.query < 0 || static_cast<std::size_t>(*view.query) >= count) {
-        throw std::invalid_argument("there is no query " + std::to_string(*view.query) + ": the scene has " +
-                                    (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
+        throw ViewMismatch("query", "there is no query " + std::to_string(*view.query) + ": the scene has " +
+                                        (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
     }
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(*view.query)];
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
