@@ -183,7 +183,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> nam
     if (names.empty()) return "";
     const std::string& name = nearest(word, names);
     // A word that is wrong in more than half of its letters is another word.
-    const bool meant = distance_to(word, name) <= (word.size() + 1) / 2;
+    const bool meant = distance_to(word, name) <= (std::min(word.size(), kLongestQuote) + 1) / 2;
     return meant ? " (did you mean " + in_quotes(name) + "?)" : "";
 }
 

@@ -83,6 +83,7 @@ TEST(Text, TheNearestNameIsFoundAndOnlyNamedWhenMeant) {
     const std::vector<std::string> names{"leaf", "levels", "axes"};
     EXPECT_EQ(nearest("level", names), "levels");
     EXPECT_EQ(did_you_mean("laef", names), " (did you mean 'leaf'?)");
+    EXPECT_EQ(did_you_mean(std::string(5000, 'x'), names), "");
     EXPECT_EQ(did_you_mean("quixotic", names), "");
 }
 
