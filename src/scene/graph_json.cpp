@@ -10,7 +10,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kMaxAngle = 1e9;   // degrees, as for placements
+constexpr double kMaxAngle = 1e9;  // degrees, as for placements
 
 double read_bound(const JsonPlace& bounds, const char* key) {
     const auto bound = bounds.find(key);

@@ -66,7 +66,8 @@ TEST(Text, QuotesAreShortAndOnOneLine) {
 TEST(Text, WhatIsLongIsCutInTheMiddle) {
     EXPECT_EQ(shortened("walker", 10), "walker");
     EXPECT_EQ(shortened("recording number 17", 9), "reco\u2026r 17");
-    EXPECT_EQ(shortened("\u00e9\u00e9\u00e9\u00e9\u00e9", 5), "\u00e9\u00e9\u00e9\u00e9\u00e9") << "characters, not bytes";
+    EXPECT_EQ(shortened("\u00e9\u00e9\u00e9\u00e9\u00e9", 5), "\u00e9\u00e9\u00e9\u00e9\u00e9")
+        << "characters, not bytes";
     EXPECT_EQ(shortened("\u00e9\u00e9\u00e9\u00e9\u00e9\u00e9", 5), "\u00e9\u00e9\u2026\u00e9\u00e9");
     EXPECT_EQ(shortened(std::string(100, '\x80'), 5), "\x80\x80\u2026\x80\x80") << "no UTF-8";
 }
