@@ -1,6 +1,7 @@
 #include <app/session.h>
 #include <import/error.h>
 #include <import/file.h>
+#include <import/text.h>
 #include <render/follow.h>
 #include <render/query_progress.h>
 #include <scene/crowd_scene.h>
@@ -36,6 +37,7 @@ constexpr std::size_t kQuickSamples = 50'000;
 /// How much longer than the paper's axes those found by searching take.
 constexpr std::size_t kSearchFactor = 100;
 constexpr std::size_t kMostMessages = 5;
+constexpr std::size_t kLongestMessage = 500;  // characters; names of files may be longer
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
 
@@ -429,9 +431,10 @@ void Session::close_dialog() {
 // --- messages and jobs
 
 void Session::tell(Message::Level level, const std::string& text) {
+    const std::string said = shortened(text, kLongestMessage);
     // Twice the same says nothing new.
-    std::erase_if(messages_, [&](const Message& message) { return message.text == text; });
-    messages_.push_back({level, text, {}});
+    std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
+    messages_.push_back({level, said, {}});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
 }
 

@@ -1,8 +1,11 @@
 #include <crowd/graph_walk.h>
+#include <import/error.h>
+#include <import/text.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 namespace mobbscope {
 
@@ -35,6 +38,17 @@ Stance stance_at_end(const mobb::Clip& clip) {
     return {last + step, stance_at_begin(clip).heading_deg};
 }
 
+bool is_near(const Stance& stance) {
+    return std::abs(stance.position.x) <= kMostStance && std::abs(stance.position.y) <= kMostStance;
+}
+
+void check_move(const Scene& scene, const GraphMove& move) {
+    const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
+    if (is_near(move.entry) && is_near(move.exit)) return;
+    throw InputError(clip.source.value_or(scene.file.string()), "clip " + in_quotes(clip.name),
+                     "begins or ends more than " + short_double(kMostStance) + " m from the origin; move it there");
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph) {
@@ -58,7 +72,9 @@ MotionGraph graph_of_whole_clips(const Scene& scene) {
     graph.bounds = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < scene.clips.size(); ++i) {
         const mobb::Clip& clip = *scene.clips[i].clip;
-        graph.moves.push_back({static_cast<int>(i), 0, 0, stance_at_begin(clip), stance_at_end(clip)});
+        const GraphMove move{static_cast<int>(i), 0, 0, stance_at_begin(clip), stance_at_end(clip)};
+        check_move(scene, move);
+        graph.moves.push_back(move);
     }
     return graph;
 }

@@ -50,7 +50,8 @@ bool is_utf8(std::string_view text);
 /// '?'.
 std::string cleaned(std::string_view text);
 
-/// At most `most` bytes of the text, whole characters of UTF-8, with "..." where something was cut.
+/// At most `most` (>= 5) characters: where there are more, the beginning, an ellipsis and the end. Text that is not
+/// UTF-8 is cut by bytes.
 std::string shortened(std::string_view text, std::size_t most);
 
 /// Text in single quotes for a message: cleaned and shortened.

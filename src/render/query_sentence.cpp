@@ -1,3 +1,4 @@
+#include <import/text.h>
 #include <render/box_axes.h>
 #include <render/query_sentence.h>
 

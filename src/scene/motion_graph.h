@@ -42,6 +42,9 @@ struct GraphBounds {
     friend bool operator==(const GraphBounds&, const GraphBounds&) = default;
 };
 
+/// Metres: moves add up, and what is placed must stay within mobb::kMaxLength.
+inline constexpr double kMostStance = 1e6;
+
 struct MotionGraph {
     std::vector<GraphHub> hubs;
     std::vector<GraphMove> moves;

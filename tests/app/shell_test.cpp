@@ -186,6 +186,8 @@ TEST_P(ShellTest, AnExpectationThatFailsNamesItsLine) {
     for (const auto& [script, says] : std::vector<std::pair<std::string, std::string>>{
              {"\n# two\nexpect /title \"other\"", "test: line 3: /title is \"crossing\", expected \"other\""},
              {"expect /modified != false", "line 1: /modified is false, expected anything but false"},
+             {"expect /" + std::string(5000, 'x') + " \"" + std::string(5000, 'y') + "\"",
+              "x\u2026" + std::string(99, 'x') + " is null, expected \"" + std::string(99, 'y') + "\u2026"},
              {"expect /scene/agents/1/start ~ 0.8 0.01",
               "line 1: /scene/agents/1/start is 0.9, expected 0.8 within 0.01"},
              {"expect /scene/agents {}", "line 1: /scene/agents is ["}}) {

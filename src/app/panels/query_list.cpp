@@ -4,7 +4,6 @@
 #include <app/panels/section.h>
 #include <import/text.h>
 #include <render/query_sentence.h>
-#include <render/subject.h>
 
 #include <algorithm>
 
@@ -19,7 +18,7 @@ std::string pair_that_fits(const SceneQuery& query, float room) {
     const std::string a = cleaned(query.a.name);
     const std::string b = cleaned(query.b.name);
     std::string pair;
-    for (int most = 40; most >= 5; --most) {
+    for (std::size_t most = 40; most >= 5; --most) {
         pair = shortened(a, most) + " against " + shortened(b, most);
         if (ImGui::CalcTextSize(pair.c_str()).x <= room) break;
     }
