@@ -79,7 +79,7 @@ Session::Session(bool attended, Settings settings_)
 // --- the document
 
 void Session::edit(const EditName& name, const std::function<void(Scene&)>& change) {
-    if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
+    require_no_job();
     Scene next = scene();
     next.view = view();
     change(next);
@@ -115,12 +115,14 @@ void Session::look(const std::function<void(ViewState&)>& change) {
 
 void Session::undo() {
     if (job_ || !history_.can_undo()) return;
+    stop();
     history_.undo();
     changed();
 }
 
 void Session::redo() {
     if (job_ || !history_.can_redo()) return;
+    stop();
     history_.redo();
     changed();
 }
@@ -225,6 +227,7 @@ void Session::find_conflicts() {
 }
 
 void Session::open_excerpt(const Participant& a, const Participant& b) {
+    require_no_job();
     Scene excerpt;
     excerpt.file = scene().file;
     excerpt.fit = scene().fit;
@@ -246,7 +249,7 @@ void Session::open_excerpt(const Participant& a, const Participant& b) {
     const std::shared_ptr<const Origin> before = document().origin;
     next.origin = std::make_shared<const Origin>(
         Origin{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
-    playing = false;
+    stop();
     selection = {};
     hovered = {};
     ++excerpts_opened_;
@@ -255,8 +258,9 @@ void Session::open_excerpt(const Participant& a, const Participant& b) {
 }
 
 void Session::leave_excerpt() {
+    require_no_job();
     const std::shared_ptr<const Origin> origin = document().origin;
-    playing = false;
+    stop();
     selection = {};
     hovered = {};
     history_.change({origin->fitted, origin->view, nullptr}, {"going back to the whole", ""});
@@ -291,7 +295,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     if (attended_ && !opened.empty()) settings.remember(opened.front());
     selection = {};
     hovered = {};
-    playing = false;
+    stop();
     candidate = -1;
     conflict = -1;
     // What went wrong with the last document is over.
@@ -439,13 +443,17 @@ void Session::dismiss(std::size_t message) {
     if (message < messages_.size()) messages_.erase(messages_.begin() + static_cast<std::ptrdiff_t>(message));
 }
 
-void Session::start(std::string title, Job::Work work) {
+void Session::require_no_job() const {
     if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
     job_ = std::make_unique<Job>(std::move(title), std::move(work), hooks.wake);
     job_->wait(attended_ ? kPatience : std::chrono::hours(24));
     poll();
 }
 
+}
+
+void Session::start(std::string title, Job::Work work) {
+    require_no_job();
 void Session::cancel_job() {
     if (!job_) return;
     job_.reset();
@@ -490,11 +498,22 @@ mobb::Interval Session::time_span() const {
 
 void Session::advance(double seconds) {
     // What a job hands over is seen as it was when it began.
-    if (!playing || empty() || job_) return;
+    if (!playing_ || empty() || job_) return;
     const mobb::Interval span = time_span();
     double time = view().time.value_or(span.t0) + seconds * speed;
+void Session::play() {
+    playing_ = true;
+    has_played_ = false;
+}
+
     if (time >= span.t1 || time < span.t0) time = span.t0;
-    look([&](ViewState& v) { v.time = time; });
+    if (time == view().time) return;
+    if (!std::exchange(has_played_, true)) return look([&](ViewState& v) { v.time = time; });
+    // A drag meanwhile stays one state, and so does the play.
+    Document next = document();
+    next.view.time = time;
+    history_.amend(std::move(next));
+    changed();
 }
 
 }  // namespace mobbscope::app

@@ -101,6 +101,7 @@ class Session {
     /// An interaction has ended: what follows is undone apart from it.
     void close_group() { history_.close_group(); }
     void undo();
+    /// Back, and on again; what plays stops.
     void redo();
 
     /// What is asked in the view, recorded; null if no query is in the view.
@@ -182,14 +183,17 @@ class Session {
     void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
 
     // Jobs.
-    /// The work under way; null if none. The document cannot be edited meanwhile.
+    /// The work under way; null if none. The document cannot be edited meanwhile, undone or left for another.
     const Job* job() const { return job_.get(); }
     void cancel_job();
     /// Takes in what jobs have done. Call it before each frame.
     void poll();
 
     // Time.
-    bool playing = false;
+    /// Lets the time cursor run; how far it comes is one state, or goes into what is done meanwhile.
+    void play();
+    void stop() { playing_ = false; }
+    bool playing() const { return playing_; }
     double speed = 1;  ///< seconds of the scene per second
     /// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
     mobb::Interval time_span() const;
@@ -200,6 +204,8 @@ class Session {
     using LoadAll = std::function<Scene(JobControl&)>;
 
     void start(std::string title, Job::Work work);
+    void ask_anew(DialogInput with);
+    void require_no_job() const;
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
     void change_document(Document next, const EditName& name);
@@ -216,6 +222,8 @@ class Session {
     std::vector<Message> messages_;
     std::unique_ptr<Job> job_;
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes
+    bool playing_ = false;
+    bool has_played_ = false;        ///< since play(): the time that passes has a state
     bool closed_ = false;
 
     /// What is computed from the present scene when asked for.

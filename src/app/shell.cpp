@@ -216,7 +216,7 @@ struct Shell::State {
         time = now;
         // Dear ImGui wants time to pass.
         ImGui::GetIO().DeltaTime = std::max(static_cast<float>(passed), 1e-5f);
-        if (std::exchange(was_playing, session.playing) && session.playing) {
+        if (std::exchange(was_playing, session.playing()) && session.playing()) {
             session.advance(std::min(passed, kLongestStep));
         }
     }
@@ -243,7 +243,7 @@ struct Shell::State {
         window_layout(ui, viewport);
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);
-        if (session.playing) ui.want_frame_in(0);
+        if (session.playing()) ui.want_frame_in(0);
         ImGui::Render();
         return ui.next_frame;
     }
