@@ -354,7 +354,7 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
 void Session::save() {
     if (!file_ || in_excerpt()) {
         dialog = Dialog::save_as;  // what waits for the changes to be saved goes on waiting
-        input = {};
+        ask_anew({});
         return;
     }
     save_as(*file_);
@@ -421,13 +421,18 @@ void Session::answer_unsaved(Unsaved choice) {
 void Session::open_dialog(Dialog which, DialogInput with) {
     close_dialog();
     dialog = which;
-    input = std::move(with);
+    ask_anew(std::move(with));
 }
 
 void Session::close_dialog() {
     dialog = Dialog::none;
-    input = {};
+    ask_anew({});
     pending_ = nullptr;
+}
+
+void Session::ask_anew(DialogInput with) {
+    with.opening = input.opening + 1;
+    input = std::move(with);
 }
 
 // --- messages and jobs
@@ -445,15 +450,15 @@ void Session::dismiss(std::size_t message) {
 
 void Session::require_no_job() const {
     if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
+}
+
+void Session::start(std::string title, Job::Work work) {
+    require_no_job();
     job_ = std::make_unique<Job>(std::move(title), std::move(work), hooks.wake);
     job_->wait(attended_ ? kPatience : std::chrono::hours(24));
     poll();
 }
 
-}
-
-void Session::start(std::string title, Job::Work work) {
-    require_no_job();
 void Session::cancel_job() {
     if (!job_) return;
     job_.reset();
@@ -496,16 +501,16 @@ mobb::Interval Session::time_span() const {
     return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
 }
 
-void Session::advance(double seconds) {
-    // What a job hands over is seen as it was when it began.
-    if (!playing_ || empty() || job_) return;
-    const mobb::Interval span = time_span();
-    double time = view().time.value_or(span.t0) + seconds * speed;
 void Session::play() {
     playing_ = true;
     has_played_ = false;
 }
 
+void Session::advance(double seconds) {
+    // What a job hands over is seen as it was when it began.
+    if (!playing_ || empty() || job_) return;
+    const mobb::Interval span = time_span();
+    double time = view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;
     if (time == view().time) return;
     if (!std::exchange(has_played_, true)) return look([&](ViewState& v) { v.time = time; });

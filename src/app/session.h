@@ -54,6 +54,7 @@ struct DialogInput {
     int picked = 0;           ///< of a list
     bool confirming = false;  ///< asks whether to overwrite
     int generation = 0;       ///< the field shows another text from without: see set_text
+    int opening = 0;          ///< of any dialog: its field can undo nothing that was typed in another
     bool fresh = true;        ///< the field waits for the keyboard
 
     void set_text(std::string to) {
@@ -100,8 +101,8 @@ class Session {
     void look(const std::function<void(ViewState&)>& change);
     /// An interaction has ended: what follows is undone apart from it.
     void close_group() { history_.close_group(); }
-    void undo();
     /// Back, and on again; what plays stops.
+    void undo();
     void redo();
 
     /// What is asked in the view, recorded; null if no query is in the view.
@@ -203,9 +204,9 @@ class Session {
   private:
     using LoadAll = std::function<Scene(JobControl&)>;
 
-    void start(std::string title, Job::Work work);
     void ask_anew(DialogInput with);
     void require_no_job() const;
+    void start(std::string title, Job::Work work);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
     void change_document(Document next, const EditName& name);
@@ -221,9 +222,9 @@ class Session {
     int excerpts_opened_ = 0;
     std::vector<Message> messages_;
     std::unique_ptr<Job> job_;
-    std::function<void()> pending_;  ///< waits for the answer about unsaved changes
     bool playing_ = false;
     bool has_played_ = false;        ///< since play(): the time that passes has a state
+    std::function<void()> pending_;  ///< waits for the answer about unsaved changes
     bool closed_ = false;
 
     /// What is computed from the present scene when asked for.
