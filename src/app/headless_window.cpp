@@ -16,7 +16,7 @@ HeadlessWindow::HeadlessWindow(std::unique_ptr<GlContext> context, Session& sess
     : size_(size), shell_(std::move(context), session, scale) {}
 
 void HeadlessWindow::frame() {
-    next_ = shell_.frame(size_, now_);
+    shell_.frame(size_, now_);
     now_ += kHeadlessFrame;
 }
 
@@ -26,7 +26,7 @@ void HeadlessWindow::run_for(double seconds) {
 
 void HeadlessWindow::settle() {
     frame();
-    for (int i = 0; i < kMostToSettle && next_ == 0; ++i) frame();
+    for (int i = 0; i < kMostToSettle && !shell_.settled(); ++i) frame();
 }
 
 }  // namespace mobbscope::app

@@ -124,7 +124,7 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 void Viewport::paint(Ui& ui, ImVec2 corner) {
     const bool still = !ui.session.attended() || ui.now - changed_at_ >= kRest;
     if (!painted_ || (still && !painted_still_)) {
-        texture_ = ui.painter.paint(*list_, still);
+        texture_ = ui.painter.paint(still);
         painted_ = true;
         painted_still_ = still;
     }

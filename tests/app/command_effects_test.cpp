@@ -280,10 +280,10 @@ std::vector<Case> cases() {
     look("time.at", "0.75", [](CommandWorld& w) { EXPECT_EQ(w.view().time, 0.75); });
     add({"time.clear", "", {{"time.at", "1"}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().time); }});
     look("time.play", "", [](CommandWorld& w) {
-        EXPECT_TRUE(w.session.playing);
+        EXPECT_TRUE(w.session.playing());
         EXPECT_EQ(w.view().time, 0);
     });
-    add({"time.play", "", {{"time.play", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.session.playing); }});
+    add({"time.play", "", {{"time.play", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.session.playing()); }});
     look("time.start", "", [](CommandWorld& w) { EXPECT_EQ(w.view().time, 0); });
     look("time.end", "", [](CommandWorld& w) { EXPECT_NEAR(*w.view().time, 2.5, 1e-6); });
     add({"time.forward", "", {{"time.at", "1.01"}}, [](CommandWorld& w) {

@@ -72,6 +72,28 @@ TEST_P(ShellTest, TheThemeIsTheViews) {
     EXPECT_GT(brightness(), 200);
 }
 
+TEST_P(ShellTest, AFieldUndoesNothingThatWasTypedIntoAnotherDialogs) {
+    run("key Ctrl+P\ntype abcdefgh\nkey Escape\nkey Ctrl+P\nkey Ctrl+Z\nkey Ctrl+Z\ntype xy");
+    EXPECT_EQ(session.input.text, "xy");
+}
+
+TEST_P(ShellTest, FramesThatNobodyLooksAtAreNotDrawn) {
+    run("key B\nclick viewport\ndrag viewport 40 20\nscroll viewport 2\nkey T\nkey B");
+    EXPECT_EQ(window->shell().frames_drawn(), 0);
+    const Image seen = window->shell().read_back();
+    EXPECT_EQ(window->shell().frames_drawn(), 1);
+    EXPECT_EQ(window->shell().read_back().rgba, seen.rgba);
+    EXPECT_EQ(window->shell().frames_drawn(), 1) << "it is there already";
+    run("key B");
+    EXPECT_NE(window->shell().read_back().rgba, seen.rgba);
+}
+
+TEST_P(ShellTest, WhatPlaysIsNotWaitedFor) {
+    run("run time.play\nkey B\nkey B\nclick viewport");
+    EXPECT_TRUE(session.playing());
+    EXPECT_LT(*session.view().time, 1) << "a few frames for each";
+}
+
 TEST_P(ShellTest, UntilRunsFramesUntilItHolds) {
     run("run time.play\nuntil 30 /time ~ 1 0.2\nrun time.play\nuntil 1 viewport\nuntil 0 /playing != true");
     for (const char* script : {"until 0.2 /time -1", "until 0.2 no.widget"}) {

@@ -92,7 +92,7 @@ struct KeyWorld {
             const std::size_t at = text.find(here);
             if (at != std::string::npos) message["text"] = text.erase(at, here.size());
         }
-        if (session->playing) {
+        if (session->playing()) {
             // Frames go by until it is looked at.
             json.erase("time");
             json["view"].erase("time");

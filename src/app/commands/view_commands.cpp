@@ -251,13 +251,14 @@ void step_time(Session& session, int direction) {
     const double dt = sample_time(session);
     const double at = (session.view().time.value_or(span.t0) - span.t0) / dt;
     const double next = direction > 0 ? std::floor(at + kHair) + 1 : std::ceil(at - kHair) - 1;
-    session.playing = false;
+    session.stop();
     set_time(session, std::clamp(span.t0 + next * dt, span.t0, span.t1));
 }
 
 void play(Session& session, const std::string&) {
-    session.playing = !session.playing;
-    if (session.playing && !session.view().time) set_time(session, session.time_span().t0);
+    if (session.playing()) return session.stop();
+    session.play();
+    if (!session.view().time) set_time(session, session.time_span().t0);
 }
 
 }  // namespace
@@ -537,7 +538,7 @@ std::span<const Command> view_commands() {
          .enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); },
          .run =
              [](Session& session, const std::string&) {
-                 session.playing = false;
+                 session.stop();
                  session.look([](ViewState& view) { view.time.reset(); });
              }},
         {.id = "time.play",
@@ -547,7 +548,7 @@ std::span<const Command> view_commands() {
          .doc = "Lets the time cursor run, or stops it.",
          .enabled = has_scene,
          .run = play,
-         .checked = [](const Session& session) { return session.playing; }},
+         .checked = [](const Session& session) { return session.playing(); }},
         {.id = "time.start",
          .title = "To the first moment",
          .menu = "View/Time",

@@ -38,10 +38,12 @@ FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string
         ui.want_frame_in(0);
     }
     const std::string before = input.text;
+    ImGui::PushID(input.opening);
     ImGui::PushID(input.generation);
     ImGui::SetNextItemWidth(-1);
     FieldEvents events;
     events.entered = ImGui::InputTextWithHint("##field", hint, &input.text, flags, on_event, &field);
+    ImGui::PopID();
     ImGui::PopID();
     events.changed = input.text != before;
     if (events.changed) {
