@@ -160,7 +160,7 @@ TEST(Program, BadInputIsOneLineAndStatusTwoForEveryCommand) {
 
 TEST(Program, LongNamesAreCutInTheMiddle) {
     const TempFolder folder;
-    const std::string scene = kScenes + "crossing.json";
+    const std::string scene = kProgramScenes + "crossing.json";
     const std::string png = folder.path() / "o.png";
     std::string blanks;
     while (blanks.size() < 5000) blanks += "a ";
@@ -182,7 +182,7 @@ TEST(Program, LongNamesAreCutInTheMiddle) {
             {"bench", "--" + name},
             {"graph", name},
             {"graph", "build", "--" + name},
-            {"graph", "build", kScenes, "-o", "x.json", "--seconds", name},
+            {"graph", "build", kProgramScenes, "-o", "x.json", "--seconds", name},
             {"simulate", scene, "-o", "x.json", "--area", name},
             {"test", "--" + name},
             {"diff", scene, scene, "--threshold", name},
