@@ -9,7 +9,7 @@ namespace mobbscope::app {
 namespace {
 
 /// Of a run the first participants are its people.
-std::optional<int> index_of(const Session& session, const std::string& name) {
+std::optional<int> choice_index(const Session& session, const std::string& name) {
     if (session.crowd()) return person_by_name(*session.crowd(), name);
     const auto& all = session.fitted().participants();
     const auto at = std::find_if(all.begin(), all.end(), [&](const Participant& who) { return who.name == name; });
@@ -39,7 +39,7 @@ std::optional<Participant> path_in_question(const Session& session) {
 }
 
 std::optional<Participant> path_in_crowd(const Session& session, const std::string& name) {
-    const auto index = index_of(session, name);
+    const auto index = choice_index(session, name);
     if (!index) return std::nullopt;
     return session.fitted().participants()[static_cast<std::size_t>(*index)];
 }
@@ -55,7 +55,7 @@ std::vector<std::string> names_in_crowd(const Session& session) {
 }
 
 void select_in_crowd(Session& session, const std::string& name) {
-    if (const auto index = index_of(session, name)) session.select({Selection::Kind::path, {*index, -1, 0}, -1});
+    if (const auto index = choice_index(session, name)) session.select({Selection::Kind::path, {*index, -1, 0}, -1});
 }
 
 double run_or_cursor_time(const Session& session) {

@@ -130,7 +130,7 @@ Json messages_json(const Session& session) {
     return json;
 }
 
-std::string_view name(Dialog dialog) {
+std::string_view kind_name(Dialog dialog) {
     constexpr std::array<std::string_view, 9> kNames{"none",    "open",    "add",  "save_as", "export_picture",
                                                      "unsaved", "palette", "help", "about"};
     return kNames[static_cast<std::size_t>(dialog)];
@@ -153,7 +153,7 @@ Json state_json(const Session& session) {
     json["excerpt"] = session.in_excerpt();
     json["time"] = or_null(session.view().time);
     json["playing"] = session.playing();
-    json["dialog"] = name(session.dialog);
+    json["dialog"] = kind_name(session.dialog);
     json["messages"] = messages_json(session);
     json["undo"] = text_or_null(session.history().undo_title());
     json["redo"] = text_or_null(session.history().redo_title());

@@ -93,7 +93,7 @@ Workload table1(const BenchCommandArguments& arguments) {
     return workload;
 }
 
-void run(const BenchCommandArguments& arguments) {
+void run_bench(const BenchCommandArguments& arguments) {
     if (arguments.fit.tree || arguments.fit.levels)
         throw InputError("bench measures every tree, with all levels and with one; leave out --tree and --levels");
     const Workload workload = arguments.workload == "table1" ? table1(arguments) : table2(arguments);
@@ -141,7 +141,7 @@ void add_bench_command(Command& program, int& status) {
     add_import_options(command, arguments->import_options);
     command.callback([arguments, &status] {
         try {
-            run(*arguments);
+            run_bench(*arguments);
         } catch (const DisagreementError& error) {
             complain(error.what());
             status = kFailed;

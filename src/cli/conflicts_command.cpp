@@ -177,7 +177,7 @@ void print_text(const Findings& findings) {
               << counted(count(findings.pairs()), "pair", "pairs") << " tested\n";
 }
 
-void run(const ConflictsCommandArguments& arguments, int& status) {
+void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     Scene scene = load_crowd(arguments);
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
@@ -204,7 +204,7 @@ void add_conflicts_command(Command& program, int& status) {
     command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");
     add_fit_options(command, arguments->fit, Brute::allowed);
     add_import_options(command, arguments->import_options);
-    command.callback([arguments, &status] { run(*arguments, status); });
+    command.callback([arguments, &status] { run_conflicts(*arguments, status); });
 }
 
 }  // namespace mobbscope::cli

@@ -42,7 +42,7 @@ std::string to_csv(const Scene& scene) {
 }
 
 /// Names of clips become a column; a line break in one would break the table.
-void check_names(const Scene& scene) {
+void check_clip_names(const Scene& scene) {
     if (scene.clips.size() < 2) return;
     for (const SceneClip& clip : scene.clips) {
         if (clip.name.find_first_of(std::string("\n\0", 2)) != std::string::npos) {
@@ -61,7 +61,7 @@ void warn_of_lost_dt(const Scene& scene) {
     }
 }
 
-void run(const ConvertCommandArguments& arguments) {
+void run_convert(const ConvertCommandArguments& arguments) {
     check_file_name(arguments.out);
     const std::string extension = lower_extension(arguments.out);
     if (extension != ".csv" && extension != ".json") {
@@ -72,7 +72,7 @@ void run(const ConvertCommandArguments& arguments) {
         write_file(arguments.out, to_json(scene, true));
         return;
     }
-    check_names(scene);
+    check_clip_names(scene);
     write_file(arguments.out, to_csv(scene));
     warn_of_lost_dt(scene);
 }
@@ -85,7 +85,7 @@ void add_convert_command(Command& program) {
     add_scene_file(command, arguments->file);
     command.add_option("-o,--output", arguments->out, "Where to: .csv or .json", "OUT").required();
     add_import_options(command, arguments->import_options);
-    command.callback([arguments] { run(*arguments); });
+    command.callback([arguments] { run_convert(*arguments); });
 }
 
 }  // namespace mobbscope::cli

@@ -132,7 +132,7 @@ void write_pictures(const DiffCommandArguments& arguments, const Image& a, const
     warn(arguments.heat->string() + ": not written, as pictures of two sizes have no heat map");
 }
 
-int run(const DiffCommandArguments& arguments) {
+int run_diff(const DiffCommandArguments& arguments) {
     check_picture_name(arguments.heat);
     check_picture_name(arguments.strip);
     const Image a = read_png(arguments.a);
@@ -170,7 +170,7 @@ void add_diff_command(Command& program, int& status) {
     command.add_option("--mask", arguments->mask, "Compares only where this picture is neither black nor transparent",
                        "MASK.png");
     command.add_flag("--json", arguments->json, "The verdict with all figures as JSON");
-    command.callback([arguments, &status] { status = run(*arguments); });
+    command.callback([arguments, &status] { status = run_diff(*arguments); });
 }
 
 }  // namespace mobbscope::cli

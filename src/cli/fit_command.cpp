@@ -50,7 +50,7 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     }
 }
 
-void run(const FitCommandArguments& arguments) {
+void run_fit(const FitCommandArguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options);
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
@@ -73,7 +73,7 @@ void add_fit_command(Command& program) {
     command.add_flag("--json", arguments->json, "Levels and nodes as JSON");
     add_fit_options(command, arguments->fit);
     add_import_options(command, arguments->import_options);
-    command.callback([arguments] { run(*arguments); });
+    command.callback([arguments] { run_fit(*arguments); });
 }
 
 }  // namespace mobbscope::cli

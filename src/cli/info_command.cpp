@@ -123,7 +123,7 @@ Warnings common_warnings(const Scene& scene) {
     return common;
 }
 
-void print_warnings(const Warnings& warnings, const Warnings& said) {
+void list_warnings(const Warnings& warnings, const Warnings& said) {
     for (const std::string& warning : warnings) {
         if (!holds(said, warning)) std::cout << "  warning      " << cleaned(warning) << '\n';
     }
@@ -145,7 +145,7 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said)
               << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
               << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
               << brief(figures.mean_radius) << " m\n";
-    print_warnings(facts.warnings, said);
+    list_warnings(facts.warnings, said);
 }
 
 void print_clips(const Scene& scene) {
@@ -154,12 +154,12 @@ void print_clips(const Scene& scene) {
         said = common_warnings(scene);
         if (!said.empty())
             std::cout << cleaned(scene.file.string()) << ": all of its " << scene.clips.size() << " clips\n";
-        print_warnings(said, {});
+        list_warnings(said, {});
     }
     for (const SceneClip& clip : scene.clips) print_clip(scene, clip, said);
 }
 
-void run(const InfoCommandArguments& arguments) {
+void run_info(const InfoCommandArguments& arguments) {
     std::vector<Scene> scenes;
     for (const std::filesystem::path& file : arguments.files)
         scenes.push_back(load_scene(file, arguments.import_options));
@@ -194,7 +194,7 @@ void add_info_command(Command& program) {
         .required();
     command.add_flag("--json", arguments->json, "The same as JSON");
     add_import_options(command, arguments->import_options);
-    command.callback([arguments] { run(*arguments); });
+    command.callback([arguments] { run_info(*arguments); });
 }
 
 }  // namespace mobbscope::cli

@@ -22,7 +22,7 @@ void print_words(const std::vector<BackendReport>& backends) {
     }
 }
 
-void print_json(const std::vector<BackendReport>& backends) {
+void print_backends_json(const std::vector<BackendReport>& backends) {
     JsonWriter json(std::cout);
     json.begin_object();
     json.key("backends");
@@ -47,7 +47,7 @@ void print_json(const std::vector<BackendReport>& backends) {
 
 void list_backends(bool json) {
     const std::vector<BackendReport> backends = report_backends();
-    json ? print_json(backends) : print_words(backends);
+    json ? print_backends_json(backends) : print_words(backends);
     flush_results();
     const bool any = std::any_of(backends.begin(), backends.end(), [](const BackendReport& b) { return b.works; });
     if (!any) throw MachineError("no OpenGL 3.3 context without a display; see above which libraries were tried");

@@ -49,7 +49,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     return complaints;
 }
 
-void run(QueryCommandArguments& arguments, int& status) {
+void run_query(QueryCommandArguments& arguments, int& status) {
     Scene scene = load(arguments.file, arguments.import_options);
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
@@ -79,7 +79,7 @@ void add_query_command(Command& program, int& status) {
     command.add_flag("--all-contacts", arguments->details.all_contacts, "All intervals of contact, not only the first");
     add_fit_options(command, arguments->fit, Brute::allowed);
     add_import_options(command, arguments->import_options);
-    command.callback([arguments, &status] { run(*arguments, status); });
+    command.callback([arguments, &status] { run_query(*arguments, status); });
 }
 
 }  // namespace mobbscope::cli

@@ -40,7 +40,7 @@ void at_line(const std::string& list, int number, const What& what) {
     }
 }
 
-std::string text_of(const std::filesystem::path& list) {
+std::string list_text(const std::filesystem::path& list) {
     if (list != "-") return read_file(list);
     return {std::istreambuf_iterator<char>(std::cin), {}};
 }
@@ -109,7 +109,7 @@ void render_batch(const std::filesystem::path& list, const RenderArguments& defa
     }
     RenderArguments of_line = defaults;
     of_line.backend.reset();
-    const std::vector<BatchLine> lines = lines_of(text_of(list), name);
+    const std::vector<BatchLine> lines = lines_of(list_text(list), name);
     RenderPlan plan;
     for (const BatchLine& line : lines) {
         at_line(name, line.number, [&] { plan.add(parsed(line.words, of_line)); });

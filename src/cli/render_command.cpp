@@ -29,7 +29,7 @@ void render_one(const RenderArguments& arguments) {
     plan.draw(arguments.backend.value_or(Backend::automatic));
 }
 
-void run(const Command& command, const RenderCommandArguments& arguments) {
+void run_render(const Command& command, const RenderCommandArguments& arguments) {
     if (arguments.json && !arguments.list_backends) throw InputError("--json: it is of --list-backends");
     if (arguments.list_backends) {
         list_backends(arguments.json);
@@ -57,7 +57,7 @@ void add_render_command(Command& program) {
         .group(kGroup);
     command.add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
     command.add_flag("--json", arguments->json, "With --list-backends: as JSON");
-    command.callback([&command, arguments] { run(command, *arguments); });
+    command.callback([&command, arguments] { run_render(command, *arguments); });
 }
 
 }  // namespace mobbscope::cli

@@ -61,7 +61,7 @@ glm::dvec2 parse_area(const std::string& text) {
 }
 
 /// The scene whose graph is played, and nothing else of it.
-Scene load_graph(const SimulateCommandArguments& arguments) {
+Scene load_moves(const SimulateCommandArguments& arguments) {
     Scene scene = load_files({arguments.graph});
     if (arguments.whole) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     if (!scene.graph) {
@@ -76,7 +76,7 @@ Scene load_graph(const SimulateCommandArguments& arguments) {
     return scene;
 }
 
-void check_outputs(const SimulateCommandArguments& arguments) {
+void check_run_outputs(const SimulateCommandArguments& arguments) {
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
         if (!out.empty() && lower_extension(out) != ".json") {
             throw InputError(out.string(), "", "a run and its queries are scenes; name it .json");
@@ -131,7 +131,7 @@ double queries_per_second(const Summary& summary) {
     return summary.seconds > 0 ? static_cast<double>(summary.counts.queries) / summary.seconds : 0;
 }
 
-void print_json(const Summary& summary) {
+void print_run_json(const Summary& summary) {
     const SimulationCounts& c = summary.counts;
     JsonWriter out(std::cout);
     const auto count = [&out](const char* key, auto value) { out.member(key, static_cast<std::int64_t>(value)); };
@@ -157,7 +157,7 @@ void print_json(const Summary& summary) {
     out.end_object();
 }
 
-void print_text(const Summary& summary) {
+void print_run_text(const Summary& summary) {
     const SimulationCounts& c = summary.counts;
     std::cout << counted(c.agents, "agent", "agents") << " for " << brief(c.simulated)
               << " s: " << counted(c.plays, "play", "plays") << ", " << counted(c.choices, "choice", "choices") << '\n'
@@ -172,9 +172,9 @@ void print_text(const Summary& summary) {
     }
 }
 
-void run(const SimulateCommandArguments& arguments) {
-    check_outputs(arguments);
-    Scene scene = load_graph(arguments);
+void run_simulate(const SimulateCommandArguments& arguments) {
+    check_run_outputs(arguments);
+    Scene scene = load_moves(arguments);
     const FittedScene fitted(scene, scene.fit);
     const MoveSet moves(fitted);
     std::optional<QuerySample> sample;
@@ -196,7 +196,7 @@ void run(const SimulateCommandArguments& arguments) {
     }
     scene.crowd = std::make_shared<const CrowdRun>(std::move(simulation.run));
     write_scene(std::move(scene), arguments.out, arguments.inline_samples);
-    arguments.json ? print_json(summary) : print_text(summary);
+    arguments.json ? print_run_json(summary) : print_run_text(summary);
     flush_results();
 }
 
@@ -239,7 +239,7 @@ void add_simulate_command(Command& program) {
                      "Samples stand in what is written, which then needs no other file");
     command.add_flag("--json", arguments->json, "The summary as JSON");
     add_fit_options(command, arguments->fit);
-    command.callback([arguments] { run(*arguments); });
+    command.callback([arguments] { run_simulate(*arguments); });
 }
 
 }  // namespace mobbscope::cli

@@ -204,7 +204,7 @@ void print_results(const TestCommandArguments& arguments, const guard::RunFacts&
     flush_results();
 }
 
-int run(const TestCommandArguments& arguments) {
+int run_test(const TestCommandArguments& arguments) {
     const std::vector<guard::CaseFile> all = guard::find_cases(arguments.folder);
     const std::vector<guard::CaseFile> cases = cases_of(arguments, all);
     if (arguments.list) {
@@ -285,7 +285,7 @@ void add_test_command(Command& program, int& status) {
         "Of the contact sheet", "N");
     command.callback([&command, arguments, &status] {
         if (command.is_given("--update")) read_update(*arguments);
-        status = run(*arguments);
+        status = run_test(*arguments);
     });
 }
 

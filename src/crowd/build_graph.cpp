@@ -26,7 +26,7 @@ namespace {
 constexpr int kFramesApart = 5;     // of moments looked at as hubs, at least
 constexpr std::size_t kBatch = 32;  // of those looked at between two reports of progress
 
-void check(const GraphOptions& options) {
+void check_options(const GraphOptions& options) {
     const auto require = [](bool holds, const char* what) {
         if (!holds) throw std::invalid_argument(what);
     };
@@ -237,7 +237,7 @@ class Builder {
 
 BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, const std::string& place,
                        const Progress& progress) {
-    check(options);
+    check_options(options);
     BuiltGraph out = Builder(recordings, options, progress).build();
     if (out.report.without_joints == out.report.recordings) {
         throw InputError(place, "", "no clip has joints, so no pose can be compared; give motion files, or --whole");

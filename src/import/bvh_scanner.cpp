@@ -13,7 +13,7 @@ namespace {
 
 std::string_view between(const char* begin, const char* end) { return {begin, static_cast<std::size_t>(end - begin)}; }
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+char lower_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// A number that no double holds: too near to 0, which is 0, or too large.
 double tiny_or_huge(std::string_view number) {
@@ -92,7 +92,7 @@ std::string found(std::string_view word) { return word.empty() ? "the file ends"
 
 bool is_keyword(std::string_view word, std::string_view lower_keyword) {
     return std::equal(word.begin(), word.end(), lower_keyword.begin(), lower_keyword.end(),
-                      [](char a, char b) { return lower(a) == b; });
+                      [](char a, char b) { return lower_letter(a) == b; });
 }
 
 }  // namespace mobbscope

@@ -17,7 +17,9 @@ namespace mobbscope {
 
 namespace {
 
-[[noreturn]] void fail(int error, const char* what) { throw std::system_error(error, std::generic_category(), what); }
+[[noreturn]] void fail_call(int error, const char* what) {
+    throw std::system_error(error, std::generic_category(), what);
+}
 
 class Descriptor {
   public:
@@ -61,7 +63,7 @@ int wait_for(pid_t child) {
 ChildResult run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments, double seconds,
                       std::size_t most_output) {
     std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail(errno, "no pipe");
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_call(errno, "no pipe");
     Descriptor from(ends[0]);
     Descriptor to(ends[1]);
 
@@ -76,7 +78,7 @@ ChildResult run_child(const std::filesystem::path& program, const std::vector<st
     argv.push_back(nullptr);
     pid_t child = 0;
     const int error = ::posix_spawn(&child, name.c_str(), actions.get(), nullptr, argv.data(), environ);
-    if (error != 0) fail(error, "cannot be started");
+    if (error != 0) fail_call(error, "cannot be started");
     to.close();
 
     ChildResult result;

@@ -27,7 +27,7 @@ using namespace mobbscope;
 constexpr double kDefaultTicksPerSecond = 25;  // Assimp's convention for files that do not say
 constexpr double kCentimetre = 0.01;           // the unit of UnitScaleFactor
 
-glm::dvec3 vec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+glm::dvec3 vector_of(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
 Affine affine(const aiMatrix4x4& m) {
     return {{m.a1, m.b1, m.c1, m.a2, m.b2, m.c2, m.a3, m.b3, m.c3}, {m.a4, m.b4, m.c4}};
@@ -42,7 +42,7 @@ TranslationRotationScale decomposed(const aiMatrix4x4& m) {
     const double length = glm::length(q);
     // A scale of zero leaves no rotation to be found.
     q = length > 1e-6 && std::isfinite(length) ? q / length : glm::dquat{1, 0, 0, 0};
-    return {vec3(translation), q, vec3(scale)};
+    return {vector_of(translation), q, vector_of(scale)};
 }
 
 std::vector<double> components(const aiVector3D& v) { return {v.x, v.y, v.z}; }

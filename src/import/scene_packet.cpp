@@ -43,7 +43,7 @@ class Writer {
     std::string bytes_;
 };
 
-void require(bool holds) {
+void require_packet(bool holds) {
     if (!holds) throw std::length_error("damaged packet");
 }
 
@@ -59,19 +59,19 @@ class Reader {
     /// In [least, most].
     int integer(std::int64_t least, std::int64_t most) {
         const std::int64_t value = integer();
-        require(value >= least && value <= most);
+        require_packet(value >= least && value <= most);
         return static_cast<int>(value);
     }
     double number() {
         double value;
         raw(&value, sizeof value);
-        require(std::isfinite(value));
+        require_packet(std::isfinite(value));
         return value;
     }
     /// How many things of at least `size` bytes follow.
     std::size_t count(std::size_t size) {
         const std::int64_t value = integer();
-        require(value >= 0 && static_cast<std::size_t>(value) <= rest_.size() / size);
+        require_packet(value >= 0 && static_cast<std::size_t>(value) <= rest_.size() / size);
         return static_cast<std::size_t>(value);
     }
     std::string text() {
@@ -99,7 +99,7 @@ class Reader {
 
   private:
     void raw(void* data, std::size_t size) {
-        require(size <= rest_.size());
+        require_packet(size <= rest_.size());
         std::memcpy(data, rest_.data(), size);
         rest_.remove_prefix(size);
     }
@@ -113,7 +113,7 @@ Node read_node(Reader& in, int index) {
     node.matrix = in.affine();
     in.vector<3>(node.rest.translation);
     in.vector<4>(node.rest.rotation);
-    require(std::abs(glm::length(node.rest.rotation) - 1) < 1e-6);
+    require_packet(std::abs(glm::length(node.rest.rotation) - 1) < 1e-6);
     in.vector<3>(node.rest.scale);
     return node;
 }
@@ -127,11 +127,13 @@ Channel read_channel(Reader& in, std::size_t nodes) {
     const std::vector<double>& times = *channel.times;
     const std::vector<double>& values = *channel.values;
     const std::size_t width = channel.property == NodeProperty::rotation ? 4 : 3;
-    require(!times.empty() && values.size() == times.size() * width);
-    require(std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return a >= b; }) == times.end());
+    require_packet(!times.empty() && values.size() == times.size() * width);
+    require_packet(std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return a >= b; }) ==
+                   times.end());
     if (width == 4) {
         for (std::size_t i = 0; i < values.size(); i += 4) {
-            require(std::hypot(std::hypot(values[i], values[i + 1]), std::hypot(values[i + 2], values[i + 3])) > 1e-6);
+            require_packet(std::hypot(std::hypot(values[i], values[i + 1]), std::hypot(values[i + 2], values[i + 3])) >
+                           1e-6);
         }
     }
     return channel;
@@ -174,10 +176,10 @@ std::string pack_error(std::string_view message) {
 }
 
 NodeScene unpack(std::string_view packet) {
-    require(packet.size() >= kSceneMagic.size());
+    require_packet(packet.size() >= kSceneMagic.size());
     Reader in(packet.substr(kSceneMagic.size()));
     if (packet.starts_with(kErrorMagic)) throw std::runtime_error(in.text());
-    require(packet.starts_with(kSceneMagic));
+    require_packet(packet.starts_with(kSceneMagic));
 
     NodeScene scene;
     if (const double unit = in.number(); unit > 0) scene.unit = unit;
@@ -189,7 +191,7 @@ NodeScene unpack(std::string_view packet) {
         animation.name = in.text();
         const double first = in.number();
         const double last = in.number();
-        require(first <= last);
+        require_packet(first <= last);
         const std::size_t channels = in.count(1);
         std::vector<Numbers> times;
         for (std::size_t k = 0; k < channels; ++k) {
@@ -201,7 +203,7 @@ NodeScene unpack(std::string_view packet) {
         animation.times.last = last;
         scene.animations.push_back(std::move(animation));
     }
-    require(in.at_end());
+    require_packet(in.at_end());
     return scene;
 }
 

@@ -33,18 +33,18 @@ double reach_of(const ChainLink& link) {
 int bits_for(const Tree& tree) { return static_cast<int>(std::bit_width(tree.nodes().size() - 1)); }
 
 /// From the first centre to the last; where they coincide, what stands in for it.
-glm::dvec2 travel_axis(const Disk& first, const Disk& last, glm::dvec2 stand_in) {
+glm::dvec2 chain_axis(const Disk& first, const Disk& last, glm::dvec2 stand_in) {
     const glm::dvec2 travel{last.x - first.x, last.y - first.y};
     const double length = glm::length(travel);
     return length > kStandingStill ? travel / length : stand_in;
 }
 
 Outline outline_of(std::span<const Disk> disks) {
-    return {disks, travel_axis(disks.front(), disks.back(), principal_axis(disks))};
+    return {disks, chain_axis(disks.front(), disks.back(), principal_axis(disks))};
 }
 
 /// The rectangle around an outline along its axis, a little wider for rounding errors, from t0 to t1 (w*t).
-Box rectangle_over_time(const Outline& outline, double rounding, double t0, double t1) {
+Box chain_rectangle(const Outline& outline, double rounding, double t0, double t1) {
     const glm::dvec2 u = outline.axis(), center = outline.center(), half = outline.half() + rounding;
     Box box;
     box.kind = BoxKind::obb2d;
@@ -150,11 +150,11 @@ Chain::Peak Chain::joined(const Peak& left, const Peak& right) {
     const int links = left.links + right.links;
     const Link& first = links_[static_cast<std::size_t>(left.first_link)];
     const Link& last = links_[static_cast<std::size_t>(left.first_link + links - 1)];
-    const glm::dvec2 axis = travel_axis(first.disk(first.first), last.disk(last.end() - 1), left.outline.axis());
+    const glm::dvec2 axis = chain_axis(first.disk(first.first), last.disk(last.end() - 1), left.outline.axis());
     Peak peak{static_cast<int>(upper_.size()), left.first_link, links, {left.outline, right.outline, axis}};
     const double w = time_scale_;
     upper_.push_back(
-        {rectangle_over_time(peak.outline, kOutlineRounding * reach_, w * (first.first * dt_), w * (last.end() * dt_)),
+        {chain_rectangle(peak.outline, kOutlineRounding * reach_, w * (first.first * dt_), w * (last.end() * dt_)),
          first.first,
          last.end() - first.first,
          {left.child, right.child}});

@@ -147,7 +147,7 @@ Perpendicular perpendicular(const AxisExtent& axis, double value, glm::dvec3 cor
     return {mark - kAside * radius * unit, corner + kAside * radius * unit};
 }
 
-std::vector<glm::vec3> points_to_show(const Diagram& diagram, const DiskExtents& extents) {
+std::vector<glm::vec3> projected_points(const Diagram& diagram, const DiskExtents& extents) {
     std::vector<glm::vec3> out;
     for (int i = 0; i < 16; ++i) {
         const double angle = i * std::numbers::pi / 8;
@@ -356,7 +356,7 @@ void add_disk_projection(DrawList& list, std::span<const Subject> subjects, cons
     const auto draw_within = [&](const Frame& within) {
         list.lines.clear();
         list.marks.clear();
-        list.lens = lens_for(list, view, points_to_show(diagram, extents), within);
+        list.lens = lens_for(list, view, projected_points(diagram, extents), within);
         list.frame = within;
         draw(diagram, extents, list.lens, list.palette, subject.color);
     };

@@ -61,16 +61,17 @@ Difference length_difference(const std::string& place, const JsonValue& actual, 
            std::to_string(there->size());
 }
 
-Difference difference(const std::string& place, const JsonValue& actual, const JsonValue& golden, bool pixels);
+Difference value_difference(const std::string& place, const JsonValue& actual, const JsonValue& golden, bool pixels);
 
-Difference difference(const std::string& place, const JsonValue::Array& actual, const JsonValue::Array& golden) {
+Difference value_difference(const std::string& place, const JsonValue::Array& actual, const JsonValue::Array& golden) {
     for (std::size_t i = 0; i < golden.size(); ++i) {
-        if (auto found = difference(place + '/' + std::to_string(i), actual[i], golden[i], false)) return found;
+        if (auto found = value_difference(place + '/' + std::to_string(i), actual[i], golden[i], false)) return found;
     }
     return std::nullopt;
 }
 
-Difference difference(const std::string& place, const JsonValue::Object& actual, const JsonValue::Object& golden) {
+Difference value_difference(const std::string& place, const JsonValue::Object& actual,
+                            const JsonValue::Object& golden) {
     for (const JsonMember& member : golden) {
         const JsonValue* found = find(actual, member.key);
         if (!found) return place + pointer_token(member.key) + ": missing";
@@ -80,21 +81,21 @@ Difference difference(const std::string& place, const JsonValue::Object& actual,
         if (!find(golden, member.key)) return place + pointer_token(member.key) + ": not expected";
     }
     for (const JsonMember& member : golden) {
-        auto found = difference(place + pointer_token(member.key), *find(actual, member.key), member.value,
-                                member.key == "pixels");
+        auto found = value_difference(place + pointer_token(member.key), *find(actual, member.key), member.value,
+                                      member.key == "pixels");
         if (found) return found;
     }
     return std::nullopt;
 }
 
 /// `pixels`: whether they are numbers of pixels.
-Difference difference(const std::string& place, const JsonValue& actual, const JsonValue& golden, bool pixels) {
+Difference value_difference(const std::string& place, const JsonValue& actual, const JsonValue& golden, bool pixels) {
     if (actual.data.index() == golden.data.index()) {
         if (const auto* object = std::get_if<JsonValue::Object>(&golden.data))
-            return difference(place, std::get<JsonValue::Object>(actual.data), *object);
+            return value_difference(place, std::get<JsonValue::Object>(actual.data), *object);
         if (const auto* array = std::get_if<JsonValue::Array>(&golden.data)) {
             if (auto length = length_difference(place, actual, golden)) return length;
-            return difference(place, std::get<JsonValue::Array>(actual.data), *array);
+            return value_difference(place, std::get<JsonValue::Array>(actual.data), *array);
         }
         if (agree(actual, golden, pixels)) return std::nullopt;
     }
@@ -105,7 +106,7 @@ Difference difference(const std::string& place, const JsonValue& actual, const J
 
 std::optional<std::string> first_difference(std::string_view actual, const std::string& actual_name,
                                             std::string_view golden, const std::string& golden_name) {
-    return difference("", parse_json(actual, actual_name), parse_json(golden, golden_name), false);
+    return value_difference("", parse_json(actual, actual_name), parse_json(golden, golden_name), false);
 }
 
 }  // namespace mobbscope

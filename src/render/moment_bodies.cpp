@@ -108,13 +108,13 @@ glm::vec2 towards_eye(const Lens& lens, glm::vec3 from) {
 }
 
 /// Whether some of it may be in the picture.
-bool may_be_seen(const DrawList& list, const Figure& f) {
+bool body_may_be_seen(const DrawList& list, const Figure& f) {
     const auto at = list.lens.project(f.foot);
     const float around = 2 * (f.height + 2 * f.radius) * f.pixels;
     return at && Rect{glm::vec2(0), glm::vec2(list.size.width, list.size.height)}.grown(around).contains({*at, *at});
 }
 
-void add_disk(DrawList& list, const Figure& f, float height, Rgba color) {
+void add_body_disk(DrawList& list, const Figure& f, float height, Rgba color) {
     DiskInstance disk;
     disk.base = f.foot;
     disk.radius = f.radius;
@@ -225,12 +225,12 @@ void add_figure(DrawList& list, const Figure& f, BodyParts parts, int rank, bool
     const float width = f.body.overlaps ? 2.6f * scale : 1.3f * scale;
     const glm::vec3 up(0, 0, 1);
     if (plain) {
-        add_disk(list, f, parts.walls ? f.height : disk_height(list.lens), f.subject.color);
+        add_body_disk(list, f, parts.walls ? f.height : disk_height(list.lens), f.subject.color);
         if (f.body.overlaps) pen.ring(f.foot + f.height * up, 1.04f * f.radius, f.pieces, f.foot_line, width, 1);
         return;
     }
     const float floor = disk_height(list.lens);
-    if (parts.disks) add_disk(list, f, floor, with_alpha(f.subject.color, list.palette.dark ? 0.55f : 0.6f));
+    if (parts.disks) add_body_disk(list, f, floor, with_alpha(f.subject.color, list.palette.dark ? 0.55f : 0.6f));
     if (parts.disks) pen.ring(f.foot + floor * up, f.radius, f.pieces, f.foot_line, width, 0.35f);
     if (parts.walls) add_glass(list, f);
     if (f.subject.skeleton) add_skeleton(list, pen, f, scale);
@@ -304,7 +304,7 @@ void add_bodies(DrawList& list, std::span<const Subject> subjects, const Moment&
     std::vector<const Figure*> far_first;
     for (const Figure& f : figures) {
         // What stands behind the eye is not seen.
-        if (f.pixels > 0 && (figures.size() <= kFewFigures || may_be_seen(list, f))) far_first.push_back(&f);
+        if (f.pixels > 0 && (figures.size() <= kFewFigures || body_may_be_seen(list, f))) far_first.push_back(&f);
     }
     std::stable_sort(far_first.begin(), far_first.end(), [&](const Figure* a, const Figure* b) {
         return list.lens.depth(a->foot) > list.lens.depth(b->foot);

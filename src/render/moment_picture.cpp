@@ -95,7 +95,7 @@ mobb::SampleRange samples_around(const mobb::PlacedClip& clip, double time, doub
 }
 
 /// Of a run the bounds are its walls, else those of the paths.
-Bounds bounds_of(const FittedScene& fitted, std::span<const Subject> people) {
+Bounds moment_bounds(const FittedScene& fitted, std::span<const Subject> people) {
     if (!fitted.scene().crowd) return bounds_of(people);
     const CrowdRun& crowd = *fitted.scene().crowd;
     Bounds bounds;
@@ -160,7 +160,7 @@ DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const P
     list.background = options.background;
     list.moment = moment.time;
     for (const Subject& subject : people) list.participants.push_back(subject.name);
-    const Bounds bounds = bounds_of(fitted, people);
+    const Bounds bounds = moment_bounds(fitted, people);
     const bool outside = moment.time < bounds.min.z || moment.time >= bounds.max.z;
     if (outside) choice = nullptr;
     const glm::dvec3 middle = 0.5 * (bounds.min + bounds.max);

@@ -90,7 +90,7 @@ struct Found {
 };
 
 /// Nearer surfaces first; equally deep ones as they are drawn, disks before boxes.
-std::vector<Pick> sorted(std::vector<Found> found) {
+std::vector<Pick> pick_order(std::vector<Found> found) {
     std::sort(found.begin(), found.end(),
               [](const Found& a, const Found& b) { return a.normalised_depth < b.normalised_depth; });
     const auto drawn_before = [](const Found& a, const Found& b) {
@@ -142,7 +142,7 @@ std::vector<Pick> pick(const DrawList& list, glm::vec2 pixel) {
         if (span.empty() || span.leave < nearest) continue;
         add(box.id, box.order, span.enter >= nearest ? span.enter : span.leave, kFacesNearer);
     }
-    return sorted(std::move(found));
+    return pick_order(std::move(found));
 }
 
 std::optional<glm::dvec2> floor_at(const DrawList& list, glm::vec2 pixel, double time) {

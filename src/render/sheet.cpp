@@ -34,7 +34,7 @@ int rows_of(int cells, int columns) { return (cells + columns - 1) / columns; }
 
 std::uint8_t byte(float channel) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(channel, 0.f, 1.f))); }
 
-Image ground(PictureSize size, const Rgba& color) {
+Image sheet_ground(PictureSize size, const Rgba& color) {
     Image image(size.width, size.height);
     const std::uint8_t pixel[4] = {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
     for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = pixel[i % 4];
@@ -102,7 +102,7 @@ Image make_sheet(std::span<const SheetCell> cells, int columns, const Palette& p
         throw std::invalid_argument("a sheet of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
                                     " pixels is too large; put fewer pictures into it");
     }
-    Image sheet = ground(size, background);
+    Image sheet = sheet_ground(size, background);
     int above = spacing.gap;  // of the row
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Image& image = cells[i].image;

@@ -16,7 +16,7 @@ using testing::all_messages;
 using testing::CrossingFolder;
 using testing::refusal;
 
-std::vector<std::string> words(std::string_view text) {
+std::vector<std::string> words_in(std::string_view text) {
     std::istringstream in{std::string(text)};
     std::vector<std::string> out;
     for (std::string word; in >> word;) out.push_back(word);
@@ -45,7 +45,7 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
     std::set<std::string> chords;
     for (const Command& command : commands()) {
         SCOPED_TRACE(command.id);
-        for (const std::string& name : words(command.shortcut)) {
+        for (const std::string& name : words_in(command.shortcut)) {
             const std::optional<Chord> chord = chord_from_name(name);
             ASSERT_TRUE(chord) << name;
             EXPECT_EQ(command_for(*chord), &command);

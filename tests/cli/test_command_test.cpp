@@ -25,7 +25,7 @@ using testing::slurp;
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-void expect_refused(const Result& run, const std::string& why) {
+void expect_test_refused(const Result& run, const std::string& why) {
     EXPECT_EQ(run.status, 2) << run.err;
     EXPECT_TRUE(is_one_line(run.err)) << run.err;
     EXPECT_PRED2(says, run.err, why);
@@ -71,20 +71,20 @@ TEST_F(TestCommandTest, ListsTheNames) {
 
 TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     const CaseFolder none;
-    expect_refused(run_program({"test", none.path().string()}), "holds no case");
-    expect_refused(run_program({"test", (none.path() / "x").string()}), "cannot be searched");
-    expect_refused(test({"pth"}), "there is no case 'pth' (did you mean 'path'?)");
-    expect_refused(test({"--update", "pth"}), "there is no case 'pth'");
-    expect_refused(test({"--columns", "2"}), "--contact-sheet");
-    expect_refused(test({"--contact-sheet", "sheet.jpg"}), "sheet.jpg: the contact sheet is written as .png");
-    expect_refused(test({"--backend", "vulkan"}), "'vulkan' is not one of auto, osmesa, egl");
-    expect_refused(test({"--html", (cases.path() / "scene.json").string()}), "is written as .html");
-    expect_refused(test({"--junit", ""}), "the name is empty");
+    expect_test_refused(run_program({"test", none.path().string()}), "holds no case");
+    expect_test_refused(run_program({"test", (none.path() / "x").string()}), "cannot be searched");
+    expect_test_refused(test({"pth"}), "there is no case 'pth' (did you mean 'path'?)");
+    expect_test_refused(test({"--update", "pth"}), "there is no case 'pth'");
+    expect_test_refused(test({"--columns", "2"}), "--contact-sheet");
+    expect_test_refused(test({"--contact-sheet", "sheet.jpg"}), "sheet.jpg: the contact sheet is written as .png");
+    expect_test_refused(test({"--backend", "vulkan"}), "'vulkan' is not one of auto, osmesa, egl");
+    expect_test_refused(test({"--html", (cases.path() / "scene.json").string()}), "is written as .html");
+    expect_test_refused(test({"--junit", ""}), "the name is empty");
     cases.folder().write("path.png", "no picture");
-    expect_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}), "golden of 'path'");
+    expect_test_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}), "golden of 'path'");
     const std::string folder = cases.path().string();
-    expect_refused(run_program({"test", folder, "--output", folder}), "where the goldens are");
-    expect_refused(test({"--update", "all", "path"}), "--update: all");
+    expect_test_refused(run_program({"test", folder, "--output", folder}), "where the goldens are");
+    expect_test_refused(test({"--update", "all", "path"}), "--update: all");
     EXPECT_EQ(run_program({"test"}).status, 2);
 }
 
@@ -110,7 +110,7 @@ TEST_F(DrawnTestCommandTest, NothingIsDrawnWherePicturesCannotGo) {
 
 TEST_F(TestCommandTest, AsksOnlyAtATerminal) {
     // Standard input of tests is none.
-    expect_refused(test({"--update"}), "--update: there is no terminal to ask at; name the cases");
+    expect_test_refused(test({"--update"}), "--update: there is no terminal to ask at; name the cases");
 }
 
 TEST_F(TestCommandTest, WithoutOpenGLEveryCaseIsSkippedWithTheReason) {

@@ -25,7 +25,7 @@ class Crowd {
 };
 
 /// Walks along x from x0 at 1 m/s for `count` samples of 0.1 s, radius 0.5 m.
-mobb::ClipPtr walk(double x0, double y, int count) {
+mobb::ClipPtr walking(double x0, double y, int count) {
     std::vector<mobb::Disk> samples;
     for (int i = 0; i < count; ++i) samples.push_back({x0 + 0.1 * i, y, 0.5});
     return std::make_shared<const mobb::Clip>(0.1, std::move(samples));
@@ -46,15 +46,15 @@ void expect_same(const Conflicts& a, const Conflicts& b) {
 
 TEST(Conflicts, TellWhoWhenAndHowDeep) {
     Crowd crowd;
-    crowd.add(walk(0, 0, 100), {});
-    crowd.add(walk(50, 0, 10), {});               // far away
-    crowd.add(walk(5, 0.6, 1), {.start = 4.05});  // stands 0.6 m aside of the way, for 0.1 s
-    crowd.add(walk(8, 0, 1), {.start = 20});      // on the way, but later
+    crowd.add(walking(0, 0, 100), {});
+    crowd.add(walking(50, 0, 10), {});               // far away
+    crowd.add(walking(5, 0.6, 1), {.start = 4.05});  // stands 0.6 m aside of the way, for 0.1 s
+    crowd.add(walking(8, 0, 1), {.start = 20});      // on the way, but later
     for (const Search search : {Search::trees, Search::direct}) {
         const Conflicts conflicts = find_conflicts(crowd.placed(), search);
         ASSERT_EQ(conflicts.found.size(), 0u) << "1.0 m and 0.6 m apart is over 1 m";
     }
-    crowd.add(walk(5, 0.6, 20), {.start = 5});  // walks beside the first one, at one x
+    crowd.add(walking(5, 0.6, 20), {.start = 5});  // walks beside the first one, at one x
     for (const Search search : {Search::trees, Search::direct}) {
         const Conflicts conflicts = find_conflicts(crowd.placed(), search);
         ASSERT_EQ(conflicts.found.size(), 1u);
@@ -134,7 +134,7 @@ TEST(NearPairs, GrowWithTheCrowdNotWithItsSquare) {
     const auto tested = [](int side) {
         Crowd crowd;
         for (int x = 0; x < side; ++x) {
-            for (int y = 0; y < side; ++y) crowd.add(walk(2.0 * x, 0.9 * y, 50), {});
+            for (int y = 0; y < side; ++y) crowd.add(walking(2.0 * x, 0.9 * y, 50), {});
         }
         return near_pairs(crowd.placed()).size();
     };
@@ -163,7 +163,7 @@ TEST(NearPairs, AbsurdPlacesAndSizesAreTaken) {
 
 TEST(Conflicts, ProgressMayEndTheSearch) {
     Crowd crowd;
-    for (int i = 0; i < 4; ++i) crowd.add(walk(0, 0.1 * i, 10), {});
+    for (int i = 0; i < 4; ++i) crowd.add(walking(0, 0.1 * i, 10), {});
     std::size_t told = 0;
     const auto stop = [&](std::size_t done, std::size_t all) {
         EXPECT_EQ(all, 6u);

@@ -21,14 +21,14 @@ const std::string kArm = R"([{"children":[1]},{"name":"tip","translation":[1,0,0
 
 std::unique_ptr<MotionFile> parse(const std::string& bytes) { return parse_gltf(bytes, "clip.glb"); }
 
-std::vector<glm::dvec3> pose(const Motion& motion, double seconds) {
+std::vector<glm::dvec3> pose_at(const Motion& motion, double seconds) {
     std::vector<glm::dvec3> positions(motion.joints().size());
     motion.pose(seconds, positions);
     return positions;
 }
 
-std::vector<glm::dvec3> pose(const GltfBytes& bytes, const std::string& nodes, double seconds) {
-    return pose(*parse(bytes.glb(nodes))->motion(0), seconds);
+std::vector<glm::dvec3> pose_at(const GltfBytes& bytes, const std::string& nodes, double seconds) {
+    return pose_at(*parse(bytes.glb(nodes))->motion(0), seconds);
 }
 
 void expect_at(const glm::dvec3& place, double x, double y, double z, double tolerance = 1e-6) {
@@ -60,14 +60,14 @@ GltfBytes mover() {
 
 TEST(GltfSampler, LinearKeysAreJoinedByLinesAndRotationsBySlerp) {
     GltfBytes bytes = mover();
-    expect_at(pose(bytes, "[{}]", 0.25)[0], 0.5, 0, 0);
+    expect_at(pose_at(bytes, "[{}]", 0.25)[0], 0.5, 0, 0);
 
     GltfBytes turn;
     const int times = turn.add_floats("SCALAR", {0, 1});
     const auto half = static_cast<float>(kHalf);
     turn.channel("0", "rotation", times, turn.add_floats("VEC4", {0, 0, 0, 1, 0, half, 0, half})).animation();
     const double third = std::numbers::pi / 6;  // a third of the quarter turn about y
-    expect_at(pose(turn, kArm, 1 / 3.0)[1], std::cos(third), 0, -std::sin(third));
+    expect_at(pose_at(turn, kArm, 1 / 3.0)[1], std::cos(third), 0, -std::sin(third));
 }
 
 TEST(GltfSampler, SlerpTakesTheShorterWay) {
@@ -75,16 +75,16 @@ TEST(GltfSampler, SlerpTakesTheShorterWay) {
     const int times = turn.add_floats("SCALAR", {0, 1});
     const auto half = static_cast<float>(kHalf);
     turn.channel("0", "rotation", times, turn.add_floats("VEC4", {0, 0, 0, 1, 0, -half, 0, -half})).animation();
-    expect_at(pose(turn, kArm, 0.5)[1], kHalf, 0, -kHalf);
+    expect_at(pose_at(turn, kArm, 0.5)[1], kHalf, 0, -kHalf);
 }
 
 TEST(GltfSampler, StepHoldsEachKey) {
     GltfBytes bytes;
     const int times = bytes.add_floats("SCALAR", {0, 1, 2});
     bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 0, 0, 5, 0, 0, 7, 0, 0}), "STEP").animation();
-    expect_at(pose(bytes, "[{}]", 0.999)[0], 0, 0, 0);
-    expect_at(pose(bytes, "[{}]", 1)[0], 5, 0, 0);
-    expect_at(pose(bytes, "[{}]", 9)[0], 7, 0, 0);
+    expect_at(pose_at(bytes, "[{}]", 0.999)[0], 0, 0, 0);
+    expect_at(pose_at(bytes, "[{}]", 1)[0], 5, 0, 0);
+    expect_at(pose_at(bytes, "[{}]", 9)[0], 7, 0, 0);
 }
 
 TEST(GltfSampler, CubicSplinesFollowTheirTangents) {
@@ -93,8 +93,8 @@ TEST(GltfSampler, CubicSplinesFollowTheirTangents) {
     // x = t^3: value and slope are 0 at 0, 8 and 12 at 2. Each key is in-tangent, value, out-tangent.
     const int values = bytes.add_floats("VEC3", {9, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 9, 0, 0});
     bytes.channel("0", "translation", times, values, "CUBICSPLINE").animation();
-    for (const double t : {0.0, 0.5, 1.0, 1.7, 2.0}) expect_at(pose(bytes, "[{}]", t)[0], t * t * t, 0, 0);
-    expect_at(pose(bytes, "[{}]", 5)[0], 8, 0, 0);
+    for (const double t : {0.0, 0.5, 1.0, 1.7, 2.0}) expect_at(pose_at(bytes, "[{}]", t)[0], t * t * t, 0, 0);
+    expect_at(pose_at(bytes, "[{}]", 5)[0], 8, 0, 0);
 }
 
 TEST(GltfSampler, CubicSplinesOfRotationsAreNormalised) {
@@ -104,7 +104,7 @@ TEST(GltfSampler, CubicSplinesOfRotationsAreNormalised) {
     const int values = bytes.add_floats("VEC4", {0, 0, 0, 0, 0, 0,    0, 1,    0, 0, 0, 0,  //
                                                  0, 0, 0, 0, 0, half, 0, half, 0, 0, 0, 0});
     bytes.channel("0", "rotation", times, values, "CUBICSPLINE").animation();
-    const glm::dvec3 tip = pose(bytes, kArm, 0.5)[1];
+    const glm::dvec3 tip = pose_at(bytes, kArm, 0.5)[1];
     EXPECT_NEAR(std::hypot(tip.x, tip.z), 1, 1e-9);
     expect_at(tip, kHalf, 0, -kHalf);
 }
@@ -121,10 +121,10 @@ TEST(GltfSampler, OutsideItsKeysAChannelStaysAndTheClipRunsFromTheEarliestToTheL
     EXPECT_EQ(motion->times().frames, 3);
     EXPECT_FALSE(motion->times().dt);
     EXPECT_FALSE(motion->times().frames_only);
-    expect_at(pose(*motion, 0)[0], 1, 0, 0);
-    expect_at(pose(*motion, 0)[1], 1, 1, 0);
-    expect_at(pose(*motion, 2)[1], 2, 1.5, 0);
-    expect_at(pose(*motion, 9)[1], 2, 2, 0);
+    expect_at(pose_at(*motion, 0)[0], 1, 0, 0);
+    expect_at(pose_at(*motion, 0)[1], 1, 1, 0);
+    expect_at(pose_at(*motion, 2)[1], 2, 1.5, 0);
+    expect_at(pose_at(*motion, 9)[1], 2, 2, 0);
 }
 
 TEST(GltfAccessor, NormalisedIntegersAreFractions) {
@@ -138,7 +138,7 @@ TEST(GltfAccessor, NormalisedIntegersAreFractions) {
         const std::vector<T> back{0, static_cast<T>(is_signed ? -half : half), 0, half};
         bytes.channel("0", "rotation", times,
                       bytes.add("VEC4", component, is_signed ? back : turn, ",\"normalized\":true"));
-        return pose(bytes.animation(), kArm, 0)[1];
+        return pose_at(bytes.animation(), kArm, 0)[1];
     };
     expect_at(tip_after(std::int8_t{127}, 5120, true), 0, 0, 1, 0.02);
     expect_at(tip_after(std::uint8_t{255}, 5121, false), 0, 0, -1, 0.01);
@@ -151,7 +151,7 @@ TEST(GltfAccessor, TheLeastSignedIntegerIsMinusOne) {
     const int times = bytes.add_floats("SCALAR", {0});
     const std::vector<std::int8_t> values{-128, 127, 0};
     bytes.channel("0", "translation", times, bytes.add("VEC3", 5120, values, ",\"normalized\":true")).animation();
-    expect_at(pose(bytes, "[{}]", 0)[0], -1, 1, 0);
+    expect_at(pose_at(bytes, "[{}]", 0)[0], -1, 1, 0);
 }
 
 TEST(GltfAccessor, SparseElementsReplaceOthers) {
@@ -170,8 +170,8 @@ TEST(GltfAccessor, SparseElementsReplaceOthers) {
     const double expected_base[] = {0, 10, 2, 30};
     const double expected_zeros[] = {0, 10, 0, 30};
     for (int i = 0; i < 4; ++i) {
-        expect_at(pose(*motion, i)[0], expected_base[i], 0, 0);
-        expect_at(pose(*motion, i)[1], expected_base[i] + expected_zeros[i], 0, 0);
+        expect_at(pose_at(*motion, i)[0], expected_base[i], 0, 0);
+        expect_at(pose_at(*motion, i)[1], expected_base[i] + expected_zeros[i], 0, 0);
     }
 }
 
@@ -182,8 +182,8 @@ TEST(GltfAccessor, InterleavedElementsAreFoundByTheirStride) {
     const int values = bytes.add_accessor("\"bufferView\":" + std::to_string(view) +
                                           R"(,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC3")");
     bytes.channel("0", "translation", times, values).animation();
-    expect_at(pose(bytes, "[{}]", 0)[0], 1, 2, 3);
-    expect_at(pose(bytes, "[{}]", 1)[0], 4, 5, 6);
+    expect_at(pose_at(bytes, "[{}]", 0)[0], 1, 2, 3);
+    expect_at(pose_at(bytes, "[{}]", 1)[0], 4, 5, 6);
 }
 
 TEST(GltfNodes, TransformsOfAllParentsApply) {
@@ -192,19 +192,19 @@ TEST(GltfNodes, TransformsOfAllParentsApply) {
     const std::string nodes =
         R"([{"children":[1]},{"children":[2],"rotation":[-0.70710678,0,0,0.70710678],"scale":[0.01,0.01,0.01]},)"
         R"({"translation":[2,3,4]}])";
-    expect_at(pose(bytes, nodes, 0.5)[2], 1.02, 0.04, -0.03);
+    expect_at(pose_at(bytes, nodes, 0.5)[2], 1.02, 0.04, -0.03);
     // The same as a matrix, column after column.
     const std::string matrix =
         R"([{"children":[1]},{"children":[2],"matrix":[0.01,0,0,0, 0,0,-0.01,0, 0,0.01,0,0, 0,0,0,1]},)"
         R"({"translation":[2,3,4]}])";
-    expect_at(pose(bytes, matrix, 0.5)[2], 1.02, 0.04, -0.03);
+    expect_at(pose_at(bytes, matrix, 0.5)[2], 1.02, 0.04, -0.03);
 }
 
 TEST(GltfNodes, ALongChainIsNoTrouble) {
     constexpr int kNodes = 20'000;
     std::string nodes = "[";
     for (int i = 0; i + 1 < kNodes; ++i) nodes += "{\"children\":[" + std::to_string(i + 1) + "]},";
-    const auto positions = pose(mover(), nodes + "{}]", 1);
+    const auto positions = pose_at(mover(), nodes + "{}]", 1);
     ASSERT_EQ(positions.size(), static_cast<std::size_t>(kNodes));
     expect_at(positions.back(), 2, 0, 0);
 }
@@ -232,7 +232,7 @@ TEST(GltfSkin, OnlyTheJointsOfSkin0Count) {
     EXPECT_EQ(motion->joints()[1].name, "hand");
     EXPECT_EQ(motion->joints()[1].parent, 0);
     EXPECT_EQ(motion->topmost(), 0);
-    expect_at(pose(*motion, 1)[1], 3, 0, 0);
+    expect_at(pose_at(*motion, 1)[1], 3, 0, 0);
     ASSERT_EQ(motion->warnings().size(), 1u);
     EXPECT_NE(motion->warnings()[0].find("2 skins"), std::string::npos);
 }
@@ -265,7 +265,7 @@ TEST(GltfFile, WhatIsNotNeededNeedNotBeThere) {
     const std::string rest =
         R"(,"images":[{"uri":"missing.png"},{"bufferView":99}],"materials":[7],"textures":"none","meshes":[{"primitives":)"
         R"([{"attributes":{"POSITION":88}}]}],"scenes":[{"nodes":[55]}],"extensionsRequired":["KHR_materials_unlit"])";
-    expect_at(pose(*parse(bytes.glb("[{\"mesh\":0,\"extras\":[1,{}]}]", rest))->motion(0), 1)[0], 2, 0, 0);
+    expect_at(pose_at(*parse(bytes.glb("[{\"mesh\":0,\"extras\":[1,{}]}]", rest))->motion(0), 1)[0], 2, 0, 0);
 }
 
 TEST(GltfFile, ChannelsWithoutATargetNodeAreIgnored) {
@@ -282,7 +282,7 @@ TEST(GltfFile, BuffersLieBesideItOrBelow) {
     std::filesystem::create_directory(folder.path() / "the data");
     folder.write("the data/a+b.bin", bytes.binary() + "more than is needed");
     const auto file = folder.write("clip.gltf", bytes.json("[{}]", "", "the%20data/a+b.bin"));
-    expect_at(pose(*read_gltf(file)->motion(0), 1)[0], 2, 0, 0);
+    expect_at(pose_at(*read_gltf(file)->motion(0), 1)[0], 2, 0, 0);
 
     for (const char* uri :
          {"../clip.bin", "/etc/passwd", "http://host/a.bin", "a/../../b.bin", "%2e%2e/b.bin", "a\\\\b"}) {
@@ -304,7 +304,7 @@ TEST(GltfFile, BuffersMayBeDataUris) {
     const std::string base64 = "AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     for (const char* type : {"application/octet-stream", "application/gltf-buffer", "", "model/whatever"}) {
         const std::string json = mover().json("[{}]", "", std::string("data:") + type + ";base64," + base64);
-        expect_at(pose(*parse_gltf(json, "clip.gltf")->motion(0), 1)[0], 2, 0, 0);
+        expect_at(pose_at(*parse_gltf(json, "clip.gltf")->motion(0), 1)[0], 2, 0, 0);
     }
     expect_refused(mover().json("[{}]", "", "data:;base64,AAAA"), "buffer 0", "clip.gltf");
     expect_refused(mover().json("[{}]", "", "data:,AAAA"), "/buffers/0/uri", "clip.gltf");

@@ -45,7 +45,7 @@ double max_radius(const mobb::Clip& clip) {
 }
 
 /// The clip that a row of expected.csv speaks of.
-ImportedClip clip_of(const testing::Row& row, Importer& importer) {
+ImportedClip data_clip(const testing::Row& row, Importer& importer) {
     ImportOptions options;
     options.unit = row.at("unit_to_m");
     if (!row.at("clip").empty()) options.animation = row.at("clip");
@@ -62,7 +62,7 @@ TEST(MotionData, EveryFigureOfExpectedCsv) {
         const std::string& file = row.at("file");
         SCOPED_TRACE(file + " " + row.at("clip"));
         const bool is_fbx = file.ends_with(".fbx");
-        const ImportedClip it = clip_of(row, importer);
+        const ImportedClip it = data_clip(row, importer);
         EXPECT_EQ(it.facts.root, row.at("root_used"));
         EXPECT_EQ(it.facts.joints, std::stoi(row.at("joints")));
         EXPECT_EQ(it.clip->count(), std::stoi(row.at("frames_30hz")));

@@ -30,7 +30,7 @@ std::vector<glm::vec3> points_of(const DrawList& list) {
 }
 
 /// The largest difference in pixels between where two lenses see the points.
-float difference(const Lens& a, const Lens& b, const std::vector<glm::vec3>& points) {
+float pixel_difference(const Lens& a, const Lens& b, const std::vector<glm::vec3>& points) {
     float most = 0;
     for (const glm::vec3& point : points) {
         most = std::max(most, glm::length(a.project(point).value() - b.project(point).value()));
@@ -59,7 +59,7 @@ TEST(Settled, ShowsWhatTheFramedPictureShows) {
                         ASSERT_TRUE(view.camera.target);
                         EXPECT_EQ(view.camera.preset, CameraPreset::free);
                         const DrawList aimed = build_draw_list(fitted, view, kGoldenSize);
-                        EXPECT_LT(difference(framed.lens, aimed.lens, points_of(framed)), 0.05f)
+                        EXPECT_LT(pixel_difference(framed.lens, aimed.lens, points_of(framed)), 0.05f)
                             << name(preset) << (perspective ? "" : " ortho") << (far ? " far" : "") << " fov " << fov;
                         EXPECT_EQ(settled(view.camera, aimed), view.camera) << "settled already";
                     }
@@ -101,7 +101,7 @@ TEST(Settled, SteppingDoesNotMoveThePicture) {
 }
 
 /// A lens for an explicit camera where drawn space is the world.
-Lens lens_of(const Camera& camera, PictureSize size = kGoldenSize) {
+Lens camera_lens(const Camera& camera, PictureSize size = kGoldenSize) {
     const glm::vec3 target(*camera.target);
     const std::vector<glm::vec3> points{target - 5.0f, target + 5.0f};
     return make_lens(camera, points, &target, {}, size);
@@ -123,7 +123,7 @@ Camera explicit_camera(bool perspective) {
 TEST(Navigate, TheShiftIsInWidthsAndHeights) {
     for (const bool perspective : {true, false}) {
         const Camera camera = explicit_camera(perspective);
-        const glm::vec2 at = lens_of(camera).project(glm::vec3(*camera.target)).value();
+        const glm::vec2 at = camera_lens(camera).project(glm::vec3(*camera.target)).value();
         EXPECT_NEAR(at.x, 640 * 0.6, 0.01);
         EXPECT_NEAR(at.y, 360 * 0.7, 0.01);
     }
@@ -136,12 +136,12 @@ TEST(Navigate, OrbitingTurnsAroundTheTarget) {
         EXPECT_NEAR(turned.yaw_deg, -15, 1e-9);
         EXPECT_NEAR(turned.pitch_deg, 38, 1e-9);
         const glm::vec3 target(*camera.target);
-        EXPECT_LT(glm::length(*lens_of(turned).project(target) - *lens_of(camera).project(target)), 0.01f);
+        EXPECT_LT(glm::length(*camera_lens(turned).project(target) - *camera_lens(camera).project(target)), 0.01f);
         // What is between the eye and the target goes where the mouse goes.
-        const Lens before = lens_of(camera);
+        const Lens before = camera_lens(camera);
         const glm::vec3 front = target + before.back;
-        EXPECT_GT(lens_of(orbited(camera, {9, 0}, kGoldenSize)).project(front)->x, before.project(front)->x);
-        EXPECT_GT(lens_of(orbited(camera, {0, 9}, kGoldenSize)).project(front)->y, before.project(front)->y);
+        EXPECT_GT(camera_lens(orbited(camera, {9, 0}, kGoldenSize)).project(front)->x, before.project(front)->x);
+        EXPECT_GT(camera_lens(orbited(camera, {0, 9}, kGoldenSize)).project(front)->y, before.project(front)->y);
 
         EXPECT_EQ(orbited(camera, {0, 1e6f}, kGoldenSize).pitch_deg, 90);
         EXPECT_EQ(orbited(camera, {0, -1e6f}, kGoldenSize).pitch_deg, -90);
@@ -152,10 +152,11 @@ TEST(Navigate, OrbitingTurnsAroundTheTarget) {
 TEST(Navigate, WhatIsPannedFollowsTheMouse) {
     for (const bool perspective : {true, false}) {
         const Camera camera = explicit_camera(perspective);
-        const Lens before = lens_of(camera);
+        const Lens before = camera_lens(camera);
         const glm::vec3 beside = glm::vec3(*camera.target) + before.right * 1.5f + before.up * 0.5f;
         const glm::vec2 way(37, -21);
-        const glm::vec2 moved = *lens_of(panned(camera, way, kGoldenSize)).project(beside) - *before.project(beside);
+        const glm::vec2 moved =
+            *camera_lens(panned(camera, way, kGoldenSize)).project(beside) - *before.project(beside);
         EXPECT_NEAR(moved.x, way.x, 0.02);
         EXPECT_NEAR(moved.y, way.y, 0.02);
     }
@@ -164,12 +165,12 @@ TEST(Navigate, WhatIsPannedFollowsTheMouse) {
 TEST(Navigate, ZoomingKeepsWhatIsUnderTheCursor) {
     for (const bool perspective : {true, false}) {
         const Camera camera = explicit_camera(perspective);
-        const Lens before = lens_of(camera);
+        const Lens before = camera_lens(camera);
         const glm::vec3 beside = glm::vec3(*camera.target) + before.right * 3.0f + before.up * -1.0f;
         const glm::vec2 cursor = before.project(beside).value();
         for (const double factor : {0.5, 1.0, 1.2, 3.0}) {
             const Camera nearer = zoomed(camera, factor, cursor, kGoldenSize);
-            const Lens after = lens_of(nearer);
+            const Lens after = camera_lens(nearer);
             EXPECT_LT(glm::length(after.project(beside).value() - cursor), 0.05f) << factor;
             EXPECT_NEAR(after.pixels_per_metre(beside) / before.pixels_per_metre(beside), factor, 1e-3);
         }
@@ -189,7 +190,7 @@ TEST(Navigate, FramingShowsTheWholeBoxAndNotMuchElse) {
                 const Camera framed = framing(camera, min, max, size);
                 EXPECT_EQ(framed.yaw_deg, camera.yaw_deg);
                 EXPECT_EQ(framed.pitch_deg, camera.pitch_deg);
-                const Lens lens = lens_of(framed, size);
+                const Lens lens = camera_lens(framed, size);
                 float room = 1;
                 for (unsigned i = 0; i < 8; ++i) {
                     const glm::vec3 corner(i & 1u ? max.x : min.x, i & 2u ? max.y : min.y, i & 4u ? max.z : min.z);

@@ -13,7 +13,7 @@ namespace mobbscope {
 namespace {
 
 /// Grey pictures of 640x360 of which some pixels of the first row differ.
-ImageDiff difference(int pixels, int by, const DiffOptions& options = {}) {
+ImageDiff report_difference(int pixels, int by, const DiffOptions& options = {}) {
     const Image reference(640, 360);
     Image actual = reference;
     for (int x = 0; x < pixels; ++x) actual.at(12 + x % 600, 3 + x / 600)[3] = static_cast<std::uint8_t>(by);
@@ -23,7 +23,7 @@ ImageDiff difference(int pixels, int by, const DiffOptions& options = {}) {
 TEST(DiffJson, HasAllFigures) {
     std::ostringstream text;
     JsonWriter out(text);
-    write_diff(out, difference(231, 87, {3, 0.001, 1}));
+    write_diff(out, report_difference(231, 87, {3, 0.001, 1}));
     const auto json = nlohmann::json::parse(text.str());
     EXPECT_EQ(testing::keys(json),
               (std::set<std::string>{"same", "same_size", "size_a", "size_b", "pixels", "failing", "fraction",
@@ -57,18 +57,18 @@ TEST(DiffJson, WithoutDifferencesThereAreNoBounds) {
 }
 
 TEST(DiffSentence, SaysWhatWasFound) {
-    EXPECT_EQ(diff_sentence(difference(412, 87)),
+    EXPECT_EQ(diff_sentence(report_difference(412, 87)),
               "different: 412 of 230400 pixels (0.18 %) differ by more than 3/255, up to 87/255, within 412x1 at (12, "
               "3); allowed: 230");
-    EXPECT_EQ(diff_sentence(difference(1, 87)),
+    EXPECT_EQ(diff_sentence(report_difference(1, 87)),
               "same: 1 of 230400 pixels (0.00043 %) differs by more than 3/255, up to 87/255, within 1x1 at (12, 3); "
               "allowed: 230");
-    EXPECT_EQ(diff_sentence(difference(60000, 87, {2.5, 0})),
+    EXPECT_EQ(diff_sentence(report_difference(60000, 87, {2.5, 0})),
               "different: 60000 of 230400 pixels (26 %) differ by more than 2.5/255, up to 87/255, within 600x100 at "
               "(12, 3); allowed: 0");
-    EXPECT_EQ(diff_sentence(difference(5, 2)),
+    EXPECT_EQ(diff_sentence(report_difference(5, 2)),
               "same: none of 230400 pixels differs by more than 3/255, the most by 2/255");
-    EXPECT_EQ(diff_sentence(difference(0, 0)), "same: none of 230400 pixels differs");
+    EXPECT_EQ(diff_sentence(report_difference(0, 0)), "same: none of 230400 pixels differs");
     EXPECT_EQ(diff_sentence(diff(Image(2, 3), Image(4, 5))), "different: the sizes are 2x3 and 4x5");
 }
 

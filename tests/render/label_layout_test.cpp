@@ -6,7 +6,7 @@
 namespace mobbscope {
 namespace {
 
-LabelRequest label(const std::string& text, glm::vec2 anchor) {
+LabelRequest label_at(const std::string& text, glm::vec2 anchor) {
     LabelRequest request;
     request.text = text;
     request.anchor = anchor;
@@ -20,7 +20,7 @@ TEST(LabelLayout, LabelsNeitherOverlapNorLeaveThePicture) {
     int placed = 0;
     for (int i = 0; i < 60; ++i) {
         const glm::vec2 anchor(static_cast<float>((i * 37) % 200), static_cast<float>((i * 53) % 120));
-        placed += layout.place(label("label " + std::to_string(i), anchor), list) ? 1 : 0;
+        placed += layout.place(label_at("label " + std::to_string(i), anchor), list) ? 1 : 0;
     }
     EXPECT_GT(placed, 5);
     EXPECT_EQ(list.texts.size(), static_cast<std::size_t>(placed));
@@ -35,7 +35,7 @@ TEST(LabelLayout, ReservedPlacesStayFree) {
     LabelLayout layout(PictureSize{200, 120});
     layout.reserve({{0, 0}, {200, 120}});
     DrawList list;
-    EXPECT_FALSE(layout.place(label("x", {100, 60}), list));
+    EXPECT_FALSE(layout.place(label_at("x", {100, 60}), list));
     EXPECT_TRUE(list.texts.empty());
 }
 

@@ -21,7 +21,7 @@ namespace {
 using testing::kSmallSize;
 
 /// Disks, boxes with faces, lines, panels and text.
-DrawList everything(Theme theme, std::optional<Rgba> background) {
+DrawList all_pixels(Theme theme, std::optional<Rgba> background) {
     ViewState view;
     view.levels = {0, 3, false};
     view.time = 1;
@@ -51,8 +51,8 @@ class BackgroundTest : public testing::OnEachBackend {};
 
 TEST_P(BackgroundTest, SeenThroughPicturesAreTheOpaqueOnesOverTheThemesGround) {
     for (const Theme theme : {Theme::dark, Theme::light}) {
-        const Image opaque = renderer().draw(everything(theme, std::nullopt));
-        const Image clear = renderer().draw(everything(theme, Rgba(0)));
+        const Image opaque = renderer().draw(all_pixels(theme, std::nullopt));
+        const Image clear = renderer().draw(all_pixels(theme, Rgba(0)));
         EXPECT_LE(largest_difference(laid_over(clear, palette(theme).background), opaque), 2) << name(theme);
         EXPECT_EQ(clear.at(1, 238)[3], 0) << "nothing is drawn in the corner";
         const auto solid = [&](std::size_t i) { return clear.rgba[4 * i + 3] == 255; };
@@ -64,40 +64,40 @@ TEST_P(BackgroundTest, SeenThroughPicturesAreTheOpaqueOnesOverTheThemesGround) {
 
 TEST_P(BackgroundTest, AHalfSeenThroughGroundLiesUnderWhatIsDrawn) {
     const Rgba veil = parse_background("#FF000080");
-    const Image veiled = renderer().draw(everything(Theme::dark, veil));
+    const Image veiled = renderer().draw(all_pixels(Theme::dark, veil));
     const std::uint8_t* corner = veiled.at(1, 238);
     // Eight bits of what lies over black give the colour back to a level.
     EXPECT_NEAR(corner[0], 255, 1);
     EXPECT_EQ(corner[1], 0);
     EXPECT_EQ(corner[3], 128);
     // Over any ground it is the clear picture over the veil over that ground.
-    const Image clear = renderer().draw(everything(Theme::dark, Rgba(0)));
+    const Image clear = renderer().draw(all_pixels(Theme::dark, Rgba(0)));
     const Rgba ground = palette(Theme::dark).background;
     EXPECT_LE(largest_difference(laid_over(veiled, ground), laid_over(clear, mix_colors(ground, veil, veil.a))), 2);
 }
 
 TEST_P(BackgroundTest, AnOpaqueGroundIsWhatStepsBackDoesSoTowards) {
     const Rgba green(0, 0.4f, 0.1f, 1);
-    const DrawList list = everything(Theme::dark, green);
+    const DrawList list = all_pixels(Theme::dark, green);
     EXPECT_EQ(list.palette.background, green);
     const Image image = renderer().draw(list);
     const std::uint8_t* corner = image.at(1, 238);
     EXPECT_EQ(corner[0], 0);
     EXPECT_EQ(corner[1], 102);
     EXPECT_EQ(corner[3], 255);
-    const DrawList clear = everything(Theme::dark, Rgba(0));
+    const DrawList clear = all_pixels(Theme::dark, Rgba(0));
     EXPECT_EQ(clear.palette.background, palette(Theme::dark).background);
 }
 
 TEST_P(BackgroundTest, MoreSamplesThanTheContextHasAreRefused) {
     try {
-        renderer().draw(everything(Theme::dark, std::nullopt), 1 << 20);
+        renderer().draw(all_pixels(Theme::dark, std::nullopt), 1 << 20);
         FAIL();
     } catch (const MachineError& error) {
         EXPECT_NE(std::string(error.what()).find("at most "), std::string::npos) << error.what();
     }
-    EXPECT_NE(renderer().draw(everything(Theme::dark, std::nullopt), 1).rgba,
-              renderer().draw(everything(Theme::dark, std::nullopt), 4).rgba);
+    EXPECT_NE(renderer().draw(all_pixels(Theme::dark, std::nullopt), 1).rgba,
+              renderer().draw(all_pixels(Theme::dark, std::nullopt), 4).rgba);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BackgroundTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);

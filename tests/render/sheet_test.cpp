@@ -2,7 +2,6 @@
 #include <render/sheet.h>
 
 #include "render/backends.h"
-#include "render/pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +13,6 @@
 
 namespace mobbscope {
 namespace {
-
-using testing::filled;
 
 const Palette& kPalette = palette(Theme::light);
 const Metrics kMetrics = metrics_of({1280, 720});
@@ -38,6 +35,13 @@ Found find(const Image& image, std::uint8_t value) {
     return found;
 }
 
+/// With this value in every channel.
+Image uniform(int width, int height, std::uint8_t value) {
+    Image image(width, height);
+    std::fill(image.rgba.begin(), image.rgba.end(), value);
+    return image;
+}
+
 using SheetTest = testing::OnEachBackend;
 
 TEST_P(SheetTest, FillsWhatItIsGivenWithEvenGaps) {
@@ -45,7 +49,7 @@ TEST_P(SheetTest, FillsWhatItIsGivenWithEvenGaps) {
     const PictureSize cell = cell_size(size, 3, 3, true, kMetrics);
     std::vector<SheetCell> cells;
     for (const auto value : std::to_array<std::uint8_t>({11, 22, 33})) {
-        cells.push_back({"(a) title", filled(cell.width, cell.height, value)});
+        cells.push_back({"(a) title", uniform(cell.width, cell.height, value)});
     }
     const Image sheet = make_sheet(cells, 3, kPalette, kPalette.background, kMetrics, renderer(), size);
     EXPECT_EQ(sheet.width, 700);
@@ -60,7 +64,8 @@ TEST_P(SheetTest, FillsWhatItIsGivenWithEvenGaps) {
 }
 
 TEST_P(SheetTest, WithoutASizeItIsAsLargeAsItNeedsToBe) {
-    const std::vector<SheetCell> cells{{"", filled(100, 80, 11)}, {"", filled(90, 70, 22)}, {"", filled(80, 60, 33)}};
+    const std::vector<SheetCell> cells{
+        {"", uniform(100, 80, 11)}, {"", uniform(90, 70, 22)}, {"", uniform(80, 60, 33)}};
     const Image sheet = make_sheet(cells, 2, kPalette, kPalette.background, kMetrics, renderer());
     const int gap = static_cast<int>(kMetrics.pad);
     EXPECT_EQ(sheet.width, 2 * 100 + 3 * gap);
@@ -72,7 +77,7 @@ TEST_P(SheetTest, WithoutASizeItIsAsLargeAsItNeedsToBe) {
 }
 
 TEST_P(SheetTest, TheGroundIsOneColour) {
-    const std::vector<SheetCell> cells{{"title", filled(100, 80, 11)}};
+    const std::vector<SheetCell> cells{{"title", uniform(100, 80, 11)}};
     const Image sheet = make_sheet(cells, 1, kPalette, kPalette.background, kMetrics, renderer());
     const int gap = static_cast<int>(kMetrics.pad);
     // The corner of the sheet, and that of the title's row.
@@ -83,7 +88,7 @@ TEST_P(SheetTest, TitlesStandOnAnyGround) {
     for (const Theme theme : {Theme::dark, Theme::light}) {
         for (const Rgba& background : {Rgba(0), Rgba(1, 1, 1, 0.5f), Rgba(0, 0, 0, 0.5f)}) {
             const Palette& colors = palette(theme);
-            const std::vector<SheetCell> cells{{"(a) title", filled(200, 100, 9)}};
+            const std::vector<SheetCell> cells{{"(a) title", uniform(200, 100, 9)}};
             const Image sheet = make_sheet(cells, 1, colors, background, kMetrics, renderer());
             int solid = 0;
             for (int y = 0; y < sheet.height - 100 - 14; ++y) {

@@ -8,13 +8,13 @@ namespace {
 
 using testing::TempFolder;
 
-Scene parse(std::string_view text) { return parse_scene(text, "s.json", ""); }
+Scene parse_plain(std::string_view text) { return parse_scene(text, "s.json", ""); }
 
 constexpr const char* kTwoClips = R"("clips": {"z": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.5]]},
                                               "a": {"dt": 1, "samples": [[0, 0, 0]]}})";
 
 TEST(Scene, OnlyClipsAreRequired) {
-    const Scene scene = parse(std::string("{") + kTwoClips + "}");
+    const Scene scene = parse_plain(std::string("{") + kTwoClips + "}");
     ASSERT_EQ(scene.clips.size(), 2u);
     EXPECT_EQ(scene.clips[0].name, "z");
     EXPECT_EQ(scene.clips[0].clip->samples()[1].r, 0.5);
@@ -27,7 +27,7 @@ TEST(Scene, OnlyClipsAreRequired) {
 }
 
 TEST(Scene, EverythingIsRead) {
-    const Scene scene = parse(std::string(R"({"$schema": "x", "mobbscope": 1, )") + kTwoClips + R"(,
+    const Scene scene = parse_plain(std::string(R"({"$schema": "x", "mobbscope": 1, )") + kTwoClips + R"(,
         "agents": [{"name": "A", "clip": "a", "translate": [1, 2], "rotate_deg": 30, "start": 0.25, "color": "#E69f00"},
                    {"name": "B", "clip": "z"}],
         "fit": {"tree": "umobb", "leaf": 3, "levels": 2, "axes": "minarea", "time_scale": 2.5},
@@ -49,7 +49,7 @@ TEST(Scene, EverythingIsRead) {
 }
 
 TEST(Scene, WithoutQueriesAllPairsOfAgentsAreAsked) {
-    const Scene scene = parse(std::string("{") + kTwoClips + R"(, "queries": [],
+    const Scene scene = parse_plain(std::string("{") + kTwoClips + R"(, "queries": [],
         "agents": [{"name": "A", "clip": "a"}, {"name": "B", "clip": "z"}, {"name": "C", "clip": "z"}]})");
     ASSERT_EQ(query_count(scene), 3u);
     EXPECT_EQ(query_at(scene, 0).a.name + query_at(scene, 0).b.name, "AB");

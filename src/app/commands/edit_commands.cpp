@@ -85,7 +85,7 @@ void rename(Session& session, const std::string& name) {
 }
 
 template <class Change>
-void place(Session& session, const std::string& doing, const Change& change) {
+void place_agent(Session& session, const std::string& doing, const Change& change) {
     edit_selected_agent(session, doing, [&](Scene& scene, int agent) {
         mobb::Placement placement = scene.agents[static_cast<std::size_t>(agent)].placement;
         change(placement);
@@ -95,27 +95,27 @@ void place(Session& session, const std::string& doing, const Change& change) {
 
 void move(Session& session, const std::string& text) {
     const glm::dvec2 to = two_numbers(text, "the place");
-    place(session, "moving", [&](mobb::Placement& placement) { placement.translate = to; });
+    place_agent(session, "moving", [&](mobb::Placement& placement) { placement.translate = to; });
 }
 
 void nudge(Session& session, const std::string& text) {
     const glm::dvec2 by = two_numbers(text, "the way");
-    place(session, "moving", [&](mobb::Placement& placement) { placement.translate += by; });
+    place_agent(session, "moving", [&](mobb::Placement& placement) { placement.translate += by; });
 }
 
 void turn(Session& session, const std::string& text) {
     const double degrees = number_in(text, "the angle", -kMaxDegrees, kMaxDegrees);
-    place(session, "turning", [&](mobb::Placement& placement) { placement.rotate_deg = degrees; });
+    place_agent(session, "turning", [&](mobb::Placement& placement) { placement.rotate_deg = degrees; });
 }
 
 void start(Session& session, const std::string& text) {
     const double time = number_in(text, "the start", -mobb::kMaxTime, mobb::kMaxTime);
-    place(session, "shifting", [&](mobb::Placement& placement) { placement.start = time; });
+    place_agent(session, "shifting", [&](mobb::Placement& placement) { placement.start = time; });
 }
 
 void shift_start(Session& session, const std::string& text) {
     const double by = number_in(text, "the shift", -mobb::kMaxTime, mobb::kMaxTime);
-    place(session, "shifting", [&](mobb::Placement& placement) { placement.start += by; });
+    place_agent(session, "shifting", [&](mobb::Placement& placement) { placement.start += by; });
 }
 
 void set_color(Session& session, const std::string& text) {

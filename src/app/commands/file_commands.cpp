@@ -18,7 +18,7 @@ void add_file(Session& session, const std::string& file) {
     session.add({file});
 }
 
-std::vector<std::string> recent_files(const Session& session) {
+std::vector<std::string> recent_names(const Session& session) {
     std::vector<std::string> out;
     for (const auto& file : session.settings.recent) out.push_back(file.string());
     return out;
@@ -70,7 +70,7 @@ std::span<const Command> file_commands() {
          .argument = "FILE",
          .doc = "Opens a file that was open before.",
          .run = [](Session& session, const std::string& file) { session.open({file}); },
-         .choices = recent_files},
+         .choices = recent_names},
         {.id = "file.demo",
          .title = "Open the demo",
          .menu = "File",

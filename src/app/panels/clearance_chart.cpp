@@ -67,7 +67,7 @@ void least_mark(ImDrawList& list, const Look& look, const Chart& chart, const Cl
     list.AddCircle(at, 3.5f * look.scale, look.text, 0, look.scale);
 }
 
-void time_ticks(ImDrawList& list, const Look& look, const Chart& chart) {
+void chart_ticks(ImDrawList& list, const Look& look, const Chart& chart) {
     const double span = chart.time.t1 - chart.time.t0;
     const double parts = std::max(1.0, static_cast<double>((chart.max.x - chart.min.x) / (70 * look.scale)));
     const double step = nice_step(span, parts);
@@ -134,7 +134,7 @@ void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
     text_at(list, ui.look, chart, {chart.min.x + ui.px(3), chart.min.y + ui.px(1)}, ui.look.quiet,
             with_unit(most, "m"));
     least_mark(list, ui.look, chart, least);
-    time_ticks(list, ui.look, chart);
+    chart_ticks(list, ui.look, chart);
     if (const auto& time = ui.session.view().time; time && *time >= chart.time.t0 && *time <= chart.time.t1) {
         list.AddLine({chart.x(*time), chart.min.y}, {chart.x(*time), chart.max.y}, ui.look.accent, ui.px(1.5f));
     }

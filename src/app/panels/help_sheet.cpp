@@ -49,7 +49,7 @@ std::vector<Line> lines() {
     return out;
 }
 
-void draw_line(Ui& ui, const Line& line, float keys_width) {
+void help_line(Ui& ui, const Line& line, float keys_width) {
     if (line.heading) {
         ImGui::PushFont(ui.look.caption);
         ImGui::TextDisabled("%s", line.what.c_str());
@@ -92,7 +92,7 @@ void help_sheet(Ui& ui) {
         const std::size_t end = (static_cast<std::size_t>(column) + 1) * per_column;
         for (; line < all.size() && (line < end || column + 1 == columns); ++line) {
             if (all[line].heading && line + 1 == end) break;
-            draw_line(ui, all[line], keys_width);
+            help_line(ui, all[line], keys_width);
         }
         ImGui::EndGroup();
     }

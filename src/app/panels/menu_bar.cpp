@@ -16,7 +16,7 @@ constexpr float kSearchWidth = 360;       // pixels at scale 1
 constexpr float kLeastSearchWidth = 110;  // below, it only costs room
 constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
 
-std::string lower(std::string_view text) {
+std::string lower_case(std::string_view text) {
     std::string out(text);
     std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
     return out;
@@ -30,7 +30,7 @@ std::string title_of(const Session& session, const Command& command) {
     return title;
 }
 
-std::string mark_of(const Command& command) { return "menu." + std::string(command.id); }
+std::string check_mark(const Command& command) { return "menu." + std::string(command.id); }
 
 void ask_argument(Session& session, const Command& command) {
     session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
@@ -40,14 +40,14 @@ void choices(Ui& ui, const Command& command) {
     Session& session = ui.session;
     const std::vector<std::string> all = command.choices(session);
     const bool open = ImGui::BeginMenu(title_of(session, command).c_str(), command.enabled(session) && !all.empty());
-    ui.mark(mark_of(command));
+    ui.mark(check_mark(command));
     if (!open) return;
     for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
         const bool chosen = command.chosen && command.chosen(session, all[i]);
         ImGui::PushID(static_cast<int>(i));
         if (ImGui::MenuItem(all[i].c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
         ImGui::PopID();
-        ui.mark(mark_of(command) + '.' + all[i]);
+        ui.mark(check_mark(command) + '.' + all[i]);
     }
     if (all.size() > kMostChoices && ImGui::MenuItem("More...")) ask_argument(session, command);
     ImGui::EndMenu();
@@ -61,7 +61,7 @@ void item(Ui& ui, const Command& command) {
     if (ImGui::MenuItem(title_of(session, command).c_str(), shortcut.c_str(), checked, command.enabled(session))) {
         command.needs_argument() ? ask_argument(session, command) : invoke(session, command.id);
     }
-    ui.mark(mark_of(command));
+    ui.mark(check_mark(command));
 }
 
 std::string_view group_of(const Command& command) { return command.id.substr(0, command.id.find('.')); }
@@ -83,7 +83,7 @@ void items(Ui& ui, const std::string& menu) {
     for (const std::string_view submenu : submenus) {
         const std::string name(submenu.substr(menu.size() + 1));
         const bool open = ImGui::BeginMenu(name.c_str());
-        ui.mark("menu." + lower(menu) + '.' + lower(name));
+        ui.mark("menu." + lower_case(menu) + '.' + lower_case(name));
         if (!open) continue;
         items(ui, std::string(submenu));
         ImGui::EndMenu();
@@ -150,7 +150,7 @@ void menu_bar(Ui& ui) {
     if (!ImGui::BeginMainMenuBar()) return;
     for (const char* menu : kMenus) {
         const bool open = ImGui::BeginMenu(menu);
-        ui.mark("menu." + lower(menu));
+        ui.mark("menu." + lower_case(menu));
         if (!open) continue;
         items(ui, menu);
         if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();

@@ -10,8 +10,8 @@ namespace mobbscope::app {
 namespace {
 
 /// One line of the list: what it is, and to the right what it belongs to and its key.
-bool row(Ui& ui, int index, bool picked, const std::string& text, const std::string& detail, const std::string& key,
-         bool enabled) {
+bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const std::string& detail,
+                 const std::string& key, bool enabled) {
     const float height = ImGui::GetTextLineHeight() + ui.px(8);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -80,7 +80,7 @@ void all(Ui& ui) {
     const auto draw = [&](int i, bool picked) {
         const PaletteEntry& entry = entries[static_cast<std::size_t>(i)];
         const std::string detail = entry.why_not.empty() ? entry.detail : entry.why_not;
-        const bool clicked = row(ui, i, picked, entry.title, detail, entry.shortcut, entry.why_not.empty());
+        const bool clicked = palette_row(ui, i, picked, entry.title, detail, entry.shortcut, entry.why_not.empty());
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(entry.command->doc).c_str());
         return clicked;
     };
@@ -107,7 +107,7 @@ void argument(Ui& ui, const Command& command) {
     const auto draw = [&](int i, bool picked) {
         const std::string& choice = choices[static_cast<std::size_t>(i)];
         const bool chosen = command.chosen && command.chosen(session, choice);
-        return row(ui, i, picked, choice, chosen ? "now" : "", "", true);
+        return palette_row(ui, i, picked, choice, chosen ? "now" : "", "", true);
     };
     const int taken = pick_from_list(input, static_cast<int>(choices.size()), entered, draw);
     if (taken >= 0) return run(session, command, std::string(choices[static_cast<std::size_t>(taken)]));

@@ -15,8 +15,8 @@ namespace mobbscope::app {
 namespace {
 
 /// A number to type, or to drag; true when it has changed.
-bool number(Ui& ui, const char* label, const char* name, double& value, float speed, const char* format,
-            const char* help) {
+bool placement_number(Ui& ui, const char* label, const char* name, double& value, float speed, const char* format,
+                      const char* help) {
     form_label(ui, label, help);
     ImGui::PushFont(ui.look.mono);
     const bool changed = ImGui::DragScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &value, speed,
@@ -26,7 +26,7 @@ bool number(Ui& ui, const char* label, const char* name, double& value, float sp
     return changed && std::isfinite(value);
 }
 
-void rename(Ui& ui, int agent, const std::string& name) {
+void rename_agent(Ui& ui, int agent, const std::string& name) {
     form_label(ui, "Name", "What the agent is called in queries and pictures");
     std::string text = name;
     ImGui::InputText("##agent.name", &text);
@@ -37,7 +37,7 @@ void rename(Ui& ui, int agent, const std::string& name) {
     });
 }
 
-void color(Ui& ui, const Participant& who, int index) {
+void color_field(Ui& ui, const Participant& who, int index) {
     form_label(ui, "Colour", nullptr);
     const Rgba now = agent_color(ui.session.scene(), who, index);
     std::array<float, 3> rgb{now.r, now.g, now.b};
@@ -63,15 +63,17 @@ void placement_panel(Ui& ui) {
     // Of this agent: what is half typed into a field is no other's.
     ImGui::PushID(who->agent);
     heading(ui, "PLACEMENT");
-    rename(ui, who->agent, who->name);
+    rename_agent(ui, who->agent, who->name);
     mobb::Placement placement = who->placement;
-    bool changed = number(ui, "x", "agent.x", placement.translate.x, 0.01f, "%.3f m", "Where the clip's origin goes");
-    changed |= number(ui, "y", "agent.y", placement.translate.y, 0.01f, "%.3f m", "Where the clip's origin goes");
-    changed |= number(ui, "turned", "agent.turn", placement.rotate_deg, 0.25f, "%.2f\u00B0",
-                      "About the clip's origin, counter-clockwise");
-    changed |= number(ui, "starts at", "agent.start", placement.start, 0.01f, "%.3f s",
-                      "Global time at which the clip begins");
-    color(ui, *who, session.selection.path.participant);
+    bool changed =
+        placement_number(ui, "x", "agent.x", placement.translate.x, 0.01f, "%.3f m", "Where the clip's origin goes");
+    changed |=
+        placement_number(ui, "y", "agent.y", placement.translate.y, 0.01f, "%.3f m", "Where the clip's origin goes");
+    changed |= placement_number(ui, "turned", "agent.turn", placement.rotate_deg, 0.25f, "%.2f\u00B0",
+                                "About the clip's origin, counter-clockwise");
+    changed |= placement_number(ui, "starts at", "agent.start", placement.start, 0.01f, "%.3f s",
+                                "Global time at which the clip begins");
+    color_field(ui, *who, session.selection.path.participant);
     if (changed) {
         attempt(session, [&] {
             session.edit({"placing " + who->name, "placement"},

@@ -36,7 +36,7 @@ void agent_menu(Ui& ui, const Selection& self) {
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
-std::string remark_of(const Session& session, const SceneClip& clip) {
+std::string clip_remark(const Session& session, const SceneClip& clip) {
     return session.crowd() ? fitted_text(clip.name, 90) : tenths_of_seconds(clip.clip->duration());
 }
 
@@ -48,7 +48,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
-    const bool clicked = row(ui, {"agent" + std::to_string(index), who.name, remark_of(session, clip),
+    const bool clicked = row(ui, {"agent" + std::to_string(index), who.name, clip_remark(session, clip),
                                   on_it(session.selection), on_it(session.hovered), ui.px(18), 0});
     ui.mark("agent." + std::to_string(index));
     agent_menu(ui, self);

@@ -19,7 +19,7 @@ constexpr float kBar = 5;         // height of a bar
 constexpr float kUntried = 0.4f;  // strength of axes that the test did not come to
 
 /// Two intervals on one line of numbers.
-struct Row {
+struct AxisRow {
     std::string name;
     mobb::Interval a, b;
     double span = 1;  ///< what the width of the bars stands for
@@ -32,7 +32,7 @@ struct Row {
 };
 
 /// The two bars, what they share or what lies between them.
-void draw_bars(Ui& ui, const QueryFindings& findings, const Row& row, ImVec2 min, ImVec2 max) {
+void draw_bars(Ui& ui, const QueryFindings& findings, const AxisRow& row, ImVec2 min, ImVec2 max) {
     const double middle = 0.5 * (std::min(row.a.t0, row.b.t0) + std::max(row.a.t1, row.b.t1));
     const auto x = [&](double at) {
         return 0.5f * (min.x + max.x) + static_cast<float>((at - middle) / row.span) * (max.x - min.x);
@@ -63,7 +63,7 @@ void draw_bars(Ui& ui, const QueryFindings& findings, const Row& row, ImVec2 min
     }
 }
 
-void draw_row(Ui& ui, const QueryFindings& findings, const Row& row) {
+void draw_row(Ui& ui, const QueryFindings& findings, const AxisRow& row) {
     const float room = ImGui::GetContentRegionAvail().x;
     const bool wide = room >= ui.px(kWide);
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -93,10 +93,10 @@ void draw_row(Ui& ui, const QueryFindings& findings, const Row& row) {
     ImGui::Dummy({room, height});
 }
 
-Row time_row(Ui& ui, const QueryFindings& findings, const mobb::Trace::Event& event) {
+AxisRow axis_time_row(Ui& ui, const QueryFindings& findings, const mobb::Trace::Event& event) {
     const mobb::PlacedTree& a = findings.sides[0].placed;
     const mobb::PlacedTree& b = findings.sides[1].placed;
-    Row row;
+    AxisRow row;
     row.name = "time";
     row.a = {a.begin(a.node(event.a)), a.end(a.node(event.a))};
     row.b = {b.begin(b.node(event.b)), b.end(b.node(event.b))};
@@ -111,8 +111,8 @@ Row time_row(Ui& ui, const QueryFindings& findings, const mobb::Trace::Event& ev
     return row;
 }
 
-Row axis_row(Ui& ui, const mobb::Trace::Event& event, const AxisInterval& axis, double span, bool tried) {
-    Row row;
+AxisRow axis_row(Ui& ui, const mobb::Trace::Event& event, const AxisInterval& axis, double span, bool tried) {
+    AxisRow row;
     row.name = axis.name;
     row.a = {axis.a_min, axis.a_max};
     row.b = {axis.b_min, axis.b_max};
@@ -145,7 +145,7 @@ void untried_axes(Ui& ui, const QueryFindings& findings, const mobb::Trace::Even
 void why_axes(Ui& ui, const QueryFindings& findings) {
     const mobb::Trace::Event event = ui.session.recorded()->trace[ui.session.step()];
     heading(ui, "IN TIME");
-    draw_row(ui, findings, time_row(ui, findings, event));
+    draw_row(ui, findings, axis_time_row(ui, findings, event));
     const std::vector<AxisInterval> axes = axis_intervals(findings.sides, event);
     if (axes.empty()) return;
     heading(ui, "ALONG EACH AXIS", "gap, m");
