@@ -160,16 +160,16 @@ TEST_F(DiffTest, JsonHasAllFigures) {
     const Result run = compare(a, picture("b.png", 6, 87), {"--json", "--threshold", "2.5", "--allowed", "0.05%"});
     EXPECT_EQ(run.status, 1);
     EXPECT_EQ(run.err, "");
-    const auto json = nlohmann::json::parse(run.out);
-    EXPECT_EQ(testing::keys(json),
+    const auto report = nlohmann::json::parse(run.out);
+    EXPECT_EQ(testing::keys(report),
               (std::set<std::string>{"same", "same_size", "size_a", "size_b", "pixels", "failing", "fraction",
                                      "maximum", "mean", "bounds", "histogram", "threshold", "allowed", "shift"}));
-    EXPECT_EQ(json["same"], false);
-    EXPECT_EQ(json["failing"], 6);
-    EXPECT_EQ(json["maximum"], 87);
-    EXPECT_EQ(json["bounds"]["width"], 6);
-    EXPECT_EQ(json["threshold"], 2.5);
-    EXPECT_EQ(json["allowed"], 0.0005);
+    EXPECT_EQ(report["same"], false);
+    EXPECT_EQ(report["failing"], 6);
+    EXPECT_EQ(report["maximum"], 87);
+    EXPECT_EQ(report["bounds"]["width"], 6);
+    EXPECT_EQ(report["threshold"], 2.5);
+    EXPECT_EQ(report["allowed"], 0.0005);
     const auto sizes = nlohmann::json::parse(compare(a, picture("c.png", grey(7, 8)), {"--json"}).out);
     EXPECT_EQ(sizes["same_size"], false);
     EXPECT_EQ(sizes["size_b"], nlohmann::json({7, 8}));

@@ -159,9 +159,9 @@ TEST_F(RenderViewTest, BackendsAreListed) {
     EXPECT_NE(words.out.find("osmesa: "), std::string::npos);
     EXPECT_NE(words.out.find("egl: "), std::string::npos);
     EXPECT_NE(words.out.find("OpenGL "), std::string::npos);
-    const testing::Result json = testing::run_program({"render", "--list-backends", "--json"});
-    EXPECT_EQ(json.status, 0);
-    EXPECT_NE(json.out.find("\"works\": true"), std::string::npos) << json.out;
+    const testing::Result report = testing::run_program({"render", "--list-backends", "--json"});
+    EXPECT_EQ(report.status, 0);
+    EXPECT_NE(report.out.find("\"works\": true"), std::string::npos) << report.out;
     ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
     const testing::Result none = testing::run_program({"render", "--list-backends"});
     ::unsetenv("MESA_GL_VERSION_OVERRIDE");
