@@ -185,7 +185,8 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
 }
 
 bool can_be_taken(const CaseResult& result) {
-    return result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
+    const bool is_no_golden = result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
+    return is_no_golden && result.other_here.empty();
 }
 
 Summary summary(std::span<const CaseResult> results) {

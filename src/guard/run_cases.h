@@ -54,7 +54,7 @@ enum class Origin {
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
                     Origin origin = Origin::reference);
 
-/// Whether there is a picture, and it is not the golden's.
+/// Whether there is a picture that is not the golden's, and goldens are taken here.
 bool can_be_taken(const CaseResult& result);
 
 struct Summary {

@@ -218,6 +218,12 @@ TEST(Reports, SayOnceWhyPixelsOfTextAreNotCompared) {
     EXPECT_EQ(nlohmann::json::parse(written(write_json, results))["not_compared"], nlohmann::json{sentence});
     parsed(written(write_junit, results), "junit");
     parsed(written(write_html, results), "html");
+
+    results = {different("moved")};
+    results.front().other_here = "Dear ImGui 2 for 1";
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, results), "--update"), 0u) << "goldens are not taken here";
+    }
 }
 
 TEST(Reports, AreTheSameEveryTime) {
