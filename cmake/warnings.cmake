@@ -7,3 +7,7 @@ target_compile_options(mobbscope_warnings INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(mobbscope_warnings INTERFACE -Wno-restrict)
 endif()
+# In a unity build GCC takes the sources for headers, whose types ought not to use anonymous namespaces.
+if(CMAKE_UNITY_BUILD)
+  target_compile_options(mobbscope_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()

@@ -32,6 +32,9 @@ struct Command {
     bool needs_argument() const { return !argument.empty() && !argument.starts_with('['); }
 };
 
+/// The rule of commands that need nothing but a scene.
+inline bool has_scene(const Session& session) { return !session.empty(); }
+
 /// The table, in the order of the menus.
 std::span<const Command> commands();
 

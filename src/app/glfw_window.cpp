@@ -368,7 +368,7 @@ void GlfwWindow::resize(PictureSize size) {
 void GlfwWindow::settle() {
     frame();
     // What still wants frames after that long is an animation.
-    for (const double end = glfwGetTime() + 2; state_->next == 0 && glfwGetTime() < end;) frame();
+    for (const double end = glfwGetTime() + 2; state_->next == 0 && !shell().settled() && glfwGetTime() < end;) frame();
 }
 
 }  // namespace mobbscope::app

@@ -6,7 +6,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
+constexpr double kHeadlessFrame = 1.0 / 60;
 /// What still wants frames after that many is an animation.
 constexpr int kMostToSettle = 120;
 
@@ -16,8 +16,8 @@ HeadlessWindow::HeadlessWindow(std::unique_ptr<GlContext> context, Session& sess
     : size_(size), shell_(std::move(context), session, scale) {}
 
 void HeadlessWindow::frame() {
-    next_ = shell_.frame(size_, now_);
-    now_ += kFrame;
+    shell_.frame(size_, now_);
+    now_ += kHeadlessFrame;
 }
 
 void HeadlessWindow::run_for(double seconds) {
@@ -26,7 +26,7 @@ void HeadlessWindow::run_for(double seconds) {
 
 void HeadlessWindow::settle() {
     frame();
-    for (int i = 0; i < kMostToSettle && next_ == 0; ++i) frame();
+    for (int i = 0; i < kMostToSettle && !shell_.settled(); ++i) frame();
 }
 
 }  // namespace mobbscope::app

@@ -22,7 +22,6 @@ class HeadlessWindow final : public Stage {
     PictureSize size_;
     Shell shell_;
     double now_ = 0;
-    double next_ = 0;
 };
 
 }  // namespace mobbscope::app

@@ -1,5 +1,6 @@
 #include <app/history.h>
 
+#include <numeric>
 #include <utility>
 
 namespace mobbscope::app {
@@ -28,34 +29,58 @@ std::string what_changes(const ViewState& from, const ViewState& to) {
 
 void History::reset(Document document) {
     states_.clear();
-    states_.push_back({std::move(document), {}, false});
+    states_.push_back({std::move(document), {}, false, 0});
     now_ = 0;
     open_ = false;
+}
+
+std::size_t History::bytes() const {
+    return std::accumulate(states_.begin() + 1, states_.end(), std::size_t{0},
+                           [](std::size_t sum, const State& state) { return sum + state.bytes; });
+}
+
+/// Becomes the present document's.
+void History::set(Document document) {
+    State& state = states_[now_];
+    state.bytes = now_ > 0 ? document.fitted->bytes_beyond(*states_[now_ - 1].document.fitted) : 0;
+    state.document = std::move(document);
+}
+
+/// Behind the present state, which it becomes; what follows stays.
+void History::append(State state) {
+    states_.insert(states_.begin() + static_cast<std::ptrdiff_t>(++now_), state);
+    set(std::move(state.document));
+    while (now_ > 0 && (states_.size() > kMostStates || bytes() > most_bytes_)) {
+        states_.erase(states_.begin());
+        --now_;
+    }
+    // Nothing leads to the oldest, so nothing that is done joins it.
+    states_.front().name = {};
+    states_.front().looked = false;
 }
 
 void History::change(Document document, const EditName& name) {
     const bool joins = open_ && now_ > 0 && !name.group.empty() && states_[now_].name.group == name.group;
     states_.resize(now_ + 1);
     if (joins) {
-        states_[now_].document = std::move(document);
+        set(std::move(document));
     } else {
-        states_.push_back({std::move(document), name, false});
-        if (states_.size() > kMostStates) states_.erase(states_.begin());
-        now_ = states_.size() - 1;
+        append({std::move(document), name, false, 0});
     }
     open_ = true;
 }
 
 void History::look(const ViewState& view) {
     const std::string title = what_changes(now().view, view);
-    if ((states_[now_].looked && states_[now_].name.title == title) || can_redo()) {
+    if (states_[now_].looked && states_[now_].name.title == title) {
         states_[now_].document.view = view;
         return;
     }
-    change({now().fitted, view, now().origin}, {title, ""});
-    states_[now_].looked = true;
+    append({{now().fitted, view, now().origin}, {title, ""}, true, 0});
     open_ = false;
 }
+
+void History::amend(Document document) { set(std::move(document)); }
 
 void History::undo() {
     --now_;

@@ -33,9 +33,15 @@ struct EditName {
     std::string group;  ///< an edit joins the last one if both have this group and it is still open; empty: never
 };
 
+/// Goes back at most 499 states, and no further than the states hold kMostBytes beyond the oldest (scenes share what
+/// they have in common): the oldest are forgotten first, and undo then ends at the oldest that is left.
 class History {
   public:
-    explicit History(Document document) { reset(std::move(document)); }
+    static constexpr std::size_t kMostBytes = std::size_t{512} << 20;
+
+    explicit History(Document document, std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {
+        reset(std::move(document));
+    }
 
     const Document& now() const { return states_[now_].document; }
 
@@ -44,10 +50,10 @@ class History {
     /// The document is now this; what was undone is forgotten.
     void change(Document document, const EditName& name);
     /// Only how it is seen has changed. Looking around of one kind (moving the view, stepping ...) is one state, and it
-    /// costs nothing that could be redone.
+    /// costs nothing that could be redone: what comes after still does.
     void look(const ViewState& view);
     /// The present state is this instead; no edit of its own.
-    void amend(Document document) { states_[now_].document = std::move(document); }
+    void amend(Document document);
     /// The next edit starts a group of its own, even under the same name.
     void close_group() { open_ = false; }
 
@@ -60,12 +66,21 @@ class History {
     std::string undo_title() const { return can_undo() ? states_[now_].name.title : ""; }
     std::string redo_title() const { return can_redo() ? states_[now_ + 1].name.title : ""; }
 
+    std::size_t count() const { return states_.size(); }
+    /// What the states hold beyond the oldest, roughly.
+    std::size_t bytes() const;
+
   private:
     struct State {
         Document document;
         EditName name;  ///< of the edit that led here
         bool looked = false;
+        std::size_t bytes = 0;  ///< that the state before does not share
     };
+    void append(State state);
+    void set(Document document);
+
+    std::size_t most_bytes_;
     std::vector<State> states_;
     std::size_t now_ = 0;
     bool open_ = false;

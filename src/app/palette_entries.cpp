@@ -26,18 +26,18 @@ std::vector<std::string> words_of(const std::string& text) {
     return out;
 }
 
-struct Field {
+struct SearchField {
     std::string_view text;
     double share = 1;
     bool sentence = false;
 };
 
 /// Every word must be found in some field, in any order.
-std::optional<double> score(const std::vector<std::string>& words, std::initializer_list<Field> fields) {
+std::optional<double> score(const std::vector<std::string>& words, std::initializer_list<SearchField> fields) {
     double sum = 0;
     for (const std::string& word : words) {
         std::optional<double> best;
-        for (const Field& field : fields) {
+        for (const SearchField& field : fields) {
             const auto found = field.sentence ? word_score(word, field.text) : fuzzy_score(word, field.text);
             if (found) best = std::max(best.value_or(0), *found * field.share);
         }
@@ -72,7 +72,7 @@ class Collector {
     Collector(const Session& session, const std::string& text) : session_(session), words_(words_of(text)) {}
 
     void add(std::string_view id, std::string argument, std::string title, std::string detail,
-             std::initializer_list<Field> fields) {
+             std::initializer_list<SearchField> fields) {
         const auto found = score(words_, fields);
         if (!found) return;
         const Command* command = find_command(id);

@@ -13,6 +13,8 @@ namespace mobbscope::app {
 
 namespace {
 
+constexpr std::size_t kLongestText = 200;  // characters of what a message repeats
+
 using Json = nlohmann::ordered_json;
 
 constexpr double kRelative = 1e-9;
@@ -77,12 +79,13 @@ double take_number(std::string_view& text, const char* what) {
 }
 
 std::string instead(const std::string& pointer, const Json& is, const std::string& expected) {
-    return pointer + " is " + shortened(state_text(is), 200) + ", expected " + expected;
+    return shortened(pointer, kLongestText) + " is " + shortened(state_text(is), kLongestText) + ", expected " +
+           shortened(expected, kLongestText);
 }
 
 }  // namespace
 
-Expectation parse_expectation(std::string_view text) {
+ScriptExpectation parse_expectation(std::string_view text) {
     text = trimmed(text);
     if (text.empty()) throw std::invalid_argument("it needs a JSON pointer and a value");
     const std::string name(take_word(text));

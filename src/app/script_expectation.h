@@ -11,10 +11,10 @@
 namespace mobbscope::app {
 
 /// What is there instead, in words; none if it is as expected.
-using Expectation = std::function<std::optional<std::string>(const Session&)>;
+using ScriptExpectation = std::function<std::optional<std::string>(const Session&)>;
 
 /// `text`: "POINTER VALUE", "POINTER != VALUE" or "POINTER ~ NUMBER TOLERANCE", see script.h. Throws
 /// std::invalid_argument, in words, if it is none of them.
-Expectation parse_expectation(std::string_view text);
+ScriptExpectation parse_expectation(std::string_view text);
 
 }  // namespace mobbscope::app

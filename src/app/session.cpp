@@ -1,6 +1,7 @@
 #include <app/session.h>
 #include <import/error.h>
 #include <import/file.h>
+#include <import/text.h>
 #include <render/follow.h>
 #include <render/query_progress.h>
 #include <scene/crowd_scene.h>
@@ -36,6 +37,7 @@ constexpr std::size_t kQuickSamples = 50'000;
 /// How much longer than the paper's axes those found by searching take.
 constexpr std::size_t kSearchFactor = 100;
 constexpr std::size_t kMostMessages = 5;
+constexpr std::size_t kLongestMessage = 500;  // characters; names of files may be longer
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
 
@@ -79,7 +81,7 @@ Session::Session(bool attended, Settings settings_)
 // --- the document
 
 void Session::edit(const EditName& name, const std::function<void(Scene&)>& change) {
-    if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
+    require_no_job();
     Scene next = scene();
     next.view = view();
     change(next);
@@ -115,12 +117,14 @@ void Session::look(const std::function<void(ViewState&)>& change) {
 
 void Session::undo() {
     if (job_ || !history_.can_undo()) return;
+    stop();
     history_.undo();
     changed();
 }
 
 void Session::redo() {
     if (job_ || !history_.can_redo()) return;
+    stop();
     history_.redo();
     changed();
 }
@@ -225,6 +229,7 @@ void Session::find_conflicts() {
 }
 
 void Session::open_excerpt(const Participant& a, const Participant& b) {
+    require_no_job();
     Scene excerpt;
     excerpt.file = scene().file;
     excerpt.fit = scene().fit;
@@ -246,7 +251,7 @@ void Session::open_excerpt(const Participant& a, const Participant& b) {
     const std::shared_ptr<const Origin> before = document().origin;
     next.origin = std::make_shared<const Origin>(
         Origin{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
-    playing = false;
+    stop();
     selection = {};
     hovered = {};
     ++excerpts_opened_;
@@ -255,8 +260,9 @@ void Session::open_excerpt(const Participant& a, const Participant& b) {
 }
 
 void Session::leave_excerpt() {
+    require_no_job();
     const std::shared_ptr<const Origin> origin = document().origin;
-    playing = false;
+    stop();
     selection = {};
     hovered = {};
     history_.change({origin->fitted, origin->view, nullptr}, {"going back to the whole", ""});
@@ -291,7 +297,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     if (attended_ && !opened.empty()) settings.remember(opened.front());
     selection = {};
     hovered = {};
-    playing = false;
+    stop();
     candidate = -1;
     conflict = -1;
     // What went wrong with the last document is over.
@@ -350,7 +356,7 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
 void Session::save() {
     if (!file_ || in_excerpt()) {
         dialog = Dialog::save_as;  // what waits for the changes to be saved goes on waiting
-        input = {};
+        ask_anew({});
         return;
     }
     save_as(*file_);
@@ -417,21 +423,27 @@ void Session::answer_unsaved(Unsaved choice) {
 void Session::open_dialog(Dialog which, DialogInput with) {
     close_dialog();
     dialog = which;
-    input = std::move(with);
+    ask_anew(std::move(with));
 }
 
 void Session::close_dialog() {
     dialog = Dialog::none;
-    input = {};
+    ask_anew({});
     pending_ = nullptr;
+}
+
+void Session::ask_anew(DialogInput with) {
+    with.opening = input.opening + 1;
+    input = std::move(with);
 }
 
 // --- messages and jobs
 
 void Session::tell(Message::Level level, const std::string& text) {
+    const std::string said = shortened(text, kLongestMessage);
     // Twice the same says nothing new.
-    std::erase_if(messages_, [&](const Message& message) { return message.text == text; });
-    messages_.push_back({level, text, {}});
+    std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
+    messages_.push_back({level, said, {}});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
 }
 
@@ -439,8 +451,12 @@ void Session::dismiss(std::size_t message) {
     if (message < messages_.size()) messages_.erase(messages_.begin() + static_cast<std::ptrdiff_t>(message));
 }
 
-void Session::start(std::string title, Job::Work work) {
+void Session::require_no_job() const {
     if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
+}
+
+void Session::start(std::string title, Job::Work work) {
+    require_no_job();
     job_ = std::make_unique<Job>(std::move(title), std::move(work), hooks.wake);
     job_->wait(attended_ ? kPatience : std::chrono::hours(24));
     poll();
@@ -488,13 +504,24 @@ mobb::Interval Session::time_span() const {
     return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
 }
 
+void Session::play() {
+    playing_ = true;
+    has_played_ = false;
+}
+
 void Session::advance(double seconds) {
     // What a job hands over is seen as it was when it began.
-    if (!playing || empty() || job_) return;
+    if (!playing_ || empty() || job_) return;
     const mobb::Interval span = time_span();
     double time = view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;
-    look([&](ViewState& v) { v.time = time; });
+    if (time == view().time) return;
+    if (!std::exchange(has_played_, true)) return look([&](ViewState& v) { v.time = time; });
+    // A drag meanwhile stays one state, and so does the play.
+    Document next = document();
+    next.view.time = time;
+    history_.amend(std::move(next));
+    changed();
 }
 
 }  // namespace mobbscope::app

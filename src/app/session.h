@@ -54,6 +54,7 @@ struct DialogInput {
     int picked = 0;           ///< of a list
     bool confirming = false;  ///< asks whether to overwrite
     int generation = 0;       ///< the field shows another text from without: see set_text
+    int opening = 0;          ///< of any dialog: its field can undo nothing that was typed in another
     bool fresh = true;        ///< the field waits for the keyboard
 
     void set_text(std::string to) {
@@ -100,6 +101,7 @@ class Session {
     void look(const std::function<void(ViewState&)>& change);
     /// An interaction has ended: what follows is undone apart from it.
     void close_group() { history_.close_group(); }
+    /// Back, and on again; what plays stops.
     void undo();
     void redo();
 
@@ -182,14 +184,17 @@ class Session {
     void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
 
     // Jobs.
-    /// The work under way; null if none. The document cannot be edited meanwhile.
+    /// The work under way; null if none. The document cannot be edited meanwhile, undone or left for another.
     const Job* job() const { return job_.get(); }
     void cancel_job();
     /// Takes in what jobs have done. Call it before each frame.
     void poll();
 
     // Time.
-    bool playing = false;
+    /// Lets the time cursor run; how far it comes is one state, or goes into what is done meanwhile.
+    void play();
+    void stop() { playing_ = false; }
+    bool playing() const { return playing_; }
     double speed = 1;  ///< seconds of the scene per second
     /// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
     mobb::Interval time_span() const;
@@ -199,6 +204,8 @@ class Session {
   private:
     using LoadAll = std::function<Scene(JobControl&)>;
 
+    void ask_anew(DialogInput with);
+    void require_no_job() const;
     void start(std::string title, Job::Work work);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
@@ -215,6 +222,8 @@ class Session {
     int excerpts_opened_ = 0;
     std::vector<Message> messages_;
     std::unique_ptr<Job> job_;
+    bool playing_ = false;
+    bool has_played_ = false;        ///< since play(): the time that passes has a state
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes
     bool closed_ = false;
 

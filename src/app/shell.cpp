@@ -109,24 +109,25 @@ bool opened_by_person(const Session& session) {
     }
 }
 
-/// Hands panels textures of their own: the renderer's holds the next picture soon.
+/// Has a texture of its own: the renderer's holds what else it draws soon.
 class TexturePainter final : public Painter {
   public:
     explicit TexturePainter(Renderer& renderer) : renderer_(renderer) {}
 
-    void begin_frame() { used_ = 0; }
+    ImTextureID paint(bool still) override {
+        samples_ = still || !renderer_.is_software() ? kPictureSamples : 1;
+        return texture_id(copy_.texture());
+    }
 
-    ImTextureID paint(const DrawList& list, bool still) override {
-        const int samples = still || !renderer_.is_software() ? kPictureSamples : 1;
-        const Texture& picture = renderer_.paint(list, samples);
-        if (used_ == copies_.size()) copies_.push_back(std::make_unique<PictureCopy>());
-        return texture_id(copies_[used_++]->take(picture, list.size));
+    /// Paints what was asked for since the last time.
+    void draw(const DrawList& list) {
+        if (samples_ > 0) copy_.take(renderer_.paint(list, std::exchange(samples_, 0)), list.size);
     }
 
   private:
     Renderer& renderer_;
-    std::vector<std::unique_ptr<PictureCopy>> copies_;
-    std::size_t used_ = 0;
+    PictureCopy copy_;
+    int samples_ = 0;  ///< 0: nothing was asked for
 };
 
 }  // namespace
@@ -216,7 +217,7 @@ struct Shell::State {
         time = now;
         // Dear ImGui wants time to pass.
         ImGui::GetIO().DeltaTime = std::max(static_cast<float>(passed), 1e-5f);
-        if (std::exchange(was_playing, session.playing) && session.playing) {
+        if (std::exchange(was_playing, session.playing()) && session.playing()) {
             session.advance(std::min(passed, kLongestStep));
         }
     }
@@ -237,18 +238,22 @@ struct Shell::State {
 
     double lay_out(double now) {
         marks.clear();
-        drawn->painter.begin_frame();
         Ui ui{session, look, marks, drawn->painter, now, kNever};
         ImGui::NewFrame();
         window_layout(ui, viewport);
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);
-        if (session.playing) ui.want_frame_in(0);
         ImGui::Render();
         return ui.next_frame;
     }
 
-    void draw(PictureSize size) {
+    /// The last frame, once somebody looks at it.
+    void draw() {
+        ImGui::SetCurrentContext(imgui.get());
+        renderer.context().make_current();
+        if (!std::exchange(undrawn, false)) return;
+        ++frames_drawn;
+        if (const DrawList* picture = viewport.shown()) drawn->painter.draw(*picture);
         if (!drawn->target || drawn->target->size() != size) drawn->target.emplace(size);
         const ImVec4 ground = ImGui::ColorConvertU32ToFloat4(look.window);
         drawn->target->clear({ground.x, ground.y, ground.z, 1});
@@ -261,6 +266,9 @@ struct Shell::State {
     Renderer renderer;
     std::unique_ptr<Drawn> drawn;
     Viewport viewport;
+    PictureSize size;  ///< of the last frame
+    bool undrawn = false;
+    int frames_drawn = 0;
     InputQueue input;
     Marks marks;
     Look look{};
@@ -270,6 +278,7 @@ struct Shell::State {
     std::string clipboard;
     int settling = kFramesToSettle;
     int waited = 0;  ///< frames for a field
+    bool settled = false;
     bool was_playing = false;
     ImGuiMouseCursor cursor = ImGuiMouseCursor_Arrow;
 };
@@ -306,16 +315,22 @@ double Shell::frame(PictureSize size, double now) {
     s.feed();
     s.follow_look();
     const double wanted = s.lay_out(now);
-    s.draw(size);
+    s.size = size;
+    s.undrawn = true;
     if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
     s.cursor = ImGui::GetMouseCursor();
     if (s.settling > 0) --s.settling;
-    return !s.input.empty() || s.settling > 0 ? 0 : std::max(wanted, 0.0);
+    s.settled = s.input.empty() && s.settling == 0 && wanted > 0;
+    return s.session.playing() || !s.settled ? 0 : wanted;
 }
+
+bool Shell::settled() const { return state_->settled; }
+
+int Shell::frames_drawn() const { return state_->frames_drawn; }
 
 Image Shell::read_back() {
     State& s = *state_;
-    s.renderer.context().make_current();
+    s.draw();
     Image image = s.drawn->target->read();
     s.renderer.context().check("reading the window");
     return image;
@@ -323,7 +338,7 @@ Image Shell::read_back() {
 
 void Shell::present() {
     State& s = *state_;
-    s.renderer.context().make_current();
+    s.draw();
     s.drawn->target->present();
     s.renderer.context().check("showing the window");
 }

@@ -28,14 +28,19 @@ class Shell {
 
     void feed(const InputEvent& event);
 
-    /// One frame into the shell's own framebuffer. `size`: at least 1x1. `now`: seconds, never less than before.
-    /// Returns in how many seconds the next one is wanted if nothing happens; infinity: never. Throws MachineError if
-    /// OpenGL reports an error.
+    /// One frame; it is drawn when it is read back or presented. `size`: at least 1x1. `now`: seconds, never less than
+    /// before. Returns in how many seconds the next one is wanted if nothing happens; infinity: never.
     double frame(PictureSize size, double now);
 
-    /// The last frame; there must have been one.
+    /// After the last frame all input was taken in, and everything stands where it will stay: only time may pass.
+    bool settled() const;
+
+    /// How many frames were looked at, and so drawn.
+    int frames_drawn() const;
+
+    /// The last frame; there must have been one. Throws MachineError if OpenGL reports an error.
     Image read_back();
-    /// Copies the last frame to the context's default framebuffer.
+    /// Copies the last frame to the context's default framebuffer; likewise.
     void present();
 
     /// Where widgets stood in the last frame.

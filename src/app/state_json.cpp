@@ -152,7 +152,7 @@ Json state_json(const Session& session) {
     json["crowd"] = crowd_json(session);
     json["excerpt"] = session.in_excerpt();
     json["time"] = or_null(session.view().time);
-    json["playing"] = session.playing;
+    json["playing"] = session.playing();
     json["dialog"] = name(session.dialog);
     json["messages"] = messages_json(session);
     json["undo"] = text_or_null(session.history().undo_title());

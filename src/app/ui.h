@@ -23,13 +23,13 @@ class Marks {
     std::map<std::string, Rect> rects_;
 };
 
-/// Paints draw lists for panels to show.
+/// Paints the viewport's picture for the panels to show.
 class Painter {
   public:
     virtual ~Painter() = default;
-    /// The picture as a texture of the list's size, upper row first at v = 1 (OpenGL's way up); valid for this frame.
-    /// `still`: it will stay a while, so it is worth smooth edges.
-    virtual ImTextureID paint(const DrawList& list, bool still) = 0;
+    /// The texture of what the viewport shows, upper row first at v = 1 (OpenGL's way up). It is painted anew when a
+    /// frame is next looked at. `still`: it will stay a while, so it is worth smooth edges.
+    virtual ImTextureID paint(bool still) = 0;
 };
 
 /// All that a panel gets.

@@ -20,9 +20,9 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kRest = 0.2;       // seconds without change after which smooth edges are worth their time
-constexpr float kClickReach = 4;    // pixels at scale 1 that a click may slip
-constexpr double kZoomStep = 1.15;  // a notch of the wheel
+constexpr double kRest = 0.2;        // seconds without change after which smooth edges are worth their time
+constexpr float kClickReach = 4;     // pixels at scale 1 that a click may slip
+constexpr double kWheelZoom = 1.15;  // a notch of the wheel
 
 glm::vec2 mouse_pixel(const ShownPicture& picture) { return picture.pixel(ImGui::GetIO().MousePos); }
 
@@ -124,7 +124,7 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 void Viewport::paint(Ui& ui, ImVec2 corner) {
     const bool still = !ui.session.attended() || ui.now - changed_at_ >= kRest;
     if (!painted_ || (still && !painted_still_)) {
-        texture_ = ui.painter.paint(*list_, still);
+        texture_ = ui.painter.paint(still);
         painted_ = true;
         painted_still_ = still;
     }
@@ -201,7 +201,7 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
 }
 
 void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
-    const double factor = std::pow(kZoomStep, ImGui::GetIO().MouseWheel);
+    const double factor = std::pow(kWheelZoom, ImGui::GetIO().MouseWheel);
     move_camera(ui, zoomed(settled_camera(), factor, pixel, list_->size));
 }
 

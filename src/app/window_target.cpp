@@ -58,7 +58,7 @@ void WindowTarget::present() const {
                       GL_NEAREST);
 }
 
-const Texture& PictureCopy::take(const Texture& picture, PictureSize size) {
+void PictureCopy::take(const Texture& picture, PictureSize size) {
     reset_state();
     glBindFramebuffer(GL_FRAMEBUFFER, from_.name());
     attach(picture);
@@ -69,7 +69,6 @@ const Texture& PictureCopy::take(const Texture& picture, PictureSize size) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, copy_.name());
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, size.width, size.height);
-    return copy_;
 }
 
 }  // namespace mobbscope::app

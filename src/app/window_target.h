@@ -29,7 +29,8 @@ class WindowTarget {
 /// A texture that keeps what was in another one.
 class PictureCopy {
   public:
-    const Texture& take(const Texture& picture, PictureSize size);
+    const Texture& texture() const { return copy_; }
+    void take(const Texture& picture, PictureSize size);
 
   private:
     PictureSize size_;

@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kMostRounds = 1000;
 
-struct Arguments {
+struct BenchCommandArguments {
     std::string workload;
     std::vector<std::filesystem::path> paths;
     bool json = false;
@@ -53,7 +53,7 @@ Scene scene_of(const std::vector<mobb::ClipPtr>& clips) {
     return scene;
 }
 
-Workload table2(const Arguments& arguments) {
+Workload table2(const BenchCommandArguments& arguments) {
     Workload workload;
     workload.name = "table2";
     workload.clips = arguments.paths.empty() ? walks_in_a_volume(14, 42, arguments.seed)
@@ -70,7 +70,7 @@ void show_progress(const std::string& doing, int done, int all) {
 
 /// Queries that a file brings, its pairs of agents if it brings none, or those that a crowd asks that plays the clips
 /// or the graph of the files.
-Workload table1(const Arguments& arguments) {
+Workload table1(const BenchCommandArguments& arguments) {
     Scene scene = arguments.paths.empty() ? scene_of(short_moves(51, 2.1, arguments.seed))
                                           : load_files(arguments.paths, arguments.import_options);
     const int most = arguments.queries.value_or(100'000);
@@ -93,7 +93,7 @@ Workload table1(const Arguments& arguments) {
     return workload;
 }
 
-void run(const Arguments& arguments) {
+void run(const BenchCommandArguments& arguments) {
     if (arguments.fit.tree || arguments.fit.levels)
         throw InputError("bench measures every tree, with all levels and with one; leave out --tree and --levels");
     const Workload workload = arguments.workload == "table1" ? table1(arguments) : table2(arguments);
@@ -122,7 +122,7 @@ void run(const Arguments& arguments) {
 void add_bench_command(Command& program, int& status) {
     Command& command = program.add_subcommand(
         "bench", "Measure the paper's Table 1 or 2: counts and times of every kind of tree on the same queries");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BenchCommandArguments>();
     command.add_option("WORKLOAD", arguments->workload, "table1 (short clips in a crowd) or table2 (long clips)", "")
         .required()
         .among({"table1", "table2"});

@@ -14,6 +14,8 @@ namespace mobbscope::cli {
 
 namespace {
 
+constexpr std::size_t kLongestComplaint = 200;  // of CLI11, which repeats what it was given
+
 /// What is wrong with the value of a flag; CLI11 does not check it where a function takes the flag.
 std::string complaint_about_flag(const std::string& text) {
     try {
@@ -136,7 +138,7 @@ std::string Command::parse(std::vector<std::string> words) {
         return {};
     } catch (const CLI::ParseError& end) {
         // Help and version are results; everything else is bad usage, whatever code CLI11 has for it.
-        if (end.get_exit_code() != 0) throw UsageError(end.what());
+        if (end.get_exit_code() != 0) throw UsageError(shortened(cleaned(end.what()), kLongestComplaint));
         std::ostringstream answer;
         app_->exit(end, answer, answer);
         return answer.str();

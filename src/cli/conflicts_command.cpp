@@ -29,7 +29,7 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-struct Arguments {
+struct ConflictsCommandArguments {
     std::filesystem::path file;
     bool json = false;
     bool check = false;
@@ -38,7 +38,7 @@ struct Arguments {
 };
 
 /// The crowd in the file: its agents, the people of a run, or the tracks of a CSV, each from the time of its first row.
-Scene load_crowd(const Arguments& arguments) {
+Scene load_crowd(const ConflictsCommandArguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
     if (scene.crowd) return scene_of_people(scene);
     if (lower_extension(arguments.file) == ".csv") {
@@ -177,7 +177,7 @@ void print_text(const Findings& findings) {
               << counted(count(findings.pairs()), "pair", "pairs") << " tested\n";
 }
 
-void run(const Arguments& arguments, int& status) {
+void run(const ConflictsCommandArguments& arguments, int& status) {
     Scene scene = load_crowd(arguments);
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
@@ -198,7 +198,7 @@ void add_conflicts_command(Command& program, int& status) {
     Command& command = program.add_subcommand(
         "conflicts",
         "Every pair of agents whose disks overlap: when, how deep and where; --tree brute searches directly");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ConflictsCommandArguments>();
     add_scene_file(command, arguments->file);
     command.add_flag("--json", arguments->json, "The same as JSON");
     command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");

@@ -17,7 +17,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-struct Arguments {
+struct ConvertCommandArguments {
     std::filesystem::path file;
     std::filesystem::path out;
     ImportOptions import_options;
@@ -61,7 +61,7 @@ void warn_of_lost_dt(const Scene& scene) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run(const ConvertCommandArguments& arguments) {
     check_file_name(arguments.out);
     const std::string extension = lower_extension(arguments.out);
     if (extension != ".csv" && extension != ".json") {
@@ -81,7 +81,7 @@ void run(const Arguments& arguments) {
 
 void add_convert_command(Command& program) {
     Command& command = program.add_subcommand("convert", "Write clips as CSV, or as a scene with its samples inside");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ConvertCommandArguments>();
     add_scene_file(command, arguments->file);
     command.add_option("-o,--output", arguments->out, "Where to: .csv or .json", "OUT").required();
     add_import_options(command, arguments->import_options);

@@ -25,7 +25,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-struct Arguments {
+struct DiffCommandArguments {
     std::filesystem::path a, b;
     std::optional<std::filesystem::path> heat, strip, mask;
     DiffOptions options;
@@ -69,7 +69,7 @@ double parse_share(const std::string& text) {
     return *share;
 }
 
-int parse_shift(const std::string& text) {
+int parse_pixel_shift(const std::string& text) {
     if (text == "0" || text == "1") return text == "1" ? 1 : 0;
     throw std::invalid_argument(in_quotes(text) + " is neither 0 nor 1: a pixel is the most that may be forgiven");
 }
@@ -77,7 +77,7 @@ int parse_shift(const std::string& text) {
 std::string text_of(PictureSize size) { return std::to_string(size.width) + 'x' + std::to_string(size.height); }
 
 /// The mask's picture; nothing if none is given. Throws InputError if it does not fit the picture.
-std::optional<Image> read_mask(const Arguments& arguments, const Image& picture) {
+std::optional<Image> read_mask(const DiffCommandArguments& arguments, const Image& picture) {
     if (!arguments.mask) return std::nullopt;
     Image mask = read_png(*arguments.mask);
     if (mask.width != picture.width || mask.height != picture.height) {
@@ -89,7 +89,7 @@ std::optional<Image> read_mask(const Arguments& arguments, const Image& picture)
     return mask;
 }
 
-ImageDiff compare(const Arguments& arguments, const Image& a, const Image& b) {
+ImageDiff compare(const DiffCommandArguments& arguments, const Image& a, const Image& b) {
     const std::optional<Image> mask = read_mask(arguments, b);
     ImageDiff found = diff(a, b, arguments.options, mask ? &*mask : nullptr);
     if (found.same_size && found.pixels == 0) {
@@ -105,7 +105,7 @@ void check_picture_name(const std::optional<std::filesystem::path>& output) {
     check_names({*output, {}, {}});
 }
 
-void check_outputs(const Arguments& arguments) {
+void check_outputs(const DiffCommandArguments& arguments) {
     OutputCheck files;
     files.reads(arguments.a);
     files.reads(arguments.b);
@@ -115,7 +115,7 @@ void check_outputs(const Arguments& arguments) {
 }
 
 /// A, B and, where there is one, the heat map. Throws InputError if that is too large.
-Image strip_of(const Arguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
+Image strip_of(const DiffCommandArguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
     std::vector<const Image*> pictures{&a, &b};
     if (found.same_size) pictures.push_back(&found.heat);
     try {
@@ -125,14 +125,14 @@ Image strip_of(const Arguments& arguments, const Image& a, const Image& b, const
     }
 }
 
-void write_pictures(const Arguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
+void write_pictures(const DiffCommandArguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
     if (arguments.strip) write_png(*arguments.strip, strip_of(arguments, a, b, found));
     if (!arguments.heat) return;
     if (found.same_size) return write_png(*arguments.heat, found.heat);
     warn(arguments.heat->string() + ": not written, as pictures of two sizes have no heat map");
 }
 
-int run(const Arguments& arguments) {
+int run(const DiffCommandArguments& arguments) {
     check_picture_name(arguments.heat);
     check_picture_name(arguments.strip);
     const Image a = read_png(arguments.a);
@@ -155,7 +155,7 @@ int run(const Arguments& arguments) {
 void add_diff_command(Command& program, int& status) {
     Command& command =
         program.add_subcommand("diff", "Compare two pictures; exit status 0 if they are the same, 1 if they differ");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<DiffCommandArguments>();
     command.add_option("A.png", arguments->a, "A picture, such as the one just made", "").required();
     command.add_option("B.png", arguments->b, "The one that it is held against", "").required();
     command.add_option("-o,--output", arguments->heat, "Heat map: B in grey, and what differs glowing", "HEAT.png");
@@ -165,8 +165,8 @@ void add_diff_command(Command& program, int& status) {
         "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 and 1 (3)", "X");
     add_parsed(command, "--allowed", arguments->options.pixel_fraction, parse_share,
                "The share of the pixels that may be farther off: 0.001 or 0.1% (0.1%)", "P");
-    add_parsed(command, "--shift", arguments->options.shift, parse_shift, "1: something may lie a pixel aside (0)",
-               "0|1");
+    add_parsed(command, "--shift", arguments->options.shift, parse_pixel_shift,
+               "1: something may lie a pixel aside (0)", "0|1");
     command.add_option("--mask", arguments->mask, "Compares only where this picture is neither black nor transparent",
                        "MASK.png");
     command.add_flag("--json", arguments->json, "The verdict with all figures as JSON");

@@ -17,7 +17,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-struct Arguments {
+struct FitCommandArguments {
     std::filesystem::path file;
     bool json = false;
     FitArguments fit;
@@ -50,7 +50,7 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run(const FitCommandArguments& arguments) {
     Scene scene = load(arguments.file, arguments.import_options);
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
@@ -68,7 +68,7 @@ void run(const Arguments& arguments) {
 
 void add_fit_command(Command& program) {
     Command& command = program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<FitCommandArguments>();
     add_scene_file(command, arguments->file);
     command.add_flag("--json", arguments->json, "Levels and nodes as JSON");
     add_fit_options(command, arguments->fit);

@@ -19,7 +19,7 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-struct Arguments {
+struct InfoCommandArguments {
     std::vector<std::filesystem::path> files;
     bool json = false;
     ImportOptions import_options;
@@ -159,7 +159,7 @@ void print_clips(const Scene& scene) {
     for (const SceneClip& clip : scene.clips) print_clip(scene, clip, said);
 }
 
-void run(const Arguments& arguments) {
+void run(const InfoCommandArguments& arguments) {
     std::vector<Scene> scenes;
     for (const std::filesystem::path& file : arguments.files)
         scenes.push_back(load_scene(file, arguments.import_options));
@@ -187,7 +187,7 @@ void run(const Arguments& arguments) {
 
 void add_info_command(Command& program) {
     Command& command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<InfoCommandArguments>();
     command
         .add_option("FILE", arguments->files,
                     "Scenes (.json), clips (.bvh .gltf .glb .fbx .csv) and trajectories (.txt .ndjson .yaml)")

@@ -7,7 +7,15 @@
 
 namespace mobbscope::cli {
 
-void complain(std::string_view message) { std::cerr << "mobbscope: " + cleaned(message) + '\n' << std::flush; }
+namespace {
+
+constexpr std::size_t kLongestMessage = 1000;  // names of files may be longer
+
+}  // namespace
+
+void complain(std::string_view message) {
+    std::cerr << "mobbscope: " + shortened(cleaned(message), kLongestMessage) + '\n' << std::flush;
+}
 
 void say(std::string_view message) { complain(message); }
 

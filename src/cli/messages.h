@@ -5,7 +5,8 @@
 
 namespace mobbscope::cli {
 
-/// One line on standard error, "mobbscope: ...", whatever characters a file's name or text brings along.
+/// One line on standard error, "mobbscope: ...", whatever characters a file's name or text brings along, and however
+/// many.
 void complain(std::string_view message);
 /// The same for how far long work is.
 void say(std::string_view message);

@@ -17,7 +17,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-struct Arguments {
+struct QueryCommandArguments {
     std::filesystem::path file;
     bool json = false;
     Details details;
@@ -26,7 +26,7 @@ struct Arguments {
 };
 
 /// Answers every query in order; returns the sentences of those that disagree with what the file expects.
-std::vector<std::string> answer_all(const FittedScene& fitted, const Arguments& arguments) {
+std::vector<std::string> answer_all(const FittedScene& fitted, const QueryCommandArguments& arguments) {
     std::vector<std::string> complaints;
     JsonWriter json(std::cout);
     if (arguments.json) {
@@ -49,7 +49,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const Arguments& 
     return complaints;
 }
 
-void run(Arguments& arguments, int& status) {
+void run(QueryCommandArguments& arguments, int& status) {
     Scene scene = load(arguments.file, arguments.import_options);
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
@@ -72,7 +72,7 @@ void add_query_command(Command& program, int& status) {
     Command& command = program.add_subcommand(
         "query",
         "Answer the scene's queries: do two clips ever collide? Status 1 if an answer is not the expected one");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<QueryCommandArguments>();
     add_scene_file(command, arguments->file);
     command.add_flag("--json", arguments->json, "Answers as JSON");
     command.add_flag("--trace", arguments->details.trace, "Every test that was made");

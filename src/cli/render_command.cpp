@@ -14,7 +14,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-struct Arguments {
+struct RenderCommandArguments {
     RenderArguments render;
     std::filesystem::path batch;
     bool list_backends = false;
@@ -29,7 +29,7 @@ void render_one(const RenderArguments& arguments) {
     plan.draw(arguments.backend.value_or(Backend::automatic));
 }
 
-void run(const Command& command, const Arguments& arguments) {
+void run(const Command& command, const RenderCommandArguments& arguments) {
     if (arguments.json && !arguments.list_backends) throw InputError("--json: it is of --list-backends");
     if (arguments.list_backends) {
         list_backends(arguments.json);
@@ -46,7 +46,7 @@ void run(const Command& command, const Arguments& arguments) {
 
 void add_render_command(Command& program) {
     Command& command = program.add_subcommand("render", "Draw a scene into pictures, without a display");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RenderCommandArguments>();
     add_render_options(command, arguments->render);
     constexpr const char* kGroup = "Many pictures in one process";
     command

@@ -116,6 +116,8 @@ void RenderPlan::add(RenderArguments arguments) {
     try {
         job.pictures = pictures_of(*job.fitted, view, job.arguments);
         check_and_frame(job);
+    } catch (const ViewMismatch& mismatch) {
+        refuse_view(job.arguments, mismatch);
     } catch (const std::invalid_argument& error) {
         throw InputError(job.arguments.file.string(), "", error.what());
     }

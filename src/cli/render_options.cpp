@@ -229,6 +229,21 @@ ViewState view_of_file(const std::filesystem::path& file, const ViewState& base)
     return view ? read_view(*view) : ViewState{};
 }
 
+/// Throws InputError at the key of a view, or of a scene's view, if the file has it.
+void refuse_where_said(const std::filesystem::path& file, const std::string& key, const std::string& message) {
+    const std::string name = file.string();
+    const JsonValue value = parse_json(read_file(file), name);
+    const JsonPlace root(value, name);
+    const auto view = root.find("clips") ? root.find("view") : root;
+    if (!view) return;
+    if (const auto said = view->find(key)) said->fail(message);
+}
+
+/// Whether the command line says it itself.
+bool is_option_given(const ViewArguments& view, const std::string& key) {
+    return (key == "query" && view.query) || (key == "step" && view.step) || (key == "follow" && view.follow);
+}
+
 Camera camera_over(Camera camera, const ViewArguments& arguments) {
     if (arguments.preset) {
         camera.preset = *arguments.preset;
@@ -324,6 +339,16 @@ ViewState view_over(ViewState view, const ViewArguments& arguments) {
     for (const auto& [toggle, value] : arguments.toggles) view.*toggle = value;
     if (arguments.step && !view.query) throw InputError("--step: say with --query which query it is a step of");
     return view;
+}
+
+void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch) {
+    const std::string scene = arguments.file.string();
+    const std::filesystem::path& state = arguments.view.state;
+    if (!is_option_given(arguments.view, mismatch.key())) {
+        if (!state.empty()) refuse_where_said(state, mismatch.key(), scene + ": " + mismatch.what());
+        if (lower_extension(scene) == ".json") refuse_where_said(scene, mismatch.key(), mismatch.what());
+    }
+    throw InputError(scene, "", mismatch.what());
 }
 
 }  // namespace mobbscope::cli

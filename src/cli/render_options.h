@@ -5,6 +5,7 @@
 #include <cli/render_outputs.h>
 #include <render/gl_context.h>
 #include <render/picture_options.h>
+#include <scene/view_mismatch.h>
 #include <scene/view_state.h>
 
 #include <glm/vec2.hpp>
@@ -72,5 +73,8 @@ void check_together(const RenderArguments& arguments);
 /// The scene's view with the options given over it. Throws InputError if the view state's file is none, or the two do
 /// not go together.
 ViewState view_over(ViewState view, const ViewArguments& arguments);
+
+/// Throws InputError for a view that names what its scene does not have, at the place in the file that says it.
+[[noreturn]] void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch);
 
 }  // namespace mobbscope::cli

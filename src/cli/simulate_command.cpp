@@ -33,7 +33,7 @@ namespace {
 
 constexpr int kMostRecorded = 10'000'000;
 
-struct Arguments {
+struct SimulateCommandArguments {
     std::filesystem::path graph;
     std::filesystem::path out;
     std::filesystem::path record;
@@ -61,7 +61,7 @@ glm::dvec2 parse_area(const std::string& text) {
 }
 
 /// The scene whose graph is played, and nothing else of it.
-Scene load_graph(const Arguments& arguments) {
+Scene load_graph(const SimulateCommandArguments& arguments) {
     Scene scene = load_files({arguments.graph});
     if (arguments.whole) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     if (!scene.graph) {
@@ -76,7 +76,7 @@ Scene load_graph(const Arguments& arguments) {
     return scene;
 }
 
-void check_outputs(const Arguments& arguments) {
+void check_outputs(const SimulateCommandArguments& arguments) {
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
         if (!out.empty() && lower_extension(out) != ".json") {
             throw InputError(out.string(), "", "a run and its queries are scenes; name it .json");
@@ -172,7 +172,7 @@ void print_text(const Summary& summary) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run(const SimulateCommandArguments& arguments) {
     check_outputs(arguments);
     Scene scene = load_graph(arguments);
     const FittedScene fitted(scene, scene.fit);
@@ -205,7 +205,7 @@ void run(const Arguments& arguments) {
 void add_simulate_command(Command& program) {
     Command& command =
         program.add_subcommand("simulate", "Let a crowd play the moves of a motion graph, and nobody collide");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<SimulateCommandArguments>();
     SimulateOptions& options = arguments->options;
     add_parsed(command, "GRAPH", arguments->graph, parse_file_name,
                "A scene with a motion graph; with --whole clips, or a folder of them", "")

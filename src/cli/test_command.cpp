@@ -35,7 +35,7 @@ namespace mobbscope::cli {
 
 namespace {
 
-struct Arguments {
+struct TestCommandArguments {
     std::filesystem::path folder;
     std::vector<std::string> names;  ///< exact or with wildcards; none: all
     bool list = false;
@@ -79,7 +79,7 @@ std::vector<guard::CaseFile> chosen(const std::vector<guard::CaseFile>& cases,
 }
 
 /// Those of all that are run.
-std::vector<guard::CaseFile> cases_of(const Arguments& arguments, const std::vector<guard::CaseFile>& all) {
+std::vector<guard::CaseFile> cases_of(const TestCommandArguments& arguments, const std::vector<guard::CaseFile>& all) {
     std::vector<std::string> patterns = arguments.names;
     patterns.insert(patterns.end(), arguments.update_names.begin(), arguments.update_names.end());
     return chosen(all, patterns);
@@ -95,7 +95,7 @@ void check_kind(const std::filesystem::path& file, const char* extension, const 
 
 /// Throws InputError if a report would replace a golden or has a name that its kind does not, or if the pictures would
 /// go where the goldens are; MachineError if they cannot go where they are to.
-void check_reports(const Arguments& arguments, const std::vector<guard::CaseFile>& all) {
+void check_reports(const TestCommandArguments& arguments, const std::vector<guard::CaseFile>& all) {
     if (arguments.columns && arguments.contact_sheet.empty()) {
         throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
     }
@@ -139,7 +139,8 @@ Theme theme_around(const Image& picture) {
 }
 
 /// All pictures of the run with their names.
-void write_contact_sheet(const Arguments& arguments, std::span<const guard::CaseResult> results, Renderer& renderer) {
+void write_contact_sheet(const TestCommandArguments& arguments, std::span<const guard::CaseResult> results,
+                         Renderer& renderer) {
     std::vector<SheetCell> cells;
     PictureSize all{1, 0};
     for (const guard::CaseResult& result : results) {
@@ -211,7 +212,7 @@ struct Drawer {
     guard::RunFacts facts;
 };
 
-Drawer open(const Arguments& arguments) {
+Drawer open(const TestCommandArguments& arguments) {
     Drawer out;
     out.facts.folder = arguments.folder.string();
     try {
@@ -225,15 +226,15 @@ Drawer open(const Arguments& arguments) {
 }
 
 /// The pictures of what did not pass; whether there are any.
-bool keep_all(const Arguments& arguments, std::span<const guard::CaseResult> results) {
+bool keep_all(const TestCommandArguments& arguments, std::span<const guard::CaseResult> results) {
     bool kept = false;
     for (const guard::CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
     return kept;
 }
 
 /// What goes to standard output when it is all done.
-void print_results(const Arguments& arguments, const guard::RunFacts& facts, std::span<const guard::CaseResult> results,
-                   bool kept) {
+void print_results(const TestCommandArguments& arguments, const guard::RunFacts& facts,
+                   std::span<const guard::CaseResult> results, bool kept) {
     if (arguments.json) {
         write_json(std::cout, facts, results);
     } else {
@@ -243,7 +244,7 @@ void print_results(const Arguments& arguments, const guard::RunFacts& facts, std
     flush_results();
 }
 
-int run(const Arguments& arguments) {
+int run(const TestCommandArguments& arguments) {
     const std::vector<guard::CaseFile> all = guard::find_cases(arguments.folder);
     const std::vector<guard::CaseFile> cases = cases_of(arguments, all);
     if (arguments.list) {
@@ -288,13 +289,13 @@ int run(const Arguments& arguments) {
 }
 
 /// A reference is that of all goldens of a folder.
-void check_new_reference(const Arguments& arguments) {
+void check_new_reference(const TestCommandArguments& arguments) {
     if (!arguments.new_reference || (arguments.update_all && arguments.names.empty())) return;
     throw InputError("--new-reference: goldens are from one place; take all of them, with --update all and no NAME");
 }
 
 /// "all" alone stands for all cases that are run.
-void read_update(Arguments& arguments) {
+void read_update(TestCommandArguments& arguments) {
     arguments.update = true;
     std::vector<std::string>& names = arguments.update_names;
     std::erase(names, "");
@@ -308,7 +309,7 @@ void read_update(Arguments& arguments) {
 
 void add_test_command(Command& program, int& status) {
     Command& command = program.add_subcommand("test", "Draw picture tests and hold them against their goldens");
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<TestCommandArguments>();
     command.add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json").required();
     command.add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
     command.add_flag("--list", arguments->list, "Only print the names of the cases");

@@ -21,8 +21,6 @@ constexpr double kHeadingDistance = 0.1;  // metres: shorter ways are sway, not 
 
 int frames_in(double seconds, double dt) { return static_cast<int>(std::min(std::ceil(seconds / dt - 1e-6), 1e9)); }
 
-double degrees(glm::dvec2 v) { return std::atan2(v.y, v.x) * 180 / std::numbers::pi; }
-
 /// Where the root goes around a frame; of one that stands, where it goes next or came from.
 double way_at(const PoseTrack& track, int frame) {
     const auto& root = track.root;
@@ -30,12 +28,12 @@ double way_at(const PoseTrack& track, int frame) {
     const int last = track.frames() - 1;
     const auto at = [&](int f) { return root[static_cast<std::size_t>(std::clamp(f, 0, last))]; };
     const glm::dvec2 around = at(frame + reach) - at(frame - reach);
-    if (glm::length(around) >= kHeadingDistance) return degrees(around);
+    if (glm::length(around) >= kHeadingDistance) return heading_of(around);
     for (int f = frame + 1; f <= last; ++f) {
-        if (glm::length(at(f) - at(frame)) >= kHeadingDistance) return degrees(at(f) - at(frame));
+        if (glm::length(at(f) - at(frame)) >= kHeadingDistance) return heading_of(at(f) - at(frame));
     }
     for (int f = frame - 1; f >= 0; --f) {
-        if (glm::length(at(frame) - at(f)) >= kHeadingDistance) return degrees(at(frame) - at(f));
+        if (glm::length(at(frame) - at(f)) >= kHeadingDistance) return heading_of(at(frame) - at(f));
     }
     return 0;
 }

@@ -15,7 +15,8 @@ std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph);
 mobb::Placement following(const Scene& scene, int before, const mobb::Placement& placed, int next);
 
 /// A graph without bounds: every clip of the scene whole, from one hub to itself, its stances read from its path
-/// (facing the way it goes at either end, over at least 0.1 m).
+/// (facing the way it goes at either end, over at least 0.1 m). Throws InputError, naming the clip, if one
+/// begins or ends beyond kMostStance.
 MotionGraph graph_of_whole_clips(const Scene& scene);
 
 }  // namespace mobbscope

@@ -19,25 +19,25 @@ constexpr double kMostCellsPerPiece = 8;
 constexpr double kWidening = 1e-14;
 
 /// Some samples of a member: where they are on the floor, and when.
-struct Piece {
+struct PathPiece {
     int member = 0;
     double t0 = 0, t1 = 0;
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
 };
 
-bool near(const Piece& a, const Piece& b) {
+bool near(const PathPiece& a, const PathPiece& b) {
     return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1 &&
            mobb::overlap_in_time(a.t0, a.t1, b.t0, b.t1);
 }
 
-std::vector<Piece> cut(std::span<const mobb::PlacedTree> crowd) {
-    std::vector<Piece> pieces;
+std::vector<PathPiece> cut(std::span<const mobb::PlacedTree> crowd) {
+    std::vector<PathPiece> pieces;
     for (std::size_t member = 0; member < crowd.size(); ++member) {
         const mobb::PlacedClip& clip = crowd[member].placed_clip();
         for (int first = 0; first < clip.count(); first += kPieceSamples) {
             const int end = std::min(clip.count() - first, kPieceSamples) + first;
             constexpr double kFar = std::numeric_limits<double>::infinity();
-            Piece piece{static_cast<int>(member), clip.time(first), clip.time(end), kFar, -kFar, kFar, -kFar};
+            PathPiece piece{static_cast<int>(member), clip.time(first), clip.time(end), kFar, -kFar, kFar, -kFar};
             for (int i = first; i < end; ++i) {
                 const mobb::Disk disk = clip.disk(i);
                 const double wide = disk.r + kWidening * (std::abs(disk.x) + std::abs(disk.y) + disk.r);
@@ -56,11 +56,11 @@ std::vector<Piece> cut(std::span<const mobb::PlacedTree> crowd) {
 class Grid {
   public:
     /// Chooses cells as large as a piece is wide on average, and larger ones where some pieces would cover too many.
-    explicit Grid(std::span<const Piece> pieces) {
+    explicit Grid(std::span<const PathPiece> pieces) {
         const auto count = static_cast<double>(pieces.size());
         double width = 0;
         double largest = 0;
-        for (const Piece& piece : pieces) {
+        for (const PathPiece& piece : pieces) {
             width += std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) / count;
             largest =
                 std::max({largest, std::abs(piece.x0), std::abs(piece.x1), std::abs(piece.y0), std::abs(piece.y1)});
@@ -71,7 +71,7 @@ class Grid {
     }
 
     template <class Visit>
-    void for_each_cell(const Piece& piece, Visit visit) const {
+    void for_each_cell(const PathPiece& piece, Visit visit) const {
         for (std::int64_t x = cell(piece.x0); x <= cell(piece.x1); ++x) {
             for (std::int64_t y = cell(piece.y0); y <= cell(piece.y1); ++y) visit(x * (std::int64_t{1} << 32) + y);
         }
@@ -80,9 +80,9 @@ class Grid {
   private:
     std::int64_t cell(double coordinate) const { return static_cast<std::int64_t>(std::floor(coordinate / size_)); }
 
-    double cells_covered(std::span<const Piece> pieces) const {
+    double cells_covered(std::span<const PathPiece> pieces) const {
         double sum = 0;
-        for (const Piece& piece : pieces) {
+        for (const PathPiece& piece : pieces) {
             sum += static_cast<double>(cell(piece.x1) - cell(piece.x0) + 1) *
                    static_cast<double>(cell(piece.y1) - cell(piece.y0) + 1);
         }
@@ -95,17 +95,17 @@ class Grid {
 }  // namespace
 
 std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> crowd) {
-    std::vector<Piece> pieces = cut(crowd);
+    std::vector<PathPiece> pieces = cut(crowd);
     std::vector<std::pair<int, int>> pairs;
     if (pieces.empty()) return pairs;
-    std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.t0 < b.t0; });
+    std::sort(pieces.begin(), pieces.end(), [](const PathPiece& a, const PathPiece& b) { return a.t0 < b.t0; });
     const Grid grid(pieces);
-    std::unordered_map<std::int64_t, std::vector<const Piece*>> present;  // by cell: pieces that may not have ended
-    for (const Piece& piece : pieces) {
+    std::unordered_map<std::int64_t, std::vector<const PathPiece*>> present;  // by cell: pieces that may not have ended
+    for (const PathPiece& piece : pieces) {
         grid.for_each_cell(piece, [&](std::int64_t cell) {
-            std::vector<const Piece*>& others = present[cell];
-            std::erase_if(others, [&](const Piece* other) { return other->t1 <= piece.t0; });
-            for (const Piece* other : others) {
+            std::vector<const PathPiece*>& others = present[cell];
+            std::erase_if(others, [&](const PathPiece* other) { return other->t1 <= piece.t0; });
+            for (const PathPiece* other : others) {
                 if (other->member != piece.member && near(*other, piece))
                     pairs.emplace_back(std::min(other->member, piece.member), std::max(other->member, piece.member));
             }

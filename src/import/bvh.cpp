@@ -15,10 +15,6 @@ constexpr std::size_t kMaxJoints = 100'000;  // a file of nothing but names woul
 constexpr std::array<std::string_view, kMaxBvhChannels> kChannels{"xposition", "yposition", "zposition",
                                                                   "xrotation", "yrotation", "zrotation"};
 
-std::string counted(std::size_t count, const char* noun) {
-    return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
-}
-
 /// A joint whose } has not come yet.
 struct OpenJoint {
     std::size_t index;
@@ -212,8 +208,8 @@ class BvhParser {
         // A value takes two bytes at least, so the file's size bounds the memory, whatever Frames says.
         const std::size_t most = (in_.bytes_left() + 1) / 2 / data_.row_length;
         if (frames_ > most) {
-            fail_frames("what follows has no room for more than " + counted(most, "row") + " of " +
-                        counted(data_.row_length, "value"));
+            fail_frames("what follows has no room for more than " + counted(most, "row", "rows") + " of " +
+                        counted(data_.row_length, "value", "values"));
         }
         data_.values.reserve(frames_ * data_.row_length);
         std::size_t rows = 0;
@@ -224,7 +220,7 @@ class BvhParser {
                 in_.rest_of_line();
             }
         }
-        if (rows != frames_) fail_frames(counted(rows, "row") + (rows == 1 ? " follows" : " follow"));
+        if (rows != frames_) fail_frames(counted(rows, "row", "rows") + (rows == 1 ? " follows" : " follow"));
     }
 
     void read_row() {
@@ -234,7 +230,8 @@ class BvhParser {
             if (count < data_.row_length) data_.values.push_back(value);
         }
         if (count == data_.row_length) return;
-        in_.fail("the row has " + counted(count, "value") + ", but there are " + counted(data_.row_length, "channel") +
+        in_.fail("the row has " + counted(count, "value", "values") + ", but there are " +
+                 counted(data_.row_length, "channel", "channels") +
                  (in_.at_end() ? "; the file is cut off" : "; correct the row"));
     }
 

@@ -13,8 +13,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kDefaultFps = 30;
-constexpr std::size_t kMaxColumns = 64;  // no file of ours has more; a line of a million commas is refused early
 constexpr std::array<std::string_view, 5> kColumns{"id", "t", "x", "y", "r"};
 enum Column { kId, kT, kX, kY, kR };
 

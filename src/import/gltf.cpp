@@ -20,10 +20,8 @@ namespace {
 
 constexpr double kTolerance = 1e-6;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 std::string name_of(const tinygltf::Model& model, int node) {
-    const std::string& name = model.nodes[at(node)].name;
+    const std::string& name = model.nodes[as_index(node)].name;
     return name.empty() ? "node" + std::to_string(node) : name;
 }
 
@@ -45,7 +43,25 @@ struct BufferFiles {
         out->assign(bytes.begin(), bytes.end());
         return true;
     }
+    static bool write(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+    static bool size(std::size_t* out, std::string*, const std::string& path, void* self) {
+        *out = static_cast<BufferFiles*>(self)->bytes[key(path)].size();
+        return true;
+    }
 };
+
+/// tinygltf 2.9 takes all callbacks or none, and one more than 2.7, which has no such member: hence a template.
+template <class FsCallbacks>
+FsCallbacks callbacks(BufferFiles& files) {
+    FsCallbacks out{};
+    out.FileExists = &BufferFiles::exists;
+    out.ExpandFilePath = &BufferFiles::expand;
+    out.ReadWholeFile = &BufferFiles::read;
+    out.WriteWholeFile = &BufferFiles::write;
+    if constexpr (requires { out.GetFileSizeInBytes; }) out.GetFileSizeInBytes = &BufferFiles::size;
+    out.user_data = &files;
+    return out;
+}
 
 BufferFiles read_buffer_files(const std::vector<GltfBufferFile>& files, const std::filesystem::path& gltf) {
     BufferFiles out;
@@ -78,7 +94,7 @@ tinygltf::Model load_model(std::string_view bytes, const std::filesystem::path& 
     BufferFiles buffer_files = read_buffer_files(text.buffer_files, file);
 
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({&BufferFiles::exists, &BufferFiles::expand, &BufferFiles::read, nullptr, &buffer_files});
+    loader.SetFsCallbacks(callbacks<tinygltf::FsCallbacks>(buffer_files));
     tinygltf::Model model;
     std::string error;
     std::string warning;
@@ -139,7 +155,7 @@ class SceneBuilder {
 
     void add_nodes() {
         for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i) {
-            const tinygltf::Node& from = model_.nodes[at(i)];
+            const tinygltf::Node& from = model_.nodes[as_index(i)];
             Node node;
             node.name = name_of(model_, i);
             if (!from.matrix.empty()) {
@@ -155,7 +171,7 @@ class SceneBuilder {
     }
 
     Affine matrix_of(int node) const {
-        const std::vector<double>& m = model_.nodes[at(node)].matrix;  // column after column
+        const std::vector<double>& m = model_.nodes[as_index(node)].matrix;  // column after column
         const bool is_affine = std::abs(m[3]) <= kTolerance && std::abs(m[7]) <= kTolerance &&
                                std::abs(m[11]) <= kTolerance && std::abs(m[15] - 1) <= kTolerance;
         if (!is_affine) fail_node(node, "its matrix must end in a row of 0 0 0 1; export the file again");
@@ -163,7 +179,7 @@ class SceneBuilder {
     }
 
     glm::dquat rotation_of(int node) const {
-        const std::vector<double>& r = model_.nodes[at(node)].rotation;
+        const std::vector<double>& r = model_.nodes[as_index(node)].rotation;
         const glm::dquat q{r[3], r[0], r[1], r[2]};
         const double length = glm::length(q);
         if (!(length > kTolerance) || !std::isfinite(length)) {
@@ -174,8 +190,8 @@ class SceneBuilder {
 
     void link_parents() {
         for (int parent = 0; parent < static_cast<int>(model_.nodes.size()); ++parent) {
-            for (const int child : model_.nodes[at(parent)].children) {
-                int& known = scene_.nodes[at(child)].parent;
+            for (const int child : model_.nodes[as_index(parent)].children) {
+                int& known = scene_.nodes[as_index(child)].parent;
                 if (known >= 0) {
                     fail_node(child, "is a child of both " + place_of_node(model_, known) + " and " +
                                          place_of_node(model_, parent) + "; give it one parent");
@@ -187,7 +203,7 @@ class SceneBuilder {
         const std::vector<int> order = parents_first(scene_.nodes);
         if (order.size() == scene_.nodes.size()) return;
         std::vector<bool> is_reached(scene_.nodes.size());
-        for (const int node : order) is_reached[at(node)] = true;
+        for (const int node : order) is_reached[as_index(node)] = true;
         const auto lost = std::find(is_reached.begin(), is_reached.end(), false) - is_reached.begin();
         fail_node(static_cast<int>(lost), "is its own ancestor, or below a node that is; break the cycle");
     }
@@ -207,7 +223,7 @@ class SceneBuilder {
                                  "has two channels for " + in_quotes(path) + " of " +
                                      place_of_node(model_, channel.target_node) + "; keep one");
             }
-            const tinygltf::AnimationSampler& sampler = from.samplers[at(channel.sampler)];
+            const tinygltf::AnimationSampler& sampler = from.samplers[as_index(channel.sampler)];
             times.push_back(times_of(sampler.input));
             if (path == "weights") {
                 animation.has_morph_channels = true;
@@ -222,7 +238,7 @@ class SceneBuilder {
     Numbers times_of(int accessor) {
         Numbers times = accessors_.read(accessor, GltfShape::scalar);
         if (!checked_times_.insert(accessor).second) return times;
-        if (model_.accessors[at(accessor)].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+        if (model_.accessors[as_index(accessor)].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
             accessors_.fail(accessor, "key times must be floats; export the file again");
         }
         const auto fall = std::adjacent_find(times->begin(), times->end(), [](double a, double b) { return !(a < b); });
@@ -249,7 +265,7 @@ class SceneBuilder {
                 scene_.file, place,
                 "channel path " + in_quotes(from.target_path) + " must be translation, rotation, scale or weights");
         }
-        if (!model_.nodes[at(channel.node)].matrix.empty()) {
+        if (!model_.nodes[as_index(channel.node)].matrix.empty()) {
             fail_node(channel.node, "is animated, so it needs translation, rotation and scale in place of its matrix");
         }
         if (sampler.interpolation == "LINEAR") {

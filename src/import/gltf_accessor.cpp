@@ -19,8 +19,6 @@ constexpr std::size_t kMostZeros = 1'000'000;
 constexpr std::size_t kMostReadings = 2;
 constexpr std::size_t kFreeNumbers = 2'000'000;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 /// In bytes.
 std::size_t component_size(int type) {
     switch (type) {
@@ -86,17 +84,17 @@ GltfAccessors::GltfAccessors(const tinygltf::Model& model, const std::string& fi
     : model_(model), file_(file), numbers_left_(kMostReadings * bytes_of(model) + kFreeNumbers) {}
 
 void GltfAccessors::fail(int index, const std::string& message) const {
-    const std::string& name = model_.accessors[at(index)].name;
+    const std::string& name = model_.accessors[as_index(index)].name;
     throw InputError(file_, "accessor " + std::to_string(index) + (name.empty() ? "" : " " + in_quotes(name)), message);
 }
 
 bool GltfAccessors::is_real(int index) const {
-    const tinygltf::Accessor& accessor = model_.accessors[at(index)];
+    const tinygltf::Accessor& accessor = model_.accessors[as_index(index)];
     return accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.normalized;
 }
 
 Numbers GltfAccessors::read(int index, GltfShape shape) {
-    const tinygltf::Accessor& accessor = model_.accessors[at(index)];
+    const tinygltf::Accessor& accessor = model_.accessors[as_index(index)];
     const std::size_t components = shape == GltfShape::scalar ? 1 : shape == GltfShape::vec3 ? 3 : 4;
     if (accessor.type != type_of(shape)) {
         const std::string type = components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
@@ -132,10 +130,10 @@ Numbers GltfAccessors::read(int index, GltfShape shape) {
 GltfAccessors::Elements GltfAccessors::elements(int index, const std::string& what, int view, std::size_t offset,
                                                 std::size_t component_size, std::size_t element_size, std::size_t count,
                                                 bool may_have_stride) const {
-    const tinygltf::BufferView& buffer_view = model_.bufferViews[at(view)];
-    const std::vector<unsigned char>& bytes = model_.buffers[at(buffer_view.buffer)].data;
+    const tinygltf::BufferView& buffer_view = model_.bufferViews[as_index(view)];
+    const std::vector<unsigned char>& bytes = model_.buffers[as_index(buffer_view.buffer)].data;
     const std::string where = what + "bufferView " + std::to_string(view);
-    if (model_.buffers[at(buffer_view.buffer)].name == kNowhere) {
+    if (model_.buffers[as_index(buffer_view.buffer)].name == kNowhere) {
         fail(index, where + ": buffer " + std::to_string(buffer_view.buffer) + " has no data; export the file with it");
     }
     if (buffer_view.byteLength == 0) fail(index, where + " is empty; export the file again");
@@ -161,7 +159,7 @@ GltfAccessors::Elements GltfAccessors::elements(int index, const std::string& wh
 }
 
 void GltfAccessors::fill_dense(int index, std::size_t components, std::vector<double>& numbers) const {
-    const tinygltf::Accessor& accessor = model_.accessors[at(index)];
+    const tinygltf::Accessor& accessor = model_.accessors[as_index(index)];
     const std::size_t size = component_size(accessor.componentType);
     const Elements from =
         elements(index, "", accessor.bufferView, accessor.byteOffset, size, size * components, accessor.count, true);
@@ -174,9 +172,9 @@ void GltfAccessors::fill_dense(int index, std::size_t components, std::vector<do
 }
 
 void GltfAccessors::fill_sparse(int index, std::size_t components, std::vector<double>& numbers) const {
-    const tinygltf::Accessor& accessor = model_.accessors[at(index)];
+    const tinygltf::Accessor& accessor = model_.accessors[as_index(index)];
     const auto& sparse = accessor.sparse;
-    const std::size_t count = at(sparse.count);
+    const std::size_t count = as_index(sparse.count);
     if (count == 0 || count > accessor.count) {
         fail(index, "sparse: a count of " + std::to_string(count) + " is not within 1 and " +
                         std::to_string(accessor.count) + "; export the file again");
@@ -189,9 +187,10 @@ void GltfAccessors::fill_sparse(int index, std::size_t components, std::vector<d
     const std::size_t index_size = component_size(index_type);
     const std::size_t value_size = component_size(accessor.componentType);
     const Elements indices = elements(index, "sparse indices, ", sparse.indices.bufferView,
-                                      at(sparse.indices.byteOffset), index_size, index_size, count, false);
-    const Elements values = elements(index, "sparse values, ", sparse.values.bufferView, at(sparse.values.byteOffset),
-                                     value_size, value_size * components, count, false);
+                                      as_index(sparse.indices.byteOffset), index_size, index_size, count, false);
+    const Elements values =
+        elements(index, "sparse values, ", sparse.values.bufferView, as_index(sparse.values.byteOffset), value_size,
+                 value_size * components, count, false);
     double last = -1;
     for (std::size_t i = 0; i < count; ++i) {
         const double target = component(indices[i], index_type, false);

@@ -14,6 +14,9 @@ namespace mobbscope {
 
 enum class Origin { keep, start, start_heading };
 
+/// Samples per second where neither the file nor an option says how many.
+inline constexpr double kDefaultFps = 30;
+
 /// How a file becomes clips: the import keys of a scene's clip and the import options of the command line.
 /// An empty option takes the default of the contract, section 2; see applicable.h for what a CSV has no use for.
 struct ImportOptions {

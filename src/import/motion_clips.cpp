@@ -18,7 +18,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kDefaultFps = 30;
 constexpr double kBodyHeight = 1.7;  // metres: the contract's, for the unit "auto"
 // The units that motion capture comes in; the last is that of CMU's ASF/AMC files.
 constexpr std::array<double, 5> kBodyUnits{1, 0.01, 0.001, 0.0254, 0.0564444};

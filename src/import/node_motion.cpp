@@ -10,12 +10,6 @@ namespace mobbscope {
 
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-std::string counted(std::size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 /// A node that has to be posed, as a joint lies in it or below it.
 struct PosedNode {
     int parent = -1;  ///< index into the posed nodes, less than its own
@@ -31,9 +25,9 @@ struct PosedNode {
 int topmost_animated(const NodeScene& scene, const std::vector<int>& order) {
     std::vector<bool> moved(scene.nodes.size());
     for (const NodeAnimation& animation : scene.animations) {
-        for (const Channel& channel : animation.channels) moved[at(channel.node)] = true;
+        for (const Channel& channel : animation.channels) moved[as_index(channel.node)] = true;
     }
-    const auto first = std::find_if(order.begin(), order.end(), [&](int node) { return moved[at(node)]; });
+    const auto first = std::find_if(order.begin(), order.end(), [&](int node) { return moved[as_index(node)]; });
     return first == order.end() ? -1 : *first;
 }
 
@@ -65,16 +59,16 @@ class NodeMotion : public Motion {
         choose_posed_nodes(order, joint_of);
         is_pivot_.resize(joints_.size());
         for (const Channel& channel : animation_->channels) {
-            const int joint = joint_of[at(channel.node)];
+            const int joint = joint_of[as_index(channel.node)];
             if (scene_->has_pivots && joint >= 0 && channel.property == NodeProperty::rotation && turns(channel)) {
-                is_pivot_[at(joint)] = true;
+                is_pivot_[as_index(joint)] = true;
             }
         }
     }
 
     std::span<const Joint> joints() const override { return joints_; }
     int topmost() const override { return topmost_; }
-    bool is_pivot(int joint) const override { return is_pivot_[at(joint)]; }
+    bool is_pivot(int joint) const override { return is_pivot_[as_index(joint)]; }
     const MotionTimes& times() const override { return animation_->times; }
 
     void pose(double seconds, std::span<glm::dvec3> positions) const override {
@@ -82,15 +76,16 @@ class NodeMotion : public Motion {
         for (std::size_t i = 0; i < posed_.size(); ++i) {
             const PosedNode& node = posed_[i];
             const Affine local = node.moves ? local_at(node, seconds) : node.matrix;
-            global[i] = node.parent < 0 ? local : global[at(node.parent)] * local;
-            if (node.joint >= 0) positions[at(node.joint)] = global[i].offset;
+            global[i] = node.parent < 0 ? local : global[as_index(node.parent)] * local;
+            if (node.joint >= 0) positions[as_index(node.joint)] = global[i].offset;
         }
     }
 
     std::vector<std::string> warnings() const override {
         std::vector<std::string> out;
         if (scene_->skins > 1) {
-            out.push_back("the file has " + counted(at(scene_->skins), "skin") + "; the joints of skin 0 were taken");
+            out.push_back("the file has " + counted(scene_->skins, "skin", "skins") +
+                          "; the joints of skin 0 were taken");
         }
         if (animation_->has_morph_channels)
             out.push_back("morph targets are animated too; they do not widen the disks");
@@ -117,28 +112,29 @@ class NodeMotion : public Motion {
         const std::vector<Node>& nodes = scene_->nodes;
         std::vector<bool> is_joint(nodes.size());
         if (scene_->has_skin) {
-            for (const int node : scene_->skin_joints) is_joint[at(node)] = true;
+            for (const int node : scene_->skin_joints) is_joint[as_index(node)] = true;
         } else {
-            is_joint[at(topmost_animated(*scene_, order))] = true;
+            is_joint[as_index(topmost_animated(*scene_, order))] = true;
             for (const int node : order) {
-                const int parent = nodes[at(node)].parent;
-                if (parent >= 0 && is_joint[at(parent)]) is_joint[at(node)] = true;
+                const int parent = nodes[as_index(node)].parent;
+                if (parent >= 0 && is_joint[as_index(parent)]) is_joint[as_index(node)] = true;
             }
         }
         std::vector<int> joint_of(nodes.size(), -1);
         std::vector<int> joint_above(nodes.size(), -1);  // the nearest one, or the node's own
         for (const int node : order) {
-            const int parent = nodes[at(node)].parent;
-            const int above = parent < 0 ? -1 : joint_above[at(parent)];
-            joint_above[at(node)] = above;
-            if (!is_joint[at(node)]) continue;
-            joint_of[at(node)] = joint_above[at(node)] = static_cast<int>(joints_.size());
-            joints_.push_back({nodes[at(node)].name, above, false});
+            const int parent = nodes[as_index(node)].parent;
+            const int above = parent < 0 ? -1 : joint_above[as_index(parent)];
+            joint_above[as_index(node)] = above;
+            if (!is_joint[as_index(node)]) continue;
+            joint_of[as_index(node)] = joint_above[as_index(node)] = static_cast<int>(joints_.size());
+            joints_.push_back({nodes[as_index(node)].name, above, false});
         }
         // A skin may have several joints without a joint above them: the first that it names.
-        const auto is_top = [&](int node) { return joints_[at(joint_of[at(node)])].parent < 0; };
+        const auto is_top = [&](int node) { return joints_[as_index(joint_of[as_index(node)])].parent < 0; };
         if (scene_->has_skin) {
-            topmost_ = joint_of[at(*std::find_if(scene_->skin_joints.begin(), scene_->skin_joints.end(), is_top))];
+            topmost_ =
+                joint_of[as_index(*std::find_if(scene_->skin_joints.begin(), scene_->skin_joints.end(), is_top))];
         }
         return joint_of;
     }
@@ -147,23 +143,27 @@ class NodeMotion : public Motion {
         const std::vector<Node>& nodes = scene_->nodes;
         std::vector<bool> is_needed(nodes.size());
         for (auto node = order.rbegin(); node != order.rend(); ++node) {
-            const int parent = nodes[at(*node)].parent;
-            if (joint_of[at(*node)] >= 0) is_needed[at(*node)] = true;
-            if (parent >= 0 && is_needed[at(*node)]) is_needed[at(parent)] = true;
+            const int parent = nodes[as_index(*node)].parent;
+            if (joint_of[as_index(*node)] >= 0) is_needed[as_index(*node)] = true;
+            if (parent >= 0 && is_needed[as_index(*node)]) is_needed[as_index(parent)] = true;
         }
         std::vector<int> posed_of(nodes.size(), -1);
         for (const int i : order) {
-            if (!is_needed[at(i)]) continue;
-            const Node& node = nodes[at(i)];
-            posed_of[at(i)] = static_cast<int>(posed_.size());
-            posed_.push_back(
-                {node.parent < 0 ? -1 : posed_of[at(node.parent)], joint_of[at(i)], node.rest, node.matrix, {}, false});
+            if (!is_needed[as_index(i)]) continue;
+            const Node& node = nodes[as_index(i)];
+            posed_of[as_index(i)] = static_cast<int>(posed_.size());
+            posed_.push_back({node.parent < 0 ? -1 : posed_of[as_index(node.parent)],
+                              joint_of[as_index(i)],
+                              node.rest,
+                              node.matrix,
+                              {},
+                              false});
         }
         for (const Channel& channel : animation_->channels) {
-            const int posed = posed_of[at(channel.node)];
+            const int posed = posed_of[as_index(channel.node)];
             if (posed < 0) continue;
-            posed_[at(posed)].channels[static_cast<std::size_t>(channel.property)] = &channel;
-            posed_[at(posed)].moves = true;
+            posed_[as_index(posed)].channels[static_cast<std::size_t>(channel.property)] = &channel;
+            posed_[as_index(posed)].moves = true;
         }
     }
 

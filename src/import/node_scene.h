@@ -14,6 +14,9 @@
 
 namespace mobbscope {
 
+/// Files give indices as int.
+inline std::size_t as_index(int index) { return static_cast<std::size_t>(index); }
+
 /// x -> linear * x + offset.
 struct Affine {
     glm::dmat3 linear{1};

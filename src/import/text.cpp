@@ -49,7 +49,17 @@ bool is_tiny(std::string_view number) {
     return exponent < first - point;
 }
 
-bool is_trail_byte(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+/// Where each character begins, and the text's end.
+std::vector<std::size_t> beginnings(std::string_view text) {
+    const bool utf8 = is_utf8(text);
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool is_trail_byte = (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
+        if (!utf8 || !is_trail_byte) out.push_back(i);
+    }
+    out.push_back(text.size());
+    return out;
+}
 
 }  // namespace
 
@@ -158,17 +168,22 @@ std::string cleaned(std::string_view text) {
 
 std::string shortened(std::string_view text, std::size_t most) {
     if (text.size() <= most) return std::string(text);
-    while (most > 0 && is_trail_byte(text[most])) --most;
-    return std::string(text.substr(0, most)) + "...";
+    const std::vector<std::size_t> at = beginnings(text);
+    const std::size_t count = at.size() - 1;
+    if (count <= most) return std::string(text);
+    // Names of one recording differ in their ends as often as in their beginnings.
+    const std::size_t tail = (most - 1) / 2;
+    const std::size_t head = most - 1 - tail;
+    return std::string(text.substr(0, at[head])) + "\u2026" + std::string(text.substr(at[count - tail]));
 }
 
-std::string in_quotes(std::string_view text) { return "'" + cleaned(shortened(text, kLongestQuote)) + "'"; }
+std::string in_quotes(std::string_view text) { return "'" + shortened(cleaned(text), kLongestQuote) + "'"; }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
     if (names.empty()) return "";
     const std::string& name = nearest(word, names);
     // A word that is wrong in more than half of its letters is another word.
-    const bool meant = distance_to(word, name) <= (word.size() + 1) / 2;
+    const bool meant = distance_to(word, name) <= (std::min(word.size(), kLongestQuote) + 1) / 2;
     return meant ? " (did you mean " + in_quotes(name) + "?)" : "";
 }
 

@@ -1,6 +1,7 @@
 /// Numbers and words in text, the same in every locale.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -31,6 +32,10 @@ std::string brief(double value);
 
 /// "1 sample", "12 samples".
 std::string counted(long long count, std::string_view singular, std::string_view plural);
+template <std::integral Count>
+std::string counted(Count count, std::string_view singular, std::string_view plural) {
+    return counted(static_cast<long long>(count), singular, plural);
+}
 
 /// "mobb, umobb, hybrid1".
 std::string listed(std::span<const std::string_view> names);
@@ -45,7 +50,8 @@ bool is_utf8(std::string_view text);
 /// '?'.
 std::string cleaned(std::string_view text);
 
-/// At most `most` bytes of the text, whole characters of UTF-8, with "..." where something was cut.
+/// At most `most` (>= 5) characters: where there are more, the beginning, an ellipsis and the end. Text that is not
+/// UTF-8 is cut by bytes.
 std::string shortened(std::string_view text, std::size_t most);
 
 /// Text in single quotes for a message: cleaned and shortened.

@@ -1,10 +1,14 @@
 /// Text files line by line, as people and other programs write them.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace mobbscope {
+
+/// Columns of a table that are read; none of ours has more, and a line of a million is refused early.
+inline constexpr std::size_t kMaxColumns = 64;
 
 /// "line 12": a place in a file.
 std::string at_line(int line);

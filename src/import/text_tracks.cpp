@@ -15,11 +15,9 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kMaxFrameRate = 1e6;
 constexpr double kAnnotationRate = 2.5;  // per second: UCY, ETH and TrajNet, whatever the camera's rate
 constexpr double kHermesRate = 16;       // frames per second of the Hermes recordings, which come without a header
 constexpr double kDroneRate = 30;        // frames per second of the Stanford Drone Dataset
-constexpr std::size_t kMaxColumns = 64;  // no file of ours has more; a line of a million numbers is refused early
 // Heads are so high, in metres; standing children and adults on stairs included.
 constexpr double kLowestHead = 0.8;
 constexpr double kHighestHead = 2.5;

@@ -16,7 +16,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kDefaultFps = 30;
 // A damaged frame number leaves a gap of any length: what fills gaps may be so many times what the file holds.
 constexpr std::size_t kMaxFill = 100;
 constexpr std::size_t kAlwaysFilled = 10'000;

@@ -12,6 +12,9 @@
 
 namespace mobbscope {
 
+/// Frames per second; a file that says more is damaged.
+inline constexpr double kMaxFrameRate = 1e6;
+
 /// Where somebody was at a frame, in file units.
 struct TrackPoint {
     double frame = 0;

@@ -18,7 +18,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kUsualRate = 2.5;  // points per second of TrajNet++
-constexpr double kMaxFrameRate = 1e6;
 
 class TrajnetppParser {
   public:

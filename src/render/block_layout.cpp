@@ -13,7 +13,7 @@ namespace mobbscope {
 namespace {
 
 using Corners = std::array<glm::vec2, 4>;
-constexpr float kBetween = 2;  // pixels
+constexpr float kBlockGap = 2;  // pixels
 
 /// Where the axis stands, and the labels of floor and axis want to be.
 void add_stage_labels(std::vector<Rect>& out, const DrawList& list, const Stage& stage, const ViewState& view,
@@ -47,7 +47,7 @@ Blocks place_blocks(const Rect& area, glm::vec2 legend, glm::vec2 map, std::span
         for (const glm::vec2& corner : order) {
             const glm::vec2 at = glm::round(area.min + corner * room);
             const Rect rect{at, at + size};
-            const Rect needed = rect.grown(kBetween);
+            const Rect needed = rect.grown(kBlockGap);
             if (taken && needed.overlaps(*taken)) continue;
             const auto covered =
                 std::count_if(busy.begin(), busy.end(), [&](const Rect& r) { return r.overlaps(needed); });

@@ -1,4 +1,5 @@
 #include <render/candidates.h>
+#include <render/caption.h>
 #include <render/paths.h>
 #include <render/query_sentence.h>
 #include <scene/crowd_run.h>
@@ -19,16 +20,10 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kLayer = 6;          // above grid, ways and people
-constexpr float kThrough = 0.75f;  // opacity that is kept behind people
-constexpr float kBeyond = 0.4f;    // ... and of a way behind the contact that rules it out
+constexpr int kCandidateLayer = 6;  // above grid, ways and people
+constexpr float kThrough = 0.75f;   // opacity that is kept behind people
+constexpr float kWayBeyond = 0.4f;  // ... and of a way behind the contact that rules it out
 constexpr std::size_t kMostNamed = 3;
-
-std::string at_time(double time) {
-    char text[48];
-    std::snprintf(text, sizeof text, " at %.2f s", time);
-    return text;
-}
 
 const std::string& agent_name(const Scene& run, int agent) {
     return run.crowd->agents[static_cast<std::size_t>(agent)].name;
@@ -81,7 +76,7 @@ class Drawer {
         line.width = style.width * metrics_.scale;
         line.dash = style.dash * metrics_.scale;
         line.hidden = kThrough;
-        line.order = {kLayer, 0, order_++};
+        line.order = {kCandidateLayer, 0, order_++};
         list_.lines.push_back(line);
     }
 
@@ -99,7 +94,7 @@ class Drawer {
         for (int i = 1; i < way.count(); ++i) {
             const glm::vec3 to = point(way.disk(i), way.time(i));
             if (i != contact && i + 1 < way.count() && glm::length(to - from) < shortest) continue;
-            add_line(from, to, style, i <= contact ? 1 : kBeyond);
+            add_line(from, to, style, i <= contact ? 1 : kWayBeyond);
             from = to;
         }
         if (fate != Fate::ruled_out) add_end(from, style, fate == Fate::taken);
@@ -310,7 +305,7 @@ std::vector<LabelRequest> add_followed(DrawList& list, std::span<const Subject> 
                 line.width = width * metrics.scale;
                 line.cap = 0.3f * line.width;
                 line.hidden = kThrough;
-                line.order = {kLayer, 1, order++};
+                line.order = {kCandidateLayer, 1, order++};
                 list.lines.push_back(line);
             }
         }

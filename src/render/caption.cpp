@@ -17,7 +17,7 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kMostDetails = 2;
-constexpr const char* kBetween = "  \u00B7  ";
+constexpr const char* kDot = "  \u00B7  ";
 
 struct Sizes {
     float headline, detail, indent, between;
@@ -83,16 +83,22 @@ std::string boxes_text(std::span<const Subject> subjects, const LevelRange& leve
 
 }  // namespace
 
+std::string at_time(double time) {
+    char text[48];
+    std::snprintf(text, sizeof text, " at %.2f s", time);
+    return text;
+}
+
 Caption scene_caption(const FittedScene& fitted, std::span<const Subject> subjects, const ViewState& view) {
     Caption caption;
     caption.headlines = {fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string()};
     if (view.boxes) {
-        caption.detail = tree_title(fitted.options().tree) + ", leaf " + std::to_string(fitted.options().leaf) +
-                         kBetween + boxes_text(subjects, view.levels);
+        caption.detail = tree_title(fitted.options().tree) + ", leaf " + std::to_string(fitted.options().leaf) + kDot +
+                         boxes_text(subjects, view.levels);
     }
     if (!names_fit(subjects.size())) {
         const std::string left_out = std::to_string(subjects.size()) + " agents, unnamed here";
-        caption.detail += (caption.detail.empty() ? "" : kBetween) + left_out;
+        caption.detail += (caption.detail.empty() ? "" : kDot) + left_out;
     }
     return caption;
 }
@@ -101,8 +107,7 @@ Caption query_caption(const Palette& palette, std::span<const Subject> sides, co
     Caption caption;
     caption.headlines = step_sentences(sides, recorded.trace, step);
     caption.detail = tree_title(sides[0].placed.tree().options().tree) + ", leaf " +
-                     std::to_string(sides[0].placed.tree().options().leaf) + kBetween +
-                     answer_sentence(sides, recorded);
+                     std::to_string(sides[0].placed.tree().options().leaf) + kDot + answer_sentence(sides, recorded);
     const mobb::Outcome outcome = recorded.trace[step].outcome;
     caption.mark = outcome_style(box_state(outcome), palette).color;
     return caption;
@@ -115,7 +120,7 @@ bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options) 
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
     char text[96];
     std::snprintf(text, sizeof text, "%.10g s lies outside %.4g..%.4g s", time, begin, end);
-    caption.detail = caption.detail.empty() ? text : std::string(text) + kBetween + caption.detail;
+    caption.detail = caption.detail.empty() ? text : std::string(text) + kDot + caption.detail;
 }
 
 CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {

@@ -24,6 +24,9 @@ Caption scene_caption(const FittedScene& fitted, std::span<const Subject> subjec
 /// What a step of a query shows.
 Caption query_caption(const Palette& palette, std::span<const Subject> sides, const RecordedQuery& recorded, int step);
 
+/// " at 1.23 s".
+std::string at_time(double time);
+
 /// Whether the scene may lie behind the words: it does not where the camera frames it by itself.
 bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options);
 

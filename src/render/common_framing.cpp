@@ -16,7 +16,6 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kFewPoints = 10'000;
-constexpr double kDegree = std::numbers::pi / 180;
 
 void add_disk(std::vector<glm::vec3>& points, const DiskInstance& disk) {
     constexpr int kDirections = 8;
@@ -28,14 +27,14 @@ void add_disk(std::vector<glm::vec3>& points, const DiskInstance& disk) {
     }
 }
 
-struct Extent {
+struct PointExtent {
     glm::dvec3 min{std::numeric_limits<double>::max()};
     glm::dvec3 max{std::numeric_limits<double>::lowest()};
     glm::dvec3 middle() const { return 0.5 * (min + max); }
 };
 
-Extent extent_of(const std::vector<glm::vec3>& points) {
-    Extent extent;
+PointExtent extent_of(const std::vector<glm::vec3>& points) {
+    PointExtent extent;
     for (const glm::vec3& point : points) {
         extent.min = glm::min(extent.min, glm::dvec3(point));
         extent.max = glm::max(extent.max, glm::dvec3(point));
@@ -81,7 +80,7 @@ Camera CommonFraming::turning(const Camera& camera) const {
 
     // Turned once around, a point at a distance from the axis and a height needs the eye this far from the axis' foot,
     // for the frame's upper and lower edge and its sides.
-    const Extent extent = extent_of(points_);
+    const PointExtent extent = extent_of(points_);
     const glm::dvec3 middle = extent.middle();
     double top = 0;
     double bottom = 0;

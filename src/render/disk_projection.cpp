@@ -7,6 +7,7 @@
 #include <render/query_sentence.h>
 #include <render/words.h>
 #include <render/world_box.h>
+#include <scene/view_mismatch.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,35 +15,34 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 namespace mobbscope {
 
 namespace {
 
 constexpr int kCirclePieces = 64;
-constexpr double kBeyond = 0.35;  // of the radius: how far axes go beyond what is marked on them
-constexpr double kAside = 0.16;   // ... and perpendiculars, and how far the height stands beside the disk
+constexpr double kAxisBeyond = 0.35;  // of the radius: how far axes go beyond what is marked on them
+constexpr double kAside = 0.16;       // ... and perpendiculars, and how far the height stands beside the disk
 
 const Subject& checked(std::span<const Subject> subjects, const DiskProjection& projection) {
     if (projection.participant < 0 || static_cast<std::size_t>(projection.participant) >= subjects.size()) {
-        throw std::invalid_argument("there is no participant " + std::to_string(projection.participant) + ": " +
-                                    std::to_string(subjects.size()) + (subjects.size() == 1 ? " is" : " are") +
-                                    " drawn, counted from 0");
+        throw ViewMismatch("projection", "there is no participant " + std::to_string(projection.participant) + ": " +
+                                             std::to_string(subjects.size()) + (subjects.size() == 1 ? " is" : " are") +
+                                             " drawn, counted from 0");
     }
     const Subject& subject = subjects[static_cast<std::size_t>(projection.participant)];
     const auto nodes = subject.placed.tree().nodes();
     if (projection.node < 0 || static_cast<std::size_t>(projection.node) >= nodes.size()) {
-        throw std::invalid_argument("there is no node " + std::to_string(projection.node) + " in the tree of " +
-                                    in_quotes(subject.name) + ": it has " + std::to_string(nodes.size()) +
-                                    ", counted from 0");
+        throw ViewMismatch("projection", "there is no node " + std::to_string(projection.node) + " in the tree of " +
+                                             in_quotes(subject.name) + ": it has " + std::to_string(nodes.size()) +
+                                             ", counted from 0");
     }
     const mobb::Node& node = subject.placed.node(projection.node);
     if (projection.sample < node.first || projection.sample >= node.end()) {
-        throw std::invalid_argument("there is no sample " + std::to_string(projection.sample) + " in node " +
-                                    std::to_string(projection.node) + " of " + in_quotes(subject.name) +
-                                    ": it has those from " + std::to_string(node.first) + " to " +
-                                    std::to_string(node.end() - 1));
+        throw ViewMismatch("projection", "there is no sample " + std::to_string(projection.sample) + " in node " +
+                                             std::to_string(projection.node) + " of " + in_quotes(subject.name) +
+                                             ": it has those from " + std::to_string(node.first) + " to " +
+                                             std::to_string(node.end() - 1));
     }
     return subject;
 }
@@ -122,8 +122,12 @@ class Diagram {
     float scale_;
 };
 
-glm::dvec3 axis_begin(const AxisExtent& axis, double radius) { return axis.direction * (axis.min - kBeyond * radius); }
-glm::dvec3 axis_end(const AxisExtent& axis, double radius) { return axis.direction * (axis.max + kBeyond * radius); }
+glm::dvec3 axis_begin(const AxisExtent& axis, double radius) {
+    return axis.direction * (axis.min - kAxisBeyond * radius);
+}
+glm::dvec3 axis_end(const AxisExtent& axis, double radius) {
+    return axis.direction * (axis.max + kAxisBeyond * radius);
+}
 
 /// Where the height is marked: left of the disk, its middle.
 glm::dvec3 beside_disk(const DiskExtents& extents) {

@@ -3,6 +3,7 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <opened_libraries.h>
 
 #include <initializer_list>
 #include <stdexcept>
@@ -55,7 +56,7 @@ class EglContext final : public GlContext {
         return library_.function<F>(name);
     }
 
-    SharedLibrary library_{{"libEGL.so.1"}};
+    SharedLibrary library_{egl_libraries()};
     decltype(&eglGetProcAddress) get_ = call<decltype(&eglGetProcAddress)>("eglGetProcAddress");
     decltype(&eglMakeCurrent) make_current_ = call<decltype(&eglMakeCurrent)>("eglMakeCurrent");
     decltype(&eglDestroyContext) destroy_ = call<decltype(&eglDestroyContext)>("eglDestroyContext");

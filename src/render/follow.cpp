@@ -7,12 +7,12 @@
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
+#include <scene/view_mismatch.h>
 
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -62,7 +62,7 @@ glm::dvec2 place_at(const std::vector<mobb::PlacedClip>& clips, double time) {
 std::optional<glm::dvec2> followed_place(const FittedScene& fitted, const ViewState& view, double time) {
     if (view.follow.empty()) return std::nullopt;
     const std::vector<mobb::PlacedClip> clips = clips_of(fitted, view.follow, time);
-    if (clips.empty()) throw std::invalid_argument("there is no agent " + in_quotes(view.follow) + " to follow");
+    if (clips.empty()) throw ViewMismatch("follow", "there is no agent " + in_quotes(view.follow) + " to follow");
     glm::dvec2 sum(0);
     for (int i = 0; i < kPlaces; ++i) sum += place_at(clips, time + kGlide * (2.0 * i / (kPlaces - 1) - 1));
     return sum / static_cast<double>(kPlaces);

@@ -16,13 +16,13 @@ namespace mobbscope {
 namespace {
 
 // Lengths in pitches: the distance from a hub to its neighbour on their circle.
-constexpr double kNode = 0.17;      // a hub's radius
-constexpr double kLoop = 0.17;      // radius of the arrow from a hub to itself
-constexpr double kMargin = 0.6;     // from a circle of hubs to the edge of its square: a hub and its loop
-constexpr float kMostPitch = 210;   // pixels at scale 1
-constexpr float kRoomyPitch = 130;  // pixels at scale 1
-constexpr float kBend = 0.17F;      // of an arrow's length, sideways
-constexpr int kPoints = 40;         // of a curve
+constexpr double kNode = 0.17;         // a hub's radius
+constexpr double kLoop = 0.17;         // radius of the arrow from a hub to itself
+constexpr double kCircleMargin = 0.6;  // from a circle of hubs to the edge of its square: a hub and its loop
+constexpr float kMostPitch = 210;      // pixels at scale 1
+constexpr float kRoomyPitch = 130;     // pixels at scale 1
+constexpr float kBend = 0.17F;         // of an arrow's length, sideways
+constexpr int kPoints = 40;            // of a curve
 
 /// All moves from one hub to another.
 struct Arrow {
@@ -59,7 +59,7 @@ struct Ring {
         const auto n = static_cast<double>(hubs.size());
         return n < 2 ? 0 : 0.5 / std::sin(std::numbers::pi / n);
     }
-    double side() const { return 2 * (radius() + kMargin); }
+    double side() const { return 2 * (radius() + kCircleMargin); }
 };
 
 std::vector<Ring> rings_of(const MotionGraph& graph) {

@@ -19,7 +19,7 @@ namespace mobbscope {
 namespace {
 
 constexpr float kLeastCard = 76;    // pixels at scale 1
-constexpr float kGap = 8;           // between cards
+constexpr float kCardGap = 8;       // between cards
 constexpr double kLeastExtent = 1;  // metres: a fan of steps on the spot is drawn no larger
 constexpr int kRingPoints = 72;
 
@@ -176,7 +176,7 @@ FanScale add_graph_fans(DrawList& list, const MotionGraph& graph, const std::vec
     }
 
     FanPicture picture(list, graph, style);
-    const glm::vec2 card = grid.cell - kGap * scale;
+    const glm::vec2 card = grid.cell - kCardGap * scale;
     const Rect room = picture.room_in({{0, 0}, card});
     double pixels = std::numeric_limits<double>::infinity();
     for (const Fan& fan : fans) {
@@ -186,7 +186,7 @@ FanScale add_graph_fans(DrawList& list, const MotionGraph& graph, const std::vec
     for (std::size_t i = 0; i < fans.size(); ++i) {
         const std::size_t row = i / grid.columns;
         const glm::vec2 cell(static_cast<float>(i % grid.columns), static_cast<float>(row));
-        const glm::vec2 corner = glm::round(area.min + cell * grid.cell + glm::vec2(kGap * scale, 0));
+        const glm::vec2 corner = glm::round(area.min + cell * grid.cell + glm::vec2(kCardGap * scale, 0));
         picture.add_card(fans[i], {corner, corner + card}, pixels, ring_step);
     }
     return {pixels, ring_step};

@@ -22,8 +22,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kColorSteps = 48;  // of the bar of speeds
-constexpr float kBar = 132;      // pixels at scale 1: the length of the bars
+constexpr int kColorSteps = 48;    // of the bar of speeds
+constexpr float kBarLength = 132;  // pixels at scale 1: the length of the bars
 
 std::string bound_text(const char* what, double bound, const char* unit) {
     return std::isfinite(bound) ? std::string(what) + " up to " + brief(bound) + ' ' + unit
@@ -65,10 +65,10 @@ class GraphLegend {
   private:
     glm::vec2 part() const {
         const float scale = style_.metrics.scale;
-        return {(kBar + 26) * scale, 2 * line() + 24 * scale};
+        return {(kBarLength + 26) * scale, 2 * line() + 24 * scale};
     }
     float line() const { return line_height(FontFace::text, style_.metrics.small); }
-    float bar() const { return kBar * style_.metrics.scale; }
+    float bar() const { return kBarLength * style_.metrics.scale; }
 
     void write(const std::string& text, glm::vec2 corner, float share, Rgba color) {
         const float width = Font::of(FontFace::text).width(text, style_.metrics.small);

@@ -11,13 +11,13 @@ namespace mobbscope {
 
 namespace {
 
-using Color = glm::vec3;  // 0..255
+using HeatColor = glm::vec3;  // 0..255
 
-constexpr Color kHalo{190, 18, 40};
-constexpr Color kWeak{255, 110, 0};
-constexpr Color kMedium{255, 214, 60};
-constexpr Color kStrong{255, 255, 255};
-constexpr Color kSkipped{14, 24, 62};
+constexpr HeatColor kHalo{190, 18, 40};
+constexpr HeatColor kWeak{255, 110, 0};
+constexpr HeatColor kMedium{255, 214, 60};
+constexpr HeatColor kStrong{255, 255, 255};
+constexpr HeatColor kSkipped{14, 24, 62};
 constexpr float kGhost = 0.28f;  // brightness of the reference
 constexpr float kHaloStrength = 0.7f;
 
@@ -57,13 +57,13 @@ std::vector<float> distances(int width, int height, std::span<const std::int16_t
     return out;
 }
 
-Color ghost(const std::uint8_t* pixel) {
+HeatColor ghost(const std::uint8_t* pixel) {
     const float luminance = 0.299f * pixel[0] + 0.587f * pixel[1] + 0.114f * pixel[2];
-    return Color(12 + kGhost * luminance * pixel[3] / 255);
+    return HeatColor(12 + kGhost * luminance * pixel[3] / 255);
 }
 
 /// The colour of a difference beyond the tolerance.
-Color glow(int difference, double tolerance) {
+HeatColor glow(int difference, double tolerance) {
     const double beyond = (difference - tolerance) / std::max(1.0, 255 - tolerance);
     // The eye tells small differences apart better than large ones.
     const auto t = static_cast<float>(std::sqrt(std::clamp(beyond, 0.0, 1.0)));
@@ -77,7 +77,7 @@ Image heat_map(const Image& reference, std::span<const std::int16_t> differences
     const float reach = halo_reach(reference);
     Image out(reference.width, reference.height);
     for (std::size_t i = 0; i < differences.size(); ++i) {
-        Color color = ghost(reference.rgba.data() + 4 * i);
+        HeatColor color = ghost(reference.rgba.data() + 4 * i);
         if (differences[i] == kNotCompared) color = kSkipped + 0.5f * color;
         if (differences[i] > tolerance) {
             color = glow(differences[i], tolerance);

@@ -7,8 +7,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kEdge = 3;     // pixels kept free along the picture's edge
-constexpr float kBetween = 2;  // ... and between labels
+constexpr float kEdge = 3;      // pixels kept free along the picture's edge
+constexpr float kLabelGap = 2;  // ... and between labels
 
 /// The rectangle of a size whose edge is `distance` from the anchor in a direction.
 Rect beside(glm::vec2 anchor, glm::vec2 direction, float distance, glm::vec2 size) {
@@ -50,7 +50,7 @@ LabelLayout::LabelLayout(const DrawList& list) : LabelLayout(list.size) {
 }
 
 bool LabelLayout::is_free(const Rect& rect, float room) const {
-    const glm::vec2 around(std::max(room, kBetween), kBetween);
+    const glm::vec2 around(std::max(room, kLabelGap), kLabelGap);
     const Rect needed{rect.min - around, rect.max + around};
     return picture_.contains(rect) &&
            std::none_of(taken_.begin(), taken_.end(), [&](const Rect& other) { return other.overlaps(needed); });

@@ -140,9 +140,9 @@ std::string short_number(double value) {
     return text;
 }
 
-struct Layout {
+struct LegendLayout {
     float row, mark, padding, gap;
-    explicit Layout(float size)
+    explicit LegendLayout(float size)
         : row(std::round(1.55f * size)),
           mark(std::round(1.7f * size)),
           padding(panel_padding(size)),
@@ -201,7 +201,7 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Su
 
 glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
     if (entries.empty()) return glm::vec2(0);
-    const Layout layout(text_size);
+    const LegendLayout layout(text_size);
     float widest = 0;
     for (const LegendEntry& entry : entries) {
         const bool remark = entry.mark == LegendEntry::Mark::remark;
@@ -213,7 +213,7 @@ glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
 }
 
 void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
-    const Layout layout(text_size);
+    const LegendLayout layout(text_size);
     const glm::vec2 size = legend_size(list.legend, text_size);
     list.panels.push_back(word_panel({corner, corner + size}, list.palette, text_size));
     glm::vec2 at = corner + layout.padding;

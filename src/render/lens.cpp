@@ -14,7 +14,7 @@ namespace {
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// The scene in the camera's directions: x to the right, y up, z towards the eye.
-struct Extent {
+struct CameraExtent {
     glm::vec3 min{std::numeric_limits<float>::max()};
     glm::vec3 max{std::numeric_limits<float>::lowest()};
 };
@@ -29,7 +29,7 @@ struct Stand {
     float half_height = 1;  ///< of what the frame shows, without perspective
 };
 
-Stand fit_orthographic(const Extent& extent, float aspect) {
+Stand fit_orthographic(const CameraExtent& extent, float aspect) {
     const glm::vec3 half = (extent.max - extent.min) * 0.5f;
     const glm::vec3 middle = (extent.max + extent.min) * 0.5f;
     return {{middle.x, middle.y, extent.max.z + 1}, std::max({half.y, half.x / aspect, 1e-6f})};
@@ -165,7 +165,7 @@ Lens make_lens(const Camera& camera, std::span<const glm::vec3> points, const gl
     lens.right = glm::vec3(d.right);
     lens.up = glm::cross(lens.back, lens.right);
 
-    Extent extent;
+    CameraExtent extent;
     for (const glm::vec3& point : points) {
         const glm::vec3 p = to_camera(lens, point);
         extent.min = glm::min(extent.min, p);

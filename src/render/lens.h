@@ -8,10 +8,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <numbers>
 #include <optional>
 #include <span>
 
 namespace mobbscope {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // in radians
 
 /// The part of a picture that the scene is to fill, pixels from the upper left corner.
 struct Frame {

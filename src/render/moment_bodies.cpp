@@ -24,12 +24,12 @@ constexpr float kHead = 0.09f;        // metres, radius
 constexpr float kGlassFront = 0.02f;  // opacity of the wall where it is seen face on
 constexpr float kGlassSide = 0.13f;   // ... and how much more where it is seen edge on
 constexpr std::size_t kFewFigures = 50;  // are all drawn, seen or not
-constexpr int kLayer = 2;                // above grid and paths
+constexpr int kBodyLayer = 2;            // above grid and paths
 
 /// Lines of one body, later ones above earlier ones; bodies are drawn from the farthest to the nearest.
 class Pen {
   public:
-    Pen(DrawList& list, int rank) : list_(list), order_{kLayer, 0, static_cast<std::int64_t>(rank) << 24} {}
+    Pen(DrawList& list, int rank) : list_(list), order_{kBodyLayer, 0, static_cast<std::int64_t>(rank) << 24} {}
 
     void line(glm::vec3 from, glm::vec3 to, Rgba color, float width, float hidden = 0, float cap = 0) {
         LineInstance line;
@@ -121,7 +121,7 @@ void add_disk(DrawList& list, const Figure& f, float height, Rgba color) {
     disk.height = height;
     disk.color = color;
     disk.id = {f.subject.index, ObjectId::Kind::disk, f.body.sample};
-    disk.order = {kLayer, 0, f.subject.index};
+    disk.order = {kBodyLayer, 0, f.subject.index};
     list.disks.push_back(disk);
 }
 
@@ -140,7 +140,7 @@ void add_glass(DrawList& list, const Figure& f) {
         pane.fill = with_alpha(f.subject.color, kGlassFront + kGlassSide * edge_on * edge_on);
         pane.edge = Rgba(0);
         pane.id = {f.subject.index, ObjectId::Kind::disk, f.body.sample};
-        pane.order = {kLayer, 0, (static_cast<std::int64_t>(f.subject.index) << 8) + i};
+        pane.order = {kBodyLayer, 0, (static_cast<std::int64_t>(f.subject.index) << 8) + i};
         list.boxes.push_back(pane);
     }
 }
@@ -262,7 +262,7 @@ void add_overlap(DrawList& list, const Figure& a, const Figure& b, bool plain, s
         strip.fill = with_alpha(list.palette.hit, 0.6f);
         strip.edge = Rgba(0);
         strip.pickable = false;
-        strip.order = {kLayer, 1, (index << 8) + row};
+        strip.order = {kBodyLayer, 1, (index << 8) + row};
         list.boxes.push_back(strip);
         for (const std::size_t side : {0u, 1u}) {
             pen.line(at(side, row, floor), at(side, row + 1, floor), list.palette.hit, 2 * scale, 1, 0.5f * scale);

@@ -11,12 +11,6 @@ namespace mobbscope {
 
 namespace {
 
-std::string at_time(double time) {
-    char text[48];
-    std::snprintf(text, sizeof text, " at %.2f s", time);
-    return text;
-}
-
 /// The tip of a bone has no name of its own.
 std::string joint_words(std::span<const Joint> joints, int index) {
     const Joint& joint = joints[static_cast<std::size_t>(index)];

@@ -12,7 +12,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kMargin = 0.1;  // of the picture, on each side of what it frames
+constexpr double kPictureMargin = 0.1;  // of the picture, on each side of what it frames
 
 double tan_half_fov(const Camera& camera) { return std::tan(camera.fov_deg * std::numbers::pi / 360); }
 
@@ -55,7 +55,7 @@ Camera zoomed(Camera camera, double factor, glm::vec2 cursor_pixel, PictureSize 
 
 Camera framing(const Camera& camera, glm::dvec3 min, glm::dvec3 max, PictureSize size) {
     const Directions d = directions(camera);
-    const double tan_y = tan_half_fov(camera) * (1 - 2 * kMargin);
+    const double tan_y = tan_half_fov(camera) * (1 - 2 * kPictureMargin);
     const double tan_x = tan_y * size.width / size.height;
     double distance = 0;
     for (unsigned corner = 0; corner < 8; ++corner) {

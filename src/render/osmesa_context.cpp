@@ -1,7 +1,8 @@
 #include <render/gl_backends.h>
 #include <render/shared_library.h>
 
-#include <GL/osmesa.h>
+#include <glad/gl.h>
+#include <opened_libraries.h>
 
 #include <array>
 #include <stdexcept>
@@ -10,17 +11,34 @@ namespace mobbscope {
 
 namespace {
 
+/// The part of OSMesa's interface that is used. Declared here, as its header is in no package where OSMesa is gone.
+namespace osmesa {
+
+using Context = struct Opaque*;
+using Create = Context (*)(const int* attributes, Context shared_with);
+using Destroy = void (*)(Context);
+using MakeCurrent = GLboolean (*)(Context, void* buffer, GLenum type, GLsizei width, GLsizei height);
+using GetFunction = void (*(*)(const char* name))();
+
+constexpr int kFormat = 0x22;
+constexpr int kProfile = 0x33;
+constexpr int kCoreProfile = 0x34;
+constexpr int kContextMajorVersion = 0x36;
+constexpr int kContextMinorVersion = 0x37;
+
+}  // namespace osmesa
+
 class OsmesaContext final : public GlContext {
   public:
     OsmesaContext() {
         // A compatibility profile would do as well, but core is what the shaders are written for.
-        const std::array<int, 9> attributes{OSMESA_FORMAT,
-                                            OSMESA_RGBA,
-                                            OSMESA_PROFILE,
-                                            OSMESA_CORE_PROFILE,
-                                            OSMESA_CONTEXT_MAJOR_VERSION,
+        const std::array<int, 9> attributes{osmesa::kFormat,
+                                            GL_RGBA,
+                                            osmesa::kProfile,
+                                            osmesa::kCoreProfile,
+                                            osmesa::kContextMajorVersion,
                                             3,
-                                            OSMESA_CONTEXT_MINOR_VERSION,
+                                            osmesa::kContextMinorVersion,
                                             3,
                                             0};
         context_ = create_(attributes.data(), nullptr);
@@ -39,15 +57,13 @@ class OsmesaContext final : public GlContext {
 
     static constexpr int kSide = 8;
 
-    SharedLibrary library_{{"libOSMesa.so.8", "libOSMesa.so.6"}};
-    decltype(&OSMesaCreateContextAttribs) create_ =
-        library_.function<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
-    decltype(&OSMesaDestroyContext) destroy_ =
-        library_.function<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext");
-    decltype(&OSMesaMakeCurrent) make_current_ = library_.function<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent");
-    decltype(&OSMesaGetProcAddress) get_ = library_.function<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress");
+    SharedLibrary library_{osmesa_libraries()};
+    osmesa::Create create_ = library_.function<osmesa::Create>("OSMesaCreateContextAttribs");
+    osmesa::Destroy destroy_ = library_.function<osmesa::Destroy>("OSMesaDestroyContext");
+    osmesa::MakeCurrent make_current_ = library_.function<osmesa::MakeCurrent>("OSMesaMakeCurrent");
+    osmesa::GetFunction get_ = library_.function<osmesa::GetFunction>("OSMesaGetProcAddress");
     std::array<unsigned char, kSide * kSide * 4> buffer_{};
-    OSMesaContext context_ = nullptr;
+    osmesa::Context context_ = nullptr;
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ std::string png_bytes(const Image& image);
 void write_png(const std::filesystem::path& file, const Image& image);
 
 /// Grey, palettes and 16 bits (their upper 8) become RGBA; what a file says of its colours' gamma is ignored. Throws
-/// InputError if the file is missing, no PNG, damaged, cut short or absurdly large (png_chunks.h).
+/// InputError if the file is missing, no PNG, damaged, cut short or of more than 2^27 pixels.
 Image read_png(const std::filesystem::path& file);
 
 }  // namespace mobbscope

@@ -1,8 +1,8 @@
 #include <render/query_progress.h>
+#include <scene/view_mismatch.h>
 
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <string>
 
 namespace mobbscope {
@@ -24,7 +24,7 @@ BoxState box_state(mobb::Outcome outcome) {
 
 int event_of(const Step& step, const mobb::Trace& trace) {
     const int last = trace.size() - 1;
-    if (last < 0) throw std::invalid_argument("the query made no test: it has no steps");
+    if (last < 0) throw ViewMismatch("step", "the query made no test: it has no steps");
     switch (step.unit) {
         case Step::Unit::end:
             return last;
@@ -34,8 +34,8 @@ int event_of(const Step& step, const mobb::Trace& trace) {
             break;
     }
     if (step.value < 0 || step.value > last) {
-        throw std::invalid_argument("there is no step " + std::to_string(static_cast<long long>(step.value)) +
-                                    ": the query's go from 0 to " + std::to_string(last));
+        throw ViewMismatch("step", "there is no step " + std::to_string(static_cast<long long>(step.value)) +
+                                       ": the query's go from 0 to " + std::to_string(last));
     }
     return static_cast<int>(step.value);
 }

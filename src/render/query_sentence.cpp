@@ -1,3 +1,4 @@
+#include <import/text.h>
 #include <render/box_axes.h>
 #include <render/query_sentence.h>
 
@@ -55,10 +56,6 @@ std::string sample_outcome(std::span<const Subject> sides, const mobb::Trace::Ev
     }
     return "no hit in " + count + (event.pairs.size() == 1 ? " pair" : " pairs") + " of samples, the nearest " +
            with_unit(clearance, "m") + " apart";
-}
-
-std::string counted(std::int64_t count, const char* one, const char* many) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
 }  // namespace

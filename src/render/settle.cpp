@@ -13,8 +13,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// The middle of what is drawn of paths and boxes.
 glm::dvec3 middle_of(const DrawList& list) {
     glm::vec3 min(std::numeric_limits<float>::max());

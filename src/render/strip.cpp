@@ -8,13 +8,13 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kGap = 4;
+constexpr int kStripGap = 4;
 constexpr std::uint8_t kGrey = 128;  // stands out from both themes
 
 }  // namespace
 
 Image make_strip(std::span<const Image* const> pictures) {
-    long long width = kGap * (static_cast<long long>(pictures.size()) - 1);
+    long long width = kStripGap * (static_cast<long long>(pictures.size()) - 1);
     long long height = 0;
     for (const Image* picture : pictures) {
         width += picture->width;
@@ -31,7 +31,7 @@ Image make_strip(std::span<const Image* const> pictures) {
         for (int y = 0; y < picture->height; ++y) {
             std::copy_n(picture->at(0, y), 4 * static_cast<std::size_t>(picture->width), out.at(left, y));
         }
-        left += picture->width + kGap;
+        left += picture->width + kStripGap;
     }
     return out;
 }

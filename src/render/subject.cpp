@@ -1,16 +1,17 @@
+#include <import/text.h>
 #include <render/subject.h>
 #include <scene/crowd_scene.h>
+#include <scene/view_mismatch.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr int kLongestLabel = 24;
+constexpr std::size_t kLongestLabel = 24;
 
 Subject make_subject(const FittedScene& fitted, const Participant& participant, int index, int color_index) {
     const Scene& scene = fitted.scene();
@@ -31,27 +32,7 @@ mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, do
     return {first, std::max(last - first, 0)};
 }
 
-/// Where each character of UTF-8 text begins, and its end.
-std::vector<std::size_t> beginnings(const std::string& text) {
-    std::vector<std::size_t> out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) out.push_back(i);
-    }
-    out.push_back(text.size());
-    return out;
-}
-
 }  // namespace
-
-std::string shortened(const std::string& name, int most) {
-    const std::vector<std::size_t> at = beginnings(name);
-    const std::size_t count = at.size() - 1;
-    const auto room = static_cast<std::size_t>(most) - 1;
-    if (count <= room + 1) return name;
-    // Names of one recording differ in their ends as often as in their beginnings.
-    const std::size_t tail = room / 2;
-    return name.substr(0, at[room - tail]) + "\u2026" + name.substr(at[count - tail]);
-}
 
 std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view) {
     std::vector<Subject> out;
@@ -70,8 +51,8 @@ std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view) 
     }
     const std::size_t count = fitted.queries().size();
     if (*view.query < 0 || static_cast<std::size_t>(*view.query) >= count) {
-        throw std::invalid_argument("there is no query " + std::to_string(*view.query) + ": the scene has " +
-                                    (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
+        throw ViewMismatch("query", "there is no query " + std::to_string(*view.query) + ": the scene has " +
+                                        (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
     }
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(*view.query)];
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;

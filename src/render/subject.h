@@ -28,9 +28,6 @@ struct Subject {
     double end() const { return clip().time(clip().count()); }
 };
 
-/// A name of at most `most` characters (>= 5): its beginning, an ellipsis and its end.
-std::string shortened(const std::string& name, int most);
-
 /// The scene's participants, of a run made a scene (scene/crowd_scene.h) cut to the view's window of time; with a query
 /// in the view, its two sides. Throws std::invalid_argument if the scene has no such query.
 std::vector<Subject> subjects(const FittedScene& fitted, const ViewState& view);

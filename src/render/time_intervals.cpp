@@ -9,7 +9,7 @@ namespace mobbscope {
 namespace {
 
 // Pixels at scale 1.
-constexpr float kBar = 5;
+constexpr float kIntervalBar = 5;
 constexpr float kFirst = 9;  // from the axis to the middle of A's bar: clear of the ticks
 constexpr float kNext = 8;   // from there to B's
 
@@ -39,7 +39,7 @@ void add_time_intervals(DrawList& list, const Stage& stage, std::span<const Subj
         const mobb::PlacedTree& tree = sides[side].placed;
         const mobb::Node& node = tree.node(side == 0 ? event.a : event.b);
         add(kFirst + kNext * static_cast<float>(side), tree.begin(node), tree.end(node),
-            {outlining(sides[side].color, list.palette), kSolid, kBar});
+            {outlining(sides[side].color, list.palette), kSolid, kIntervalBar});
         end = std::min(end, tree.end(node));
         begin = std::max(begin, tree.begin(node));
     }

@@ -9,8 +9,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kMaxInt = std::numeric_limits<int>::max();
-
 /// A tree of the contract that this version cannot build.
 bool is_planned(std::string_view tree) { return tree == "production"; }
 

@@ -1,6 +1,7 @@
 #include <scene/fitted_scene.h>
 
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace mobbscope {
@@ -20,6 +21,19 @@ FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, const Fit
         trees_.push_back(tree);
         if (progress) progress(trees_.size(), scene_.clips.size());
     }
+}
+
+std::size_t FittedScene::bytes_beyond(const FittedScene& other) const {
+    if (this == &other) return 0;
+    std::unordered_set<const void*> shared;
+    for (const auto& tree : other.trees_) shared.insert({tree.get(), &tree->clip()});
+    std::size_t bytes = scene_.clips.size() * sizeof(SceneClip) + scene_.agents.size() * sizeof(Agent) +
+                        scene_.queries.size() * sizeof(SceneQuery) + participants_.size() * sizeof(Participant);
+    for (const auto& tree : trees_) {
+        if (shared.insert(tree.get()).second) bytes += tree->nodes().size() * (sizeof(mobb::Node) + sizeof(int));
+        if (shared.insert(&tree->clip()).second) bytes += tree->clip().samples().size_bytes();
+    }
+    return bytes;
 }
 
 RecordedQuery record(const FittedScene& fitted, const SceneQuery& query, Search search) {

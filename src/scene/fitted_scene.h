@@ -43,6 +43,9 @@ class FittedScene {
         return {tree(participant.clip), participant.placement};
     }
 
+    /// Memory for what this holds and `other` does not share: its lists, clips and trees.
+    std::size_t bytes_beyond(const FittedScene& other) const;
+
   private:
     Scene scene_;
     mobb::FitOptions options_;

@@ -10,8 +10,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kMaxAngle = 1e9;   // degrees, as for placements
-constexpr double kMaxStance = 1e6;  // metres: moves add up, and what is placed must stay within kMaxLength
+constexpr double kMaxAngle = 1e9;  // degrees, as for placements
 
 double read_bound(const JsonPlace& bounds, const char* key) {
     const auto bound = bounds.find(key);
@@ -41,7 +40,7 @@ std::vector<GraphHub> read_hubs(const JsonPlace& place) {
 
 Stance read_stance(const JsonPlace& place) {
     place.require_size(3, "[x, y, heading in degrees]");
-    return {{place[0].number(-kMaxStance, kMaxStance), place[1].number(-kMaxStance, kMaxStance)},
+    return {{place[0].number(-kMostStance, kMostStance), place[1].number(-kMostStance, kMostStance)},
             place[2].number(-kMaxAngle, kMaxAngle)};
 }
 

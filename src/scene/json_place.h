@@ -4,11 +4,15 @@
 #include <scene/json_value.h>
 
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace mobbscope {
+
+/// The most that JsonPlace::integer can give.
+inline constexpr int kMaxInt = std::numeric_limits<int>::max();
 
 /// Refers to the value, to the file's name and to the place it was reached from; all must outlive it.
 class JsonPlace {

@@ -2,9 +2,12 @@
 #include <scene/strong_components.h>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace mobbscope {
+
+double heading_of(glm::dvec2 way) { return std::atan2(way.y, way.x) * 180 / std::numbers::pi; }
 
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry) {
     mobb::Placement next;

@@ -42,12 +42,18 @@ struct GraphBounds {
     friend bool operator==(const GraphBounds&, const GraphBounds&) = default;
 };
 
+/// Metres: moves add up, and what is placed must stay within mobb::kMaxLength.
+inline constexpr double kMostStance = 1e6;
+
 struct MotionGraph {
     std::vector<GraphHub> hubs;
     std::vector<GraphMove> moves;
     GraphBounds bounds;
     friend bool operator==(const MotionGraph&, const MotionGraph&) = default;
 };
+
+/// Degrees from +x, counter-clockwise.
+double heading_of(glm::dvec2 way);
 
 /// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and the clip's
 /// duration later. `duration` is that of the move before, in seconds.

@@ -23,8 +23,6 @@ namespace mobbscope {
 namespace {
 
 constexpr int kVersion = 1;
-constexpr int kMaxInt = std::numeric_limits<int>::max();
-
 /// Options over options: what `over` says wins.
 ImportOptions merged(ImportOptions base, const ImportOptions& over) {
     const auto take = [](auto& option, const auto& replacement) {

@@ -11,7 +11,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kMaxInt = std::numeric_limits<int>::max();
 constexpr double kSmallestDistance = 1e-6;  // metres
 constexpr double kMaxHeight = 1e6;          // metres drawn per second
 

@@ -18,13 +18,13 @@ using testing::all_messages;
 using testing::CrossingFolder;
 
 /// A session over the scene of a folder, with everything that a window would bring.
-struct World {
+struct CommandWorld {
     CrossingFolder folder;
     Session session{false};
     std::string clipboard;
     std::filesystem::path exported;
 
-    World() {
+    CommandWorld() {
         session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
         session.hooks.export_picture = [this](const std::filesystem::path& file) { exported = file; };
         session.hooks.viewport_size = [] { return PictureSize{800, 600}; };
@@ -43,7 +43,7 @@ struct Case {
     std::string id;
     std::string argument;  ///< "@name" stands for that file in the folder
     std::vector<std::pair<std::string, std::string>> before;
-    std::function<void(World&)> check;
+    std::function<void(CommandWorld&)> check;
     bool edits = false;  ///< undo must bring the very scene back
 };
 
@@ -51,173 +51,176 @@ const std::pair<std::string, std::string> kSelectB{"go.agent", "B"};
 const std::pair<std::string, std::string> kFirstQuery{"query.select", "0"};
 const std::pair<std::string, std::string> kFirstStep{"step.first", ""};
 
-mobb::Outcome outcome_now(const World& world) {
+mobb::Outcome outcome_now(const CommandWorld& world) {
     const mobb::Trace& trace = world.session.recorded()->trace;
     return trace[world.session.step()].outcome;
 }
 
-void expect_node(const World& world, int node) {
+void expect_node(const CommandWorld& world, int node) {
     EXPECT_EQ(world.session.selection, (Selection{Selection::Kind::node, {1, -1, 0}, node}));
 }
 
 std::vector<Case> cases() {
     std::vector<Case> out;
     const auto add = [&](Case c) { out.push_back(std::move(c)); };
-    const auto look = [&](std::string id, std::string argument, std::function<void(World&)> check) {
+    const auto look = [&](std::string id, std::string argument, std::function<void(CommandWorld&)> check) {
         add({std::move(id), std::move(argument), {}, std::move(check)});
     };
-    const auto edit = [&](std::string id, std::string argument, std::function<void(World&)> check) {
+    const auto edit = [&](std::string id, std::string argument, std::function<void(CommandWorld&)> check) {
         add({std::move(id), std::move(argument), {kSelectB}, std::move(check), true});
     };
-    const auto in_query = [&](std::string id, std::string argument, std::function<void(World&)> check) {
+    const auto in_query = [&](std::string id, std::string argument, std::function<void(CommandWorld&)> check) {
         add({std::move(id), std::move(argument), {kFirstQuery, kFirstStep}, std::move(check)});
     };
 
     // File
-    look("file.open", "", [](World& w) { EXPECT_EQ(w.session.dialog, Dialog::open); });
-    look("file.open", "@walk.csv", [](World& w) {
+    look("file.open", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::open); });
+    look("file.open", "@walk.csv", [](CommandWorld& w) {
         EXPECT_TRUE(w.session.scene().agents.empty());
         EXPECT_EQ(w.session.title(), "walk");
     });
-    look("file.add", "", [](World& w) { EXPECT_EQ(w.session.dialog, Dialog::add); });
+    look("file.add", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::add); });
     add({"file.add",
          "@walk.csv",
          {},
-         [](World& w) {
+         [](CommandWorld& w) {
              EXPECT_EQ(w.session.scene().clips.size(), 3u);
              EXPECT_EQ(w.session.scene().agents.size(), 4u);
          },
          true});
-    look("file.recent", "@walk.csv", [](World& w) { EXPECT_EQ(w.session.scene().clips.size(), 1u); });
-    look("file.demo", "", [](World& w) {
+    look("file.recent", "@walk.csv", [](CommandWorld& w) { EXPECT_EQ(w.session.scene().clips.size(), 1u); });
+    look("file.demo", "", [](CommandWorld& w) {
         EXPECT_EQ(w.agent(0).name, "A");
         EXPECT_EQ(w.session.scene().agents.size(), 2u);
         EXPECT_FALSE(w.session.file());
     });
-    add({"file.reload", "", {{"view.floor", ""}}, [](World& w) {
+    add({"file.reload", "", {{"view.floor", ""}}, [](CommandWorld& w) {
              EXPECT_TRUE(w.view().floor);
              EXPECT_EQ(w.session.file(), w.folder.scene);
          }});
-    add({"file.save", "", {kSelectB, {"agent.move", "4 5"}}, [](World& w) {
+    add({"file.save", "", {kSelectB, {"agent.move", "4 5"}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.session.modified());
              EXPECT_EQ(load_scene(w.folder.scene).agents[1].placement.translate, glm::dvec2(4, 5));
          }});
-    look("file.save_as", "", [](World& w) { EXPECT_EQ(w.session.dialog, Dialog::save_as); });
-    look("file.save_as", "@other.json", [](World& w) {
+    look("file.save_as", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::save_as); });
+    look("file.save_as", "@other.json", [](CommandWorld& w) {
         EXPECT_EQ(w.session.title(), "other.json");
         EXPECT_EQ(load_scene(w.folder.file("other.json")).agents.size(), 3u);
     });
-    look("file.export_picture", "", [](World& w) { EXPECT_EQ(w.session.dialog, Dialog::export_picture); });
-    look("file.export_picture", "@p.png", [](World& w) { EXPECT_EQ(w.exported, w.folder.file("p.png")); });
-    look("file.copy_command", "", [](World& w) {
+    look("file.export_picture", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::export_picture); });
+    look("file.export_picture", "@p.png", [](CommandWorld& w) { EXPECT_EQ(w.exported, w.folder.file("p.png")); });
+    look("file.copy_command", "", [](CommandWorld& w) {
         EXPECT_EQ(w.clipboard, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");
     });
-    look("file.quit", "", [](World& w) { EXPECT_TRUE(w.session.closed()); });
+    look("file.quit", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.closed()); });
 
     // Edit
-    add({"edit.undo", "", {kSelectB, {"agent.move", "4 5"}}, [](World& w) {
+    add({"edit.undo", "", {kSelectB, {"agent.move", "4 5"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(1, -1));
              EXPECT_FALSE(w.session.modified());
          }});
-    add({"edit.redo", "", {kSelectB, {"agent.move", "4 5"}, {"edit.undo", ""}}, [](World& w) {
+    add({"edit.redo", "", {kSelectB, {"agent.move", "4 5"}, {"edit.undo", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(4, 5));
          }});
-    edit("agent.add", "stand", [](World& w) {
+    edit("agent.add", "stand", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "stand");
         EXPECT_EQ(w.session.selection.path.participant, 3);
         EXPECT_GT(w.agent(3).placement.translate.y, 9.4) << "beside the others";
     });
-    edit("agent.duplicate", "", [](World& w) {
+    edit("agent.duplicate", "", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "B 2");
         EXPECT_NEAR(glm::distance(w.agent(3).placement.translate, w.agent(1).placement.translate), 1, 1e-9);
         EXPECT_EQ(w.session.selection.path.participant, 3);
     });
-    edit("agent.remove", "", [](World& w) {
+    edit("agent.remove", "", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 2u);
         EXPECT_EQ(w.agent(1).name, "C");
         EXPECT_EQ(w.session.selection, Selection{});
     });
-    edit("agent.rename", "late walker", [](World& w) { EXPECT_EQ(w.agent(1).name, "late walker"); });
-    edit("agent.move", "2.5 -3", [](World& w) {
+    edit("agent.rename", "late walker", [](CommandWorld& w) { EXPECT_EQ(w.agent(1).name, "late walker"); });
+    edit("agent.move", "2.5 -3", [](CommandWorld& w) {
         EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(2.5, -3));
         EXPECT_EQ(w.session.history().undo_title(), "moving B");
     });
-    edit("agent.nudge", "0.5 1", [](World& w) { EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(1.5, 0)); });
-    edit("agent.turn", "-45", [](World& w) { EXPECT_EQ(w.agent(1).placement.rotate_deg, -45); });
-    edit("agent.start", "3", [](World& w) { EXPECT_EQ(w.agent(1).placement.start, 3); });
+    edit("agent.nudge", "0.5 1",
+         [](CommandWorld& w) { EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(1.5, 0)); });
+    edit("agent.turn", "-45", [](CommandWorld& w) { EXPECT_EQ(w.agent(1).placement.rotate_deg, -45); });
+    edit("agent.start", "3", [](CommandWorld& w) { EXPECT_EQ(w.agent(1).placement.start, 3); });
     add({"agent.shift_start",
          "-2",
          {{"go.agent", "C"}},
-         [](World& w) { EXPECT_EQ(w.agent(2).placement.start, -1.5); },
+         [](CommandWorld& w) { EXPECT_EQ(w.agent(2).placement.start, -1.5); },
          true});
-    edit("agent.color", "#102030", [](World& w) { EXPECT_EQ(w.agent(1).color, (Color{0x10, 0x20, 0x30})); });
+    edit("agent.color", "#102030", [](CommandWorld& w) { EXPECT_EQ(w.agent(1).color, (Color{0x10, 0x20, 0x30})); });
     add({"agent.color",
          "none",
          {kSelectB, {"agent.color", "#102030"}},
-         [](World& w) { EXPECT_FALSE(w.agent(1).color); },
+         [](CommandWorld& w) { EXPECT_FALSE(w.agent(1).color); },
          true});
 
     // View
-    add({"view.iso", "", {{"view.top", ""}}, [](World& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::iso); }});
-    add({"view.top", "", {{"view.zoom_in", ""}}, [](World& w) {
+    add({"view.iso", "", {{"view.top", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().camera.preset, CameraPreset::iso);
+         }});
+    add({"view.top", "", {{"view.zoom_in", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().camera.preset, CameraPreset::top);
              EXPECT_FALSE(w.view().camera.target);
              EXPECT_EQ(w.view().camera.fov_deg, Camera{}.fov_deg);
          }});
-    look("view.front", "", [](World& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::front); });
-    look("view.side", "", [](World& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::side); });
-    look("view.perspective", "", [](World& w) { EXPECT_FALSE(w.view().camera.perspective); });
-    add({"view.frame", "", {{"go.agent", "C"}}, [](World& w) {
+    look("view.front", "", [](CommandWorld& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::front); });
+    look("view.side", "", [](CommandWorld& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::side); });
+    look("view.perspective", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().camera.perspective); });
+    add({"view.frame", "", {{"go.agent", "C"}}, [](CommandWorld& w) {
              ASSERT_TRUE(w.view().camera.target);
              EXPECT_NEAR(w.view().camera.target->x, 1, 0.1);
              EXPECT_NEAR(w.view().camera.target->y, 9, 0.1);
              EXPECT_NEAR(w.view().camera.target->z, 1.5 * w.view().time_height, 0.1);
          }});
-    add({"view.frame", "", {{"view.zoom_in", ""}}, [](World& w) { EXPECT_FALSE(w.view().camera.target); }});
-    add({"view.frame_all", "", {{"view.orbit", "10 5"}}, [](World& w) {
+    add({"view.frame", "", {{"view.zoom_in", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().camera.target); }});
+    add({"view.frame_all", "", {{"view.orbit", "10 5"}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.view().camera.target);
              EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 10, 1e-4) << "the direction stays";
          }});
-    add({"view.zoom", "2", {{"view.zoom", "1"}}, [](World& w) {
+    add({"view.zoom", "2", {{"view.zoom", "1"}}, [](CommandWorld& w) {
              const double near_by = w.view().camera.distance;
              w.session.undo();
              run_command(w.session, "view.zoom", "1");
              EXPECT_NEAR(w.view().camera.distance, 2 * near_by, 1e-6 * near_by);
          }});
-    add({"view.zoom_in", "", {{"view.zoom", "1"}}, [](World& w) {
+    add({"view.zoom_in", "", {{"view.zoom", "1"}}, [](CommandWorld& w) {
              const double distance = w.view().camera.distance;
              run_command(w.session, "view.zoom_in");
              EXPECT_LT(w.view().camera.distance, distance);
          }});
-    add({"view.zoom_out", "", {{"view.zoom", "1"}}, [](World& w) {
+    add({"view.zoom_out", "", {{"view.zoom", "1"}}, [](CommandWorld& w) {
              const double distance = w.view().camera.distance;
              run_command(w.session, "view.zoom_out");
              EXPECT_GT(w.view().camera.distance, distance);
          }});
-    look("view.orbit", "10 -5", [](World& w) {
+    look("view.orbit", "10 -5", [](CommandWorld& w) {
         EXPECT_EQ(w.view().camera.preset, CameraPreset::free);
         EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 10, 1e-4);
         EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg - 5, 1e-4);
         EXPECT_GT(w.view().time_height, 0) << "the target is measured in it";
     });
     look("view.orbit_left", "",
-         [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg + 5, 1e-4); });
+         [](CommandWorld& w) { EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg + 5, 1e-4); });
     look("view.orbit_right", "",
-         [](World& w) { EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 5, 1e-4); });
+         [](CommandWorld& w) { EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 5, 1e-4); });
     look("view.orbit_up", "",
-         [](World& w) { EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg - 5, 1e-4); });
+         [](CommandWorld& w) { EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg - 5, 1e-4); });
     look("view.orbit_down", "",
-         [](World& w) { EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg + 5, 1e-4); });
-    add({"view.pan", "100 0", {{"view.top", ""}, {"view.zoom", "1"}}, [](World& w) {
+         [](CommandWorld& w) { EXPECT_NEAR(w.view().camera.pitch_deg, orientation(Camera{}).pitch_deg + 5, 1e-4); });
+    add({"view.pan", "100 0", {{"view.top", ""}, {"view.zoom", "1"}}, [](CommandWorld& w) {
              const glm::dvec3 moved = *w.view().camera.target;
              run_command(w.session, "view.pan", "-100 0");
              EXPECT_LT(moved.x, w.view().camera.target->x) << "the scene moves right, the eye left";
          }});
-    look("view.disks", "", [](World& w) { EXPECT_FALSE(w.view().disks); });
-    look("view.boxes", "", [](World& w) { EXPECT_FALSE(w.view().boxes); });
-    add({"view.moment", "", {{"view.zoom_in", ""}}, [](World& w) {
+    look("view.disks", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().disks); });
+    look("view.boxes", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().boxes); });
+    add({"view.moment", "", {{"view.zoom_in", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().show, Show::moment);
              EXPECT_FALSE(w.view().camera.target) << "heights mean something else: the scene is framed anew";
              const double time_height = w.view().time_height;
@@ -234,96 +237,100 @@ std::vector<Case> cases() {
              EXPECT_FALSE(w.view().camera.target);
              run_command(w.session, "view.moment");
          }});
-    look("view.floor", "", [](World& w) { EXPECT_FALSE(w.view().floor); });
-    look("view.time_axis", "", [](World& w) { EXPECT_FALSE(w.view().time_axis); });
-    look("view.labels", "", [](World& w) { EXPECT_FALSE(w.view().labels); });
-    look("view.caption", "", [](World& w) { EXPECT_FALSE(w.view().caption); });
-    look("view.legend", "", [](World& w) { EXPECT_FALSE(w.view().legend); });
-    look("view.color_by", "", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::level); });
-    look("view.color_by", "agent", [](World& w) { EXPECT_EQ(w.view().color_by, ColorBy::agent); });
-    in_query("view.level", "1:3", [](World& w) {
+    look("view.floor", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().floor); });
+    look("view.time_axis", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().time_axis); });
+    look("view.labels", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().labels); });
+    look("view.caption", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().caption); });
+    look("view.legend", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().legend); });
+    look("view.color_by", "", [](CommandWorld& w) { EXPECT_EQ(w.view().color_by, ColorBy::level); });
+    look("view.color_by", "agent", [](CommandWorld& w) { EXPECT_EQ(w.view().color_by, ColorBy::agent); });
+    in_query("view.level", "1:3", [](CommandWorld& w) {
         EXPECT_EQ(w.view().levels, (LevelRange{1, 3, false}));
         EXPECT_FALSE(w.view().query);
     });
-    add({"view.finer", "", {{"view.level", "1:2"}}, [](World& w) {
+    add({"view.finer", "", {{"view.level", "1:2"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().levels, (LevelRange{2, 3, false}));
          }});
-    add({"view.coarser", "", {{"view.level", "1:2"}}, [](World& w) {
+    add({"view.coarser", "", {{"view.level", "1:2"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().levels, (LevelRange{0, 1, false}));
          }});
-    add({"view.coarser", "", {{"view.leaves", ""}}, [](World& w) {
+    add({"view.coarser", "", {{"view.leaves", ""}}, [](CommandWorld& w) {
              const int deepest = w.session.fitted().tree(0).depth() - 1;
              EXPECT_EQ(w.view().levels, (LevelRange{deepest, deepest, false}));
          }});
-    look("view.leaves", "", [](World& w) { EXPECT_TRUE(w.view().levels.leaves); });
-    look("view.time_height", "2.5", [](World& w) { EXPECT_EQ(w.view().time_height, 2.5); });
-    add({"view.time_height", "auto", {{"view.time_height", "3"}}, [](World& w) {
+    look("view.leaves", "", [](CommandWorld& w) { EXPECT_TRUE(w.view().levels.leaves); });
+    look("view.time_height", "2.5", [](CommandWorld& w) { EXPECT_EQ(w.view().time_height, 2.5); });
+    add({"view.time_height", "auto", {{"view.time_height", "3"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().time_height, 0);
          }});
-    look("view.theme", "", [](World& w) { EXPECT_EQ(w.view().theme, Theme::light); });
-    look("view.theme", "dark", [](World& w) { EXPECT_EQ(w.view().theme, Theme::dark); });
-    look("window.scale", "1.3", [](World& w) { EXPECT_EQ(w.session.settings.ui_scale, 1.3); });
-    add({"window.larger", "", {{"window.scale", "1.25"}}, [](World& w) {
+    look("view.theme", "", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::light); });
+    look("view.theme", "dark", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::dark); });
+    look("window.scale", "1.3", [](CommandWorld& w) { EXPECT_EQ(w.session.settings.ui_scale, 1.3); });
+    add({"window.larger", "", {{"window.scale", "1.25"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.settings.ui_scale, 1.5);
          }});
-    add({"window.smaller", "", {{"window.scale", "1.3"}}, [](World& w) {
+    add({"window.smaller", "", {{"window.scale", "1.3"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.settings.ui_scale, 1.25);
          }});
-    add({"window.scale_reset", "", {{"window.scale", "1.3"}}, [](World& w) {
+    add({"window.scale_reset", "", {{"window.scale", "1.3"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.settings.ui_scale, 0);
          }});
 
     // Time
-    look("time.at", "0.75", [](World& w) { EXPECT_EQ(w.view().time, 0.75); });
-    add({"time.clear", "", {{"time.at", "1"}}, [](World& w) { EXPECT_FALSE(w.view().time); }});
-    look("time.play", "", [](World& w) {
-        EXPECT_TRUE(w.session.playing);
+    look("time.at", "0.75", [](CommandWorld& w) { EXPECT_EQ(w.view().time, 0.75); });
+    add({"time.clear", "", {{"time.at", "1"}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().time); }});
+    look("time.play", "", [](CommandWorld& w) {
+        EXPECT_TRUE(w.session.playing());
         EXPECT_EQ(w.view().time, 0);
     });
-    add({"time.play", "", {{"time.play", ""}}, [](World& w) { EXPECT_FALSE(w.session.playing); }});
-    look("time.start", "", [](World& w) { EXPECT_EQ(w.view().time, 0); });
-    look("time.end", "", [](World& w) { EXPECT_NEAR(*w.view().time, 2.5, 1e-6); });
-    add({"time.forward", "", {{"time.at", "1.01"}}, [](World& w) { EXPECT_NEAR(*w.view().time, 31 / 30.0, 1e-4); }});
-    add({"time.back", "", {{"time.at", "1.01"}}, [](World& w) { EXPECT_NEAR(*w.view().time, 30 / 30.0, 1e-4); }});
-    look("time.speed", "0.25", [](World& w) { EXPECT_EQ(w.session.speed, 0.25); });
+    add({"time.play", "", {{"time.play", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.session.playing()); }});
+    look("time.start", "", [](CommandWorld& w) { EXPECT_EQ(w.view().time, 0); });
+    look("time.end", "", [](CommandWorld& w) { EXPECT_NEAR(*w.view().time, 2.5, 1e-6); });
+    add({"time.forward", "", {{"time.at", "1.01"}}, [](CommandWorld& w) {
+             EXPECT_NEAR(*w.view().time, 31 / 30.0, 1e-4);
+         }});
+    add({"time.back", "", {{"time.at", "1.01"}}, [](CommandWorld& w) {
+             EXPECT_NEAR(*w.view().time, 30 / 30.0, 1e-4);
+         }});
+    look("time.speed", "0.25", [](CommandWorld& w) { EXPECT_EQ(w.session.speed, 0.25); });
 
     // Tree
-    edit("tree.kind", "umobb", [](World& w) {
+    edit("tree.kind", "umobb", [](CommandWorld& w) {
         EXPECT_EQ(w.session.scene().fit.tree, mobb::TreeKind::umobb);
         EXPECT_EQ(w.session.fitted().tree(0).options().tree, mobb::TreeKind::umobb);
     });
     edit("tree.axes", "covariance",
-         [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).options().axes, mobb::Axes::covariance); });
-    edit("tree.leaf", "7", [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).options().leaf, 7); });
-    edit("tree.levels", "2", [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).depth(), 2); });
-    edit("tree.time_scale", "2.5", [](World& w) { EXPECT_EQ(w.session.fitted().tree(0).time_scale(), 2.5); });
+         [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).options().axes, mobb::Axes::covariance); });
+    edit("tree.leaf", "7", [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).options().leaf, 7); });
+    edit("tree.levels", "2", [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).depth(), 2); });
+    edit("tree.time_scale", "2.5", [](CommandWorld& w) { EXPECT_EQ(w.session.fitted().tree(0).time_scale(), 2.5); });
 
     // Query
-    look("query.select", "2", [](World& w) {
+    look("query.select", "2", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 2);
         EXPECT_EQ(w.view().step, Step{});
     });
-    look("query.next", "", [](World& w) { EXPECT_EQ(w.view().query, 0); });
-    in_query("query.next", "", [](World& w) {
+    look("query.next", "", [](CommandWorld& w) { EXPECT_EQ(w.view().query, 0); });
+    in_query("query.next", "", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 1);
         EXPECT_EQ(w.view().step, Step{});
     });
-    look("query.previous", "", [](World& w) { EXPECT_EQ(w.view().query, 2); });
-    add({"query.previous", "", {{"query.select", "2"}}, [](World& w) { EXPECT_EQ(w.view().query, 1); }});
-    add({"query.none", "", {kSelectB, kFirstQuery}, [](World& w) {
+    look("query.previous", "", [](CommandWorld& w) { EXPECT_EQ(w.view().query, 2); });
+    add({"query.previous", "", {{"query.select", "2"}}, [](CommandWorld& w) { EXPECT_EQ(w.view().query, 1); }});
+    add({"query.none", "", {kSelectB, kFirstQuery}, [](CommandWorld& w) {
              EXPECT_FALSE(w.view().query);
              EXPECT_EQ(w.session.selection.kind, Selection::Kind::path) << "one thing after the other";
          }});
-    add({"query.none", "", {kSelectB}, [](World& w) { EXPECT_EQ(w.session.selection, Selection{}); }});
+    add({"query.none", "", {kSelectB}, [](CommandWorld& w) { EXPECT_EQ(w.session.selection, Selection{}); }});
     // Asked already, as all pairs are: only shown.
-    add({"query.add", "C", {kSelectB}, [](World& w) {
+    add({"query.add", "C", {kSelectB}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().query, 2);
              EXPECT_FALSE(w.session.modified());
          }});
     add({"query.add",
          "C",
          {{"query.select", "2"}, {"query.remove", ""}, kSelectB},
-         [](World& w) {
+         [](CommandWorld& w) {
              EXPECT_EQ(w.session.fitted().queries().size(), 3u);
              EXPECT_EQ(w.view().query, 2);
              EXPECT_EQ(w.session.fitted().queries()[2].b.name, "C");
@@ -332,7 +339,7 @@ std::vector<Case> cases() {
     add({"query.remove",
          "",
          {kFirstQuery},
-         [](World& w) {
+         [](CommandWorld& w) {
              ASSERT_EQ(w.session.scene().queries.size(), 2u);
              EXPECT_EQ(w.session.fitted().queries()[0].b.name, "C");
              EXPECT_FALSE(w.view().query);
@@ -341,7 +348,7 @@ std::vector<Case> cases() {
     add({"query.expect",
          "",
          {kFirstQuery},
-         [](World& w) {
+         [](CommandWorld& w) {
              ASSERT_TRUE(w.session.scene().queries[0].expect);
              EXPECT_TRUE(w.session.scene().queries[0].expect->collides);
              EXPECT_EQ(w.session.scene().queries[0].expect->contact, w.session.recorded()->contact);
@@ -350,35 +357,36 @@ std::vector<Case> cases() {
     add({"query.expect",
          "",
          {kFirstQuery, {"query.expect", ""}},
-         [](World& w) { EXPECT_FALSE(w.session.scene().queries[0].expect); },
+         [](CommandWorld& w) { EXPECT_FALSE(w.session.scene().queries[0].expect); },
          true});
-    add({"step.first", "", {kFirstQuery}, [](World& w) { EXPECT_EQ(w.session.step(), 0); }});
-    look("step.first", "", [](World& w) {
+    add({"step.first", "", {kFirstQuery}, [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 0); }});
+    look("step.first", "", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 0) << "without a query in view the first is shown";
         EXPECT_EQ(w.session.step(), 0);
     });
-    add({"step.back", "", {kFirstQuery, {"step.to", "5"}}, [](World& w) { EXPECT_EQ(w.session.step(), 4); }});
-    in_query("step.back", "", [](World& w) { EXPECT_EQ(w.session.step(), 0); });
-    in_query("step.forward", "", [](World& w) { EXPECT_EQ(w.session.step(), 1); });
-    add({"step.forward", "", {kFirstQuery}, [](World& w) {
+    add({"step.back", "", {kFirstQuery, {"step.to", "5"}}, [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 4); }});
+    in_query("step.back", "", [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 0); });
+    in_query("step.forward", "", [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 1); });
+    add({"step.forward", "", {kFirstQuery}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1);
          }});
-    in_query("step.last", "", [](World& w) { EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1); });
-    in_query("step.to", "3", [](World& w) { EXPECT_EQ(w.session.step(), 3); });
-    add({"step.next_separated", "", {{"query.select", "1"}, kFirstStep}, [](World& w) {
+    in_query("step.last", "",
+             [](CommandWorld& w) { EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1); });
+    in_query("step.to", "3", [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 3); });
+    add({"step.next_separated", "", {{"query.select", "1"}, kFirstStep}, [](CommandWorld& w) {
              EXPECT_EQ(outcome_now(w), mobb::Outcome::separated);
          }});
-    in_query("step.next_separated", "", [](World& w) {
+    in_query("step.next_separated", "", [](CommandWorld& w) {
         // The first two walk into each other at once: wherever it stands, it is the next such test or the same.
         const bool found = outcome_now(w) == mobb::Outcome::separated;
         EXPECT_NE(found, all_messages(w.session).find("no later test") != std::string::npos);
     });
-    in_query("step.next_overlap", "", [](World& w) {
+    in_query("step.next_overlap", "", [](CommandWorld& w) {
         EXPECT_EQ(outcome_now(w), mobb::Outcome::overlap);
         EXPECT_GT(w.session.step(), 0);
     });
-    in_query("step.next_hit", "", [](World& w) { EXPECT_EQ(outcome_now(w), mobb::Outcome::hit); });
-    in_query("step.over", "", [](World& w) {
+    in_query("step.next_hit", "", [](CommandWorld& w) { EXPECT_EQ(outcome_now(w), mobb::Outcome::hit); });
+    in_query("step.over", "", [](CommandWorld& w) {
         const mobb::Trace& trace = w.session.recorded()->trace;
         EXPECT_EQ(w.session.step(), 1) << "the root pair's other test";
         // From an inner pair whose tests led to others, to one that is not below it.
@@ -391,54 +399,54 @@ std::vector<Case> cases() {
             EXPECT_LE(trace[w.session.step()].depth, trace[event].depth);
         }
     });
-    add({"step.out", "", {kFirstQuery}, [](World& w) {
+    add({"step.out", "", {kFirstQuery}, [](CommandWorld& w) {
              const mobb::Trace& trace = w.session.recorded()->trace;
              EXPECT_EQ(w.session.step(), trace[trace.size() - 1].parent);
          }});
-    in_query("step.percent", "50", [](World& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
+    in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
 
     // Go
-    look("go.palette", "", [](World& w) { EXPECT_EQ(w.session.dialog, Dialog::palette); });
-    add({"go.agent", "C", {kFirstQuery}, [](World& w) {
+    look("go.palette", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::palette); });
+    add({"go.agent", "C", {kFirstQuery}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::path, {2, -1, 0}, -1}));
              EXPECT_FALSE(w.view().query) << "the query does not show C";
          }});
-    add({"go.agent", "B", {kFirstQuery}, [](World& w) { EXPECT_TRUE(w.view().query); }});
-    look("go.clip", "stand", [](World& w) {
+    add({"go.agent", "B", {kFirstQuery}, [](CommandWorld& w) { EXPECT_TRUE(w.view().query); }});
+    look("go.clip", "stand", [](CommandWorld& w) {
         EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::clip, {}, 1}));
     });
-    look("go.node", "B 1.1", [](World& w) {
+    look("go.node", "B 1.1", [](CommandWorld& w) {
         expect_node(w, w.session.fitted().tree(0).nodes()[0].children[1]);
         EXPECT_EQ(w.view().levels, (LevelRange{1, 1, false})) << "its level is shown";
     });
-    look("go.node", "B 3", [](World& w) { expect_node(w, 3); });
-    look("go.sample", "B 59", [](World& w) {
+    look("go.node", "B 3", [](CommandWorld& w) { expect_node(w, 3); });
+    look("go.sample", "B 59", [](CommandWorld& w) {
         EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::sample, {1, -1, 0}, 59}));
     });
-    add({"go.parent", "", {{"go.node", "B 1.1"}}, [](World& w) { expect_node(w, 0); }});
-    add({"go.parent", "", {{"go.sample", "B 59"}}, [](World& w) {
+    add({"go.parent", "", {{"go.node", "B 1.1"}}, [](CommandWorld& w) { expect_node(w, 0); }});
+    add({"go.parent", "", {{"go.sample", "B 59"}}, [](CommandWorld& w) {
              const mobb::Tree& tree = w.session.fitted().tree(0);
              expect_node(w, static_cast<int>(tree.nodes().size()) - 1);
          }});
-    add({"go.child", "", {kSelectB}, [](World& w) { expect_node(w, 0); }});
-    add({"go.child", "", {{"go.node", "B 0"}}, [](World& w) { expect_node(w, 1); }});
-    add({"go.next_node", "", {{"go.node", "B 1.0"}}, [](World& w) {
+    add({"go.child", "", {kSelectB}, [](CommandWorld& w) { expect_node(w, 0); }});
+    add({"go.child", "", {{"go.node", "B 0"}}, [](CommandWorld& w) { expect_node(w, 1); }});
+    add({"go.next_node", "", {{"go.node", "B 1.0"}}, [](CommandWorld& w) {
              expect_node(w, w.session.fitted().tree(0).nodes()[0].children[1]);
          }});
-    add({"go.previous_node", "", {{"go.node", "B 1.1"}}, [](World& w) { expect_node(w, 1); }});
-    in_query("go.contact", "", [](World& w) {
+    add({"go.previous_node", "", {{"go.node", "B 1.1"}}, [](CommandWorld& w) { expect_node(w, 1); }});
+    in_query("go.contact", "", [](CommandWorld& w) {
         EXPECT_EQ(w.view().time, w.session.recorded()->contact->time);
         EXPECT_EQ(outcome_now(w), mobb::Outcome::hit);
     });
-    add({"go.none", "", {kSelectB}, [](World& w) { EXPECT_EQ(w.session.selection, Selection{}); }});
+    add({"go.none", "", {kSelectB}, [](CommandWorld& w) { EXPECT_EQ(w.session.selection, Selection{}); }});
 
     // Help
-    look("help.shortcuts", "", [](World& w) { EXPECT_EQ(w.session.dialog, Dialog::help); });
-    look("help.about", "", [](World& w) { EXPECT_EQ(w.session.dialog, Dialog::about); });
+    look("help.shortcuts", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::help); });
+    look("help.about", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::about); });
     return out;
 }
 
-std::string argument_in(const World& world, const std::string& argument) {
+std::string argument_in(const CommandWorld& world, const std::string& argument) {
     return argument.starts_with('@') ? world.path(argument.substr(1)) : argument;
 }
 
@@ -456,7 +464,7 @@ TEST(CommandEffects, EveryCommandIsTried) {
 TEST(CommandEffects, AreWhatTheyAreSaidToBe) {
     for (const Case& c : cases()) {
         SCOPED_TRACE(c.id + ' ' + c.argument);
-        World world;
+        CommandWorld world;
         Session& session = world.session;
         try {
             for (const auto& [id, argument] : c.before) run_command(session, id, argument_in(world, argument));
@@ -481,7 +489,7 @@ TEST(CommandEffects, LookingIsNoEdit) {
     for (const Case& c : cases()) {
         if (!c.id.starts_with("view.") && !c.id.starts_with("time.") && !c.id.starts_with("step.")) continue;
         SCOPED_TRACE(c.id);
-        World world;
+        CommandWorld world;
         for (const auto& [id, argument] : c.before) run_command(world.session, id, argument);
         run_command(world.session, c.id, c.argument);
         EXPECT_FALSE(world.session.modified());

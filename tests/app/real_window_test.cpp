@@ -16,8 +16,8 @@
 namespace mobbscope {
 namespace {
 
+using mobbscope::testing::TempFolder;
 using testing::slurp;
-using testing::TempFolder;
 
 const std::string kHere = MOBBSCOPE_SOURCE_DIR "/tests/app/";
 constexpr int kLacking = 77;

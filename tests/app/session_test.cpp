@@ -31,6 +31,16 @@ struct Edited {
     double x() const { return session.scene().agents[0].placement.translate.x; }
 };
 
+/// A scene whose tightest trees take long.
+std::filesystem::path long_walk(const CrossingFolder& folder) {
+    std::string text = "t,x,y,r\n";
+    for (int i = 0; i < 20'000; ++i) {
+        text += std::to_string(i / 30.0) + ',' + std::to_string(std::cos(0.01 * i)) + ',' +
+                std::to_string(std::sin(0.013 * i)) + ",0.4\n";
+    }
+    return folder.write("long.csv", text);
+}
+
 // --- undo
 
 TEST(Undo, OneInteractionIsTakenBackAtOnce) {
@@ -81,6 +91,105 @@ TEST(Undo, GoesBackFiveHundredStatesAtMost) {
     for (; e.session.history().can_undo(); ++undone) e.session.undo();
     EXPECT_EQ(undone, 499);
     EXPECT_EQ(e.x(), 10 + 599 - 499);
+}
+
+TEST(Undo, LookingAroundAfterAnUndoIsTakenBackToo) {
+    Edited e;
+    const ViewState start = e.session.view();
+    run_command(e.session, "view.boxes");
+    const ViewState end = e.session.view();
+    e.session.undo();
+    e.session.undo();
+    run_command(e.session, "view.top");
+    e.session.undo();
+    EXPECT_EQ(e.session.view(), start) << "what cannot be taken back further is as it was";
+    EXPECT_FALSE(e.session.history().can_undo());
+    while (e.session.history().can_redo()) e.session.redo();
+    EXPECT_EQ(e.session.view(), end);
+    EXPECT_EQ(e.x(), 4);
+}
+
+TEST(Undo, WhatPlaysIsOneStepAndSoIsADragMeanwhile) {
+    Edited e;
+    e.session.close_group();
+    const std::size_t before = e.session.history().count();
+    run_command(e.session, "time.play");
+    for (int i = 0; i < 20; ++i) {
+        e.session.advance(0.01);
+        e.move(5 + i);
+    }
+    e.session.close_group();
+    for (int i = 0; i < 20; ++i) {
+        e.session.advance(0.01);
+        e.session.look([&](ViewState& view) { view.camera.yaw_deg = i; });
+    }
+    EXPECT_NEAR(*e.session.view().time, 0.4, 1e-9);
+    EXPECT_EQ(e.session.history().count(), before + 3);
+    e.session.undo();
+    EXPECT_EQ(e.x(), 24);
+    EXPECT_EQ(e.session.history().undo_title(), "moving A");
+    e.session.undo();
+    EXPECT_EQ(e.x(), 4);
+    EXPECT_EQ(e.session.history().undo_title(), "moving in time");
+    e.session.undo();
+    EXPECT_EQ(e.session.view().time, std::nullopt);
+}
+
+TEST(Undo, StopsWhatPlays) {
+    Edited e;
+    run_command(e.session, "time.play");
+    e.session.advance(0.1);
+    e.session.undo();
+    EXPECT_FALSE(e.session.playing());
+    e.session.redo();
+    EXPECT_EQ(e.session.view().time, 0.1);
+    run_command(e.session, "time.play");
+    e.session.undo();
+    e.session.redo();
+    EXPECT_FALSE(e.session.playing());
+}
+
+TEST(Undo, WhatStandsStillWhilePlayingIsNoStep) {
+    Edited e;
+    run_command(e.session, "time.at", "0.5");
+    run_command(e.session, "view.top");
+    e.session.speed = 0;
+    run_command(e.session, "time.play");
+    const std::size_t before = e.session.history().count();
+    for (int i = 0; i < 3; ++i) e.session.advance(0.1);
+    EXPECT_EQ(e.session.history().count(), before);
+    e.session.speed = 1;
+    for (int i = 0; i < 3; ++i) e.session.advance(0.1);
+    EXPECT_EQ(e.session.history().count(), before + 1);
+}
+
+TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({long_walk(folder)});
+    const auto fitted_with = [&](int leaf) {
+        Scene scene = session.scene();
+        scene.fit.leaf = leaf;
+        const mobb::FitOptions fit = scene.fit;
+        return Document{std::make_shared<const FittedScene>(std::move(scene), fit, session.document().fitted.get()),
+                        session.view()};
+    };
+    const Document start = session.document();
+    const std::size_t each = fitted_with(20).fitted->bytes_beyond(*start.fitted);
+    History history(start, 3 * each);
+    for (int i = 0; i < 10; ++i) {
+        history.change(fitted_with(20 + i), {"fitting", ""});
+        ViewState view = history.now().view;
+        view.boxes = !view.boxes;
+        history.look(view);
+        EXPECT_LE(history.bytes(), 3 * each);
+    }
+    EXPECT_GE(history.count(), 7u) << "views take nothing";
+    EXPECT_LE(history.count(), 9u);
+    while (history.can_undo()) history.undo();
+    EXPECT_GT(history.now().fitted->options().leaf, 24) << "the oldest that is left";
+    history.reset(start);
+    EXPECT_EQ(history.bytes(), 0u);
 }
 
 TEST(Undo, OneDragOfAFitOptionIsOneEdit) {
@@ -318,16 +427,6 @@ TEST(Unsaved, ASaveThatFailsAsksOn) {
 
 // --- jobs
 
-/// A scene whose tightest trees take long.
-std::filesystem::path long_walk(const CrossingFolder& folder) {
-    std::string text = "t,x,y,r\n";
-    for (int i = 0; i < 20'000; ++i) {
-        text += std::to_string(i / 30.0) + ',' + std::to_string(std::cos(0.01 * i)) + ',' +
-                std::to_string(std::sin(0.013 * i)) + ",0.4\n";
-    }
-    return folder.write("long.csv", text);
-}
-
 TEST(Jobs, ACancelledFitLeavesTheDocument) {
     CrossingFolder folder;
     long_walk(folder);
@@ -380,6 +479,22 @@ TEST(Jobs, WhatPlaysWaitsForThem) {
     const ViewState before = session.view();
     session.advance(0.1);
     EXPECT_EQ(session.view(), before) << "the job would set it back";
+}
+
+TEST(Jobs, TheDocumentIsNotLeftForAnExcerptMeanwhile) {
+    CrossingFolder folder;
+    Session session(true);
+    session.open({long_walk(folder)});
+    while (session.job()) session.poll();
+    const Participant who = session.fitted().participants().front();
+    const Participant other = who;
+    session.open_excerpt(who, other);
+    run_command(session, "tree.axes", "minarea");
+    ASSERT_TRUE(session.job());
+    const auto before = session.document().fitted;
+    EXPECT_THROW(session.open_excerpt(who, other), std::invalid_argument);
+    EXPECT_THROW(session.leave_excerpt(), std::invalid_argument);
+    EXPECT_EQ(session.document().fitted, before);
 }
 
 TEST(Jobs, UnattendedTheyAreWaitedFor) {

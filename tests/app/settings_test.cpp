@@ -11,7 +11,7 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::TempFolder;
+using mobbscope::testing::TempFolder;
 
 TEST(Settings, AreReadBackAsTheyWereWritten) {
     const TempFolder folder;

@@ -23,14 +23,14 @@
 namespace mobbscope::app {
 namespace {
 
-using testing::TempFolder;
+using mobbscope::testing::TempFolder;
 
 constexpr PictureSize kSize{800, 500};
 
 class ShellTest : public ::testing::TestWithParam<Backend> {
   protected:
     void SetUp() override {
-        if (!testing::open_or_skip(GetParam())) return;
+        if (!mobbscope::testing::open_or_skip(GetParam())) return;
         window = std::make_unique<HeadlessWindow>(GlContext::open(GetParam()), session, kSize, 1);
         session.open_demo();
         window->settle();
@@ -72,6 +72,28 @@ TEST_P(ShellTest, TheThemeIsTheViews) {
     EXPECT_GT(brightness(), 200);
 }
 
+TEST_P(ShellTest, AFieldUndoesNothingThatWasTypedIntoAnotherDialogs) {
+    run("key Ctrl+P\ntype abcdefgh\nkey Escape\nkey Ctrl+P\nkey Ctrl+Z\nkey Ctrl+Z\ntype xy");
+    EXPECT_EQ(session.input.text, "xy");
+}
+
+TEST_P(ShellTest, FramesThatNobodyLooksAtAreNotDrawn) {
+    run("key B\nclick viewport\ndrag viewport 40 20\nscroll viewport 2\nkey T\nkey B");
+    EXPECT_EQ(window->shell().frames_drawn(), 0);
+    const Image seen = window->shell().read_back();
+    EXPECT_EQ(window->shell().frames_drawn(), 1);
+    EXPECT_EQ(window->shell().read_back().rgba, seen.rgba);
+    EXPECT_EQ(window->shell().frames_drawn(), 1) << "it is there already";
+    run("key B");
+    EXPECT_NE(window->shell().read_back().rgba, seen.rgba);
+}
+
+TEST_P(ShellTest, WhatPlaysIsNotWaitedFor) {
+    run("run time.play\nkey B\nkey B\nclick viewport");
+    EXPECT_TRUE(session.playing());
+    EXPECT_LT(*session.view().time, 1) << "a few frames for each";
+}
+
 TEST_P(ShellTest, UntilRunsFramesUntilItHolds) {
     run("run time.play\nuntil 30 /time ~ 1 0.2\nrun time.play\nuntil 1 viewport\nuntil 0 /playing != true");
     for (const char* script : {"until 0.2 /time -1", "until 0.2 no.widget"}) {
@@ -88,7 +110,7 @@ TEST_P(ShellTest, MarksGoToAFile) {
     const TempFolder folder;
     const std::string file = folder.path() / "marks.txt";
     EXPECT_EQ(run("marks " + file), "");
-    EXPECT_EQ(testing::slurp(file), run("marks"));
+    EXPECT_EQ(mobbscope::testing::slurp(file), run("marks"));
 }
 
 TEST_P(ShellTest, ADragOfAWidgetByNameMovesIt) {
@@ -186,6 +208,8 @@ TEST_P(ShellTest, AnExpectationThatFailsNamesItsLine) {
     for (const auto& [script, says] : std::vector<std::pair<std::string, std::string>>{
              {"\n# two\nexpect /title \"other\"", "test: line 3: /title is \"crossing\", expected \"other\""},
              {"expect /modified != false", "line 1: /modified is false, expected anything but false"},
+             {"expect /" + std::string(5000, 'x') + " \"" + std::string(5000, 'y') + "\"",
+              "x\u2026" + std::string(99, 'x') + " is null, expected \"" + std::string(99, 'y') + "\u2026"},
              {"expect /scene/agents/1/start ~ 0.8 0.01",
               "line 1: /scene/agents/1/start is 0.9, expected 0.8 within 0.01"},
              {"expect /scene/agents {}", "line 1: /scene/agents is ["}}) {
@@ -199,12 +223,13 @@ TEST_P(ShellTest, AnExpectationThatFailsNamesItsLine) {
     EXPECT_THROW(run("click no.such.widget"), InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl),
+                         mobbscope::testing::backend_name);
 
 class UiPassTest : public ::testing::TestWithParam<Backend> {};
 
 TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
-    const std::unique_ptr<Renderer> renderer = testing::open_or_skip(GetParam());
+    const std::unique_ptr<Renderer> renderer = mobbscope::testing::open_or_skip(GetParam());
     if (!renderer) return;
     ImGuiContext* imgui = ImGui::CreateContext();
     ImGui::SetCurrentContext(imgui);
@@ -238,7 +263,8 @@ TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
     ImGui::DestroyContext(imgui);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, UiPassTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+INSTANTIATE_TEST_SUITE_P(Backends, UiPassTest, ::testing::Values(Backend::osmesa, Backend::egl),
+                         mobbscope::testing::backend_name);
 
 }  // namespace
 }  // namespace mobbscope::app

@@ -44,7 +44,7 @@ const std::vector<Steps> kSituations{
 };
 
 /// A window, again and again on a new folder's scene after what was done.
-struct World {
+struct KeyWorld {
     std::unique_ptr<CrossingFolder> folder;
     std::unique_ptr<Session> session;
     std::unique_ptr<HeadlessWindow> window;
@@ -92,7 +92,7 @@ struct World {
             const std::size_t at = text.find(here);
             if (at != std::string::npos) message["text"] = text.erase(at, here.size());
         }
-        if (session->playing) {
+        if (session->playing()) {
             // Frames go by until it is looked at.
             json.erase("time");
             json["view"].erase("time");
@@ -104,7 +104,7 @@ struct World {
     }
 };
 
-std::vector<std::string> words(std::string_view text) {
+std::vector<std::string> chords_of(std::string_view text) {
     std::istringstream in{std::string(text)};
     std::vector<std::string> out;
     for (std::string word; in >> word;) out.push_back(word);
@@ -112,7 +112,7 @@ std::vector<std::string> words(std::string_view text) {
 }
 
 /// That in some situation the chord does what the command does, and that is something.
-void expect_works(World& world, const Command& command, const Chord& chord) {
+void expect_works(KeyWorld& world, const Command& command, const Chord& chord) {
     for (const Steps& situation : kSituations) {
         world.begin(situation);
         if (!command.enabled(*world.session)) continue;
@@ -130,13 +130,13 @@ void expect_works(World& world, const Command& command, const Chord& chord) {
 }
 
 TEST(Shortcuts, EachDoesWhatItsCommandDoes) {
-    World world;
+    KeyWorld world;
     int tried = 0;
     for (const Command& command : commands()) {
         // crowd.script presses those of crowds.
         const bool of_crowds = command.id.starts_with("crowd.") || command.id.starts_with("conflicts.");
         if (of_crowds && command.id != "crowd.follow") continue;
-        for (const std::string& name : words(command.shortcut)) {
+        for (const std::string& name : chords_of(command.shortcut)) {
             SCOPED_TRACE(std::string(command.id) + " by " + name);
             expect_works(world, command, *chord_from_name(name));
             ++tried;
@@ -146,7 +146,7 @@ TEST(Shortcuts, EachDoesWhatItsCommandDoes) {
 }
 
 /// A letter as a keyboard sends it: the key, and what it types.
-void type(const World& world, Key key, char32_t code) {
+void type(const KeyWorld& world, Key key, char32_t code) {
     world.window->shell().feed(KeyPress{key, true});
     world.window->shell().feed(TypedText{code});
     world.window->shell().feed(KeyPress{key, false});
@@ -154,7 +154,7 @@ void type(const World& world, Key key, char32_t code) {
 }
 
 TEST(Shortcuts, TextFieldsKeepTheirLetters) {
-    World world;
+    KeyWorld world;
     world.begin({{"go.agent", "A"}});
     const auto mark = world.window->shell().marks().all().find("agent.name");
     ASSERT_NE(mark, world.window->shell().marks().all().end());
@@ -167,7 +167,7 @@ TEST(Shortcuts, TextFieldsKeepTheirLetters) {
     const Json before = world.outcome();
     std::string typed;
     for (const Command& command : commands()) {
-        for (const std::string& name : words(command.shortcut)) {
+        for (const std::string& name : chords_of(command.shortcut)) {
             if (name.size() != 1) continue;  // a chord, or a key that types nothing
             const char c = name[0] >= 'A' && name[0] <= 'Z' ? static_cast<char>(name[0] - 'A' + 'a') : name[0];
             type(world, chord_from_name(name)->key, static_cast<char32_t>(c));

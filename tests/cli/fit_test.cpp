@@ -18,16 +18,16 @@ using testing::keys;
 using testing::Result;
 using testing::run_program;
 
-const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
+const std::string kFitScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
 TEST(Fit, JsonIsTheTree) {
-    const Result run = run_program({"fit", kScenes + "crossing.json", "--json", "--tree", "umobb", "--leaf", "7",
+    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "umobb", "--leaf", "7",
                                     "--axes", "covariance", "--time-scale", "1.5", "--levels", "4"});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     const json trees = json::parse(run.out)["trees"];
     ASSERT_EQ(trees.size(), 2u);
-    const FittedScene fitted(load_scene(kScenes + "crossing.json"),
+    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"),
                              {mobb::TreeKind::umobb, 7, 4, mobb::Axes::covariance, 1.5});
     const mobb::Tree& tree = fitted.tree(1);
     const json& printed = trees[1];
@@ -73,11 +73,11 @@ TEST(Fit, JsonIsTheTree) {
 }
 
 TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
-    const Result run = run_program({"fit", kScenes + "crossing.json", "--json", "--tree", "moving"});
+    const Result run = run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "moving"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json printed = json::parse(run.out)["trees"][1];
     EXPECT_EQ(printed["tree"], "moving");
-    const Scene scene = load_scene(kScenes + "crossing.json");
+    const Scene scene = load_scene(kFitScenes + "crossing.json");
     const std::span<const mobb::Disk> samples = scene.clips[1].clip->samples();
     for (const json& node : printed["nodes"]) {
         EXPECT_EQ(keys(node), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
@@ -110,7 +110,8 @@ TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {
 }
 
 TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
-    const Result run = run_program({"fit", kScenes + "crossing.json", "--json", "--tree", "aabb", "--axes", "minarea"});
+    const Result run =
+        run_program({"fit", kFitScenes + "crossing.json", "--json", "--tree", "aabb", "--axes", "minarea"});
     ASSERT_EQ(run.status, 0) << run.err;
     const json result = json::parse(run.out);
     ASSERT_FALSE(result["trees"][1]["nodes"].empty());
@@ -123,7 +124,7 @@ TEST(Fit, AnAabbIsAFlatBoxAlongXAndY) {
 }
 
 TEST(Fit, TextHasALineForEachLevel) {
-    const Result run = run_program({"fit", kScenes + "circles.json", "--levels", "3"});
+    const Result run = run_program({"fit", kFitScenes + "circles.json", "--levels", "3"});
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 5);
     EXPECT_TRUE(run.out.starts_with("circles: 1260 samples in 42 s; mobb tree of 7 nodes"));

@@ -94,6 +94,31 @@ TEST_F(GraphTest, ABrokenBoundIsExitStatus1) {
     expect_refused({"graph", "info", path("speed.json")}, "the change of the root's velocity is", 1);
 }
 
+TEST_F(GraphTest, NoSpeedIsInfinite) {
+    const std::string graph =
+        R"("graph": {"hubs": [{"name": "h"}], "moves": [{"clip": "c", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [1, 0, 0]}]})";
+    const std::string fast = folder_->write(
+        "fast.json", R"({"clips": {"c": {"dt": 1e-12, "samples": [[-1e9, 0, 1], [1e9, 0, 1]]}}, )" + graph + "}");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"graph", "info", fast}, {"graph", "info", fast, "--json"}, {"info", fast}}) {
+        const Result run = run_program(command);
+        EXPECT_EQ(run.status, 0) << run.err;
+        for (const char* no_number : {" inf", " nan", " -nan", "\"root_speed\": {\"count\": 1, \"median\": null"}) {
+            EXPECT_EQ(run.out.find(no_number), std::string::npos) << run.out;
+        }
+    }
+    const std::string damaged =
+        folder_->write("damaged.json", R"({"clips": {"c": {"dt": 1e-310, "samples": [[0, 0, 1]]}}, )" + graph + "}");
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"graph", "info", damaged},
+                                                    {"graph", "draw", damaged, "-o", path("x.png")},
+                                                    {"info", damaged},
+                                                    {"simulate", damaged, "-o", path("x.json")}}) {
+        expect_refused(command, "damaged.json: line 1, /clips/c/dt: dt must be a finite number of at least 1e-12 s");
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("x.json")));
+    EXPECT_FALSE(std::filesystem::exists(path("x.png")));
+}
+
 TEST_F(GraphTest, WithSamplesInsideItStandsAlone) {
     const TempFolder elsewhere;
     const std::string file = elsewhere.path() / "g.json";

@@ -20,7 +20,7 @@ using testing::run_program;
 using testing::slurp;
 using testing::TempFolder;
 
-const std::string kScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
+const std::string kQueryScenes = MOBBSCOPE_SOURCE_DIR "/assets/scenes/";
 
 json results(const std::vector<std::string>& arguments) {
     const Result run = run_program(arguments);
@@ -30,7 +30,7 @@ json results(const std::vector<std::string>& arguments) {
 }
 
 TEST(Query, JsonIsTheAnswer) {
-    const std::string file = kScenes + "collision.json";
+    const std::string file = kQueryScenes + "collision.json";
     const json found = results({"query", file, "--json"});
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(keys(found[0]), (std::set<std::string>{"query", "a", "b", "collides", "contact", "tests"}));
@@ -54,14 +54,14 @@ TEST(Query, JsonIsTheAnswer) {
 }
 
 TEST(Query, NoCollisionHasNoContact) {
-    const json found = results({"query", kScenes + "crossing.json", "--json", "--all-contacts"});
+    const json found = results({"query", kQueryScenes + "crossing.json", "--json", "--all-contacts"});
     EXPECT_EQ(found[0]["collides"], false);
     EXPECT_TRUE(found[0]["contact"].is_null());
     EXPECT_EQ(found[0]["contacts"], json::array());
 }
 
 TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {
-    const std::string file = kScenes + "collision.json";
+    const std::string file = kQueryScenes + "collision.json";
     const json brute = results({"query", file, "--json", "--all-contacts", "--tree", "brute"});
     EXPECT_EQ(brute[0]["tests"]["time"], 0);
     EXPECT_GT(brute[0]["tests"]["samples"], 0);
@@ -76,7 +76,7 @@ TEST(Query, EveryTreeAndTheDirectSearchGiveTheSameContacts) {
 }
 
 TEST(Query, TheTraceIsTheRecord) {
-    const std::string file = kScenes + "collision.json";
+    const std::string file = kQueryScenes + "collision.json";
     const json found = results({"query", file, "--json", "--trace", "--tree", "umobb"});
     const Scene scene = load_scene(file);
     mobb::FitOptions options = scene.fit;
@@ -114,7 +114,7 @@ TEST(Query, TheTraceIsTheRecord) {
 }
 
 TEST(Query, TheTraceOfTheDirectSearchIsOneTestOfSamples) {
-    const json found = results({"query", kScenes + "collision.json", "--json", "--trace", "--tree", "brute"});
+    const json found = results({"query", kQueryScenes + "collision.json", "--json", "--trace", "--tree", "brute"});
     const json& trace = found[0]["trace"];
     ASSERT_EQ(trace.size(), 1u);
     EXPECT_EQ(trace[0]["test"], "samples");
@@ -126,7 +126,7 @@ TEST(Query, TheTraceOfTheDirectSearchIsOneTestOfSamples) {
 }
 
 TEST(Query, LevelsCutTheTreeButNotTheAnswer) {
-    const std::string file = kScenes + "collision.json";
+    const std::string file = kQueryScenes + "collision.json";
     const json whole = results({"query", file, "--json", "--all-contacts"});
     const json cut = results({"query", file, "--json", "--all-contacts", "--levels", "1"});
     EXPECT_EQ(cut[0]["contact"], whole[0]["contact"]);
@@ -168,17 +168,18 @@ TEST(Query, ACrowdsPairsAreAskedInOrder) {
 }
 
 TEST(Query, TextIsASentence) {
-    const Result run = run_program({"query", kScenes + "collision.json", "--trace", "--all-contacts"});
+    const Result run = run_program({"query", kQueryScenes + "collision.json", "--trace", "--all-contacts"});
     EXPECT_EQ(run.status, 0);
     EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.43333 s: sample 73 of A and sample 67 of B")) << run.out;
     EXPECT_NE(run.out.find("In contact: 2.43333 to "), std::string::npos);
     EXPECT_NE(run.out.find("samples: hit"), std::string::npos);
-    EXPECT_NE(run_program({"query", kScenes + "crossing.json"}).out.find("A and B never collide."), std::string::npos);
+    EXPECT_NE(run_program({"query", kQueryScenes + "crossing.json"}).out.find("A and B never collide."),
+              std::string::npos);
 }
 
 TEST(Query, WithNothingToAskItIsRefused) {
     for (const char* file : {"circles.json", "walk.csv"}) {
-        const Result run = run_program({"query", kScenes + file});
+        const Result run = run_program({"query", kQueryScenes + file});
         EXPECT_EQ(run.status, 2) << file;
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
         EXPECT_EQ(run.out, "");
@@ -187,9 +188,9 @@ TEST(Query, WithNothingToAskItIsRefused) {
 
 /// collision.json with another expectation.
 std::string expecting(const TempFolder& folder, const std::string& expectation) {
-    json scene = json::parse(slurp(kScenes + "collision.json"));
+    json scene = json::parse(slurp(kQueryScenes + "collision.json"));
     scene["queries"][0]["expect"] = json::parse(expectation);
-    for (json& clip : scene["clips"]) clip["source"] = kScenes + clip["source"].get<std::string>();
+    for (json& clip : scene["clips"]) clip["source"] = kQueryScenes + clip["source"].get<std::string>();
     return folder.write("s.json", scene.dump());
 }
 
@@ -200,7 +201,7 @@ TEST(Query, AnAnswerThatIsNotTheExpectedOneIsStatusOne) {
     EXPECT_EQ(json::parse(denied.out)["results"][0]["collides"], true) << "the answer is told all the same";
     EXPECT_NE(denied.err.find("query 0: expected no collision, but A and B collide at 2.43333 s"), std::string::npos);
 
-    const json contact = results({"query", kScenes + "collision.json", "--json"})[0]["contact"];
+    const json contact = results({"query", kQueryScenes + "collision.json", "--json"})[0]["contact"];
     json expectation = {{"collides", true}, {"contact", contact}};
     EXPECT_EQ(run_program({"query", expecting(folder, expectation.dump())}).status, 0);
     expectation["contact"]["b_sample"] = 66;

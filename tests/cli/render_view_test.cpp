@@ -40,14 +40,32 @@ TEST(RenderView, ABadViewStateNamesItsPlace) {
     refused("{", "view.json: line 1");
     refused(R"({"theem": "dark"})", "view.json: line 1, /theem");
     refused(R"({"camera": {"target": [0, 0, 0]}})", "/camera");
-    refused(R"({"query": 7})", "there is no query 7");
+    // What the scene does not have: both files are named.
+    const std::string both = std::string(": ") + kCrossing + ": there is no ";
+    refused(R"({"query": 7})", "view.json: line 1, /query" + both + "query 7");
+    refused("{\"query\": 0,\n\"step\": 99999}", "view.json: line 2, /step" + both + "step 99999");
+    refused(R"({"follow": "nobody", "show": "moment"})", "view.json: line 1, /follow" + both + "agent 'nobody'");
+    refused(R"({"projection": {"participant": 9}})", "view.json: line 1, /projection" + both + "participant 9");
+    refused(R"({"projection": {"node": 99999}})", "view.json: line 1, /projection" + both + "node 99999");
+    refused(R"({"clips": {}, "view": {"query": 7}})", "view.json: line 1, /view/query" + both + "query 7");
     refused("[]", "view.json: line 1");
+    // What the command line or the scene says itself is not blamed on the view's file.
+    const std::string good = folder.write("view.json", R"({"query": 0, "step": 0})");
+    const std::string scene = folder.write("scene.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]}},
+        "view": {"follow": "nobody", "show": "moment"}})");
+    const std::string out = folder.path() / "o.png";
+    expect_refused(render_small({kCrossing, "--view-state", good, "--query", "7", "-o", out}), 2,
+                   std::string(kCrossing) + ": there is no query 7");
+    expect_refused(
+        render_small({scene, "--view-state", folder.write("theme.json", R"({"theme": "light"})"), "-o", out}), 2,
+        "scene.json: line 2, /view/follow: there is no agent 'nobody'");
     expect_refused(render_small({kCrossing, "--view-state", "none.json", "-o", folder.path() / "o.png"}), 2,
                    "none.json");
     // What is read must not be replaced, whatever it is called.
     const std::string state = folder.write("state.png", "{}");
     expect_refused(render_small({kCrossing, "--view-state", state, "-o", state}), 2, "would replace");
-    EXPECT_EQ(testing::files_in(folder.path()), (std::set<std::string>{"state.png", "view.json"}));
+    EXPECT_EQ(testing::files_in(folder.path()),
+              (std::set<std::string>{"scene.json", "state.png", "theme.json", "view.json"}));
 }
 
 TEST_F(RenderViewTest, CamerasAreExact) {

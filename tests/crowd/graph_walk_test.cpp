@@ -1,5 +1,7 @@
 #include <crowd/graph_walk.h>
 
+#include <support/input_error.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,6 +41,14 @@ TEST(GraphWalk, TheNextMoveBeginsOneStepBehindTheLastSample) {
     const mobb::Disk last = mobb::PlacedClip(clip, first).disk(99);
     const mobb::Disk next = mobb::PlacedClip(clip, second).disk(0);
     EXPECT_NEAR(std::hypot(next.x - last.x, next.y - last.y), 0.157, 0.001);
+}
+
+TEST(GraphWalk, AWholeClipThatIsNoMoveIsRefused) {
+    Scene scene;
+    scene.clips.push_back(
+        {"far", "far.csv", {}, std::make_shared<mobb::Clip>(0.1, std::vector{mobb::Disk{-2e6, 0, 1}})});
+    EXPECT_EQ(testing::input_error([&] { graph_of_whole_clips(scene); }),
+              "far.csv: clip 'far': begins or ends more than 1e+06 m from the origin; move it there");
 }
 
 TEST(GraphWalk, MovesAreFoundByTheirFirstHub) {

@@ -26,7 +26,7 @@ printf '{"clips": {"a": {"dt": 1, "samples": [[0, 0, 1]]}}}' >"$folder/probe.jso
 cd "$folder/work"
 # Sanitizers keep what they were told.
 kept=(${ASAN_OPTIONS:+"ASAN_OPTIONS=$ASAN_OPTIONS"} ${UBSAN_OPTIONS:+"UBSAN_OPTIONS=$UBSAN_OPTIONS"})
-env -i "${kept[@]}" PATH="$folder/bin:/usr/bin:/bin" HOME="$folder/home" bash -euo pipefail "$folder/commands"
+env -i "${kept[@]}" PATH="$folder/bin:$PATH" HOME="$folder/home" bash -euo pipefail "$folder/commands"
 # What was promised is there.
 grep -q '<failure' report/junit.xml
 grep -q 'mobbscope test pictures --update meeting' report/index.html

@@ -30,7 +30,7 @@ void expect_near(const glm::dvec3& p, double x, double y, double z) {
     EXPECT_NEAR(p.z, z, 1e-9);
 }
 
-std::string refusal(const std::string& text) {
+std::string bvh_refusal(const std::string& text) {
     return input_error([&] { parse_bvh(text, kFile); });
 }
 
@@ -129,7 +129,7 @@ TEST(Bvh, DeepHierarchiesNeedNoStack) {
 
 TEST(Bvh, MessagesNameLineAndRemedy) {
     const auto expect = [](const std::string& text, const std::string& message) {
-        EXPECT_EQ(refusal(text), "walk.bvh: " + message);
+        EXPECT_EQ(bvh_refusal(text), "walk.bvh: " + message);
     };
     const auto with = [](const std::string& what, const std::string& instead) {
         return replaced(kWalker, what, instead);

@@ -19,7 +19,7 @@ const mobb::Clip& only(const std::vector<ImportedClip>& clips) {
     return *clips.at(0).clip;
 }
 
-std::string refusal(std::string_view text, const ImportOptions& options = {}) {
+std::string csv_refusal(std::string_view text, const ImportOptions& options = {}) {
     return input_error([&] { clips(text, options); });
 }
 
@@ -56,7 +56,7 @@ TEST(Csv, TracksAreSplitById) {
     one.id = "7";
     EXPECT_EQ(only(clips(text, one)).samples()[0].x, 1);
     one.id = "8";
-    EXPECT_NE(refusal(text, one).find("no track '8'"), std::string::npos);
+    EXPECT_NE(csv_refusal(text, one).find("no track '8'"), std::string::npos);
     EXPECT_EQ(csv_field(both[1].id), "\"a,\"\"b\"");
 }
 
@@ -93,12 +93,12 @@ TEST(Csv, AWarningNamesTheLineInTheFileNotInTheTrack) {
 }
 
 TEST(Csv, WithoutTimesDtIsNeeded) {
-    EXPECT_EQ(refusal("x,y,r\n0,0,0.4\n"),
+    EXPECT_EQ(csv_refusal("x,y,r\n0,0,0.4\n"),
               "f.csv: line 2: there is no column t; name one or give dt (seconds between rows)");
     ImportOptions options;
     options.dt = 0.25;
     EXPECT_EQ(only(clips("x,y,r\n0,0,0.4\n1,0,0.4\n", options)).dt(), 0.25);
-    EXPECT_NE(refusal("t,x,y,r\n0,0,0,0.4\n").find("one row does not tell how long it lasts"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,0.4\n").find("one row does not tell how long it lasts"), std::string::npos);
     const auto one = clips("t,x,y,r\n3,0,0,0.4\n", options);
     EXPECT_EQ(only(one).dt(), 0.25);
     EXPECT_EQ(one[0].facts.warnings, std::vector<std::string>{"there is one row: it holds for 0.25 s"});
@@ -106,7 +106,7 @@ TEST(Csv, WithoutTimesDtIsNeeded) {
 }
 
 TEST(Csv, RadiusMayComeFromOutside) {
-    EXPECT_NE(refusal("t,x,y\n0,0,0\n1,0,0\n").find("no column r"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,y\n0,0,0\n1,0,0\n").find("no column r"), std::string::npos);
     ImportOptions options;
     options.radius = 0.3;
     EXPECT_EQ(only(clips("t,x,y\n0,0,0\n1,0,0\n", options)).samples()[1].r, 0.3);
@@ -125,7 +125,7 @@ TEST(Csv, UnitScalesLengthsButNotTheRadiusGivenInMetres) {
     options.unit = "2.5";
     EXPECT_EQ(only(clips("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options)).samples()[0].x, 5);
     options.unit = "auto";
-    EXPECT_NE(refusal("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options).find("unit 'auto' does not apply to CSV"),
+    EXPECT_NE(csv_refusal("t,x,y,r\n0,2,0,0\n1,0,0,0\n", options).find("unit 'auto' does not apply to CSV"),
               std::string::npos);
 }
 
@@ -145,7 +145,7 @@ TEST(Csv, TrimTakesSecondsFromTheFirstRow) {
     EXPECT_EQ(only(clips(text, options)).count(), 8);
     EXPECT_EQ(only(clips(text, options)).samples()[0].x, 2.5);
     options.trim = {20, 30};
-    EXPECT_NE(refusal(text, options).find("trim begins at 20 s but the file lasts 10 s"), std::string::npos);
+    EXPECT_NE(csv_refusal(text, options).find("trim begins at 20 s but the file lasts 10 s"), std::string::npos);
 }
 
 TEST(Csv, OptionsOutOfRangeOrForOtherFormatsAreRefused) {
@@ -170,32 +170,33 @@ TEST(Csv, OptionsOutOfRangeOrForOtherFormatsAreRefused) {
 }
 
 TEST(Csv, MessagesNameLineColumnAndRemedy) {
-    EXPECT_EQ(refusal("x,y,t,r\n0,0,0,0.4\n0,abc,1,0.4\n"),
+    EXPECT_EQ(csv_refusal("x,y,t,r\n0,0,0,0.4\n0,abc,1,0.4\n"),
               "f.csv: line 3, column 2 (y): 'abc' is no finite number; write it like 0.25");
-    EXPECT_EQ(refusal("x,y,t,r\n\n0,0,0,\n"), "f.csv: line 3, column 4 (r): the field is empty; give a number");
-    EXPECT_EQ(refusal("x,y,t,speed\n0,0,0,1\n"),
+    EXPECT_EQ(csv_refusal("x,y,t,r\n\n0,0,0,\n"), "f.csv: line 3, column 4 (r): the field is empty; give a number");
+    EXPECT_EQ(csv_refusal("x,y,t,speed\n0,0,0,1\n"),
               "f.csv: line 1, column 4: the column 'speed' is unknown; the header may name id, t, x, y and r");
-    EXPECT_EQ(refusal("x;y;t;r\n"),
+    EXPECT_EQ(csv_refusal("x;y;t;r\n"),
               "f.csv: line 1: separate fields with commas, not semicolons (and write 0.5, not 0,5)");
-    EXPECT_NE(refusal("x,y,x,r\n").find("stands twice"), std::string::npos);
-    EXPECT_NE(refusal("t,x,r\n").find("no column y"), std::string::npos);
-    EXPECT_NE(refusal("t,x,y,r\n0,0,0,\"0.4\n").find("quote is not closed"), std::string::npos);
-    EXPECT_NE(refusal("t,x,y,r\n0,0,0,\"0.4\"5\n").find("comma must follow"), std::string::npos);
-    EXPECT_NE(refusal("id,t,x,y,r\n,0,0,0,0\n").find("name the track"), std::string::npos);
-    EXPECT_NE(refusal("id,t,x,y,r\ncaf\xe9,0,0,0,0\n").find("no UTF-8 text"), std::string::npos);
-    EXPECT_NE(refusal("t,x,y,r\r0,0,0,0\r").find("carriage returns"), std::string::npos);
+    EXPECT_NE(csv_refusal("x,y,x,r\n").find("stands twice"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,r\n").find("no column y"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,\"0.4\n").find("quote is not closed"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,\"0.4\"5\n").find("comma must follow"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,t,x,y,r\n,0,0,0,0\n").find("name the track"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,t,x,y,r\ncaf\xe9,0,0,0,0\n").find("no UTF-8 text"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,y,r\r0,0,0,0\r").find("carriage returns"), std::string::npos);
 }
 
 TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {
-    EXPECT_NE(refusal("t,x,y,r\n0,0,0,0\n1,0,0,0\n1e12,0,0,0\n").find("more than 10000000 samples"), std::string::npos);
+    EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,0\n1,0,0,0\n1e12,0,0,0\n").find("more than 10000000 samples"),
+              std::string::npos);
     std::string many_commas = "t,x,y,r\n" + std::string(5'000'000, ',') + "\n";
-    EXPECT_NE(refusal(many_commas).find("more than 4 values"), std::string::npos);
+    EXPECT_NE(csv_refusal(many_commas).find("more than 4 values"), std::string::npos);
     // The limit is for the file, not for each of its tracks.
     std::string tracks = "id,t,x,y,r\n";
     for (char id = 'a'; id < 'd'; ++id) {
         for (const char* t : {"0", "1", "150000"}) tracks += std::string(1, id) + ',' + t + ",0,0,0\n";
     }
-    EXPECT_NE(refusal(tracks).find("track 'c'"), std::string::npos);
+    EXPECT_NE(csv_refusal(tracks).find("track 'c'"), std::string::npos);
 }
 
 TEST(Csv, OtherExtensionsAreRefusedByName) {

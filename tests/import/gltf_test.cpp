@@ -37,7 +37,7 @@ void expect_at(const glm::dvec3& place, double x, double y, double z, double tol
     EXPECT_NEAR(place.z, z, tolerance);
 }
 
-std::string refusal(const std::string& bytes, const std::string& name = "clip.glb") {
+std::string gltf_refusal(const std::string& bytes, const std::string& name = "clip.glb") {
     return testing::input_error([&] {
         const auto file = parse_gltf(bytes, name);
         for (std::size_t i = 0; i < file->animations().size(); ++i) file->motion(i);
@@ -45,7 +45,7 @@ std::string refusal(const std::string& bytes, const std::string& name = "clip.gl
 }
 
 void expect_refused(const std::string& bytes, const std::string& words, const std::string& name = "clip.glb") {
-    const std::string message = refusal(bytes, name);
+    const std::string message = gltf_refusal(bytes, name);
     EXPECT_TRUE(message.starts_with(name + ": ")) << message;
     EXPECT_NE(message.find(words), std::string::npos) << message;
 }
@@ -286,7 +286,7 @@ TEST(GltfFile, BuffersLieBesideItOrBelow) {
 
     for (const char* uri :
          {"../clip.bin", "/etc/passwd", "http://host/a.bin", "a/../../b.bin", "%2e%2e/b.bin", "a\\\\b"}) {
-        const std::string message = refusal(bytes.json("[{}]", "", uri), "clip.gltf");
+        const std::string message = gltf_refusal(bytes.json("[{}]", "", uri), "clip.gltf");
         EXPECT_NE(message.find("/buffers/0/uri"), std::string::npos) << message;
     }
     const std::string missing =
@@ -412,7 +412,7 @@ TEST(GltfRefusal, SaysWhyAClipHasNoPath) {
 
 TEST(GltfRefusal, OfWhatCannotBeTextOrGlb) {
     const std::string good = mover().glb("[{}]");
-    for (const std::size_t length : {0u, 3u, 11u, 12u, 19u, 21u, 40u}) refusal(good.substr(0, length));
+    for (const std::size_t length : {0u, 3u, 11u, 12u, 19u, 21u, 40u}) gltf_refusal(good.substr(0, length));
     expect_refused(good.substr(0, good.size() - 1), "announces " + std::to_string(good.size()) + " bytes");
     const auto changed = [&](std::size_t at, char byte) {
         std::string bytes = good;
@@ -445,7 +445,7 @@ TEST(GltfRefusal, OfLittleDataReadManyTimes) {
         bytes.channel("0", "weights", input, input).animation();
     }
     const auto begin = std::chrono::steady_clock::now();
-    refusal(bytes.glb("[{}]"));
+    gltf_refusal(bytes.glb("[{}]"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 

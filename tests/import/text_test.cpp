@@ -58,12 +58,18 @@ TEST(Text, Utf8IsToldFromOtherBytes) {
 
 TEST(Text, QuotesAreShortAndOnOneLine) {
     EXPECT_EQ(in_quotes("a\nb"), "'a?b'");
-    EXPECT_LT(in_quotes(std::string(10'000, 'x')).size(), 80u);
-    // 60 bytes would end inside a letter of two.
-    std::string accents = "x";
-    for (int i = 0; i < 50; ++i) accents += "\xc3\xa9";
-    EXPECT_TRUE(is_utf8(in_quotes(accents)));
-    EXPECT_EQ(in_quotes(accents), "'" + accents.substr(0, 59) + "...'");
+    EXPECT_EQ(in_quotes("A" + std::string(10'000, 'x') + "Z"),
+              "'A" + std::string(29, 'x') + "\u2026" + std::string(28, 'x') + "Z'");
+    EXPECT_TRUE(is_utf8(in_quotes(std::string(10'000, '\xe9')))) << "whatever a file holds";
+}
+
+TEST(Text, WhatIsLongIsCutInTheMiddle) {
+    EXPECT_EQ(shortened("walker", 10), "walker");
+    EXPECT_EQ(shortened("recording number 17", 9), "reco\u2026r 17");
+    EXPECT_EQ(shortened("\u00e9\u00e9\u00e9\u00e9\u00e9", 5), "\u00e9\u00e9\u00e9\u00e9\u00e9")
+        << "characters, not bytes";
+    EXPECT_EQ(shortened("\u00e9\u00e9\u00e9\u00e9\u00e9\u00e9", 5), "\u00e9\u00e9\u2026\u00e9\u00e9");
+    EXPECT_EQ(shortened(std::string(100, '\x80'), 5), "\x80\x80\u2026\x80\x80") << "no UTF-8";
 }
 
 TEST(Text, WhatSteersATerminalIsCleaned) {
@@ -78,6 +84,7 @@ TEST(Text, TheNearestNameIsFoundAndOnlyNamedWhenMeant) {
     const std::vector<std::string> names{"leaf", "levels", "axes"};
     EXPECT_EQ(nearest("level", names), "levels");
     EXPECT_EQ(did_you_mean("laef", names), " (did you mean 'leaf'?)");
+    EXPECT_EQ(did_you_mean(std::string(5000, 'x'), names), "");
     EXPECT_EQ(did_you_mean("quixotic", names), "");
 }
 

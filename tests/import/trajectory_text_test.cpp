@@ -21,15 +21,15 @@ const std::string kSdd =
     "0 10 20 30 60 5 0 0 0 \"Pedestrian\"\n0 12 20 32 60 6 0 0 1 \"Pedestrian\"\n0 0 0 0 0 7 1 0 1 \"Pedestrian\"\n"
     "7 0 0 10 10 5 0 1 0 \"Golf Cart\"\n";
 
-std::vector<ImportedClip> clips(const std::string& text, const ImportOptions& options = {}) {
+std::vector<ImportedClip> text_clips(const std::string& text, const ImportOptions& options = {}) {
     return track_clips(parse_text_tracks(text, "f.txt"), "f.txt", options);
 }
 
-std::string refusal(const std::string& text, const ImportOptions& options = {}) {
-    return input_error([&] { clips(text, options); });
+std::string tracks_refusal(const std::string& text, const ImportOptions& options = {}) {
+    return input_error([&] { text_clips(text, options); });
 }
 
-bool warns(const ImportedClip& clip, const std::string& part) {
+bool track_warns(const ImportedClip& clip, const std::string& part) {
     for (const std::string& warning : clip.facts.warnings) {
         if (warning.find(part) != std::string::npos) return true;
     }
@@ -37,7 +37,7 @@ bool warns(const ImportedClip& clip, const std::string& part) {
 }
 
 TEST(TrajectoryText, ObsmatHasFrameIdXZY) {
-    const auto read = clips(kObsmat);
+    const auto read = text_clips(kObsmat);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].facts.format, "obsmat");
     EXPECT_EQ(read[0].name, "1");
@@ -48,12 +48,12 @@ TEST(TrajectoryText, ObsmatHasFrameIdXZY) {
     EXPECT_EQ(read[0].clip->samples()[1].r, kDefaultTrackRadius);
     EXPECT_EQ(read[0].start, 0);
     EXPECT_EQ(read[1].start, 0.4) << "10 frames of 25 a second later";
-    EXPECT_TRUE(warns(read[0], "2.5 points a second are assumed"));
-    EXPECT_TRUE(warns(read[0], "has no radii: 0.2 m are taken"));
+    EXPECT_TRUE(track_warns(read[0], "2.5 points a second are assumed"));
+    EXPECT_TRUE(track_warns(read[0], "has no radii: 0.2 m are taken"));
 }
 
 TEST(TrajectoryText, TrajnetHasFramePedXY) {
-    const auto read = clips(kTrajnet);
+    const auto read = text_clips(kTrajnet);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].facts.format, "trajnet");
     EXPECT_EQ(read[1].clip->samples()[1].y, 1);
@@ -63,13 +63,13 @@ TEST(TrajectoryText, TrajnetHasFramePedXY) {
 
 TEST(TrajectoryText, StepsCountWhateverTheFrameNumbers) {
     // ETH: every sixth frame of 15 a second.
-    const auto read = clips("780 1 8 3\n786 1 9 3\n786 2 0 0\n792 2 1 0\n");
+    const auto read = text_clips("780 1 8 3\n786 1 9 3\n786 2 0 0\n792 2 1 0\n");
     EXPECT_EQ(read[0].clip->dt(), 0.4);
     EXPECT_EQ(read[1].start, 0.4);
 }
 
 TEST(TrajectoryText, PetrackHeaderTellsRateUnitAndColumns) {
-    const auto read = clips(kPetrack);
+    const auto read = text_clips(kPetrack);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].facts.format, "petrack");
     EXPECT_EQ(read[0].name, "3");
@@ -80,30 +80,31 @@ TEST(TrajectoryText, PetrackHeaderTellsRateUnitAndColumns) {
     EXPECT_EQ(read[0].facts.unit, 1);
     EXPECT_EQ(read[0].facts.warnings.size(), 1u) << "only the radius is assumed";
 
-    const auto other = clips("# framerate: 25.00 fps\n# PersID\tFrame\tX/cm\tY/cm\n1 0 100 50\n1 1 200 50\n");
+    const auto other = text_clips("# framerate: 25.00 fps\n# PersID\tFrame\tX/cm\tY/cm\n1 0 100 50\n1 1 200 50\n");
     EXPECT_EQ(other[0].facts.unit, 0.01);
     EXPECT_EQ(other[0].clip->dt(), 0.04);
     EXPECT_EQ(other[0].clip->samples()[1].x, 2);
-    EXPECT_EQ(clips("# frame id y x\n0 9 1 2\n1 9 3 4\n")[0].clip->samples()[0].x, 2) << "as the comment names them";
-    EXPECT_EQ(clips("#framerate: 10\n7 0 1 2\n7 1 3 4\n")[0].id, "7") << "TrajNet has no header";
+    EXPECT_EQ(text_clips("# frame id y x\n0 9 1 2\n1 9 3 4\n")[0].clip->samples()[0].x, 2)
+        << "as the comment names them";
+    EXPECT_EQ(text_clips("#framerate: 10\n7 0 1 2\n7 1 3 4\n")[0].id, "7") << "TrajNet has no header";
 }
 
 TEST(TrajectoryText, WithoutAHeaderHeadsTellTheUnit) {
-    const auto read = clips(kHermes);
+    const auto read = text_clips(kHermes);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].facts.unit, 0.01);
     EXPECT_EQ(read[0].clip->samples()[1].x, 1.1);
     EXPECT_EQ(read[0].clip->dt(), 1.0 / 16);
     EXPECT_NEAR(read[0].facts.guessed_from_height.value(), 1.83, 1e-12);
-    EXPECT_TRUE(warns(read[0], "centimetres are assumed, as heads are 1.83 m high then"));
-    EXPECT_TRUE(warns(read[0], "16 a second are assumed"));
-    EXPECT_TRUE(warns(clips("1 0 1 2 0\n1 1 1 3 0\n")[0], "metres are assumed")) << "no heads";
+    EXPECT_TRUE(track_warns(read[0], "centimetres are assumed, as heads are 1.83 m high then"));
+    EXPECT_TRUE(track_warns(read[0], "16 a second are assumed"));
+    EXPECT_TRUE(track_warns(text_clips("1 0 1 2 0\n1 1 1 3 0\n")[0], "metres are assumed")) << "no heads";
 
     ImportOptions said;
     said.unit = "m";
     said.dt = 0.1;
     said.radius = 0.3;
-    const auto told = clips(kHermes, said);
+    const auto told = text_clips(kHermes, said);
     EXPECT_EQ(told[0].facts.unit, 1);
     EXPECT_EQ(told[0].clip->samples()[1].x, 110);
     EXPECT_EQ(told[0].clip->samples()[1].r, 0.3);
@@ -111,11 +112,11 @@ TEST(TrajectoryText, WithoutAHeaderHeadsTellTheUnit) {
     EXPECT_TRUE(told[0].facts.warnings.empty()) << "nothing was assumed";
     EXPECT_FALSE(told[0].facts.guessed_from_height);
     said.unit = "auto";
-    EXPECT_EQ(clips(kHermes, said)[0].facts.unit, 0.01);
+    EXPECT_EQ(text_clips(kHermes, said)[0].facts.unit, 0.01);
 }
 
 TEST(TrajectoryText, DroneBoxesAreTakenByTheirCentresWhileInView) {
-    const auto read = clips(kSdd);
+    const auto read = text_clips(kSdd);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].facts.format, "sdd");
     EXPECT_EQ(read[0].clip->count(), 2);
@@ -123,32 +124,32 @@ TEST(TrajectoryText, DroneBoxesAreTakenByTheirCentresWhileInView) {
     EXPECT_EQ(read[0].clip->samples()[0].y, 40);
     EXPECT_EQ(read[0].clip->dt(), 1.0 / 30);
     EXPECT_EQ(read[1].name, "7");
-    EXPECT_TRUE(warns(read[0], "1 row is marked as lost"));
-    EXPECT_TRUE(warns(read[0], "pixels"));
+    EXPECT_TRUE(track_warns(read[0], "1 row is marked as lost"));
+    EXPECT_TRUE(track_warns(read[0], "pixels"));
 }
 
 TEST(TrajectoryText, MissingFramesAreInterpolated) {
-    const auto read = clips("0 1 0 0\n10 1 1 0\n40 1 4 3\n50 1 5 3\n");
+    const auto read = text_clips("0 1 0 0\n10 1 1 0\n40 1 4 3\n50 1 5 3\n");
     ASSERT_EQ(read[0].clip->count(), 6);
     EXPECT_EQ(read[0].clip->dt(), 0.4);
     EXPECT_NEAR(read[0].clip->samples()[2].x, 2, 1e-12);
     EXPECT_NEAR(read[0].clip->samples()[3].y, 2, 1e-12);
     EXPECT_EQ(read[0].facts.frames, 4);
-    EXPECT_TRUE(warns(read[0], "2 frames are missing"));
+    EXPECT_TRUE(track_warns(read[0], "2 frames are missing"));
     EXPECT_FALSE(read[0].facts.dt);
 }
 
 TEST(TrajectoryText, PointsOutOfStepAreResampled) {
-    const auto read = clips("#framerate: 10\n1 0 0 0 1.7\n1 10 1 0 1.7\n1 20 2 0 1.7\n1 25 3 0 1.7\n");
+    const auto read = text_clips("#framerate: 10\n1 0 0 0 1.7\n1 10 1 0 1.7\n1 20 2 0 1.7\n1 25 3 0 1.7\n");
     EXPECT_EQ(read[0].clip->dt(), 1.0 / 30);
     EXPECT_EQ(read[0].clip->count(), 76);
-    EXPECT_TRUE(warns(read[0], "resampled at 30 fps"));
+    EXPECT_TRUE(track_warns(read[0], "resampled at 30 fps"));
 }
 
 TEST(TrajectoryText, FpsResamples) {
     ImportOptions ten;
     ten.fps = 10;
-    const auto read = clips(kTrajnet, ten);
+    const auto read = text_clips(kTrajnet, ten);
     EXPECT_EQ(read[0].clip->dt(), 0.1);
     EXPECT_EQ(read[0].clip->count(), 5);
     EXPECT_NEAR(read[0].clip->samples()[2].y, 2.25, 1e-12);
@@ -160,7 +161,7 @@ TEST(TrajectoryText, TrimTakesATimeOfTheCrowd) {
         "#framerate: 1\n1 10 0 0 1.7\n1 11 1 0 1.7\n1 12 2 0 1.7\n2 13 5 5 1.7\n2 14 6 5 1.7\n3 20 0 0 1.7\n";
     ImportOptions options;
     options.trim = {1, 3};
-    const auto read = clips(text, options);
+    const auto read = text_clips(text, options);
     ASSERT_EQ(read.size(), 2u) << "3 comes later";
     EXPECT_EQ(read[0].clip->count(), 2);
     EXPECT_EQ(read[0].clip->samples()[0].x, 1);
@@ -168,38 +169,38 @@ TEST(TrajectoryText, TrimTakesATimeOfTheCrowd) {
     EXPECT_EQ(read[1].clip->count(), 1);
     EXPECT_EQ(read[1].start, 2);
     options.id = "3";
-    EXPECT_NE(refusal(text, options).find("track '3' has no point between 1 and 3 s"), std::string::npos);
+    EXPECT_NE(tracks_refusal(text, options).find("track '3' has no point between 1 and 3 s"), std::string::npos);
     options.id.reset();
     options.trim = {5, 7};
-    EXPECT_NE(refusal(text, options).find("nobody is there between 5 and 7 s of trim; the file lasts 10 s"),
+    EXPECT_NE(tracks_refusal(text, options).find("nobody is there between 5 and 7 s of trim; the file lasts 10 s"),
               std::string::npos);
 }
 
 TEST(TrajectoryText, OneTrackIsTakenById) {
     ImportOptions options;
     options.id = "2";
-    const auto read = clips(kTrajnet, options);
+    const auto read = text_clips(kTrajnet, options);
     ASSERT_EQ(read.size(), 1u);
     EXPECT_EQ(read[0].start, 0.4) << "on the clock of all";
     options.id = "5";
-    EXPECT_NE(refusal(kTrajnet, options).find("has no track '5'"), std::string::npos);
+    EXPECT_NE(tracks_refusal(kTrajnet, options).find("has no track '5'"), std::string::npos);
 }
 
 TEST(TrajectoryText, RowsMayComeInAnyOrder) {
-    const auto read = clips("20 1 2 0\n10 1 1 0\n30 1 3 0\n");
+    const auto read = text_clips("20 1 2 0\n10 1 1 0\n30 1 3 0\n");
     EXPECT_EQ(read[0].clip->samples()[0].x, 1);
     EXPECT_EQ(read[0].clip->samples()[2].x, 3);
 }
 
 TEST(TrajectoryText, WhatFitsNoFormatIsRefusedWithTheFormats) {
     for (const char* text : {"hello world\n", "1 2 3\n", "1,2,3,4\n", "1 2 3 4 5 6\n", "a 1 2 3\n"}) {
-        const std::string message = refusal(text);
+        const std::string message = tracks_refusal(text);
         EXPECT_TRUE(message.starts_with("f.txt: line 1: is no row of a trajectory file")) << message;
         for (const char* format : {"TrajNet", "PeTrack", "obsmat", "SDD"})
             EXPECT_NE(message.find(format), std::string::npos) << message;
     }
     for (const char* text : {"", "\n \n", "# nothing here\n"})
-        EXPECT_NE(refusal(text).find("the file has no row"), std::string::npos);
+        EXPECT_NE(tracks_refusal(text).find("the file has no row"), std::string::npos);
 }
 
 TEST(TrajectoryText, BadRowsAreNamed) {
@@ -219,13 +220,13 @@ TEST(TrajectoryText, BadRowsAreNamed) {
         {kTrajnet + "900000000000 1 0 0\n", "track '1': its times make more than"},
     };
     for (const auto& [text, message] : cases)
-        EXPECT_NE(refusal(text).find(message), std::string::npos) << message << "\n" << refusal(text);
+        EXPECT_NE(tracks_refusal(text).find(message), std::string::npos) << message << "\n" << tracks_refusal(text);
 }
 
 TEST(TrajectoryText, OptionsOfSkeletonsAreRefused) {
     ImportOptions options;
     options.up = "z";
-    EXPECT_EQ(refusal(kTrajnet, options), "f.txt: up does not apply to trajectories; leave it out");
+    EXPECT_EQ(tracks_refusal(kTrajnet, options), "f.txt: up does not apply to trajectories; leave it out");
 }
 
 }  // namespace

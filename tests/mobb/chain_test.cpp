@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,16 +14,11 @@
 namespace mobb {
 namespace {
 
+using test::query_budget;
 using test::Random;
 
 static_assert(NodeSource<PlacedTree> && NodeSource<PlacedChain>);
 static_assert(SampleSource<PlacedClip> && SampleSource<PlacedChain>);
-
-/// How many random queries the suite asks; MOBBSCOPE_QUERIES gives longer or shorter runs.
-int query_budget() {
-    const char* text = std::getenv("MOBBSCOPE_QUERIES");
-    return text ? std::atoi(text) : 1'000'000;
-}
 
 ChainPartPtr part_of(ClipPtr clip, const FitOptions& fit) {
     return std::make_shared<const ChainPart>(std::make_shared<const Tree>(std::move(clip), fit));

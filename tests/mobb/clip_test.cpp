@@ -14,6 +14,7 @@ TEST(Clip, RefusesWhatIsNotAMotion) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_THROW(Clip(0, {{0, 0, 1}}), std::invalid_argument);
     EXPECT_THROW(Clip(-1, {{0, 0, 1}}), std::invalid_argument);
+    EXPECT_THROW(Clip(0.9e-12, {{0, 0, 1}}), std::invalid_argument);
     EXPECT_THROW(Clip(nan, {{0, 0, 1}}), std::invalid_argument);
     EXPECT_THROW(Clip(infinity, {{0, 0, 1}}), std::invalid_argument);
     EXPECT_THROW(Clip(1, {}), std::invalid_argument);

@@ -4,20 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <thread>
 #include <vector>
 
 namespace mobb {
 namespace {
 
+using test::query_budget;
 using test::Random;
-
-/// How many random queries the suite asks; MOBBSCOPE_QUERIES gives longer or shorter runs.
-int query_budget() {
-    const char* text = std::getenv("MOBBSCOPE_QUERIES");
-    return text ? std::atoi(text) : 1'000'000;
-}
 
 /// Every pair (i, j) with the overlap of its hold intervals in seconds (negative: apart): no order and no search.
 template <class Visit>

@@ -5,12 +5,19 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <random>
 #include <vector>
 
 namespace mobb::test {
+
+/// How many random queries the suite asks; MOBBSCOPE_QUERIES gives longer or shorter runs.
+inline int query_budget() {
+    const char* text = std::getenv("MOBBSCOPE_QUERIES");
+    return text ? std::atoi(text) : 1'000'000;
+}
 
 class Random {
   public:

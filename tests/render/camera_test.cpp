@@ -5,6 +5,7 @@
 #include <render/navigate.h>
 #include <render/settle.h>
 
+#include "render/pictures.h"
 #include "render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{640, 360};
+using testing::kGoldenSize;
 
 std::vector<glm::vec3> points_of(const DrawList& list) {
     std::vector<glm::vec3> out;
@@ -53,11 +54,11 @@ TEST(Settled, ShowsWhatTheFramedPictureShows) {
                         view.camera.perspective = perspective;
                         view.camera.fov_deg = fov;
                         if (query) view.query = 0;
-                        const DrawList framed = build_draw_list(fitted, view, kSize);
+                        const DrawList framed = build_draw_list(fitted, view, kGoldenSize);
                         view.camera = settled(view.camera, framed);
                         ASSERT_TRUE(view.camera.target);
                         EXPECT_EQ(view.camera.preset, CameraPreset::free);
-                        const DrawList aimed = build_draw_list(fitted, view, kSize);
+                        const DrawList aimed = build_draw_list(fitted, view, kGoldenSize);
                         EXPECT_LT(difference(framed.lens, aimed.lens, points_of(framed)), 0.05f)
                             << name(preset) << (perspective ? "" : " ortho") << (far ? " far" : "") << " fov " << fov;
                         EXPECT_EQ(settled(view.camera, aimed), view.camera) << "settled already";
@@ -72,7 +73,7 @@ TEST(Settled, TheTargetIsInTheMiddleOfTheScene) {
     const FittedScene fitted(testing::scene_of({{{500, 500}, 0, 40}}), {});
     ViewState view;
     view.time_height = 3;
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kGoldenSize);
     const Camera camera = settled(view.camera, list);
     EXPECT_NEAR(camera.target->x, 501, 0.5);
     EXPECT_NEAR(camera.target->y, 500, 0.5);
@@ -100,7 +101,7 @@ TEST(Settled, SteppingDoesNotMoveThePicture) {
 }
 
 /// A lens for an explicit camera where drawn space is the world.
-Lens lens_of(const Camera& camera, PictureSize size = kSize) {
+Lens lens_of(const Camera& camera, PictureSize size = kGoldenSize) {
     const glm::vec3 target(*camera.target);
     const std::vector<glm::vec3> points{target - 5.0f, target + 5.0f};
     return make_lens(camera, points, &target, {}, size);
@@ -131,7 +132,7 @@ TEST(Navigate, TheShiftIsInWidthsAndHeights) {
 TEST(Navigate, OrbitingTurnsAroundTheTarget) {
     for (const bool perspective : {true, false}) {
         const Camera camera = explicit_camera(perspective);
-        const Camera turned = orbited(camera, {90, 36}, kSize);
+        const Camera turned = orbited(camera, {90, 36}, kGoldenSize);
         EXPECT_NEAR(turned.yaw_deg, -15, 1e-9);
         EXPECT_NEAR(turned.pitch_deg, 38, 1e-9);
         const glm::vec3 target(*camera.target);
@@ -139,12 +140,12 @@ TEST(Navigate, OrbitingTurnsAroundTheTarget) {
         // What is between the eye and the target goes where the mouse goes.
         const Lens before = lens_of(camera);
         const glm::vec3 front = target + before.back;
-        EXPECT_GT(lens_of(orbited(camera, {9, 0}, kSize)).project(front)->x, before.project(front)->x);
-        EXPECT_GT(lens_of(orbited(camera, {0, 9}, kSize)).project(front)->y, before.project(front)->y);
+        EXPECT_GT(lens_of(orbited(camera, {9, 0}, kGoldenSize)).project(front)->x, before.project(front)->x);
+        EXPECT_GT(lens_of(orbited(camera, {0, 9}, kGoldenSize)).project(front)->y, before.project(front)->y);
 
-        EXPECT_EQ(orbited(camera, {0, 1e6f}, kSize).pitch_deg, 90);
-        EXPECT_EQ(orbited(camera, {0, -1e6f}, kSize).pitch_deg, -90);
-        EXPECT_LE(std::abs(orbited(camera, {1e5f, 0}, kSize).yaw_deg), 180);
+        EXPECT_EQ(orbited(camera, {0, 1e6f}, kGoldenSize).pitch_deg, 90);
+        EXPECT_EQ(orbited(camera, {0, -1e6f}, kGoldenSize).pitch_deg, -90);
+        EXPECT_LE(std::abs(orbited(camera, {1e5f, 0}, kGoldenSize).yaw_deg), 180);
     }
 }
 
@@ -154,7 +155,7 @@ TEST(Navigate, WhatIsPannedFollowsTheMouse) {
         const Lens before = lens_of(camera);
         const glm::vec3 beside = glm::vec3(*camera.target) + before.right * 1.5f + before.up * 0.5f;
         const glm::vec2 way(37, -21);
-        const glm::vec2 moved = *lens_of(panned(camera, way, kSize)).project(beside) - *before.project(beside);
+        const glm::vec2 moved = *lens_of(panned(camera, way, kGoldenSize)).project(beside) - *before.project(beside);
         EXPECT_NEAR(moved.x, way.x, 0.02);
         EXPECT_NEAR(moved.y, way.y, 0.02);
     }
@@ -167,19 +168,19 @@ TEST(Navigate, ZoomingKeepsWhatIsUnderTheCursor) {
         const glm::vec3 beside = glm::vec3(*camera.target) + before.right * 3.0f + before.up * -1.0f;
         const glm::vec2 cursor = before.project(beside).value();
         for (const double factor : {0.5, 1.0, 1.2, 3.0}) {
-            const Camera nearer = zoomed(camera, factor, cursor, kSize);
+            const Camera nearer = zoomed(camera, factor, cursor, kGoldenSize);
             const Lens after = lens_of(nearer);
             EXPECT_LT(glm::length(after.project(beside).value() - cursor), 0.05f) << factor;
             EXPECT_NEAR(after.pixels_per_metre(beside) / before.pixels_per_metre(beside), factor, 1e-3);
         }
-        EXPECT_EQ(zoomed(camera, 1e9, cursor, kSize).distance, kNearest);
-        EXPECT_EQ(zoomed(camera, 1e-9, cursor, kSize).distance, kFarthest);
+        EXPECT_EQ(zoomed(camera, 1e9, cursor, kGoldenSize).distance, kNearest);
+        EXPECT_EQ(zoomed(camera, 1e-9, cursor, kGoldenSize).distance, kFarthest);
     }
 }
 
 TEST(Navigate, FramingShowsTheWholeBoxAndNotMuchElse) {
     for (const bool perspective : {true, false}) {
-        for (const PictureSize size : {kSize, PictureSize{200, 600}}) {
+        for (const PictureSize size : {kGoldenSize, PictureSize{200, 600}}) {
             for (const double pitch : {-90.0, -20.0, 0.0, 45.0}) {
                 Camera camera = explicit_camera(perspective);
                 camera.pitch_deg = pitch;
@@ -199,7 +200,7 @@ TEST(Navigate, FramingShowsTheWholeBoxAndNotMuchElse) {
             }
         }
     }
-    const Camera point = framing(explicit_camera(true), glm::dvec3(1), glm::dvec3(1), kSize);
+    const Camera point = framing(explicit_camera(true), glm::dvec3(1), glm::dvec3(1), kGoldenSize);
     EXPECT_EQ(point.distance, kNearest);
 }
 

@@ -1,4 +1,5 @@
 // One camera for a sequence of pictures.
+#include "render/pictures.h"
 #include "scenes.h"
 
 #include <render/box_corners.h>
@@ -14,7 +15,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{640, 360};
+using testing::kGoldenSize;
 
 /// How much of the picture is left, at least, between what is drawn and its edges; below 0: something is cut off.
 float room_around(const DrawList& list) {
@@ -22,8 +23,8 @@ float room_around(const DrawList& list) {
     const auto see = [&](glm::vec3 point) {
         const auto pixel = list.lens.project(point);
         ASSERT_TRUE(pixel);
-        room = std::min({room, pixel->x, pixel->y, static_cast<float>(kSize.width) - pixel->x,
-                         static_cast<float>(kSize.height) - pixel->y});
+        room = std::min({room, pixel->x, pixel->y, static_cast<float>(kGoldenSize.width) - pixel->x,
+                         static_cast<float>(kGoldenSize.height) - pixel->y});
     };
     for (const BoxInstance& box : list.boxes) {
         for (const glm::vec3& corner : box_corners(box)) see(corner);
@@ -49,12 +50,12 @@ TEST(CommonFraming, OneViewIsAsLargeAsByItself) {
         ViewState view;
         view.time = 1;
         view.camera.perspective = perspective;
-        const DrawList list = build_draw_list(fitted, view, kSize);
+        const DrawList list = build_draw_list(fitted, view, kGoldenSize);
         CommonFraming framing;
         framing.add(list);
         view.camera = framing.still(view.camera);
         view.time_height = list.space.time_height;
-        const DrawList again = build_draw_list(fitted, view, kSize);
+        const DrawList again = build_draw_list(fitted, view, kGoldenSize);
         EXPECT_NEAR(length_of_path(again) / length_of_path(list), 1, 0.1);
         EXPECT_GT(room_around(again), 4);
     }
@@ -70,13 +71,13 @@ TEST(CommonFraming, AStillCameraShowsAllSteps) {
     for (int i = 0; i < steps; ++i) {
         view.step = {Step::Unit::event, static_cast<double>(i)};
         views.push_back(view);
-        framing.add(build_draw_list(fitted, view, kSize));
+        framing.add(build_draw_list(fitted, view, kGoldenSize));
     }
     const Camera camera = framing.still(view.camera);
     float closest = 1e6f;
     for (ViewState& seen : views) {
         seen.camera = camera;
-        closest = std::min(closest, room_around(build_draw_list(fitted, seen, kSize)));
+        closest = std::min(closest, room_around(build_draw_list(fitted, seen, kGoldenSize)));
     }
     EXPECT_GT(closest, 4);
     EXPECT_LT(closest, 60) << "as large as can be";
@@ -94,14 +95,14 @@ TEST(CommonFraming, ATurningCameraShowsAllFromEverySide) {
             for (int i = 0; i < 12; ++i) {
                 ViewState seen = view;
                 seen.camera.yaw_deg += 30 * i;
-                framing.add(build_draw_list(fitted, seen, kSize));
+                framing.add(build_draw_list(fitted, seen, kGoldenSize));
             }
             const Camera camera = framing.turning(view.camera);
             float closest = 1e6f;
             for (int i = 0; i < 36; ++i) {
                 ViewState seen = view;
                 seen.camera = turned(camera, 10 * i);
-                closest = std::min(closest, room_around(build_draw_list(fitted, seen, kSize)));
+                closest = std::min(closest, room_around(build_draw_list(fitted, seen, kGoldenSize)));
             }
             EXPECT_GT(closest, 2) << pitch << (perspective ? " in perspective" : "");
             EXPECT_LT(closest, 60) << pitch << (perspective ? " in perspective" : "");

@@ -1,5 +1,6 @@
 // Pictures of a run: its people, its walls, the window of time, the followed agent and its choice.
 #include "crowd/walker_moves.h"
+#include "render/pictures.h"
 
 #include <crowd/followed.h>
 #include <crowd/simulate.h>
@@ -22,7 +23,9 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{640, 360};
+using testing::kGoldenSize;
+using testing::who_has_a_disk;
+
 constexpr PictureSize kLarge{1280, 720};
 
 class CrowdPicture : public ::testing::Test {
@@ -54,14 +57,8 @@ class CrowdPicture : public ::testing::Test {
     }
 };
 
-std::set<int> who_has_a_disk(const DrawList& list) {
-    std::set<int> out;
-    for (const DiskInstance& disk : list.disks) out.insert(disk.id.participant);
-    return out;
-}
-
 TEST_F(CrowdPicture, AMomentShowsEverybodyOnce) {
-    const DrawList list = build_draw_list(run, view(Show::moment, 10), kSize);
+    const DrawList list = build_draw_list(run, view(Show::moment, 10), kGoldenSize);
     EXPECT_EQ(list.moment, 10);
     EXPECT_EQ(list.disks.size(), 20u);
     EXPECT_EQ(who_has_a_disk(list).size(), 20u);
@@ -71,7 +68,7 @@ TEST_F(CrowdPicture, AMomentShowsEverybodyOnce) {
 TEST_F(CrowdPicture, WithoutATimeTheMiddleIsDrawn) {
     ViewState asked = view(Show::moment, 0);
     asked.time.reset();
-    EXPECT_EQ(build_draw_list(run, asked, kSize).moment, 10);
+    EXPECT_EQ(build_draw_list(run, asked, kGoldenSize).moment, 10);
 }
 
 TEST_F(CrowdPicture, WallsStandAroundTheFloor) {
@@ -82,17 +79,17 @@ TEST_F(CrowdPicture, WallsStandAroundTheFloor) {
             return !box.pickable && glm::length(box.extents[0]) == 6.5f;
         });
     };
-    EXPECT_EQ(panes(build_draw_list(run, asked, kSize)), 4);
+    EXPECT_EQ(panes(build_draw_list(run, asked, kGoldenSize)), 4);
     asked.floor = false;
-    EXPECT_EQ(panes(build_draw_list(run, asked, kSize)), 0);
+    EXPECT_EQ(panes(build_draw_list(run, asked, kGoldenSize)), 0);
 }
 
 TEST_F(CrowdPicture, NothingMovesButPeopleWhileTimeRuns) {
-    const DrawList a = build_draw_list(run, view(Show::moment, 5), kSize);
-    const DrawList b = build_draw_list(run, view(Show::moment, 11), kSize);
+    const DrawList a = build_draw_list(run, view(Show::moment, 5), kGoldenSize);
+    const DrawList b = build_draw_list(run, view(Show::moment, 11), kGoldenSize);
     EXPECT_EQ(a.lens.clip_from_world, b.lens.clip_from_world);
-    const DrawList c = build_draw_list(run, view(Show::space_time, 5), kSize);
-    const DrawList d = build_draw_list(run, view(Show::space_time, 11), kSize);
+    const DrawList c = build_draw_list(run, view(Show::space_time, 5), kGoldenSize);
+    const DrawList d = build_draw_list(run, view(Show::space_time, 11), kGoldenSize);
     EXPECT_EQ(c.lens.clip_from_world, d.lens.clip_from_world);
 }
 
@@ -100,7 +97,7 @@ TEST_F(CrowdPicture, SpaceTimeShowsTheWindowAlone) {
     ViewState asked = view(Show::space_time, 10);
     asked.time_window = 1;
     asked.boxes = false;
-    const DrawList list = build_draw_list(run, asked, kSize);
+    const DrawList list = build_draw_list(run, asked, kGoldenSize);
     EXPECT_EQ(who_has_a_disk(list).size() >= 20u, true);
     for (const DiskInstance& disk : list.disks) {
         const double begin = list.space.place(glm::dvec3(disk.base)).z;
@@ -109,7 +106,7 @@ TEST_F(CrowdPicture, SpaceTimeShowsTheWindowAlone) {
         EXPECT_LT(begin, 11 + 1e-4);
     }
     asked.time_window = 3;
-    EXPECT_GT(build_draw_list(run, asked, kSize).disks.size(), list.disks.size());
+    EXPECT_GT(build_draw_list(run, asked, kGoldenSize).disks.size(), list.disks.size());
 }
 
 TEST(FastCrowd, WhatPassesTheCameraIsDrawn) {
@@ -126,11 +123,11 @@ TEST(FastCrowd, WhatPassesTheCameraIsDrawn) {
     view.camera.target = glm::dvec3(-10, 0, 0);
     for (const double distance : {3.0, 9.0, 40.0}) {
         view.camera.distance = distance;
-        EXPECT_FALSE(build_draw_list(FittedScene(scene, {}), view, kSize).disks.empty()) << distance;
+        EXPECT_FALSE(build_draw_list(FittedScene(scene, {}), view, kGoldenSize).disks.empty()) << distance;
     }
     view.camera.target = glm::dvec3(0, 300, 0);
     view.camera.distance = 9;
-    EXPECT_TRUE(build_draw_list(FittedScene(scene, {}), view, kSize).disks.empty()) << "far beside the picture";
+    EXPECT_TRUE(build_draw_list(FittedScene(scene, {}), view, kGoldenSize).disks.empty()) << "far beside the picture";
 }
 
 TEST_F(CrowdPicture, WhomTheCameraFollowsStaysInTheMiddle) {
@@ -142,7 +139,7 @@ TEST_F(CrowdPicture, WhomTheCameraFollowsStaysInTheMiddle) {
         asked.show = show;
         for (const double time : {6.0, 6.4, 9.0}) {
             asked.time = time;
-            const DrawList list = build_draw_list(run, asked, kSize);
+            const DrawList list = build_draw_list(run, asked, kGoldenSize);
             const auto place = followed_place(run, asked, time);
             ASSERT_TRUE(place);
             const auto at = list.lens.project(list.space.point(place->x, place->y, show == Show::moment ? 0 : time));
@@ -158,11 +155,11 @@ TEST_F(CrowdPicture, TheFollowedIsSeenFromNear) {
         ViewState asked = view(show, 6);
         asked.follow = run.scene().crowd->agents[3].name;
         asked.camera.preset = CameraPreset::top;
-        asked.camera = framing_followed(run, asked, build_draw_list(run, asked, kSize));
+        asked.camera = framing_followed(run, asked, build_draw_list(run, asked, kGoldenSize));
         EXPECT_EQ(asked.camera.pitch_deg, 90) << "seen as before";
         for (const double time : {6.0, 9.0}) {
             asked.time = time;
-            const DrawList list = build_draw_list(run, asked, kSize);
+            const DrawList list = build_draw_list(run, asked, kGoldenSize);
             const glm::dvec2 place = followed_place(run, asked, time).value();
             const double level = show == Show::moment ? 0 : time;
             const glm::vec2 at = list.lens.project(list.space.point(place.x, place.y + kAroundFollowed, level)).value();
@@ -179,8 +176,8 @@ TEST_F(CrowdPicture, OfASceneTheFollowedIsSeenAtItsTime) {
     const FittedScene fitted(std::move(scene), {});
     ViewState asked = view(Show::space_time, 500.2);
     asked.follow = "late";
-    asked.camera = framing_followed(fitted, asked, build_draw_list(fitted, asked, kSize));
-    const DrawList list = build_draw_list(fitted, asked, kSize);
+    asked.camera = framing_followed(fitted, asked, build_draw_list(fitted, asked, kGoldenSize));
+    const DrawList list = build_draw_list(fitted, asked, kGoldenSize);
     const glm::dvec2 place = followed_place(fitted, asked, 500.2).value();
     const glm::vec2 at = list.lens.project(list.space.point(place.x, place.y, 500.2)).value();
     EXPECT_NEAR(at.x, 320, 1);
@@ -190,7 +187,7 @@ TEST_F(CrowdPicture, OfASceneTheFollowedIsSeenAtItsTime) {
 TEST_F(CrowdPicture, FollowingNobodyThereIsIsRefused) {
     ViewState asked = view(Show::moment, 6);
     asked.follow = "nobody";
-    EXPECT_THROW(build_draw_list(run, asked, kSize), std::invalid_argument);
+    EXPECT_THROW(build_draw_list(run, asked, kGoldenSize), std::invalid_argument);
 }
 
 TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
@@ -198,7 +195,7 @@ TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
     for (const Show show : {Show::moment, Show::space_time}) {
         ViewState asked = view(show, time + 1e-3);
         asked.follow = name;
-        const DrawList with = build_draw_list(run, asked, kSize);
+        const DrawList with = build_draw_list(run, asked, kGoldenSize);
         const FateStyle style = fate_style(Fate::ruled_out, with.palette);
         const auto is_discarded = [&](const LineInstance& line) {
             return glm::vec3(line.color) == glm::vec3(style.color) && line.dash != kSolid;
@@ -217,7 +214,7 @@ TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
                                        [&](const TextRun& text) { return rulers.contains(text.text); });
         EXPECT_TRUE(named);
         asked.candidates = false;
-        const DrawList without = build_draw_list(run, asked, kSize);
+        const DrawList without = build_draw_list(run, asked, kGoldenSize);
         EXPECT_FALSE(std::any_of(without.lines.begin(), without.lines.end(), is_discarded));
     }
 }

@@ -2,6 +2,7 @@
 #include <render/disk_projection.h>
 #include <render/world_box.h>
 
+#include "render/pictures.h"
 #include "render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{640, 360};
+using testing::kGoldenSize;
 
 FittedScene one_walk(mobb::TreeKind kind, int samples = 60, double time_scale = 1.0) {
     mobb::FitOptions options;
@@ -96,7 +97,7 @@ TEST(DiskProjection, ThePictureShowsOneDiskAndNamesAllThatIsMarked) {
     const FittedScene fitted = one_walk(mobb::TreeKind::umobb);
     ViewState view;
     view.projection = DiskProjection{0, 1, 7};
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kGoldenSize);
     ASSERT_EQ(list.disks.size(), 1u);
     EXPECT_EQ(list.disks[0].id.index, 7);
     EXPECT_TRUE(list.boxes.empty());
@@ -123,7 +124,7 @@ TEST(DiskProjection, NoTextOverlapsAnother) {
     view.projection = DiskProjection{0, 0, 20};
     for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::front, CameraPreset::top}) {
         view.camera.preset = preset;
-        const DrawList list = build_draw_list(fitted, view, kSize);
+        const DrawList list = build_draw_list(fitted, view, kGoldenSize);
         for (std::size_t i = 0; i < list.texts.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) {
                 EXPECT_FALSE(list.texts[i].box.overlaps(list.texts[j].box))
@@ -139,7 +140,7 @@ TEST(DiskProjection, SaysWhatThereIsInsteadOfWhatIsAskedFor) {
         ViewState view;
         view.projection = projection;
         try {
-            build_draw_list(fitted, view, kSize);
+            build_draw_list(fitted, view, kGoldenSize);
         } catch (const std::invalid_argument& error) {
             return std::string(error.what());
         }

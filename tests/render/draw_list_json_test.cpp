@@ -2,6 +2,7 @@
 #include <render/draw_list_json.h>
 
 #include "render/backends.h"
+#include "render/pictures.h"
 #include "render/scenes.h"
 #include "support/input_error.h"
 #include "support/json_keys.h"
@@ -22,15 +23,10 @@
 namespace mobbscope {
 namespace {
 
+using testing::kGoldenSize;
+using testing::text_of;
+
 using nlohmann::json;
-
-constexpr PictureSize kSize{640, 360};
-
-std::string text_of(const DrawList& list, const IdImage* ids = nullptr) {
-    std::ostringstream out;
-    write_draw_list(out, list, ids);
-    return out.str();
-}
 
 std::optional<std::string> difference(const std::string& actual, const std::string& golden) {
     return first_difference(actual, "actual.json", golden, "golden.json");
@@ -41,14 +37,14 @@ DrawList levels() {
     ViewState view;
     view.levels = {0, 3, false};
     view.time = 1;
-    return build_draw_list(testing::hit_scene(), view, kSize);
+    return build_draw_list(testing::hit_scene(), view, kGoldenSize);
 }
 
 DrawList query() {
     ViewState view;
     view.query = 0;
     view.time = 1;  // at the last step the hit is ringed
-    return build_draw_list(testing::hit_scene(mobb::TreeKind::umobb), view, kSize);
+    return build_draw_list(testing::hit_scene(mobb::TreeKind::umobb), view, kGoldenSize);
 }
 
 TEST(DrawListJson, SaysAllThatIsDrawn) {
@@ -141,7 +137,7 @@ TEST(DrawListJson, SaysWhatIsBesideThePicture) {
         // The camera looks at one end of the paths from close by, so that the other end is elsewhere.
         view.camera.target = glm::dvec3(0, 0, 0);
         view.camera.distance = 1;
-        const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+        const DrawList list = build_draw_list(testing::hit_scene(), view, kGoldenSize);
         const json value = json::parse(text_of(list));
         int beside = 0;
         for (std::size_t i = 0; i < list.disks.size(); ++i) {
@@ -164,8 +160,8 @@ TEST_P(DrawListIdsTest, PixelsAreCountedByObject) {
     const IdImage ids = renderer().draw_ids(list);
     const Image picture = id_picture(list, ids);
     std::map<int, int> seen;
-    for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kGoldenSize.height; ++y) {
+        for (int x = 0; x < kGoldenSize.width; ++x) {
             const std::uint8_t* p = picture.at(x, y);
             EXPECT_EQ(p[3], 255);
             ++seen[p[0] * 65536 + p[1] * 256 + p[2]];

@@ -2,6 +2,7 @@
 #include <render/level_boxes.h>
 #include <render/world_box.h>
 
+#include "render/pictures.h"
 #include "render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -17,11 +18,11 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{640, 360};
+using testing::kGoldenSize;
 
 TEST(DrawList, HasADiskForEverySample) {
     const FittedScene fitted = testing::hit_scene();
-    const DrawList list = build_draw_list(fitted, {}, kSize);
+    const DrawList list = build_draw_list(fitted, {}, kGoldenSize);
     ASSERT_EQ(list.disks.size(), 120u);
     const mobb::PlacedTree placed = fitted.placed(fitted.participants()[1]);
     for (int i = 0; i < 60; ++i) {
@@ -60,7 +61,7 @@ TEST(DrawList, DrawnBoxesHoldTheirDisks) {
         const FittedScene fitted(testing::scene_of({{}, {{1, -1}, 70, 0}}), options);
         ViewState view;
         view.time_height = 0.37;
-        const DrawList list = build_draw_list(fitted, view, kSize);
+        const DrawList list = build_draw_list(fitted, view, kGoldenSize);
         for (const BoxInstance& box : list.boxes) {
             const glm::mat3 inverse = glm::inverse(glm::mat3(box.extents[0], box.extents[1], box.extents[2]));
             const mobb::Node& node = fitted.tree(0).nodes()[static_cast<std::size_t>(box.id.index)];
@@ -84,7 +85,7 @@ TEST(DrawList, AFreeBoxIsShearedByTheDrawnTime) {
     const FittedScene fitted = testing::hit_scene(mobb::TreeKind::umobb);
     ViewState view;
     view.time_height = 3;
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kGoldenSize);
     const mobb::Box world = world_box(fitted.placed(fitted.participants()[0]), list.boxes[0].id.index);
     const glm::vec3 tip = list.boxes[0].center + list.boxes[0].extents[0];
     const glm::dvec3 truth = world.center + world.half.x * world.axes[0];
@@ -98,7 +99,7 @@ TEST(DrawList, AFreeBoxIsShearedByTheDrawnTime) {
 
 TEST(DrawList, TheLegendSaysWhatBoxesBeyondThePaperAre) {
     const auto told = [](mobb::TreeKind kind, const char* text) {
-        const DrawList list = build_draw_list(testing::hit_scene(kind), {}, kSize);
+        const DrawList list = build_draw_list(testing::hit_scene(kind), {}, kGoldenSize);
         return std::any_of(list.legend.begin(), list.legend.end(),
                            [&](const LegendEntry& entry) { return entry.text.find(text) != std::string::npos; });
     };
@@ -108,7 +109,7 @@ TEST(DrawList, TheLegendSaysWhatBoxesBeyondThePaperAre) {
 }
 
 TEST(DrawList, ASceneIsAboutAsTallAsWide) {
-    const DrawList list = build_draw_list(testing::hit_scene(), {}, kSize);
+    const DrawList list = build_draw_list(testing::hit_scene(), {}, kGoldenSize);
     float height = 0;
     float width = 0;
     for (const DiskInstance& disk : list.disks) {
@@ -122,8 +123,8 @@ TEST(DrawList, ASceneIsAboutAsTallAsWide) {
 TEST(DrawList, FarFromTheOriginNothingIsLost) {
     const FittedScene near(testing::scene_of({{}, {{1, -1}, 90, 0.25}}), {});
     const FittedScene far(testing::scene_of({{{10000, -8000}, 0, 1e5}, {{10001, -8001}, 90, 100000.25}}), {});
-    const DrawList a = build_draw_list(near, {}, kSize);
-    const DrawList b = build_draw_list(far, {}, kSize);
+    const DrawList a = build_draw_list(near, {}, kGoldenSize);
+    const DrawList b = build_draw_list(far, {}, kGoldenSize);
     ASSERT_EQ(a.disks.size(), b.disks.size());
     for (std::size_t i = 0; i < a.disks.size(); ++i) {
         EXPECT_LT(glm::length(a.disks[i].base - b.disks[i].base), 1e-5f);
@@ -135,7 +136,8 @@ TEST(DrawList, FarFromTheOriginNothingIsLost) {
 
 TEST(DrawList, EverythingIsInThePictureWhateverItsShape) {
     const FittedScene fitted = testing::hit_scene();
-    for (const PictureSize size : {kSize, PictureSize{1920, 1080}, PictureSize{400, 600}, PictureSize{1000, 200}}) {
+    for (const PictureSize size :
+         {kGoldenSize, PictureSize{1920, 1080}, PictureSize{400, 600}, PictureSize{1000, 200}}) {
         for (const CameraPreset preset :
              {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side}) {
             ViewState view;
@@ -160,7 +162,7 @@ TEST(DrawList, EverythingIsInThePictureWhateverItsShape) {
 TEST(DrawList, LegendExplainsEveryAgentAndLevel) {
     ViewState view;
     view.levels = {1, 3, false};
-    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kGoldenSize);
     std::vector<std::string> texts;
     for (const LegendEntry& entry : list.legend) texts.push_back(entry.text);
     EXPECT_EQ(texts, (std::vector<std::string>{"A", "B", "level 1", "level 2", "level 3"}));
@@ -169,7 +171,7 @@ TEST(DrawList, LegendExplainsEveryAgentAndLevel) {
 TEST(DrawList, WhatIsSwitchedOffIsNotThere) {
     ViewState view;
     view.disks = view.boxes = view.floor = view.time_axis = view.labels = view.legend = false;
-    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kGoldenSize);
     EXPECT_TRUE(list.disks.empty());
     EXPECT_TRUE(list.boxes.empty());
     EXPECT_TRUE(list.lines.empty());
@@ -180,19 +182,19 @@ TEST(DrawList, WhatIsSwitchedOffIsNotThere) {
 TEST(DrawList, ATimeCursorMarksTheDisksThatHold) {
     ViewState view;
     view.time = 1.0;
-    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kGoldenSize);
     const auto rings =
         std::count_if(list.lines.begin(), list.lines.end(), [](const LineInstance& l) { return l.order.layer == 10; });
     EXPECT_EQ(rings % 2, 0);
     EXPECT_GT(rings, 0);
     view.time = 17;
-    EXPECT_NO_THROW(build_draw_list(testing::hit_scene(), view, kSize));
+    EXPECT_NO_THROW(build_draw_list(testing::hit_scene(), view, kGoldenSize));
 }
 
 TEST(DrawList, ACursorOutsideIsSaidAndNotExplained) {
     ViewState view;
     view.time = 999;
-    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kGoldenSize);
     for (const LegendEntry& entry : list.legend) EXPECT_EQ(entry.text.find("cursor"), std::string::npos);
     EXPECT_TRUE(std::any_of(list.texts.begin(), list.texts.end(), [](const TextRun& run) {
         return run.text.find("999 s lies outside 0..2 s") != std::string::npos;
@@ -222,7 +224,7 @@ TEST(DrawList, CrowdedBoxesFade) {
         view.levels = {0, 0, true};
         float least = 1;
         for (const BoxInstance& box :
-             build_draw_list(FittedScene(testing::scene_of({{}}, samples), options), view, kSize).boxes)
+             build_draw_list(FittedScene(testing::scene_of({{}}, samples), options), view, kGoldenSize).boxes)
             least = std::min(least, box.edge.a);
         return least;
     };
@@ -250,7 +252,7 @@ TEST(DrawList, LabelsBehindTheEyeAreLeftOut) {
     ViewState view;
     view.time_height = 1;
     view.camera = {CameraPreset::free, 225, 25, true, 40, glm::dvec3(5, 5, 1.5), 2};
-    const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+    const DrawList list = build_draw_list(testing::hit_scene(), view, kGoldenSize);
     // Everything lies between x -1 and 3, all behind this eye or to its side.
     for (const TextRun& run : list.texts) EXPECT_NE(run.face, FontFace::mono) << run.text;
 }
@@ -265,10 +267,10 @@ TEST(DrawList, TheMapsDisksLieOverItsGrid) {
 TEST(DrawList, AQueryOrStepThatThereIsNotIsRefused) {
     ViewState view;
     view.query = 1;
-    EXPECT_THROW(build_draw_list(testing::hit_scene(), view, kSize), std::invalid_argument);
+    EXPECT_THROW(build_draw_list(testing::hit_scene(), view, kGoldenSize), std::invalid_argument);
     view.query = 0;
     view.step = {Step::Unit::event, 100000};
-    EXPECT_THROW(build_draw_list(testing::hit_scene(), view, kSize), std::invalid_argument);
+    EXPECT_THROW(build_draw_list(testing::hit_scene(), view, kGoldenSize), std::invalid_argument);
 }
 
 TEST(DrawList, OddScenesAreDrawn) {
@@ -277,7 +279,7 @@ TEST(DrawList, OddScenesAreDrawn) {
             Scene scene;
             const std::vector<mobb::Disk> still(static_cast<std::size_t>(count), disk);
             scene.clips.push_back({"still", std::nullopt, {}, std::make_shared<const mobb::Clip>(1e-3, still)});
-            const DrawList list = build_draw_list(FittedScene(scene, {}), {}, kSize);
+            const DrawList list = build_draw_list(FittedScene(scene, {}), {}, kGoldenSize);
             EXPECT_EQ(list.disks.size(), static_cast<std::size_t>(count));
             const glm::vec2 at = list.lens.project(list.disks[0].base).value();
             EXPECT_TRUE(at.x >= 0 && at.x <= 640 && at.y >= 0 && at.y <= 360) << at.x << ' ' << at.y;
@@ -325,20 +327,20 @@ TEST(DrawList, ALevelHasOneColourInEveryPicture) {
     view.levels = {0, 3, false};
     const FittedScene fitted = testing::miss_scene();
     std::optional<Rgba> color;
-    for (const BoxInstance& box : build_draw_list(fitted, view, kSize).boxes) {
+    for (const BoxInstance& box : build_draw_list(fitted, view, kGoldenSize).boxes) {
         if (box.order.level == 2) color = with_alpha(box.edge, 1);
     }
     view.levels = {2, 2, false};
-    EXPECT_EQ(with_alpha(build_draw_list(fitted, view, kSize).boxes.at(0).edge, 1), color);
+    EXPECT_EQ(with_alpha(build_draw_list(fitted, view, kGoldenSize).boxes.at(0).edge, 1), color);
 }
 
 TEST(DrawList, QueriesKeepTheirStatesColours) {
     ViewState view;
     view.query = 0;
     const FittedScene fitted = testing::hit_scene();
-    const DrawList usual = build_draw_list(fitted, view, kSize);
+    const DrawList usual = build_draw_list(fitted, view, kGoldenSize);
     view.color_by = ColorBy::level;
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kGoldenSize);
     ASSERT_EQ(list.boxes.size(), usual.boxes.size());
     for (std::size_t i = 0; i < list.boxes.size(); ++i) EXPECT_EQ(list.boxes[i].edge, usual.boxes[i].edge);
     EXPECT_EQ(list.disks[0].color, usual.disks[0].color);

@@ -5,6 +5,7 @@
 #include <render/image_diff.h>
 
 #include "render/backends.h"
+#include "render/pictures.h"
 #include "render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,8 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{640, 360};
+using testing::kGoldenSize;
+using testing::text_of;
 
 ViewState levels_view() {
     ViewState view;
@@ -39,7 +41,7 @@ ViewState query_view() {
     return view;
 }
 
-DrawList list_of(const ViewState& view) { return build_draw_list(testing::hit_scene(), view, kSize); }
+DrawList list_of(const ViewState& view) { return build_draw_list(testing::hit_scene(), view, kGoldenSize); }
 
 /// Every colour of the list.
 void recolour(DrawList& list, const std::function<void(Rgba&)>& change) {
@@ -113,12 +115,6 @@ std::vector<Fault> faults() {
         {"camera raised by half a degree", levels, list_of(raised), true},
         {"camera wider by half a degree", levels, list_of(wider), true},
     };
-}
-
-std::string text_of(const DrawList& list, const IdImage* ids = nullptr) {
-    std::ostringstream out;
-    write_draw_list(out, list, ids);
-    return out.str();
 }
 
 std::optional<std::string> list_difference(const std::string& actual, const std::string& golden) {

@@ -1,3 +1,5 @@
+#include "render/pictures.h"
+
 #include <render/heat_map.h>
 #include <render/image_diff.h>
 #include <render/strip.h>
@@ -11,11 +13,7 @@
 namespace mobbscope {
 namespace {
 
-Image filled(int width, int height, std::uint8_t level) {
-    Image image(width, height);
-    for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? 255 : level;
-    return image;
-}
+using testing::filled;
 
 int red_over_blue(const std::uint8_t* pixel) { return pixel[0] - pixel[2]; }
 

@@ -1,3 +1,5 @@
+#include "render/pictures.h"
+
 #include <render/image_diff.h>
 
 #include <gtest/gtest.h>
@@ -10,11 +12,7 @@
 namespace mobbscope {
 namespace {
 
-Image filled(int width, int height, std::uint8_t level, std::uint8_t opacity = 255) {
-    Image image(width, height);
-    for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? opacity : level;
-    return image;
-}
+using testing::filled;
 
 Image grey(int width, int height) { return filled(width, height, 100); }
 

@@ -6,6 +6,7 @@
 #include <render/moment.h>
 #include <render/pick.h>
 
+#include "render/pictures.h"
 #include "render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,8 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{640, 360};
+using testing::kGoldenSize;
+using testing::who_has_a_disk;
 
 ViewState at(double time) {
     ViewState view;
@@ -45,12 +47,6 @@ bool has_color(const DrawList& list, Rgba color) {
     const auto is = [&](Rgba c) { return glm::vec3(c) == glm::vec3(color); };
     return std::any_of(list.lines.begin(), list.lines.end(), [&](const LineInstance& l) { return is(l.color); }) ||
            std::any_of(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) { return is(b.fill); });
-}
-
-std::set<int> who_has_a_disk(const DrawList& list) {
-    std::set<int> out;
-    for (const DiskInstance& disk : list.disks) out.insert(disk.id.participant);
-    return out;
 }
 
 /// A crowd of walkers without skeletons in a square.
@@ -96,7 +92,7 @@ TEST(Moment, OnlyWhoIsThereHasABody) {
     const std::pair<double, std::set<int>> cases[] = {{-0.1, {}},     {0, {0}}, {0.99, {0}}, {1, {0, 1}},
                                                       {1.99, {0, 1}}, {2, {1}}, {2.99, {1}}, {3, {}}};
     for (const auto& [time, who] : cases) {
-        const DrawList list = build_draw_list(scene, at(time), kSize);
+        const DrawList list = build_draw_list(scene, at(time), kGoldenSize);
         EXPECT_EQ(who_has_a_disk(list), who) << time;
         ASSERT_TRUE(list.moment);
         EXPECT_EQ(*list.moment, time);
@@ -104,12 +100,12 @@ TEST(Moment, OnlyWhoIsThereHasABody) {
     }
     ViewState view = at(0);
     view.time.reset();
-    EXPECT_EQ(who_has_a_disk(build_draw_list(scene, view, kSize)), std::set<int>{0});
+    EXPECT_EQ(who_has_a_disk(build_draw_list(scene, view, kGoldenSize)), std::set<int>{0});
 }
 
 TEST(Moment, TheFloorDiskIsTheSampleAndCanBePicked) {
     const FittedScene scene = fitted(crossing());
-    const DrawList list = build_draw_list(scene, at(1.6), kSize);
+    const DrawList list = build_draw_list(scene, at(1.6), kGoldenSize);
     const Moment then = moment(scene, at(1.6));
     ASSERT_EQ(list.disks.size(), 2u);
     for (const Body& body : then.bodies) {
@@ -138,7 +134,7 @@ TEST(Moment, WhatIsMarkedAsAHitIsWhatThePredicateSays) {
     for (const FittedScene& scene : {fitted(crossing()), fitted(collision())}) {
         for (int i = 0; i < 60; ++i) {
             const ViewState view = at(0.1 * i + 0.013);
-            const DrawList list = build_draw_list(scene, view, kSize);
+            const DrawList list = build_draw_list(scene, view, kGoldenSize);
             const Moment then = moment(scene, view);
             const bool hit = then.bodies.size() == 2 && mobb::collide(then.bodies[0].disk, then.bodies[1].disk);
             EXPECT_EQ(has_color(list, list.palette.hit), hit) << *view.time;
@@ -157,7 +153,7 @@ TEST(Moment, TouchingIsNoHit) {
         scene.clips.push_back({"c" + std::to_string(scene.clips.size()), std::nullopt, {}, std::move(clip)});
     }
     const FittedScene touching(scene, {});
-    const DrawList list = build_draw_list(touching, at(0.5), kSize);
+    const DrawList list = build_draw_list(touching, at(0.5), kGoldenSize);
     EXPECT_FALSE(has_color(list, list.palette.hit));
     EXPECT_EQ(list.headline, "c0 and c1 at 0.50 s; 0.000 m of clearance");
 }
@@ -224,12 +220,12 @@ TEST(Moment, EverythingIsInsideThePictureAndTheFrameStandsStill) {
         // Before, with one of them, both, both in one another, and after.
         for (const double time : {-1.0, 0.3, 1.6, 2.5, 3.1, 9.0}) {
             view.time = time;
-            const DrawList list = build_draw_list(scene, view, kSize);
+            const DrawList list = build_draw_list(scene, view, kGoldenSize);
             if (frame != glm::mat4(0)) {
                 EXPECT_EQ(list.lens.clip_from_world, frame) << time;
             }
             frame = list.lens.clip_from_world;
-            const Rect picture{glm::vec2(0), glm::vec2(kSize.width, kSize.height)};
+            const Rect picture{glm::vec2(0), glm::vec2(kGoldenSize.width, kGoldenSize.height)};
             for (const LineInstance& line : list.lines) {
                 for (const glm::vec3& end : {line.from, line.to}) {
                     const auto pixel = list.lens.project(end);
@@ -246,7 +242,7 @@ TEST(Moment, AQueryShowsItsTwoSidesAlone) {
     const FittedScene scene(testing::scene_of({{}, {{0, 3}, 0, 0}, {{0, 6}, 0, 0}}), {});
     ViewState view = at(0.5);
     view.query = 2;  // B against C
-    const DrawList list = build_draw_list(scene, view, kSize);
+    const DrawList list = build_draw_list(scene, view, kGoldenSize);
     EXPECT_EQ(list.participants, (std::vector<std::string>{"B", "C"}));
     EXPECT_EQ(list.disks.size(), 2u);
     EXPECT_EQ(list.headline, "B and C at 0.50 s; 2.200 m of clearance");
@@ -256,11 +252,11 @@ TEST(Moment, PartsAreLeftOutAsTheViewSays) {
     const FittedScene scene = fitted(crossing());
     ViewState view = at(1.6);
     view.boxes = false;
-    EXPECT_TRUE(build_draw_list(scene, view, kSize).boxes.empty());
+    EXPECT_TRUE(build_draw_list(scene, view, kGoldenSize).boxes.empty());
     view.disks = false;
-    EXPECT_TRUE(build_draw_list(scene, view, kSize).disks.empty());
+    EXPECT_TRUE(build_draw_list(scene, view, kGoldenSize).disks.empty());
     view.labels = false;
-    EXPECT_TRUE(build_draw_list(scene, view, kSize).texts.empty());
+    EXPECT_TRUE(build_draw_list(scene, view, kGoldenSize).texts.empty());
 }
 
 TEST(Moment, ALargeCrowdIsBuiltQuickly) {

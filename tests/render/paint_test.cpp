@@ -2,6 +2,7 @@
 #include <render/image_diff.h>
 
 #include "render/backends.h"
+#include "render/pictures.h"
 #include "render/scenes.h"
 
 #include <glad/gl.h>
@@ -16,24 +17,24 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{320, 240};
+using testing::kSmallSize;
 
 /// Disks, boxes with faces, lines, panels and text.
 DrawList everything() {
     ViewState view;
     view.levels = {0, 3, false};
     view.time = 1;
-    return build_draw_list(testing::hit_scene(), view, kSize);
+    return build_draw_list(testing::hit_scene(), view, kSmallSize);
 }
 
 /// The texture's pixels, rows from top to bottom.
 std::vector<std::uint8_t> pixels_of(const Texture& texture) {
-    const std::size_t row = 4 * static_cast<std::size_t>(kSize.width);
-    std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(kSize.height));
+    const std::size_t row = 4 * static_cast<std::size_t>(kSmallSize.width);
+    std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(kSmallSize.height));
     glBindTexture(GL_TEXTURE_2D, texture.name());
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
     std::vector<std::uint8_t> out;
-    for (std::size_t y = static_cast<std::size_t>(kSize.height); y-- > 0;) {
+    for (std::size_t y = static_cast<std::size_t>(kSmallSize.height); y-- > 0;) {
         const auto begin = upwards.begin() + static_cast<std::ptrdiff_t>(y * row);
         out.insert(out.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
     }
@@ -69,7 +70,7 @@ TEST_P(PaintTest, CoarseDisksDifferAtTheirEdgesAlone) {
         view.camera.preset = CameraPreset::free;
         view.camera.target = glm::dvec3(0, 0, 1);
         view.camera.distance = distance;
-        const DrawList list = build_draw_list(testing::hit_scene(), view, kSize);
+        const DrawList list = build_draw_list(testing::hit_scene(), view, kSmallSize);
         DiffOptions options;
         options.channel_tolerance = 40;
         options.shift = 1;

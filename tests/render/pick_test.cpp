@@ -21,7 +21,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{960, 540};
+constexpr PictureSize kPickSize{960, 540};
 
 FittedScene demo_scene(const std::string& name) {
     Scene scene = load_scene(std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets" / "scenes" / (name + ".json"));
@@ -95,7 +95,7 @@ TEST_P(PickTest, AgreesWithThePicture) {
             views[7].query = 0;
         }
         for (std::size_t i = 0; i < views.size(); ++i) {
-            const DrawList list = build_draw_list(fitted, views[i], kSize);
+            const DrawList list = build_draw_list(fitted, views[i], kPickSize);
             const Agreement agreement = compare(list, renderer().draw_ids(list));
             EXPECT_GT(agreement.shown, agreement.pixels / 100) << name << ", view " << i;
             EXPECT_LT(agreement.differing, 0.005 * agreement.shown)
@@ -108,11 +108,11 @@ TEST_P(PickTest, AgreesFromInsideABoxAmongDisks) {
     const FittedScene fitted = demo_scene("crossing");
     ViewState view = fitted.scene().view;
     view.levels = {0, 2, false};
-    DrawList list = build_draw_list(fitted, view, kSize);
+    DrawList list = build_draw_list(fitted, view, kPickSize);
     view.camera = settled(view.camera, list);
     view.camera.fov_deg = 100;
     view.camera.distance = 0.2;
-    list = build_draw_list(fitted, view, kSize);
+    list = build_draw_list(fitted, view, kPickSize);
     const Agreement agreement = compare(list, renderer().draw_ids(list));
     EXPECT_GT(agreement.shown, agreement.pixels / 2);
     EXPECT_LT(agreement.differing, 0.005 * agreement.shown) << agreement.example;
@@ -154,11 +154,11 @@ TEST_P(PickedPlaces, LieOnWhatIsPicked) {
             ViewState view;
             view.camera.preset = preset;
             view.levels = {0, 3, false};
-            const DrawList list = build_draw_list(fitted, view, kSize);
+            const DrawList list = build_draw_list(fitted, view, kPickSize);
             const std::vector<Subject> paths = subjects(fitted, view);
             int picked = 0;
-            for (int y = 5; y < kSize.height; y += 11) {
-                for (int x = 5; x < kSize.width; x += 11) {
+            for (int y = 5; y < kPickSize.height; y += 11) {
+                for (int x = 5; x < kPickSize.width; x += 11) {
                     float depth = -1e9f;
                     for (const Pick& one : pick(list, middle_of_pixel(x, y))) {
                         ++picked;
@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PickedPlaces,
 
 TEST(Pick, NothingIsPickedBesideTheScene) {
     const FittedScene fitted = testing::miss_scene();
-    EXPECT_TRUE(pick(build_draw_list(fitted, {}, kSize), {1.5f, 1.5f}).empty());
+    EXPECT_TRUE(pick(build_draw_list(fitted, {}, kPickSize), {1.5f, 1.5f}).empty());
 }
 
 TEST(FloorAt, IsWhereTheFloorIsSeen) {
@@ -195,7 +195,7 @@ TEST(FloorAt, IsWhereTheFloorIsSeen) {
     for (const bool perspective : {true, false}) {
         ViewState view;
         view.camera.perspective = perspective;
-        const DrawList list = build_draw_list(fitted, view, kSize);
+        const DrawList list = build_draw_list(fitted, view, kPickSize);
         for (const double time : {12.0, 13.25}) {
             const glm::dvec2 place(500.3, -69.8);
             const glm::vec2 pixel = list.lens.project(list.space.point(place.x, place.y, time)).value();
@@ -208,11 +208,11 @@ TEST(FloorAt, ThereIsNoneAlongOrBehindTheView) {
     const FittedScene fitted = testing::miss_scene();
     ViewState view;
     view.camera.preset = CameraPreset::front;
-    EXPECT_FALSE(floor_at(build_draw_list(fitted, view, kSize), {300, 200}, 0));
+    EXPECT_FALSE(floor_at(build_draw_list(fitted, view, kPickSize), {300, 200}, 0));
     view.camera.preset = CameraPreset::free;
     view.camera.pitch_deg = 5;
     view.camera.fov_deg = 60;
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kPickSize);
     EXPECT_TRUE(floor_at(list, {480, 539}, 0));
     EXPECT_FALSE(floor_at(list, {480, 1}, 0)) << "above the horizon";
 }

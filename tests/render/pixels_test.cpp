@@ -3,6 +3,7 @@
 #include <render/render.h>
 
 #include "render/backends.h"
+#include "render/pictures.h"
 #include "render/scenes.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{320, 240};
+using testing::kSmallSize;
 
 TEST(Picture, AbsurdSizesAreRefused) {
     EXPECT_NO_THROW(check(PictureSize{640, 360}));
@@ -29,19 +30,19 @@ class PictureTest : public testing::OnEachBackend {};
 
 TEST_P(PictureTest, TheSameTwice) {
     const FittedScene fitted = testing::hit_scene();
-    const Image once = render(fitted, {}, kSize, renderer());
+    const Image once = render(fitted, {}, kSmallSize, renderer());
     Renderer other(GetParam());
-    EXPECT_EQ(once.rgba, render(fitted, {}, kSize, other).rgba);
-    EXPECT_EQ(once.rgba, render(fitted, {}, kSize, renderer()).rgba);
+    EXPECT_EQ(once.rgba, render(fitted, {}, kSmallSize, other).rgba);
+    EXPECT_EQ(once.rgba, render(fitted, {}, kSmallSize, renderer()).rgba);
 }
 
 TEST_P(PictureTest, SizesFollowOneAnother) {
     const FittedScene fitted = testing::hit_scene();
-    const Image small = render(fitted, {}, kSize, renderer());
+    const Image small = render(fitted, {}, kSmallSize, renderer());
     const Image large = render(fitted, {}, {400, 300}, renderer());
     EXPECT_EQ(large.width, 400);
     EXPECT_EQ(large.height, 300);
-    EXPECT_EQ(small.rgba, render(fitted, {}, kSize, renderer()).rgba);
+    EXPECT_EQ(small.rgba, render(fitted, {}, kSmallSize, renderer()).rgba);
 }
 
 /// Nested boxes, coplanar faces, equal disks: nothing may depend on the order in which the lists hold them.
@@ -49,7 +50,7 @@ TEST_P(PictureTest, ShufflingChangesNothing) {
     const FittedScene fitted(testing::scene_of({{}, {}, {{0.2, 0}, 0, 0}, {{1, -1}, 90, 0}}), {});
     ViewState view;
     view.levels = {0, 5, false};
-    DrawList list = build_draw_list(fitted, view, kSize);
+    DrawList list = build_draw_list(fitted, view, kSmallSize);
     const Image ordered = renderer().draw(list);
     std::mt19937 random(7);
     for (int round = 0; round < 3; ++round) {
@@ -66,7 +67,7 @@ TEST_P(PictureTest, FacesBlendTheSameInAnyOrder) {
     const FittedScene fitted(testing::scene_of({{}, {}, {{0.2, 0}, 0, 0}, {{1, -1}, 90, 0}}), {});
     ViewState view;
     view.levels = {0, 5, false};
-    DrawList list = build_draw_list(fitted, view, kSize);
+    DrawList list = build_draw_list(fitted, view, kSmallSize);
     // Edges and disks do hide one another; the order decides where they are equally deep.
     list.lines.clear();
     list.disks.clear();
@@ -91,7 +92,8 @@ TEST_P(PictureTest, FarFromTheOriginItLooksTheSame) {
     const FittedScene far(testing::scene_of({{{10000, -8000}, 0, 1e5}, {{10001, -8001}, 90, 100000.25}}), {});
     ViewState view;
     view.labels = false;
-    const ImageDiff result = diff(render(far, view, kSize, renderer()), render(near, view, kSize, renderer()));
+    const ImageDiff result =
+        diff(render(far, view, kSmallSize, renderer()), render(near, view, kSmallSize, renderer()));
     EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
 }
 
@@ -100,7 +102,7 @@ TEST_P(PictureTest, DisksHideWhatIsBehindThem) {
     ViewState view;
     view.camera.preset = CameraPreset::top;
     view.boxes = view.labels = view.floor = view.time_axis = false;
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kSmallSize);
     const Image image = renderer().draw(list);
     // The uppermost disk of B, the later half of its path, shows B's colour; the corner shows the background.
     const glm::vec2 at = list.lens.project(list.disks.back().base).value();
@@ -118,7 +120,7 @@ TEST_P(PictureTest, ManyDisksAndBoxes) {
     const FittedScene fitted(testing::scene_of(placements, 1260), options);
     ViewState view;
     view.levels = {0, 20, false};
-    const DrawList list = build_draw_list(fitted, view, kSize);
+    const DrawList list = build_draw_list(fitted, view, kSmallSize);
     EXPECT_EQ(list.disks.size(), 6300u);
     EXPECT_GT(list.boxes.size(), 10000u);
     EXPECT_NO_THROW(renderer().draw(list));
@@ -135,9 +137,9 @@ TEST(Picture, BackendsAgree) {
     view.query = 0;
     view.step = {Step::Unit::percent, 60};
     const FittedScene fitted = testing::hit_scene(mobb::TreeKind::umobb);
-    const ImageDiff result = diff(render(fitted, view, kSize, *osmesa), render(fitted, view, kSize, *egl));
+    const ImageDiff result = diff(render(fitted, view, kSmallSize, *osmesa), render(fitted, view, kSmallSize, *egl));
     EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
-    EXPECT_EQ(render_ids(fitted, view, kSize, *osmesa).rg, render_ids(fitted, view, kSize, *egl).rg);
+    EXPECT_EQ(render_ids(fitted, view, kSmallSize, *osmesa).rg, render_ids(fitted, view, kSmallSize, *egl).rg);
 }
 
 }  // namespace

@@ -10,14 +10,14 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{333, 217};
+constexpr PictureSize kOddSize{333, 217};
 
 Lens lens(bool perspective) {
     Camera camera;
     camera.preset = CameraPreset::free;
     camera.perspective = perspective;
     const std::vector<glm::vec3> points{{-3, -2, 0}, {3, 2, 5}};
-    return make_lens(camera, points, nullptr, {{20, 10}, {320, 200}}, kSize);
+    return make_lens(camera, points, nullptr, {{20, 10}, {320, 200}}, kOddSize);
 }
 
 BoxInstance box(glm::vec3 center, float half) {
@@ -38,14 +38,14 @@ TEST(ScreenTiles, TheyCoverTheBoxesOnceAndLieInThePicture) {
         std::vector<BoxInstance> boxes;
         for (int i = 0; i < 6; ++i) boxes.push_back(box({at(random), at(random), at(random)}, 0.3f));
         const std::vector<Rect> tiles = covering_tiles(boxes, seen);
-        const Rect picture{{0, 0}, {kSize.width, kSize.height}};
+        const Rect picture{{0, 0}, {kOddSize.width, kOddSize.height}};
         double area = 0;
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             EXPECT_TRUE(picture.contains(tiles[i]));
             area += static_cast<double>(tiles[i].size().x * tiles[i].size().y);
             for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(tiles[i].overlaps(tiles[j]));
         }
-        EXPECT_LT(area, 0.8 * kSize.width * kSize.height) << "most of the picture is not covered";
+        EXPECT_LT(area, 0.8 * kOddSize.width * kOddSize.height) << "most of the picture is not covered";
         for (const BoxInstance& each : boxes) {
             for (int n = 0; n < 200; ++n) {
                 const glm::vec3 p = each.center + unit(random) * each.extents[0] + unit(random) * each.extents[1] +
@@ -64,7 +64,7 @@ TEST(ScreenTiles, ABoxAroundTheEyeCoversAll) {
     const std::vector<BoxInstance> boxes{box(seen.eye, 1)};
     double area = 0;
     for (const Rect& tile : covering_tiles(boxes, seen)) area += static_cast<double>(tile.size().x * tile.size().y);
-    EXPECT_EQ(area, kSize.width * kSize.height);
+    EXPECT_EQ(area, kOddSize.width * kOddSize.height);
 }
 
 TEST(ScreenTiles, WhatIsBesideThePictureNeedsNone) {

@@ -1,5 +1,6 @@
 // Pictures with backgrounds of their own, and with other numbers of samples.
 #include "backends.h"
+#include "render/pictures.h"
 #include "scenes.h"
 
 #include <render/build_draw_list.h>
@@ -17,7 +18,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr PictureSize kSize{320, 240};
+using testing::kSmallSize;
 
 /// Disks, boxes with faces, lines, panels and text.
 DrawList everything(Theme theme, std::optional<Rgba> background) {
@@ -25,7 +26,7 @@ DrawList everything(Theme theme, std::optional<Rgba> background) {
     view.levels = {0, 3, false};
     view.time = 1;
     view.theme = theme;
-    return build_draw_list(testing::hit_scene(), view, {.size = kSize, .background = background});
+    return build_draw_list(testing::hit_scene(), view, {.size = kSmallSize, .background = background});
 }
 
 /// The picture laid over a ground, opaque.

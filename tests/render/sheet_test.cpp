@@ -2,6 +2,7 @@
 #include <render/sheet.h>
 
 #include "render/backends.h"
+#include "render/pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -14,14 +15,10 @@
 namespace mobbscope {
 namespace {
 
+using testing::filled;
+
 const Palette& kPalette = palette(Theme::light);
 const Metrics kMetrics = metrics_of({1280, 720});
-
-Image filled(int width, int height, std::uint8_t value) {
-    Image image(width, height);
-    std::fill(image.rgba.begin(), image.rgba.end(), value);
-    return image;
-}
 
 /// Of the pixels that have this value in every channel.
 struct Found {

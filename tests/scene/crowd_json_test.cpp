@@ -28,7 +28,7 @@ std::string plays(const std::string& list) { return crowd("[{\"name\": \"1\", \"
 
 const std::string kFirst = R"({"move": 0, "translate": [3, 4], "rotate_deg": 90, "start": -0.5})";
 
-std::string refusal(const std::string& text) {
+std::string crowd_refusal(const std::string& text) {
     return testing::input_error([&] { parse_scene(text, "s.json", ""); });
 }
 
@@ -67,7 +67,7 @@ TEST(CrowdJson, PlaysFollowEachOther) {
 {"move": 1, "translate": [3, 6], "rotate_deg": 90, "start": 1.5)";
     EXPECT_NO_THROW(parse_scene(plays(kFirst + end + "}"), "s.json", ""));
     const auto expect = [&](const std::string& text, const std::string& message) {
-        EXPECT_EQ(refusal(plays(kFirst + ",\n" + text)), message);
+        EXPECT_EQ(crowd_refusal(plays(kFirst + ",\n" + text)), message);
     };
     expect(R"({"move": 0, "translate": [3, 6], "rotate_deg": 90, "start": 1.5})",
            "s.json: line 7, /crowd/agents/0/plays/1/move: begins in hub 'left', but the move before ends in 'right'");
@@ -116,7 +116,7 @@ TEST(CrowdJson, ValuesAreChecked) {
         {kHead + R"("queries": [{"a": {"clip": "a"}, "b": {"clip": "a"}}], "crowd": {}})", "not both; remove one"},
     };
     for (const auto& [text, message] : cases) {
-        EXPECT_NE(refusal(text).find(message), std::string::npos) << message << "\ngave " << refusal(text);
+        EXPECT_NE(crowd_refusal(text).find(message), std::string::npos) << message << "\ngave " << crowd_refusal(text);
     }
 }
 

@@ -34,6 +34,19 @@ TEST(FittedScene, TheRecordIsTheAnswer) {
     EXPECT_EQ(recorded.trace[recorded.trace.size() - 1].outcome, mobb::Outcome::hit);
 }
 
+TEST(FittedScene, WhatIsSharedTakesNoMemoryTwice) {
+    const Scene scene = head_on();
+    const FittedScene fitted(scene, {.leaf = 1});
+    EXPECT_EQ(fitted.bytes_beyond(fitted), 0u);
+    const FittedScene moved(scene, {.leaf = 1}, &fitted);
+    const FittedScene refitted(scene, {.leaf = 2}, &fitted);
+    const std::size_t lists = moved.bytes_beyond(fitted);
+    EXPECT_GT(lists, 0u);
+    EXPECT_GE(refitted.bytes_beyond(fitted), lists + refitted.tree(0).nodes().size_bytes());
+    const FittedScene other(head_on(), {.leaf = 2});
+    EXPECT_EQ(other.bytes_beyond(fitted), refitted.bytes_beyond(fitted) + scene.clips[0].clip->samples().size_bytes());
+}
+
 TEST(FittedScene, PairsAreCountedThrough) {
     for (const int agents : {0, 1, 2, 3, 7, 50}) {
         Scene scene = head_on();

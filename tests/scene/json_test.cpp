@@ -14,7 +14,7 @@ namespace {
 
 using testing::input_error;
 
-std::string refusal(std::string_view text) {
+std::string json_refusal(std::string_view text) {
     return input_error([&] { parse_json(text, "f.json"); });
 }
 
@@ -46,21 +46,21 @@ TEST(Json, MembersKeepTheirOrder) {
 
 TEST(Json, SyntaxErrorsNameLineAndColumn) {
     EXPECT_TRUE(
-        refusal("{\n  \"a\": 1,\n  }").starts_with("f.json: line 3, column 3: this is not JSON: unexpected '}'"))
-        << refusal("{\n  \"a\": 1,\n  }");
-    EXPECT_TRUE(refusal("").starts_with("f.json: line 1, column 1: this is not JSON"));
-    EXPECT_TRUE(refusal("{\"a\": NaN}").starts_with("f.json: line 1, column 7: this is not JSON"))
-        << refusal("{\"a\": NaN}");
-    EXPECT_TRUE(refusal("[1]\n2").starts_with("f.json: line 2")) << refusal("[1]\n2");
-    EXPECT_TRUE(refusal("[1\n,\n1e999]").starts_with("f.json: line 3")) << refusal("[1\n,\n1e999]");
-    EXPECT_NE(refusal("[1e999]").find("too large for a double"), std::string::npos);
-    EXPECT_NE(refusal(std::string("[\"a\0\"]", 6)).find("line 1"), std::string::npos);
-    EXPECT_NE(refusal("[\"\xff\"]").find("UTF-8"), std::string::npos) << refusal("[\"\xff\"]");
-    EXPECT_NE(refusal(std::string("\xff\xfe{\0", 4)).find("UTF-16"), std::string::npos);
+        json_refusal("{\n  \"a\": 1,\n  }").starts_with("f.json: line 3, column 3: this is not JSON: unexpected '}'"))
+        << json_refusal("{\n  \"a\": 1,\n  }");
+    EXPECT_TRUE(json_refusal("").starts_with("f.json: line 1, column 1: this is not JSON"));
+    EXPECT_TRUE(json_refusal("{\"a\": NaN}").starts_with("f.json: line 1, column 7: this is not JSON"))
+        << json_refusal("{\"a\": NaN}");
+    EXPECT_TRUE(json_refusal("[1]\n2").starts_with("f.json: line 2")) << json_refusal("[1]\n2");
+    EXPECT_TRUE(json_refusal("[1\n,\n1e999]").starts_with("f.json: line 3")) << json_refusal("[1\n,\n1e999]");
+    EXPECT_NE(json_refusal("[1e999]").find("too large for a double"), std::string::npos);
+    EXPECT_NE(json_refusal(std::string("[\"a\0\"]", 6)).find("line 1"), std::string::npos);
+    EXPECT_NE(json_refusal("[\"\xff\"]").find("UTF-8"), std::string::npos) << json_refusal("[\"\xff\"]");
+    EXPECT_NE(json_refusal(std::string("\xff\xfe{\0", 4)).find("UTF-16"), std::string::npos);
 }
 
 TEST(Json, NothingHidesBehindANulByte) {
-    EXPECT_EQ(refusal(std::string("[1]\n\0[2]", 8)),
+    EXPECT_EQ(json_refusal(std::string("[1]\n\0[2]", 8)),
               "f.json: line 2: holds a NUL byte; this is no text file, or a damaged one");
 }
 
@@ -73,22 +73,23 @@ TEST(Json, ALineBreakAfterANumberIsNotItsLine) {
 }
 
 TEST(Json, AKeyThatStandsTwiceIsRefused) {
-    EXPECT_EQ(refusal("{\"a\": 1,\n\"b\": 2,\n\"a\": 3}"),
+    EXPECT_EQ(json_refusal("{\"a\": 1,\n\"b\": 2,\n\"a\": 3}"),
               "f.json: line 3, /a: the key 'a' stands twice, first in line 1; remove one");
-    EXPECT_TRUE(refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}").starts_with("f.json: line 1, /x/1/y~1/b: "))
-        << refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}");
+    EXPECT_TRUE(
+        json_refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}").starts_with("f.json: line 1, /x/1/y~1/b: "))
+        << json_refusal("{\"x\": [0, {\"y/\": {\"b\": 1, \"b\": 2}}]}");
 }
 
 TEST(Json, DeepNestingIsRefusedNotFatal) {
-    EXPECT_NE(refusal(std::string(1'000'000, '[')).find("nested more than 64 deep"), std::string::npos);
+    EXPECT_NE(json_refusal(std::string(1'000'000, '[')).find("nested more than 64 deep"), std::string::npos);
     std::string objects;
     for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
-    EXPECT_NE(refusal(objects).find("nested more than 64 deep"), std::string::npos);
+    EXPECT_NE(json_refusal(objects).find("nested more than 64 deep"), std::string::npos);
 }
 
 TEST(Json, MessagesStayShort) {
-    EXPECT_LT(refusal("[" + std::string(1'000'000, 'x')).size(), 300u);
-    EXPECT_LT(refusal("[\"" + std::string(1'000'000, 'x')).size(), 300u);
+    EXPECT_LT(json_refusal("[" + std::string(1'000'000, 'x')).size(), 300u);
+    EXPECT_LT(json_refusal("[\"" + std::string(1'000'000, 'x')).size(), 300u);
 }
 
 TEST(Json, WriterMakesWhatAnIndependentParserReads) {

@@ -11,7 +11,7 @@ namespace {
 using testing::input_error;
 using testing::TempFolder;
 
-std::string refusal(const std::string& text) {
+std::string scene_refusal(const std::string& text) {
     return input_error([&] { parse_scene(text, "s.json", ""); });
 }
 
@@ -27,13 +27,13 @@ std::string with(const std::string& rest) {
 std::string with_clip(const std::string& clip) { return "{\"clips\": {\n\"c\": " + clip + "}}"; }
 
 TEST(SceneErrors, UnknownKeysNameThemselvesTheirLineAndTheNearest) {
-    EXPECT_EQ(refusal(with("\"quieries\": []")),
+    EXPECT_EQ(scene_refusal(with("\"quieries\": []")),
               "s.json: line 3, /quieries: unknown key 'quieries'; the nearest known key is 'queries'");
-    EXPECT_NE(
-        refusal(with("\"fit\": {\"tre\": 1}")).find("/fit/tre: unknown key 'tre'; the nearest known key is 'tree'"),
-        std::string::npos);
-    EXPECT_NE(refusal(with("\"view\": {\"camera\": {\"yaw\": 1}}")).find("'yaw_deg'"), std::string::npos);
-    EXPECT_NE(refusal("{\"clips\": {}, \"\": 1}").find("unknown key ''"), std::string::npos);
+    EXPECT_NE(scene_refusal(with("\"fit\": {\"tre\": 1}"))
+                  .find("/fit/tre: unknown key 'tre'; the nearest known key is 'tree'"),
+              std::string::npos);
+    EXPECT_NE(scene_refusal(with("\"view\": {\"camera\": {\"yaw\": 1}}")).find("'yaw_deg'"), std::string::npos);
+    EXPECT_NE(scene_refusal("{\"clips\": {}, \"\": 1}").find("unknown key ''"), std::string::npos);
 }
 
 TEST(SceneErrors, ClipsAreChecked) {
@@ -41,6 +41,8 @@ TEST(SceneErrors, ClipsAreChecked) {
         {"{\"samples\": [[0,0,1]],\n\"dt\": 0}", "line 3, /clips/c/dt: dt must be"},
         {R"({"dt": 1e12, "samples": [[0,0,1],[0,0,1]]})", "/clips/c/dt: the clip lasts longer"},
         {R"({"dt": -1, "samples": [[0,0,1]]})", "dt must be"},
+        {R"({"dt": 1e-310, "samples": [[0,0,1]]})",
+         "line 2, /clips/c/dt: dt must be a finite number of at least 1e-12 s"},
         {"{\"dt\": 1,\n\"samples\": []}", "line 3, /clips/c/samples: a clip needs at least one sample"},
         {R"({"dt": 1, "samples": [[0,0,-1]]})", "/clips/c/samples/0/2: -1 is out of range"},
         {R"({"dt": 1, "samples": [[0,0,1],[1e10,0,1]]})", "/clips/c/samples/1/0: 1e+10 is out of range"},
@@ -56,7 +58,7 @@ TEST(SceneErrors, ClipsAreChecked) {
         {R"({"source": "x.csv", "unit": "ell"})", "/clips/c/unit: unit must be"},
         {R"({"source": "x.csv", "trim": [2, 1]})", "/clips/c/trim: trim must be"},
         {R"({"source": "x.csv", "radius": -1, "fps": 30})", "/clips/c/radius: radius must be"},
-        {R"({"source": "x.csv", "dt": 1e13})", "/clips/c/dt: dt must be over 0 and at most"},
+        {R"({"source": "x.csv", "dt": 1e13})", "/clips/c/dt: dt must be from 1e-12 to"},
         {R"({"source": "x.csv", "id": 1.5})", "/clips/c/id: 1.5 is not exact as a number; write the id as a string"},
         {R"({"source": "x.csv", "id": 9007199254740992})", "write the id as a string"},
         {R"({"source": "x.csv", "up": "z"})", "/clips/c/up: up does not apply to .csv files; leave it out"},
@@ -74,13 +76,13 @@ TEST(SceneErrors, ClipsAreChecked) {
         {"null", "expected an object, found null"},
     };
     for (const auto& [clip, message] : cases) {
-        EXPECT_NE(refusal(with_clip(clip)).find(message), std::string::npos)
-            << clip << " gave " << refusal(with_clip(clip));
+        EXPECT_NE(scene_refusal(with_clip(clip)).find(message), std::string::npos)
+            << clip << " gave " << scene_refusal(with_clip(clip));
     }
-    EXPECT_NE(refusal("{}").find("the key 'clips' is missing"), std::string::npos);
-    EXPECT_NE(refusal("{\"clips\": {}}").find("there is no clip"), std::string::npos);
-    EXPECT_NE(refusal("[]").find("expected an object"), std::string::npos);
-    EXPECT_NE(refusal("{\"clips\": {\"\": {}}}").find("needs a name"), std::string::npos);
+    EXPECT_NE(scene_refusal("{}").find("the key 'clips' is missing"), std::string::npos);
+    EXPECT_NE(scene_refusal("{\"clips\": {}}").find("there is no clip"), std::string::npos);
+    EXPECT_NE(scene_refusal("[]").find("expected an object"), std::string::npos);
+    EXPECT_NE(scene_refusal("{\"clips\": {\"\": {}}}").find("needs a name"), std::string::npos);
 }
 
 TEST(SceneErrors, GraphsAreChecked) {
@@ -114,7 +116,7 @@ TEST(SceneErrors, GraphsAreChecked) {
         {with("\"graph\": []"), "/graph: expected an object, found an array"},
     };
     for (const auto& [scene, message] : cases) {
-        EXPECT_NE(refusal(scene).find(message), std::string::npos) << scene << " gave " << refusal(scene);
+        EXPECT_NE(scene_refusal(scene).find(message), std::string::npos) << scene << " gave " << scene_refusal(scene);
     }
 }
 
@@ -168,13 +170,14 @@ TEST(SceneErrors, EverythingElseIsChecked) {
         {R"("view": {"disks": 1})", "expected true or false"},
     };
     for (const auto& [rest, message] : cases) {
-        EXPECT_NE(refusal(with(rest)).find(message), std::string::npos) << rest << " gave " << refusal(with(rest));
+        EXPECT_NE(scene_refusal(with(rest)).find(message), std::string::npos)
+            << rest << " gave " << scene_refusal(with(rest));
     }
 }
 
 TEST(SceneErrors, AgentsAreChecked) {
     const auto agents = [](const std::string& list) {
-        return refusal("{\"clips\": {\"walk\": {\"dt\": 1, \"samples\": [[0,0,1]]}}, \"agents\": " + list + "}");
+        return scene_refusal("{\"clips\": {\"walk\": {\"dt\": 1, \"samples\": [[0,0,1]]}}, \"agents\": " + list + "}");
     };
     EXPECT_NE(agents(R"([{"clip": "walk"}])").find("/agents/0: the key 'name' is missing"), std::string::npos);
     EXPECT_NE(agents(R"([{"name": "A", "clip": "wakl"}])").find("there is no clip 'wakl'; the nearest is 'walk'"),
@@ -192,7 +195,7 @@ TEST(SceneErrors, AgentsAreChecked) {
 
 TEST(SceneErrors, TracesAreChecked) {
     const auto trace = [](const std::string& events) {
-        return refusal(with("\"queries\": [{\"a\": \"A\", \"b\": \"B\", \"trace\": [" + events + "]}]"));
+        return scene_refusal(with("\"queries\": [{\"a\": \"A\", \"b\": \"B\", \"trace\": [" + events + "]}]"));
     };
     const std::string first =
         R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "overlap"})";

@@ -20,8 +20,6 @@ namespace {
 constexpr double kNear = 2.5;    // metres around two that meet
 constexpr double kBefore = 0.5;  // seconds before a conflict
 
-bool has_scene(const Session& session) { return !session.empty(); }
-
 // --- following
 
 void stop_following(Session& session, const std::string&) {
@@ -51,7 +49,7 @@ const CrowdAgent* followed(const Session& session) {
 }
 
 void to_time(Session& session, double time) {
-    session.playing = false;
+    session.stop();
     session.candidate = -1;
     session.look([&](ViewState& view) { view.time = time; });
 }
@@ -132,7 +130,7 @@ void find(Session& session, const std::string&) { session.find_conflicts(); }
 
 void to_conflict(Session& session, int index) {
     const SceneConflict& found = (*session.conflicts())[static_cast<std::size_t>(index)];
-    session.playing = false;
+    session.stop();
     session.conflict = index;
     const double time = std::max(found.begin() - kBefore, session.time_span().t0);
     session.look([&](ViewState& view) {

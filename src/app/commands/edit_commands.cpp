@@ -19,8 +19,6 @@ constexpr double kAside = 1;         // metres from the original to its copy
 constexpr double kBetween = 0.5;     // metres from the others to a new agent
 constexpr double kMaxDegrees = 1e9;  // as placements allow
 
-bool has_scene(const Session& session) { return !session.empty(); }
-
 struct FloorBounds {
     glm::dvec2 min{std::numeric_limits<double>::max()};
     glm::dvec2 max{std::numeric_limits<double>::lowest()};
@@ -48,12 +46,6 @@ mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
     const double y = others.max.y + kBetween - own.min.y;
     const auto rounded_up = [](double metres) { return std::ceil(metres * 10) / 10; };
     return {{rounded_up(x), rounded_up(y)}, 0, start};
-}
-
-std::vector<std::string> clip_names(const Session& session) {
-    std::vector<std::string> out;
-    for (const SceneClip& clip : session.scene().clips) out.push_back(clip.name);
-    return out;
 }
 
 void select_agent(Session& session, int agent) { session.select({Selection::Kind::path, {agent, -1, 0}, -1}); }

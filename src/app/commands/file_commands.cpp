@@ -8,8 +8,6 @@ namespace mobbscope::app {
 
 namespace {
 
-bool has_scene(const Session& session) { return !session.empty(); }
-
 void open_file(Session& session, const std::string& file) {
     if (file.empty()) return session.open_dialog(Dialog::open);
     session.open({file});

@@ -11,8 +11,6 @@ namespace mobbscope::app {
 
 namespace {
 
-bool has_scene(const Session& session) { return !session.empty(); }
-
 /// The paths that have names: those in the picture first, as a query may place clips itself.
 std::vector<PathRef> paths(const Session& session) {
     std::vector<PathRef> out;
@@ -118,12 +116,6 @@ void go_to_found(Session& session, const std::string&) {
 }
 
 // --- the rest
-
-std::vector<std::string> clip_names(const Session& session) {
-    std::vector<std::string> out;
-    for (const SceneClip& clip : session.scene().clips) out.push_back(clip.name);
-    return out;
-}
 
 void go_clip(Session& session, const std::string& name) {
     const std::vector<std::string> names = clip_names(session);

@@ -63,7 +63,7 @@ std::optional<int> query_of(const Session& session, int a, int b) {
     return std::nullopt;
 }
 
-void add(Session& session, const std::string& other) {
+void add_against(Session& session, const std::string& other) {
     const int a = selected_agent(session);
     const int b = path_by_name(session, other);
     // What is asked already is only shown.
@@ -81,7 +81,7 @@ std::optional<int> edited_query(const Session& session) {
     return session.view().query;
 }
 
-void remove(Session& session, const std::string&) {
+void remove_edited(Session& session, const std::string&) {
     const int query = *edited_query(session);
     session.edit({"removing a query", ""}, [&](Scene& scene) {
         remove_query(scene, static_cast<std::size_t>(query));
@@ -221,14 +221,14 @@ std::span<const Command> query_commands() {
              [](const Session& session) {
                  return has_selected_agent(session) && session.fitted().participants().size() > 1;
              },
-         .run = add,
+         .run = add_against,
          .choices = others},
         {.id = "query.remove",
          .title = "Remove the query",
          .menu = "Query",
          .doc = "Asks the selected query, or that in view, no more.",
          .enabled = [](const Session& session) { return edited_query(session) && query_total(session) > 1; },
-         .run = remove},
+         .run = remove_edited},
         {.id = "query.expect",
          .title = "Expect this answer",
          .menu = "Query",

@@ -17,7 +17,7 @@ namespace {
 }
 
 /// Numbers with commas between them.
-std::string listed(std::initializer_list<double> numbers) {
+std::string with_commas(std::initializer_list<double> numbers) {
     std::string out;
     for (const double number : numbers) out += (out.empty() ? "" : ",") + short_double(number);
     return out;
@@ -41,9 +41,9 @@ std::string camera_options(const Camera& file, const Camera& now) {
         out += " --fov " + short_double(now.fov_deg);
     }
     if (!now.target) return out;
-    out += " --target " + listed({now.target->x, now.target->y, now.target->z});
+    out += " --target " + with_commas({now.target->x, now.target->y, now.target->z});
     out += " --distance " + short_double(now.distance);
-    if (now.shift != glm::dvec2(0)) out += " --shift " + listed({now.shift.x, now.shift.y});
+    if (now.shift != glm::dvec2(0)) out += " --shift " + with_commas({now.shift.x, now.shift.y});
     return out;
 }
 

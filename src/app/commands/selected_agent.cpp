@@ -27,6 +27,12 @@ void edit_selected_agent(Session& session, const std::string& doing,
     });
 }
 
+std::vector<std::string> clip_names(const Session& session) {
+    std::vector<std::string> out;
+    for (const SceneClip& clip : session.scene().clips) out.push_back(clip.name);
+    return out;
+}
+
 std::vector<std::string> path_names(const Session& session) {
     std::vector<std::string> out;
     for (const Participant& participant : session.fitted().participants()) out.push_back(participant.name);

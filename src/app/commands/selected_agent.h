@@ -21,6 +21,8 @@ std::string selected_agent_name(const Session& session);
 void edit_selected_agent(Session& session, const std::string& doing,
                          const std::function<void(Scene&, int agent)>& change);
 
+std::vector<std::string> clip_names(const Session& session);
+
 /// The names of agents, or of the clips where there are no agents.
 std::vector<std::string> path_names(const Session& session);
 

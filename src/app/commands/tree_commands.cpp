@@ -9,8 +9,6 @@ namespace mobbscope::app {
 
 namespace {
 
-bool has_scene(const Session& session) { return !session.empty(); }
-
 std::vector<std::string> as_strings(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
 
 template <class Change>
@@ -41,7 +39,7 @@ void set_leaf(Session& session, const std::string& text) {
     fit(session, "changing the leaves", [&](mobb::FitOptions& options) { options.leaf = leaf; });
 }
 
-void set_levels(Session& session, const std::string& text) {
+void set_tree_levels(Session& session, const std::string& text) {
     const int levels = whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max());
     fit(session, "changing the levels", [&](mobb::FitOptions& options) { options.levels = levels; });
 }
@@ -88,7 +86,7 @@ std::span<const Command> tree_commands() {
          .argument = "N",
          .doc = "Ends the trees after N levels; 0 lets them go down to their leaves.",
          .enabled = has_scene,
-         .run = set_levels},
+         .run = set_tree_levels},
         {.id = "tree.time_scale",
          .title = "Time scale...",
          .menu = "Tree",

@@ -19,11 +19,10 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kZoomStep = 1.25;
+constexpr double kKeyZoom = 1.25;
 constexpr double kOrbitStep = 5;  // degrees
 constexpr std::array kScales{0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0};
 
-bool has_scene(const Session& session) { return !session.empty(); }
 bool shows_levels(const Session& session) { return has_scene(session) && !session.view().query; }
 
 // --- the camera
@@ -172,7 +171,7 @@ void coarser(Session& session, const std::string&) {
     show_levels(session, {levels.first - by, levels.last - by, false});
 }
 
-void set_levels(Session& session, const std::string& levels) { show_levels(session, parse_level_range(levels)); }
+void set_shown_levels(Session& session, const std::string& levels) { show_levels(session, parse_level_range(levels)); }
 
 void set_time_height(Session& session, const std::string& metres) {
     const double height = metres == "auto" ? 0 : number_in(metres, "the height of a second", 1e-6, 1e6);
@@ -252,13 +251,14 @@ void step_time(Session& session, int direction) {
     const double dt = sample_time(session);
     const double at = (session.view().time.value_or(span.t0) - span.t0) / dt;
     const double next = direction > 0 ? std::floor(at + kHair) + 1 : std::ceil(at - kHair) - 1;
-    session.playing = false;
+    session.stop();
     set_time(session, std::clamp(span.t0 + next * dt, span.t0, span.t1));
 }
 
 void play(Session& session, const std::string&) {
-    session.playing = !session.playing;
-    if (session.playing && !session.view().time) set_time(session, session.time_span().t0);
+    if (session.playing()) return session.stop();
+    session.play();
+    if (!session.view().time) set_time(session, session.time_span().t0);
 }
 
 }  // namespace
@@ -337,14 +337,14 @@ std::span<const Command> view_commands() {
          .shortcut = "=",
          .doc = "Goes nearer.",
          .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { zoom(session, kZoomStep); }},
+         .run = [](Session& session, const std::string&) { zoom(session, kKeyZoom); }},
         {.id = "view.zoom_out",
          .title = "Zoom out",
          .menu = "View/Camera",
          .shortcut = "-",
          .doc = "Goes farther away.",
          .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { zoom(session, 1 / kZoomStep); }},
+         .run = [](Session& session, const std::string&) { zoom(session, 1 / kKeyZoom); }},
         {.id = "view.orbit",
          .title = "Turn by",
          .argument = "DX DY",
@@ -461,7 +461,7 @@ std::span<const Command> view_commands() {
          .argument = "N|A:B|leaves",
          .doc = "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
          .enabled = has_scene,
-         .run = set_levels},
+         .run = set_shown_levels},
         {.id = "view.finer",
          .title = "Finer level",
          .menu = "View/Levels",
@@ -482,7 +482,7 @@ std::span<const Command> view_commands() {
          .shortcut = "E",
          .doc = "Shows the leaves of the trees, whatever their level; leaves the query in view.",
          .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { set_levels(session, "leaves"); },
+         .run = [](Session& session, const std::string&) { set_shown_levels(session, "leaves"); },
          .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }},
         {.id = "view.time_height",
          .title = "Height of a second",
@@ -538,7 +538,7 @@ std::span<const Command> view_commands() {
          .enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); },
          .run =
              [](Session& session, const std::string&) {
-                 session.playing = false;
+                 session.stop();
                  session.look([](ViewState& view) { view.time.reset(); });
              }},
         {.id = "time.play",
@@ -548,7 +548,7 @@ std::span<const Command> view_commands() {
          .doc = "Lets the time cursor run, or stops it.",
          .enabled = has_scene,
          .run = play,
-         .checked = [](const Session& session) { return session.playing; }},
+         .checked = [](const Session& session) { return session.playing(); }},
         {.id = "time.start",
          .title = "To the first moment",
          .menu = "View/Time",

@@ -17,7 +17,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr int kMostRows = 9;
+constexpr int kMostCrowdRows = 9;
 
 std::string at_time(double time) {
     char text[48];
@@ -97,7 +97,7 @@ void last_choice_list(Ui& ui) {
         };
         return rank(a) < rank(b);
     });
-    rows(ui, "##candidates", static_cast<int>(shown.size()), kMostRows, [&](int i) {
+    rows(ui, "##candidates", static_cast<int>(shown.size()), kMostCrowdRows, [&](int i) {
         const std::size_t index = shown[static_cast<std::size_t>(i)];
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         const Fate fate = fate_of(choice, index);
@@ -132,7 +132,7 @@ void plays(Ui& ui) {
     const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(*person)];
     const std::size_t now = play_at(agent, run_time(session.scene(), session.view()));
     heading(ui, ("PLAYS OF " + agent.name).c_str(), std::to_string(agent.plays.size()));
-    rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostRows, [&](int i) {
+    rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostCrowdRows, [&](int i) {
         const Play& play = agent.plays[static_cast<std::size_t>(i)];
         const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
         const char* kind = play.kind == PlayKind::pivoted  ? "pivoted  "
@@ -165,7 +165,7 @@ void conflicts(Ui& ui) {
     // A double click may open two of them.
     const std::vector<SceneConflict> kept = *found;
     int open = -1;
-    rows(ui, "##conflicts", static_cast<int>(kept.size()), kMostRows, [&](int i) {
+    rows(ui, "##conflicts", static_cast<int>(kept.size()), kMostCrowdRows, [&](int i) {
         const SceneConflict& conflict = kept[static_cast<std::size_t>(i)];
         char depth[48];
         std::snprintf(depth, sizeof depth, "%.2f s  %.2f m", conflict.begin(), -conflict.facts.least_clearance);

@@ -8,8 +8,8 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kFrame = 1 / 15.0;  // seconds between frames while it moves
-constexpr double kSweep = 1.6;       // seconds that the bar takes where nothing is known
+constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
+constexpr double kSweep = 1.6;               // seconds that the bar takes where nothing is known
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void job_progress(Ui& ui) {
     ImGui::Dummy({0, ui.px(2)});
     const bool cancelled = marked_button(ui, "Cancel", "job.cancel") || pressed(ImGuiKey_Escape);
     end_dialog();
-    ui.want_frame_in(kFrame);
+    ui.want_frame_in(kProgressFrame);
     if (cancelled) ui.session.cancel_job();
 }
 

@@ -9,7 +9,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr std::size_t kMostRows = 100;
+constexpr std::size_t kMostPairs = 100;
 
 std::string three_decimals(double value) {
     char text[32];
@@ -57,13 +57,13 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
             number(ui, signed_metres(clearance(p)), clearance(p), "m", color);
             if (nearest) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, mark_color(ui.look, mark, 0.14f));
         };
-        const std::size_t shown = std::min(event.pairs.size(), kMostRows);
+        const std::size_t shown = std::min(event.pairs.size(), kMostPairs);
         for (std::size_t k = 0; k < shown; ++k) row(event.pairs[k], &event.pairs[k] == &*least);
         if (static_cast<std::size_t>(least - event.pairs.begin()) >= shown) row(*least, true);
         ImGui::EndTable();
     }
     ImGui::PopStyleVar();
-    if (event.pairs.size() > kMostRows) {
+    if (event.pairs.size() > kMostPairs) {
         words(ui.look.quiet, "The first 100 and the nearest of " + std::to_string(event.pairs.size()) + ".");
     }
 }

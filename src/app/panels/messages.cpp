@@ -14,12 +14,12 @@ constexpr double kInfoSeconds = 4;
 constexpr float kWidest = 560;  // pixels at scale 1
 
 /// Where the lower left corner is, and how wide they are.
-struct Place {
+struct MessagePlace {
     ImVec2 corner;
     float width;
 };
 
-Place place_of(const Ui& ui) {
+MessagePlace place_of(const Ui& ui) {
     const ImVec2 room = ImGui::GetIO().DisplaySize;
     const float gap = ui.px(12);
     // Below what a dialog says and asks.
@@ -92,7 +92,7 @@ void messages(Ui& ui) {
     forget_old(ui);
     Session& session = ui.session;
     if (session.messages().empty()) return;
-    const Place place = place_of(ui);
+    const MessagePlace place = place_of(ui);
     ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowSizeConstraints({place.width, 0}, {place.width, ImGui::GetIO().DisplaySize.y / 2});
     ImGui::Begin("##messages", nullptr,

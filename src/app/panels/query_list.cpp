@@ -4,7 +4,6 @@
 #include <app/panels/section.h>
 #include <import/text.h>
 #include <render/query_sentence.h>
-#include <render/subject.h>
 
 #include <algorithm>
 
@@ -12,14 +11,14 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr int kMostRows = 12;  // a longer list scrolls by itself
+constexpr int kMostQueryRows = 12;  // a longer list scrolls by itself
 
 /// "A against B", the names shortened until it fits; the tooltip has them in full.
 std::string pair_that_fits(const SceneQuery& query, float room) {
     const std::string a = cleaned(query.a.name);
     const std::string b = cleaned(query.b.name);
     std::string pair;
-    for (int most = 40; most >= 5; --most) {
+    for (std::size_t most = 40; most >= 5; --most) {
         pair = shortened(a, most) + " against " + shortened(b, most);
         if (ImGui::CalcTextSize(pair.c_str()).x <= room) break;
     }
@@ -69,7 +68,7 @@ void query_list(Ui& ui) {
     const float height = 2 * ImGui::GetTextLineHeight() + ui.px(6);
     const float spacing = ImGui::GetStyle().ItemSpacing.y;
     const int rows = static_cast<int>(count);
-    const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostRows)) + spacing;
+    const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostQueryRows)) + spacing;
     ImGui::BeginChild("queries", {0, room});
     ImGuiListClipper clipper;
     clipper.Begin(rows, height + spacing);

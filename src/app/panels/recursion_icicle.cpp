@@ -13,7 +13,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kAhead = 0.35f;  // strength of what comes after the present step
+constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step
 
 /// Pairs that went on to others stay quiet: what they found stands below them.
 void draw_inner(ImDrawList& list, const Look& look, ImVec2 min, ImVec2 max, bool hit, float strength) {
@@ -52,7 +52,7 @@ void recursion_icicle(Ui& ui, ImVec2 size) {
         const ImVec2 end{at.x + static_cast<float>(cell.x1), at.y + static_cast<float>(cell.y1)};
         const float gap = cell.x1 - cell.x0 > 3 && row > 4 ? 1.0f : 0.0f;
         const ImVec2 max{end.x - gap, end.y - gap};
-        const float strength = pair.first <= step ? 1 : kAhead;
+        const float strength = pair.first <= step ? 1 : kIcicleAhead;
         if (pair.has_children()) {
             draw_inner(list, ui.look, min, max, pair.hit, strength);
         } else {

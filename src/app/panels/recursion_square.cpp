@@ -15,7 +15,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kAhead = 0.28f;  // strength of what comes after the present step
+constexpr float kSquareAhead = 0.28f;  // strength of what comes after the present step
 
 /// What both axes cover, and where.
 struct Square {
@@ -97,7 +97,7 @@ void recursion_square(Ui& ui, const QueryFindings& findings) {
         const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
         const ImVec2 min{square.min.x + static_cast<float>(cell.x0), square.min.y + static_cast<float>(cell.y0)};
         const ImVec2 max{square.min.x + static_cast<float>(cell.x1), square.min.y + static_cast<float>(cell.y1)};
-        const float strength = pair.first <= step ? 1 : kAhead;
+        const float strength = pair.first <= step ? 1 : kSquareAhead;
         if (pair.has_children()) {
             list.AddRect(min, max, to_im(with_alpha(ui.look.palette.axis, 0.6f * strength)), 0, 0, ui.look.scale);
         } else {

@@ -10,9 +10,9 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr int kMostRows = 9;
+constexpr int kMostSceneRows = 9;
 
-std::string seconds(double value) {
+std::string tenths_of_seconds(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f s", value);
     return text;
@@ -37,7 +37,7 @@ void agent_menu(Ui& ui, const Selection& self) {
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
 std::string remark_of(const Session& session, const SceneClip& clip) {
-    return session.crowd() ? fitted_text(clip.name, 90) : seconds(clip.clip->duration());
+    return session.crowd() ? fitted_text(clip.name, 90) : tenths_of_seconds(clip.clip->duration());
 }
 
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
@@ -69,7 +69,7 @@ void agents(Ui& ui) {
     // Of a run its people; what they play before and after now is theirs.
     const auto count = static_cast<int>(session.crowd() ? session.crowd()->agents.size() : kept->participants().size());
     heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
-    rows(ui, "##agents", count, kMostRows, [&](int i) { path_row(ui, *kept, i); });
+    rows(ui, "##agents", count, kMostSceneRows, [&](int i) { path_row(ui, *kept, i); });
     if (session.crowd()) return;
     if (ImGui::SmallButton("+ agent")) ImGui::OpenPopup("add agent");
     ui.mark("scene.add_agent");
@@ -88,12 +88,13 @@ void clips(Ui& ui) {
     Session& session = ui.session;
     const auto& all = session.scene().clips;
     heading(ui, "CLIPS", std::to_string(all.size()));
-    rows(ui, "##clips", static_cast<int>(all.size()), kMostRows, [&](int i) {
+    rows(ui, "##clips", static_cast<int>(all.size()), kMostSceneRows, [&](int i) {
         const SceneClip& clip = all[static_cast<std::size_t>(i)];
         const Selection self{Selection::Kind::clip, {}, i};
         const bool warned = !clip.facts.warnings.empty();
-        if (row(ui, {"clip" + std::to_string(i), clip.name, (warned ? "! " : "") + seconds(clip.clip->duration()),
-                     session.selection == self, session.hovered == self, 0, warned ? ui.look.warning : 0})) {
+        if (row(ui,
+                {"clip" + std::to_string(i), clip.name, (warned ? "! " : "") + tenths_of_seconds(clip.clip->duration()),
+                 session.selection == self, session.hovered == self, 0, warned ? ui.look.warning : 0})) {
             session.select(self);
         }
         ui.mark("clip." + std::to_string(i));
@@ -110,7 +111,7 @@ void queries(Ui& ui) {
     const auto count = static_cast<int>(session.fitted().queries().size());
     heading(ui, session.scene().queries.empty() && count > 0 ? "QUERIES (ALL PAIRS)" : "QUERIES",
             std::to_string(count));
-    rows(ui, "##queries", count, kMostRows, [&](int i) {
+    rows(ui, "##queries", count, kMostSceneRows, [&](int i) {
         const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
         const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
         const bool hit = answer.contact.has_value();

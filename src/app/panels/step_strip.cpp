@@ -17,7 +17,7 @@ namespace {
 /// How much of the strip's height an event takes: what says more stands taller.
 constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.8f, 0.8f, 1.0f};
 
-constexpr float kAhead = 0.4f;  // strength of what comes after the present step
+constexpr float kStripAhead = 0.4f;  // strength of what comes after the present step
 
 void draw_cell(ImDrawList& list, const Look& look, const StripCell& cell, ImVec2 at, float height, float strength) {
     const float width = cell.x1 - cell.x0;
@@ -60,7 +60,7 @@ void step_strip(Ui& ui, float width, float height) {
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.look.raised);
     const float room = height - ui.px(4);  // the rest is for the marker
     for (const StripCell& cell : cells) {
-        draw_cell(list, ui.look, cell, {at.x, at.y + ui.px(4)}, room, cell.first <= step ? 1 : kAhead);
+        draw_cell(list, ui.look, cell, {at.x, at.y + ui.px(4)}, room, cell.first <= step ? 1 : kStripAhead);
     }
     const auto present =
         std::partition_point(cells.begin(), cells.end(), [&](const StripCell& c) { return c.end <= step; });

@@ -7,13 +7,13 @@ namespace mobbscope::app {
 
 namespace {
 
-struct Field {
+struct FieldWithCompletion {
     DialogInput& input;
     const std::function<std::string(const std::string&)>& complete;
 };
 
 int on_event(ImGuiInputTextCallbackData* data) {
-    auto& [input, complete] = *static_cast<Field*>(data->UserData);
+    auto& [input, complete] = *static_cast<FieldWithCompletion*>(data->UserData);
     if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
         const std::string completed = complete(std::string(data->Buf, static_cast<std::size_t>(data->BufTextLen)));
         data->DeleteChars(0, data->BufTextLen);
@@ -30,7 +30,7 @@ int on_event(ImGuiInputTextCallbackData* data) {
 
 FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete) {
     DialogInput& input = ui.session.input;
-    Field field{input, complete};
+    FieldWithCompletion field{input, complete};
     ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_EnterReturnsTrue;
     if (complete) flags |= ImGuiInputTextFlags_CallbackCompletion;
     if (input.fresh) {
@@ -38,10 +38,12 @@ FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string
         ui.want_frame_in(0);
     }
     const std::string before = input.text;
+    ImGui::PushID(input.opening);
     ImGui::PushID(input.generation);
     ImGui::SetNextItemWidth(-1);
     FieldEvents events;
     events.entered = ImGui::InputTextWithHint("##field", hint, &input.text, flags, on_event, &field);
+    ImGui::PopID();
     ImGui::PopID();
     events.changed = input.text != before;
     if (events.changed) {

@@ -81,7 +81,7 @@ void time_bars(Ui& ui, float width, float height) {
     const auto x_of = [&](double t) { return corner.x + width * static_cast<float>((t - span.t0) / length); };
     if (ImGui::IsItemActive()) {
         const double at = span.t0 + length * std::clamp<double>((ImGui::GetIO().MousePos.x - corner.x) / width, 0, 1);
-        session.playing = false;
+        session.stop();
         session.look([&](ViewState& view) { view.time = at; });
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -119,7 +119,7 @@ void time_bars(Ui& ui, float width, float height) {
 void time_row(Ui& ui, bool tall) {
     Session& session = ui.session;
     const mobb::Interval span = session.time_span();
-    command_button(ui, session.playing ? "Pause" : "Play", "time.play", "timeline.time.play");
+    command_button(ui, session.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
     char text[64];
     std::snprintf(text, sizeof text, "%7.3f s", session.view().time.value_or(span.t0));
