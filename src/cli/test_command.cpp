@@ -5,6 +5,7 @@
 #include <cli/options.h>
 #include <cli/take_goldens.h>
 #include <guard/goldens.h>
+#include <guard/reference.h>
 #include <guard/reports.h>
 #include <guard/run_cases.h>
 #include <import/error.h>
@@ -23,6 +24,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -41,6 +43,7 @@ struct TestCommandArguments {
     bool update = false;
     bool update_all = false;                ///< of those that are run
     std::vector<std::string> update_names;  ///< neither: ask
+    bool new_reference = false;             ///< with update_all, of all cases
     std::filesystem::path output = "mobbscope-test";
     bool json = false;
     std::filesystem::path junit, html, contact_sheet;  ///< empty: none
@@ -101,9 +104,11 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<guar
     check_kind(arguments.contact_sheet, ".png", "the contact sheet");
     std::error_code ignored;
     for (const guard::CaseFile& file : all) {
-        if (!std::filesystem::equivalent(arguments.contact_sheet, file.golden(), ignored)) continue;
-        throw InputError(arguments.contact_sheet.string(), "",
-                         "the contact sheet would replace the golden of " + in_quotes(file.name) + "; rename it");
+        for (const std::filesystem::path& golden : {file.golden(), file.plain()}) {
+            if (!std::filesystem::equivalent(arguments.contact_sheet, golden, ignored)) continue;
+            throw InputError(arguments.contact_sheet.string(), "",
+                             "the contact sheet would replace the golden of " + in_quotes(file.name) + "; rename it");
+        }
     }
     if (std::filesystem::equivalent(arguments.output, arguments.folder, ignored)) {
         throw InputError("--output: " + in_quotes(arguments.output.string()) +
@@ -163,6 +168,41 @@ void write_contact_sheet(const TestCommandArguments& arguments, std::span<const 
     }
 }
 
+// --- where goldens are from
+
+/// The folders that the cases stand in.
+std::set<std::filesystem::path> folders_of(const std::vector<guard::CaseFile>& cases) {
+    std::set<std::filesystem::path> out;
+    for (const guard::CaseFile& file : cases) out.insert(file.file.parent_path());
+    return out;
+}
+
+/// Throws InputError if the goldens of a case are from elsewhere: one taken here would be the odd one.
+void check_references(const std::vector<guard::CaseFile>& cases, const guard::Reference& here) {
+    for (const std::filesystem::path& folder : folders_of(cases)) {
+        const std::optional<guard::Reference> reference = guard::read_reference(folder);
+        const std::string other = reference ? guard::what_is_other(here, *reference) : "";
+        if (other.empty()) continue;
+        throw InputError("--update: " + guard::reference_file(folder).string() + " says where the goldens are from, " +
+                         "and here are " + other + "; take them there, or all anew with --update all --new-reference");
+    }
+}
+
+/// All goldens become what is drawn here, and their folders say so; nothing is taken if a case cannot be drawn.
+void take_as_reference(std::vector<guard::CaseResult>& results, const std::vector<guard::CaseFile>& cases,
+                       const guard::Reference& here, std::ostream& say) {
+    if (guard::summary(results).failed > 0) {
+        warn("nothing is taken, as some of the cases cannot be drawn");
+        return;
+    }
+    take_named(
+        results, [](const guard::CaseResult&) { return true; }, say);
+    for (const std::filesystem::path& folder : folders_of(cases)) {
+        guard::write_reference(folder, here);
+        say << "wrote " << cleaned(guard::reference_file(folder).string()) << '\n';
+    }
+}
+
 // --- the run
 
 /// The context, or why there is none.
@@ -219,13 +259,19 @@ int run_test(const TestCommandArguments& arguments) {
     }
 
     const Drawer drawer = open(arguments);
+    const bool renews = arguments.new_reference && drawer.maker;
+    if (arguments.update && drawer.maker && !renews)
+        check_references(cases, guard::reference_of(drawer.maker->renderer()));
+    const guard::Origin origin = renews ? guard::Origin::here : guard::Origin::reference;
     std::vector<guard::CaseResult> results;
     for (const guard::CaseFile& file : cases) {
-        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl));
+        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, origin));
     }
     // Where standard output is a report, the rest goes beside it.
     std::ostream& say = arguments.json ? std::cerr : std::cout;
-    if (asks) {
+    if (renews) {
+        take_as_reference(results, cases, guard::reference_of(drawer.maker->renderer()), say);
+    } else if (asks) {
         take_asked(results, arguments.output, std::cin, say);
     } else if (arguments.update) {
         const auto named = [&](const guard::CaseResult& result) {
@@ -240,6 +286,12 @@ int run_test(const TestCommandArguments& arguments) {
     if (!drawer.maker) throw MachineError(drawer.no_opengl);
     if (!arguments.contact_sheet.empty()) write_contact_sheet(arguments, results, drawer.maker->renderer());
     return guard::summary(results).ok() ? kDone : kFailed;
+}
+
+/// A reference is that of all goldens of a folder.
+void check_new_reference(const TestCommandArguments& arguments) {
+    if (!arguments.new_reference || (arguments.update_all && arguments.names.empty())) return;
+    throw InputError("--new-reference: goldens are from one place; take all of them, with --update all and no NAME");
 }
 
 /// "all" alone stands for all cases that are run.
@@ -267,6 +319,9 @@ void add_test_command(Command& program, int& status) {
         .add_option("--update", arguments->update_names,
                     "Take the present pictures as goldens: of these cases, or all; without names, ask for each", "NAME")
         .any_number();
+    command.add_flag("--new-reference", arguments->new_reference,
+                     "With --update all: say in reference.json what the goldens are drawn with, and take those without "
+                     "text that hold with anything else");
     add_parsed(command, "--output", arguments->output, parse_file_name,
                "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
     command.add_flag("--json", arguments->json, "The report as JSON on standard output");
@@ -285,6 +340,7 @@ void add_test_command(Command& program, int& status) {
         "Of the contact sheet", "N");
     command.callback([&command, arguments, &status] {
         if (command.is_given("--update")) read_update(*arguments);
+        check_new_reference(*arguments);
         status = run_test(*arguments);
     });
 }

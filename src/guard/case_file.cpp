@@ -40,6 +40,12 @@ std::filesystem::path CaseFile::golden() const { return beside(*this, ".png"); }
 
 std::filesystem::path CaseFile::draw() const { return beside(*this, ".draw.json"); }
 
+std::filesystem::path CaseFile::plain() const { return beside(*this, ".plain.png"); }
+
+std::filesystem::path CaseFile::plain_draw() const { return beside(*this, ".plain.draw.json"); }
+
+std::filesystem::path CaseFile::plain_state() const { return beside(*this, ".plain.state.json"); }
+
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
     std::vector<CaseFile> cases;
     std::error_code error;

@@ -4,7 +4,8 @@
 ///      "tolerance": "tight",          or "loose"
 ///      "skip": "why"                  the case is reported as skipped
 ///
-/// Beside it stand its golden `NAME.png` and, if the numbers are to be held too, `NAME.draw.json` (draw_list_json.h).
+/// Beside it stand its golden `NAME.png` and, if the numbers are to be held too, `NAME.draw.json` (draw_list_json.h);
+/// where the folder has a reference, the goldens `NAME.plain.*` too (reference.h).
 #pragma once
 
 #include <guard/shot.h>
@@ -30,8 +31,11 @@ DiffOptions diff_options(Tolerance tolerance);
 struct CaseFile {
     std::string name;  ///< of the file relative to the folder of the cases, without ".case.json"
     std::filesystem::path file;
-    std::filesystem::path golden() const;  ///< NAME.png
-    std::filesystem::path draw() const;    ///< NAME.draw.json
+    std::filesystem::path golden() const;       ///< NAME.png
+    std::filesystem::path draw() const;         ///< NAME.draw.json
+    std::filesystem::path plain() const;        ///< NAME.plain.png
+    std::filesystem::path plain_draw() const;   ///< NAME.plain.draw.json
+    std::filesystem::path plain_state() const;  ///< NAME.plain.state.json
 };
 
 /// All cases in a folder and the folders in it, by name. Throws InputError if there is no such folder, or no case in

@@ -38,18 +38,14 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
 
 std::vector<std::filesystem::path> take(CaseResult& result) {
     std::vector<std::filesystem::path> written;
-    if (!result.image || !result.image->same) {
-        write_png(result.file.golden(), result.actual);
-        written.push_back(result.file.golden());
+    for (const FreshGolden& golden : result.fresh) {
+        write_file(golden.file, golden.bytes);
+        written.push_back(golden.file);
     }
-    if (!result.draws_the_same) {
-        write_file(result.file.draw(), result.draw_lists);
-        written.push_back(result.file.draw());
-    }
+    result.fresh.clear();
     result.golden = {};
     result.image = diff(result.actual, result.actual, diff_options(result.tolerance));
     result.image->heat = {};
-    result.draws_the_same = true;
     result.outcome = Outcome::passed;
     result.message.clear();
     return written;

@@ -16,8 +16,8 @@ void make_folder_of(const std::filesystem::path& file);
 /// Returns what it wrote. Throws MachineError.
 std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
 
-/// Makes the present picture the golden, and its draw list that which is kept, each file whole; then the case has
-/// passed. Returns what it wrote. Throws MachineError.
+/// Makes the goldens of a case what is drawn now, each file whole; then the case has passed. Returns what it wrote.
+/// Throws MachineError.
 std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::guard

@@ -6,6 +6,7 @@
 #include <render/draw_list_json.h>
 #include <render/sheet.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -15,16 +16,23 @@ namespace mobbscope::guard {
 
 namespace {
 
-Image picture_of_window(const Shot& shot, Backend backend) {
-    const Panel& panel = shot.panels.front();
-    const app::Script* script = shot.window->script ? &*shot.window->script : nullptr;
+/// The size of the scene without text out of a window of this size. It is small: what is drawn of a scene is held by
+/// the cases without a window.
+PictureSize size_of_scene(PictureSize window) {
+    return {std::max(window.width / 4, kMinSide), std::max(window.height / 4, kMinSide)};
+}
+
+/// A script whose expectation does not hold is a case that fails, like one that cannot be read.
+template <class Work>
+auto work_window(const Work& work) {
     try {
-        return window_picture(*panel.fitted, panel.view, shot.scene_file, backend, shot.picture.size,
-                              shot.window->scale, script);
+        return work();
     } catch (const app::ExpectationError& error) {
         throw InputError(error.what());
     }
 }
+
+const app::Script* script_of(const Shot& shot) { return shot.window->script ? &*shot.window->script : nullptr; }
 
 }  // namespace
 
@@ -32,7 +40,13 @@ PictureMaker::PictureMaker(Backend backend) : renderer_(backend) {}
 
 Image PictureMaker::make(const Shot& shot) {
     refuse_warnings(renderer_.backend(), renderer_.warnings());
-    if (shot.window) return picture_of_window(shot, *backend_from_name(renderer_.backend()));
+    if (shot.window) {
+        return work_window([&] {
+            return window_picture(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
+                                  *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
+                                  script_of(shot));
+        });
+    }
     const std::vector<DrawList> lists = panel_lists(shot);
     const PictureOptions& options = shot.picture;
     if (lists.size() == 1) return renderer_.draw(lists.front(), options.samples);
@@ -56,6 +70,15 @@ std::string PictureMaker::draw_lists(const Shot& shot) {
     }
     if (lists.size() > 1) out << "]\n";
     return out.str();
+}
+
+PictureMaker::Window PictureMaker::window_without_text(const Shot& shot) {
+    const WindowContents contents = work_window([&] {
+        return window_contents(*shot.panels.front().fitted, shot.panels.front().view, shot.scene_file,
+                               *backend_from_name(renderer_.backend()), shot.picture.size, shot.window->scale,
+                               size_of_scene(shot.picture.size), script_of(shot));
+    });
+    return {renderer_.draw(contents.scene), contents.state};
 }
 
 }  // namespace mobbscope::guard

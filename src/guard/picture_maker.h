@@ -26,6 +26,13 @@ class PictureMaker {
     /// several panels an array of them. Not for a window. Throws as make does.
     std::string draw_lists(const Shot& shot);
 
+    /// What a window shows: the scene in it without text, and its state as JSON. Throws as make does.
+    struct Window {
+        Image picture;
+        std::string state;
+    };
+    Window window_without_text(const Shot& shot);
+
   private:
     Renderer renderer_;
 };

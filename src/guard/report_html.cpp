@@ -165,7 +165,11 @@ void write_header(std::ostream& out, const RunFacts& facts, std::span<const Case
     const Summary sum = summary(results);
     out << "<header>\n<h1>" << headline(sum, results.size()) << "</h1>\n<dl class=\"facts\">\n<dt>Result</dt><dd>"
         << sum_of(sum) << "</dd>\n<dt>Folder</dt><dd>" << escaped(facts.folder) << "</dd>\n<dt>Drawn by</dt><dd>"
-        << escaped(drawn_by(facts)) << "</dd>\n</dl>\n";
+        << escaped(drawn_by(facts)) << "</dd>\n";
+    for (const std::string& sentence : not_compared(results)) {
+        out << "<dt>Not compared</dt><dd>" << escaped(sentence) << "</dd>\n";
+    }
+    out << "</dl>\n";
     write_contents(out, open);
     std::vector<std::string_view> names;
     for (const CaseResult* result : open) {

@@ -1,3 +1,4 @@
+#include <guard/report_words.h>
 #include <guard/reports.h>
 #include <render/diff_json.h>
 
@@ -18,6 +19,12 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     json.member("failed", sum.failed);
     json.member("skipped", sum.skipped);
     json.end_object();
+    if (const std::vector<std::string> sentences = not_compared(results); !sentences.empty()) {
+        json.key("not_compared");
+        json.begin_array();
+        for (const std::string& sentence : sentences) json.value(sentence);
+        json.end_array();
+    }
     json.key("cases");
     json.begin_array();
     for (const CaseResult& result : results) {

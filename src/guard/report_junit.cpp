@@ -44,7 +44,11 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     out << "<testsuites" << sum << ">\n  <testsuite" << attribute("name", facts.folder) << sum << ">\n";
     out << "    <properties>\n      <property name=\"backend\"" << attribute("value", facts.backend)
-        << "/>\n      <property name=\"renderer\"" << attribute("value", facts.renderer) << "/>\n    </properties>\n";
+        << "/>\n      <property name=\"renderer\"" << attribute("value", facts.renderer) << "/>\n";
+    for (const std::string& sentence : not_compared(results)) {
+        out << "      <property name=\"not compared\"" << attribute("value", sentence) << "/>\n";
+    }
+    out << "    </properties>\n";
     for (const CaseResult& result : results) {
         out << "    <testcase" << attribute("classname", facts.folder) << attribute("name", result.file.name)
             << attribute("file", result.file.file.string()) << attribute("time", decimal(result.seconds)) << ">\n";

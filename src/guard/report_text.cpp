@@ -13,6 +13,7 @@ void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     }
     out << cleaned(facts.folder) << ": " << sum_of(summary(results)) << "; drawn by " << cleaned(drawn_by(facts))
         << '\n';
+    for (const std::string& sentence : not_compared(results)) out << cleaned(sentence) << '\n';
     if (!updatable.empty()) {
         out << "Look at the pictures. Those that are right become goldens with\n  "
             << cleaned(update_command(facts, updatable)) << '\n';

@@ -1,6 +1,8 @@
+#include <guard/reference.h>
 #include <guard/report_words.h>
-
 #include <import/shell_word.h>
+
+#include <algorithm>
 
 namespace mobbscope::guard {
 
@@ -20,6 +22,18 @@ std::string sum_of(const Summary& summary) {
     add(summary.failed, "failed");
     add(summary.skipped, "skipped");
     return out.empty() ? "no cases" : out;
+}
+
+std::vector<std::string> not_compared(std::span<const CaseResult> results) {
+    std::vector<std::string> out;
+    for (const CaseResult& result : results) {
+        if (result.other_here.empty()) continue;
+        const std::string file = reference_file(result.file.file.parent_path()).string();
+        const std::string sentence =
+            "Pixels of text are not compared: here are " + result.other_here + " (" + file + ")";
+        if (std::find(out.begin(), out.end(), sentence) == out.end()) out.push_back(sentence);
+    }
+    return out;
 }
 
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names) {

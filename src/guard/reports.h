@@ -19,7 +19,8 @@ struct RunFacts {
 /// A line for each case that did not pass, and the sum.
 void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// {"folder", "backend", "renderer", "summary": {...}, "cases": [{"name", "outcome", "message", "seconds", "tolerance",
-/// "diff": {...} or null}]}; `diff` as in `mobbscope diff --json`.
+/// "diff": {...} or null}]}; `diff` as in `mobbscope diff --json`. Where goldens are from elsewhere (reference.h),
+/// "not_compared": why pixels of text are not, a sentence for each folder.
 void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 /// JUnit's XML: a failed picture is a failure, one that could not be drawn an error.
 void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);

@@ -1,3 +1,4 @@
+#include <guard/reference.h>
 #include <guard/run_cases.h>
 
 #include <import/error.h>
@@ -6,6 +7,7 @@
 #include <render/draw_list_json.h>
 #include <render/png.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
@@ -16,56 +18,101 @@ namespace mobbscope::guard {
 
 namespace {
 
-/// Holds the picture against the golden.
-void compare_pictures(CaseResult& result) {
-    const std::filesystem::path file = result.file.golden();
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-        result.outcome = Outcome::missing_golden;
-        result.message = "there is no golden " + file.string();
-        return;
-    }
-    try {
-        result.golden = read_png(file);
-    } catch (const InputError& error) {
-        result.outcome = Outcome::different;
-        result.message = std::string("the golden cannot be read: ") + error.what();
-        return;
-    }
-    result.image = diff(result.actual, result.golden, diff_options(result.tolerance));
-    if (result.image->same) return;
-    result.outcome = Outcome::different;
-    result.message = what_differs(*result.image);
+/// What was found of one golden is added to what was found of those before.
+void add_finding(CaseResult& result, Outcome outcome, const std::string& message, FreshGolden fresh) {
+    if (result.outcome == Outcome::passed) result.outcome = outcome;
+    result.message += (result.message.empty() ? "" : "; ") + message;
+    result.fresh.push_back(std::move(fresh));
 }
 
-/// Holds what is drawn against NAME.draw.json, if there is one.
-void compare_draw_lists(CaseResult& result, const Shot& shot, PictureMaker& maker) {
-    const std::filesystem::path file = result.file.draw();
+bool is_there(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) return;
-    if (shot.window) {
-        throw InputError(result.file.file.string(), "",
-                         "a picture of the window has no draw list; remove " + file.filename().string());
+    return std::filesystem::exists(file, ignored);
+}
+
+/// Holds a picture against a golden. The result shows the first that is not its golden's, else the first. `which`
+/// stands before what differs.
+void compare_pictures(CaseResult& result, const Image& actual, const std::filesystem::path& file, Tolerance tolerance,
+                      const std::string& which = "") {
+    const bool shows_another = std::any_of(result.fresh.begin(), result.fresh.end(),
+                                           [](const FreshGolden& fresh) { return fresh.file.extension() == ".png"; });
+    const auto show = [&](Image golden, std::optional<ImageDiff> image) {
+        if (shows_another) return;
+        result.actual = actual;
+        result.golden = std::move(golden);
+        result.image = std::move(image);
+        result.tolerance = tolerance;
+    };
+    if (!is_there(file)) {
+        show({}, {});
+        return add_finding(result, Outcome::missing_golden, "there is no golden " + file.string(),
+                           {file, png_bytes(actual)});
     }
-    result.draw_lists = maker.draw_lists(shot);
+    Image golden;
+    try {
+        golden = read_png(file);
+    } catch (const InputError& error) {
+        show({}, {});
+        return add_finding(result, Outcome::different, which + "the golden cannot be read: " + error.what(),
+                           {file, png_bytes(actual)});
+    }
+    ImageDiff image = diff(actual, golden, diff_options(tolerance));
+    if (image.same && result.image) return;
+    if (image.same) return show(std::move(golden), std::move(image));
+    const std::string why = which + what_differs(image);
+    show(std::move(golden), std::move(image));
+    add_finding(result, Outcome::different, why, {file, png_bytes(actual)});
+}
+
+/// Holds numbers, as JSON, against a golden that is there. `what` stands for them in messages.
+void compare_numbers(CaseResult& result, const std::string& actual, const std::string& what,
+                     const std::filesystem::path& file) {
     std::string why;
     try {
         const std::string golden = read_file(file);
         const std::optional<std::string> found =
-            golden.empty() ? "it is empty"
-                           : first_difference(result.draw_lists, "the draw list", golden, file.string());
+            golden.empty() ? "it is empty" : first_difference(actual, what, golden, file.string());
         if (!found) return;
         why = file.filename().string() + ": " + *found;
     } catch (const InputError& error) {
         why = error.what();
     }
-    result.draws_the_same = false;
-    if (result.outcome == Outcome::passed) result.outcome = Outcome::different;
-    result.message += (result.message.empty() ? "" : "; ") + why;
+    add_finding(result, Outcome::different, why, {file, actual});
+}
+
+/// The same with one that must be there.
+void require_numbers(CaseResult& result, const std::string& actual, const std::string& what,
+                     const std::filesystem::path& file) {
+    if (is_there(file)) return compare_numbers(result, actual, what, file);
+    add_finding(result, Outcome::missing_golden, "there is no golden " + file.string(), {file, actual});
+}
+
+/// Holds the picture, and what is drawn where there is a NAME.draw.json, against the goldens.
+void compare_in_full(CaseResult& result, const Case& tested, const Image& picture, PictureMaker& maker) {
+    compare_pictures(result, picture, result.file.golden(), tested.tolerance);
+    if (is_there(result.file.draw())) {
+        compare_numbers(result, maker.draw_lists(tested.shot), "the draw list", result.file.draw());
+    }
+}
+
+/// The same without text: NAME.plain.*.
+void compare_without_text(CaseResult& result, const Shot& shot, PictureMaker& maker) {
+    const std::string which = "without text: ";
+    if (shot.window) {
+        const PictureMaker::Window window = maker.window_without_text(shot);
+        compare_pictures(result, coarse_picture(window.picture), result.file.plain(), Tolerance::loose, which);
+        require_numbers(result, window.state, "the window's state", result.file.plain_state());
+        return;
+    }
+    const Shot plain = without_text(shot);
+    compare_pictures(result, coarse_picture(maker.make(plain)), result.file.plain(), Tolerance::loose, which);
+    if (is_there(result.file.draw())) {
+        require_numbers(result, maker.draw_lists(plain), "the draw list", result.file.plain_draw());
+    }
 }
 
 /// Reads and draws it, and compares.
-void run(CaseResult& result, PictureMaker& maker) {
+void run(CaseResult& result, PictureMaker& maker, Origin origin) {
     const Case tested = read_case(result.file.file);
     result.tolerance = tested.tolerance;
     if (tested.skip) {
@@ -73,11 +120,25 @@ void run(CaseResult& result, PictureMaker& maker) {
         result.message = *tested.skip;
         return;
     }
-    result.actual = maker.make(tested.shot);
-    compare_pictures(result);
-    compare_draw_lists(result, tested.shot, maker);
+    if (tested.shot.window && is_there(result.file.draw())) {
+        throw InputError(result.file.file.string(), "",
+                         "a picture of the window has no draw list; remove " + result.file.draw().filename().string());
+    }
+    const Reference here = reference_of(maker.renderer());
+    const std::optional<Reference> reference =
+        origin == Origin::here ? here : read_reference(result.file.file.parent_path());
+    if (reference && result.file.name.ends_with(".plain")) {
+        throw InputError(result.file.file.string(), "",
+                         "goldens without text are called so where there is a reference.json; rename the case");
+    }
+    if (reference) result.other_here = what_is_other(here, *reference);
+
+    Image picture = maker.make(tested.shot);
+    if (result.other_here.empty()) compare_in_full(result, tested, picture, maker);
+    if (reference) compare_without_text(result, tested.shot, maker);
     if (result.outcome != Outcome::passed) return;
     // A run may have hundreds of cases: of those that passed one picture is enough.
+    result.actual = std::move(picture);
     result.golden = {};
     result.image->heat = {};
 }
@@ -100,7 +161,7 @@ std::string_view name(Outcome outcome) {
     return "";
 }
 
-CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl) {
+CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, Origin origin) {
     CaseResult result;
     result.file = file;
     if (!maker) {
@@ -110,20 +171,22 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     }
     const auto begin = std::chrono::steady_clock::now();
     try {
-        run(result, *maker);
+        run(result, *maker, origin);
     } catch (const std::exception& error) {
         result.outcome = Outcome::failed;
         result.message = error.what();
         result.actual = {};
         result.golden = {};
         result.image.reset();
+        result.fresh.clear();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
 }
 
 bool can_be_taken(const CaseResult& result) {
-    return result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
+    const bool is_no_golden = result.outcome == Outcome::different || result.outcome == Outcome::missing_golden;
+    return is_no_golden && result.other_here.empty();
 }
 
 Summary summary(std::span<const CaseResult> results) {

@@ -22,25 +22,39 @@ enum class Outcome {
 };
 std::string_view name(Outcome outcome);
 
+/// A golden as it would be if what is drawn now is right.
+struct FreshGolden {
+    std::filesystem::path file;
+    std::string bytes;
+};
+
 struct CaseResult {
     CaseFile file;
     Outcome outcome = Outcome::passed;
     std::string message;  ///< one line: why it did not pass; empty for one that did
     double seconds = 0;   ///< drawing and comparing
     Tolerance tolerance = Tolerance::tight;
-    Image actual;                    ///< empty where there is none
+    Image actual;                    ///< empty where there is none; without text if only that picture is different
     Image golden;                    ///< likewise, and of a case that passed
     std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
-    /// What is drawn, where there is a NAME.draw.json, and whether it is what stands there.
-    std::string draw_lists;
-    bool draws_the_same = true;
+    std::vector<FreshGolden> fresh;  ///< of a case that is different or lacks a golden: what would be right then
+    /// What is other here than where the goldens are from, which is why pixels of text are not held against them; empty
+    /// if they are.
+    std::string other_here;
+};
+
+/// What the goldens of a run are held to be from.
+enum class Origin {
+    reference,  ///< what the reference.json of their folder says, or here if there is none
+    here,       ///< here, whatever it says: this becomes the reference
 };
 
 /// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
 /// throws for what is wrong with a case.
-CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl);
+CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
+                    Origin origin = Origin::reference);
 
-/// Whether there is a picture, and it is not the golden's.
+/// Whether there is a picture that is not the golden's, and goldens are taken here.
 bool can_be_taken(const CaseResult& result);
 
 struct Summary {

@@ -151,4 +151,12 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     return shot;
 }
 
+Shot without_text(Shot shot) {
+    for (Panel& panel : shot.panels) {
+        panel.title.clear();
+        panel.view.labels = false;
+    }
+    return shot;
+}
+
 }  // namespace mobbscope::guard

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <app/script.h>
+#include <render/draw_list.h>
 #include <render/gl_context.h>
 #include <render/image.h>
 #include <scene/fitted_scene.h>
 
 #include <filesystem>
+#include <string>
 
 namespace mobbscope::guard {
 
@@ -16,5 +18,16 @@ namespace mobbscope::guard {
 /// compiler a warning; what Script::run throws.
 Image window_picture(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
                      Backend backend, PictureSize size, double scale, const app::Script* script = nullptr);
+
+/// What the same window shows when the script is done, but for its words.
+struct WindowContents {
+    DrawList scene;     ///< as in the middle of the window, without text
+    std::string state;  ///< what the panels are made from (app/state_json.h)
+};
+/// `picture`: the size that the scene is drawn at; the window's panels, and so its viewport, are as wide as their
+/// words. Throws as window_picture does, and what build_draw_list throws.
+WindowContents window_contents(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
+                               Backend backend, PictureSize size, double scale, PictureSize picture,
+                               const app::Script* script = nullptr);
 
 }  // namespace mobbscope::guard

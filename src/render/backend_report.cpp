@@ -1,18 +1,12 @@
 #include <render/backend_report.h>
 #include <render/gl_backends.h>
-
-#include <glad/gl.h>
+#include <render/gl_objects.h>
 
 #include <stdexcept>
 
 namespace mobbscope {
 
 namespace {
-
-std::string gl_string(GLenum name) {
-    const GLubyte* text = glGetString(name);
-    return text ? reinterpret_cast<const char*>(text) : "";
-}
 
 BackendReport report(const char* name, std::unique_ptr<GlContext> (*open)()) {
     BackendReport out;

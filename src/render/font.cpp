@@ -59,8 +59,14 @@ Font::Font(std::string_view data) {
     info_ = info;
 }
 
-std::string_view Font::file(FontFace face) {
-    return render_assets::embedded(face == FontFace::text ? MOBBSCOPE_FONT_TEXT_NAME : MOBBSCOPE_FONT_MONO_NAME);
+std::string_view Font::file(FontFace face) { return render_assets::embedded(file_name(face)); }
+
+std::string_view Font::file_name(FontFace face) {
+    return face == FontFace::text ? MOBBSCOPE_FONT_TEXT_NAME : MOBBSCOPE_FONT_MONO_NAME;
+}
+
+std::string_view Font::file_sha256(FontFace face) {
+    return face == FontFace::text ? MOBBSCOPE_FONT_TEXT_SHA256 : MOBBSCOPE_FONT_MONO_SHA256;
 }
 
 const Font& Font::of(FontFace face) {

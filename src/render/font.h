@@ -30,6 +30,8 @@ class Font {
     static const Font& of(FontFace face);
     /// The font file itself, for others that draw glyphs. Valid as long as the program runs.
     static std::string_view file(FontFace face);
+    static std::string_view file_name(FontFace face);    ///< "Inter-Medium.otf"
+    static std::string_view file_sha256(FontFace face);  ///< 64 hexadecimal digits
 
     /// Pixels from pen start to pen end. `size` is the em's height in pixels.
     float width(std::string_view utf8, float size) const;

@@ -10,6 +10,11 @@ std::string_view embedded(std::string_view name);
 
 namespace mobbscope {
 
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text ? reinterpret_cast<const char*>(text) : "";
+}
+
 GLuint BufferKind::create() {
     GLuint name = 0;
     glGenBuffers(1, &name);

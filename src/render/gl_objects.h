@@ -11,6 +11,9 @@
 
 namespace mobbscope {
 
+/// What the current context says of itself, as GL_VERSION; empty if nothing.
+std::string gl_string(GLenum name);
+
 /// Owns one OpenGL name; 0 is none.
 template <class Kind>
 class GlObject {

@@ -27,12 +27,6 @@ void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
     }
 }
 
-/// The current context's.
-std::string device_name() {
-    const GLubyte* name = glGetString(GL_RENDERER);
-    return name ? reinterpret_cast<const char*>(name) : "";
-}
-
 /// By the names of Mesa's, Google's and Microsoft's software renderers.
 bool draws_in_software(std::string_view device) {
     for (const char* software :
@@ -57,7 +51,8 @@ std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
 struct Renderer::State {
     explicit State(std::unique_ptr<GlContext> drawn_in)
         : context(made_current(std::move(drawn_in))),
-          device(device_name()),
+          device(gl_string(GL_RENDERER)),
+          version(gl_string(GL_VERSION)),
           software(draws_in_software(device)),
           disks(*context),
           faces(*context),
@@ -124,6 +119,7 @@ struct Renderer::State {
 
     std::unique_ptr<GlContext> context;
     std::string device;
+    std::string version;
     bool software;
     DiskPass disks;
     FacePass faces;
@@ -146,6 +142,8 @@ Renderer::~Renderer() {
 std::string_view Renderer::backend() const { return state_->context->name(); }
 
 const std::string& Renderer::device() const { return state_->device; }
+
+const std::string& Renderer::version() const { return state_->version; }
 
 GlContext& Renderer::context() { return *state_->context; }
 

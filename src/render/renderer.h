@@ -35,6 +35,8 @@ class Renderer {
     std::string_view backend() const;
     /// What OpenGL calls what draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& device() const;
+    /// Its version of OpenGL, with the driver's where that names it: "3.3 (Core Profile) Mesa 22.3.6".
+    const std::string& version() const;
     /// For what else draws in it.
     GlContext& context();
     /// Whether the processor draws, by the device's name. Then multisampling is dear.

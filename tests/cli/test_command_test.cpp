@@ -85,6 +85,9 @@ TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     const std::string folder = cases.path().string();
     expect_test_refused(run_program({"test", folder, "--output", folder}), "where the goldens are");
     expect_test_refused(test({"--update", "all", "path"}), "--update: all");
+    expect_test_refused(test({"--new-reference"}), "--new-reference: ");
+    expect_test_refused(test({"path", "--update", "all", "--new-reference"}), "--new-reference: ");
+    expect_test_refused(test({"--update", "path", "--new-reference"}), "--new-reference: ");
     EXPECT_EQ(run_program({"test"}).status, 2);
 }
 
@@ -216,6 +219,53 @@ TEST_F(DrawnTestCommandTest, DrawListsAreHeldAndTakenWhereTheirFileIs) {
     const Result differs = test({"path"});
     EXPECT_EQ(differs.status, 1);
     EXPECT_PRED2(says, differs.out, "different: path: path.draw.json: /");
+}
+
+TEST_F(DrawnTestCommandTest, ANewReferenceIsThatOfAllGoldens) {
+    const Result made = test({"--update", "all", "--new-reference"});
+    EXPECT_EQ(made.status, 0) << made.out << made.err;
+    for (const char* file :
+         {"path.png", "path.plain.png", "reference.json", "query/end.plain.png", "query/reference.json"}) {
+        EXPECT_TRUE(exists(file)) << file;
+    }
+    const Result run = test();
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_PRED2(says, run.out, "2 passed");
+    EXPECT_FALSE(says(run.out, "not compared")) << run.out;
+
+    cases.add("path", R"("view": {"levels": 0})");
+    EXPECT_EQ(test().status, 1);
+    EXPECT_EQ(test({"--update", "path"}).status, 0) << "here is where they are from";
+    EXPECT_EQ(test().status, 0);
+}
+
+TEST_F(DrawnTestCommandTest, NoGoldenIsTakenElsewhere) {
+    ASSERT_EQ(test({"--update", "all", "--new-reference"}).status, 0);
+    nlohmann::json reference = nlohmann::json::parse(slurp(cases.path() / "reference.json"));
+    reference["imgui"] = "0.1";
+    cases.folder().write("reference.json", reference.dump());
+    const Result run = test();
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_PRED2(says, run.out, "Pixels of text are not compared: here are Dear ImGui ");
+
+    cases.add("path", R"("view": {"levels": 0})");
+    const std::string before = slurp(cases.path() / "path.plain.png");
+    EXPECT_EQ(test().status, 1);
+    expect_test_refused(test({"--update", "path"}), " for 0.1; take them there, or all anew with");
+    expect_test_refused(test({"--update", "all"}), "reference.json says where the goldens are from");
+    EXPECT_EQ(slurp(cases.path() / "path.plain.png"), before);
+    EXPECT_EQ(test({"--update", "query/end"}).status, 0) << "its folder is from here";
+    EXPECT_EQ(test({"--update", "all", "--new-reference"}).status, 0);
+    EXPECT_FALSE(says(test().out, "not compared"));
+}
+
+TEST_F(DrawnTestCommandTest, AReferenceIsNotSaidOfGoldensThatAreNotTaken) {
+    cases.add("broken", R"("veiw": {})");
+    const Result run = test({"--update", "all", "--new-reference"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_PRED2(says, run.err, "nothing is taken");
+    EXPECT_FALSE(exists("reference.json"));
+    EXPECT_FALSE(exists("path.png"));
 }
 
 TEST_F(DrawnTestCommandTest, AtATerminalItAsks) {

@@ -53,27 +53,19 @@ TEST(KeepPictures, WritesWhatThereIsIntoAFolderThatItMakes) {
     EXPECT_FALSE(std::filesystem::exists(all[2])) << "of an earlier run";
 }
 
-TEST(Take, MakesThePictureTheGolden) {
+TEST(Take, MakesTheGoldensWhatIsFresh) {
     const CaseFolder cases;
     const CaseFile file = cases.add("a");
-    CaseResult result = result_of(file, Outcome::missing_golden, filled(200), {});
+    CaseResult result = result_of(file, Outcome::different, filled(200), filled(10));
+    result.fresh = {{file.golden(), png_bytes(filled(200))}, {file.draw(), "{}"}};
     ASSERT_TRUE(can_be_taken(result));
-    EXPECT_EQ(take(result), std::vector<std::filesystem::path>{file.golden()});
+    EXPECT_EQ(take(result), (std::vector<std::filesystem::path>{file.golden(), file.draw()}));
     EXPECT_EQ(read_png(file.golden()).rgba, filled(200).rgba);
+    EXPECT_EQ(slurp(file.draw()), "{}");
+    EXPECT_FALSE(std::filesystem::exists(file.plain()));
     EXPECT_EQ(result.outcome, Outcome::passed);
     EXPECT_EQ(result.message, "");
-}
-
-TEST(Take, TheDrawListAloneWhereThePictureIsTheGoldens) {
-    const CaseFolder cases;
-    const CaseFile file = cases.add("a");
-    CaseResult result = result_of(file, Outcome::different, filled(201), filled(200));
-    result.draw_lists = "{}";
-    result.draws_the_same = false;
-    EXPECT_EQ(take(result), std::vector<std::filesystem::path>{file.draw()});
-    EXPECT_EQ(slurp(file.draw()), "{}");
-    EXPECT_FALSE(std::filesystem::exists(file.golden()));
-    EXPECT_TRUE(result.draws_the_same);
+    EXPECT_TRUE(take(result).empty()) << "it is taken";
 }
 
 TEST(Take, OnlyWhatIsThereAndDiffers) {

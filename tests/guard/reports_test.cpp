@@ -203,6 +203,29 @@ TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
               "command mobbscope test 'my pictures' --update sizes\n");
 }
 
+TEST(Reports, SayOnceWhyPixelsOfTextAreNotCompared) {
+    std::vector<CaseResult> results{passed("a"), passed("b")};
+    const std::string sentence =
+        "Pixels of text are not compared: here are Dear ImGui 2 for 1 (my pictures/reference.json)";
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, results), "not compared"), 0u);
+    }
+    for (CaseResult& result : results) result.other_here = "Dear ImGui 2 for 1";
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, results), sentence), 1u);
+    }
+    EXPECT_EQ(times(written(write_text, results), "\n"), 2u);
+    EXPECT_EQ(nlohmann::json::parse(written(write_json, results))["not_compared"], nlohmann::json{sentence});
+    parsed(written(write_junit, results), "junit");
+    parsed(written(write_html, results), "html");
+
+    results = {different("moved")};
+    results.front().other_here = "Dear ImGui 2 for 1";
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, results), "--update"), 0u) << "goldens are not taken here";
+    }
+}
+
 TEST(Reports, AreTheSameEveryTime) {
     for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
         EXPECT_EQ(written(writer, one_of_each()), written(writer, one_of_each()));

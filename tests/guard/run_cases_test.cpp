@@ -1,5 +1,6 @@
 // What becomes of a case: every outcome, told apart.
 #include <guard/goldens.h>
+#include <guard/reference.h>
 #include <guard/run_cases.h>
 #include <import/file.h>
 #include <render/png.h>
@@ -177,6 +178,158 @@ TEST_F(RunCaseTest, AScriptOfTheWindowWritesNothing) {
     }
     EXPECT_EQ(read_file(cases.path() / "scene.json"), before);
     EXPECT_FALSE(std::filesystem::exists(cases.path() / "stray.png"));
+}
+
+/// A folder that says where its goldens are from.
+class RunCaseWithReferenceTest : public RunCaseTest {
+  protected:
+    /// Takes all goldens of a case here, and says that they are from here.
+    void take_here(const CaseFile& file) {
+        CaseResult result = run_case(file, maker_.get(), "", Origin::here);
+        EXPECT_EQ(result.outcome, Outcome::missing_golden) << result.message;
+        take(result);
+        write_reference(cases.path(), reference_of(maker_->renderer()));
+    }
+    /// From now on the goldens are from where a font is another.
+    void move_elsewhere() {
+        Reference there = reference_of(maker_->renderer());
+        there.fonts.begin()->second = std::string(64, '0');
+        write_reference(cases.path(), there);
+    }
+    /// Nothing is held against a golden that is no picture.
+    void spoil(const std::filesystem::path& golden) { cases.folder().write(golden.filename().string(), "spoiled"); }
+};
+
+TEST_F(RunCaseWithReferenceTest, HereBothGoldensAreHeld) {
+    const CaseFile file = cases.add("a");
+    take_here(file);
+    const CaseResult both = run(file);
+    EXPECT_EQ(both.outcome, Outcome::passed) << both.message;
+    EXPECT_EQ(both.other_here, "");
+    EXPECT_EQ(both.tolerance, Tolerance::tight);
+    EXPECT_NE(read_png(file.golden()).rgba, read_png(file.plain()).rgba) << "there is text";
+    EXPECT_EQ(both.actual.rgba, read_png(file.golden()).rgba);
+
+    spoil(file.plain());
+    CaseResult plain = run(file);
+    EXPECT_EQ(plain.outcome, Outcome::different);
+    EXPECT_NE(plain.message.find("without text: the golden cannot be read"), std::string::npos) << plain.message;
+    EXPECT_EQ(take(plain), std::vector<std::filesystem::path>{file.plain()});
+    EXPECT_EQ(run(file).outcome, Outcome::passed);
+
+    spoil(file.golden());
+    EXPECT_EQ(run(file).outcome, Outcome::different);
+}
+
+TEST_F(RunCaseWithReferenceTest, ElsewhereThatWithoutTextAlone) {
+    const CaseFile file = cases.add("a");
+    take_here(file);
+    move_elsewhere();
+    spoil(file.golden());
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, Outcome::passed) << result.message;
+    EXPECT_NE(result.other_here.find(" for 00000000"), std::string::npos) << result.other_here;
+    EXPECT_EQ(result.tolerance, Tolerance::loose);
+    EXPECT_EQ(result.image->largest, 0);
+    EXPECT_NE(result.actual.rgba, read_png(file.plain()).rgba) << "the picture with text is drawn all the same";
+}
+
+TEST_F(RunCaseWithReferenceTest, ElsewhereAWrongBoxIsFound) {
+    const CaseFile file = cases.write("a", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x360"})");
+    take_here(file);
+    move_elsewhere();
+    // One disk, and so the boxes around it, 5 cm wider.
+    std::string scene = mobbscope::testing::kSmallScene;
+    scene.replace(scene.find("0.45]"), 4, "0.50");
+    cases.folder().write("scene.json", scene);
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, Outcome::different);
+    EXPECT_EQ(result.message.find("without text: "), 0u) << result.message;
+    EXPECT_FALSE(result.image->heat.rgba.empty());
+}
+
+TEST_F(RunCaseWithReferenceTest, AGoldenWithoutTextThatIsNotThereIsMissing) {
+    const CaseFile file = cases.add("a");
+    golden_of(file);
+    write_reference(cases.path(), reference_of(maker_->renderer()));
+    for (int elsewhere = 0; elsewhere < 2; ++elsewhere) {
+        const CaseResult result = run(file);
+        EXPECT_EQ(result.outcome, Outcome::missing_golden);
+        EXPECT_NE(result.message.find("a.plain.png"), std::string::npos) << result.message;
+        move_elsewhere();
+    }
+}
+
+TEST_F(RunCaseWithReferenceTest, WithoutAReferenceNothingIsDrawnWithoutText) {
+    const CaseFile file = cases.add("a");
+    cases.folder().write("a.plain.png", "no golden of this case");
+    golden_of(file);
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, Outcome::passed) << result.message;
+    EXPECT_EQ(result.other_here, "");
+    EXPECT_EQ(read_file(file.plain()), "no golden of this case");
+}
+
+TEST_F(RunCaseWithReferenceTest, WhatIsDrawnIsHeldWithoutText) {
+    const CaseFile file = cases.add("a");
+    cases.folder().write("a.draw.json", "");
+    CaseResult result = run_case(file, maker_.get(), "", Origin::here);
+    take(result);
+    move_elsewhere();
+    spoil(file.draw());
+    EXPECT_EQ(run(file).outcome, Outcome::passed);
+
+    std::string list = read_file(file.plain_draw());
+    EXPECT_NE(list.find("\"texts\": []"), std::string::npos) << list;
+    EXPECT_NE(list.find("\"legend\": []"), std::string::npos) << list;
+    list.replace(list.find("\"radius\": 0.4"), 13, "\"radius\": 0.41");
+    cases.folder().write("a.plain.draw.json", list);
+    const CaseResult off = run(file);
+    EXPECT_EQ(off.outcome, Outcome::different);
+    EXPECT_NE(off.message.find("/radius: 0.4 instead of 0.41"), std::string::npos) << off.message;
+
+    std::filesystem::remove(file.plain_draw());
+    EXPECT_EQ(run(file).outcome, Outcome::missing_golden);
+}
+
+TEST_F(RunCaseWithReferenceTest, OfAWindowItsStateIsHeld) {
+    cases.folder().write("w.script", "run query.select 0\nrun view.zoom 1.5\n");
+    const CaseFile file = cases.write("w", R"({"mobbscope_case": 1, "scene": "scene.json", "size": "640x400",
+        "window": {"script": "w.script"}})");
+    take_here(file);
+    EXPECT_EQ(read_png(file.plain()).width, 80);
+    EXPECT_EQ(run(file).outcome, Outcome::passed);
+    move_elsewhere();
+    spoil(file.golden());
+    EXPECT_EQ(run(file).outcome, Outcome::passed);
+
+    // The picture is the same, and what the inspector shows is not.
+    cases.folder().write("w.script", "run query.select 0\nrun view.zoom 1.5\nclick agent.0\n");
+    const CaseResult other = run(file);
+    EXPECT_EQ(other.outcome, Outcome::different);
+    EXPECT_NE(other.message.find("w.plain.state.json: /selection"), std::string::npos) << other.message;
+    EXPECT_TRUE(other.image->same) << other.message;
+
+    std::filesystem::remove(file.plain_state());
+    EXPECT_EQ(run(file).outcome, Outcome::missing_golden);
+}
+
+TEST_F(RunCaseWithReferenceTest, FailsWhereTheReferenceIsNone) {
+    const CaseFile file = cases.add("a");
+    take_here(file);
+    cases.folder().write("reference.json", "{}");
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("reference.json"), std::string::npos) << result.message;
+}
+
+TEST_F(RunCaseWithReferenceTest, NoCaseIsCalledAsAGoldenIs) {
+    const CaseFile file = cases.add("a.plain");
+    EXPECT_EQ(run(file).outcome, Outcome::missing_golden) << "without a reference it may be";
+    write_reference(cases.path(), reference_of(maker_->renderer()));
+    const CaseResult result = run(file);
+    EXPECT_EQ(result.outcome, Outcome::failed);
+    EXPECT_NE(result.message.find("rename the case"), std::string::npos) << result.message;
 }
 
 TEST(RunCase, IsSkippedWithoutOpenGL) {

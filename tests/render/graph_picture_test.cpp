@@ -1,49 +1,19 @@
-// The picture of a motion graph: what it says, and what it looks like.
+// The picture of a motion graph: what it says. What it looks like is a golden: tests/guard/graph_golden_test.cpp.
 #include <render/graph_moves.h>
 #include <render/graph_picture.h>
-#include <render/image_diff.h>
-#include <render/png.h>
-#include <scene/motion_graph.h>
 
-#include "backends.h"
+#include "small_graph.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <memory>
 #include <string>
 
 namespace mobbscope {
 namespace {
 
-/// Three hubs that lead to each other and one by itself; moves are arcs of different speeds and turns.
-Scene small_graph() {
-    Scene scene;
-    auto graph = std::make_shared<MotionGraph>();
-    graph->hubs = {{"A"}, {"B"}, {"C"}, {"D"}};
-    graph->bounds = {0.16, 0.6};
-    const auto add = [&](int from, int to, double speed, double turn_deg) {
-        constexpr int kCount = 60;
-        const double per_step = turn_deg / kCount * 3.14159265358979 / 180;
-        std::vector<mobb::Disk> samples;
-        glm::dvec2 at(3, 4);
-        for (int i = 0; i < kCount; ++i) {
-            samples.push_back({at.x, at.y, 0.3});
-            at += speed / 30 * glm::dvec2(std::cos(i * per_step), std::sin(i * per_step));
-        }
-        graph->moves.push_back({static_cast<int>(scene.clips.size()), from, to, {{3, 4}, 0}, {at, turn_deg}});
-        scene.clips.push_back(
-            {std::to_string(scene.clips.size()), {}, {}, std::make_shared<mobb::Clip>(1.0 / 30, samples)});
-    };
-    for (int i = 0; i < 9; ++i) add(0, i % 3, 0.8 + 0.2 * i, 20.0 * i - 80);
-    for (int i = 0; i < 4; ++i) add(1, 2 - i % 3, 1.5, 30.0 * i - 45);
-    add(2, 0, 0.4, 0);
-    add(3, 3, 1, 90);
-    scene.graph = graph;
-    return scene;
-}
+using testing::small_graph;
 
 TEST(GraphPicture, NamesEveryHubAndCountsItsMoves) {
     const DrawList list = graph_picture(small_graph(), {640, 360}, Theme::dark);
@@ -91,21 +61,6 @@ TEST(GraphPicture, NeedsAGraph) {
     EXPECT_THROW(graph_picture({}, {640, 360}, Theme::dark), std::invalid_argument);
     EXPECT_THROW(graph_picture(small_graph(), {1, 1}, Theme::dark), std::invalid_argument);
 }
-
-class GraphPicturePixels : public testing::OnEachBackend {};
-
-TEST_P(GraphPicturePixels, AreTheGoldens) {
-    const Image drawn = renderer().draw(graph_picture(small_graph(), {640, 360}, Theme::dark));
-    const std::filesystem::path golden = MOBBSCOPE_SOURCE_DIR "/tests/render/goldens/motion_graph.png";
-    const std::filesystem::path actual = std::filesystem::path(::testing::TempDir()) / "motion_graph.png";
-    write_png(actual, drawn);
-    ASSERT_TRUE(std::filesystem::exists(golden)) << "look at " << actual << " and copy it to " << golden;
-    EXPECT_TRUE(diff(drawn, read_png(golden), {}).same)
-        << "look at " << actual << "; if it is right, copy it to " << golden;
-}
-
-INSTANTIATE_TEST_SUITE_P(Backends, GraphPicturePixels, ::testing::Values(Backend::osmesa, Backend::egl),
-                         testing::backend_name);
 
 }  // namespace
 }  // namespace mobbscope
