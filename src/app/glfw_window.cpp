@@ -130,10 +130,19 @@ int standard_cursor(ImGuiMouseCursor cursor) {
     }
 }
 
+[[maybe_unused]] bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value;
+}
+
 /// GLFW from start to end.
 struct Library {
     Library() {
         glfwSetErrorCallback([](int, const char* message) { last_error = message; });
+#ifdef GLFW_PLATFORM
+        // From GLFW 3.4 on Wayland is tried first, whose library complains on standard error where there is none.
+        if (!is_set("WAYLAND_DISPLAY") && !is_set("WAYLAND_SOCKET")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (!glfwInit()) fail("there is no display to open a window on");
     }
     ~Library() { glfwTerminate(); }

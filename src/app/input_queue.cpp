@@ -24,6 +24,11 @@ namespace {
 
 std::size_t index_of(Key key) { return static_cast<std::size_t>(key); }
 
+/// What Dear ImGui cannot hold is the replacement character.
+ImWchar typed_letter(char32_t code) {
+    return static_cast<ImWchar>(code <= IM_UNICODE_CODEPOINT_MAX ? code : char32_t{IM_UNICODE_CODEPOINT_INVALID});
+}
+
 }  // namespace
 
 bool InputQueue::any_button_down() const {
@@ -78,7 +83,8 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
         if (!is_letter(*key, frame)) frame.keys[index_of(key->key)] = frame.any_key = true;
         typed_by_command_ = key->down && others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated);
     } else if (const auto* text = std::get_if<TypedText>(&event)) {
-        if (!typed_by_command_) io.AddInputCharacter(static_cast<unsigned int>(text->code));
+        // Not through AddInputCharacter: from 1.87 on it has a queue of its own, a frame behind the keys of this one.
+        if (!typed_by_command_) io.InputQueueCharacters.push_back(typed_letter(text->code));
         typed_by_command_ = false;
         frame.typed = true;
         frame.after_key = after_key;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <sstream>
 #include <stdexcept>
@@ -18,12 +19,15 @@ constexpr std::size_t kLongestComplaint = 200;  // of CLI11, which repeats what 
 
 /// What is wrong with the value of a flag; CLI11 does not check it where a function takes the flag.
 std::string complaint_about_flag(const std::string& text) {
+    errno = 0;
+    bool is_flag = true;
     try {
         CLI::detail::to_flag_value(text);
-        return {};
+        is_flag = errno != EINVAL;  // from CLI11 2.4 on
     } catch (const std::logic_error&) {
-        return in_quotes(text) + " is neither true nor false";
+        is_flag = false;  // before
     }
+    return is_flag ? "" : in_quotes(text) + " is neither true nor false";
 }
 
 }  // namespace

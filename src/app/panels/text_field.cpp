@@ -34,6 +34,8 @@ FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string
     ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_EnterReturnsTrue;
     if (complete) flags |= ImGuiInputTextFlags_CallbackCompletion;
     if (input.fresh) {
+        // ImGui 1.90 gives the keys to items of the focused window alone.
+        if (!ImGui::IsWindowFocused()) ImGui::SetWindowFocus();
         ImGui::SetKeyboardFocusHere();
         ui.want_frame_in(0);
     }
