@@ -10,6 +10,8 @@ namespace mobbscope {
 
 namespace {
 
+using Layout = JsonWriter::Layout;
+
 constexpr double kMaxAngle = 1e9;  // degrees, as for placements
 
 double read_bound(const JsonPlace& bounds, const char* key) {
@@ -72,7 +74,6 @@ MotionGraph read_graph(const JsonPlace& place, const std::function<int(const Jso
 }
 
 void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name) {
-    using Layout = JsonWriter::Layout;
     out.begin_object();
     out.key("hubs");
     out.begin_array();

@@ -69,9 +69,9 @@ TEST(Trajnetpp, BadLinesAreNamed) {
          "line 2: the scene has 5 points a second"},
         {R"({"scene": {"fps": 0}})", "line 1: fps must be over 0"},
     };
-    for (const auto& [text, message] : cases) {
-        const std::string said = input_error([&] { trajnetpp(text); });
-        EXPECT_NE(said.find(message), std::string::npos) << message << "\n" << said;
+    for (const auto& bad : cases) {
+        const std::string said = input_error([&] { trajnetpp(bad.text); });
+        EXPECT_NE(said.find(bad.message), std::string::npos) << bad.message << "\n" << said;
     }
 }
 
@@ -123,9 +123,9 @@ TEST(MapfPlan, BadPlansAreRefused) {
         {std::string("a\0b", 3), "NUL byte"},
         {std::string(100000, '['), "is no YAML"},
     };
-    for (const auto& [text, message] : cases) {
-        const std::string said = input_error([&] { plan(text); });
-        EXPECT_NE(said.find(message), std::string::npos) << message << "\n" << said;
+    for (const auto& bad : cases) {
+        const std::string said = input_error([&] { plan(bad.text); });
+        EXPECT_NE(said.find(bad.message), std::string::npos) << bad.message << "\n" << said;
     }
 }
 

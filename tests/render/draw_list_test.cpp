@@ -305,9 +305,9 @@ TEST(DrawList, ColoursByLevelAreThoseOfTheLegend) {
         }
         ASSERT_EQ(colors.size(), 4u);
         for (const auto& [level, color] : colors) {
-            const auto entry = std::find_if(list.legend.begin(), list.legend.end(), [&](const LegendEntry& e) {
-                return e.text == "level " + std::to_string(level);
-            });
+            const std::string text = "level " + std::to_string(level);
+            const auto entry = std::find_if(list.legend.begin(), list.legend.end(),
+                                            [&](const LegendEntry& e) { return e.text == text; });
             ASSERT_NE(entry, list.legend.end()) << level;
             EXPECT_EQ(entry->color, color);
             if (level == 0) continue;
