@@ -50,7 +50,7 @@ class History {
     /// The document is now this; what was undone is forgotten.
     void change(Document document, const EditName& name);
     /// Only how it is seen has changed. Looking around of one kind (moving the view, stepping ...) is one state, and it
-    /// costs nothing that could be redone: what comes after still does.
+    /// does not clear what can be redone.
     void look(const ViewState& view);
     /// The present state is this instead; no edit of its own.
     void amend(Document document);

@@ -24,7 +24,7 @@ namespace {
 
 std::size_t index_of(Key key) { return static_cast<std::size_t>(key); }
 
-/// What Dear ImGui cannot hold is the replacement character.
+/// Characters beyond Dear ImGui's range become U+FFFD.
 ImWchar typed_letter(char32_t code) {
     return static_cast<ImWchar>(code <= IM_UNICODE_CODEPOINT_MAX ? code : char32_t{IM_UNICODE_CODEPOINT_INVALID});
 }

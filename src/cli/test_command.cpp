@@ -191,8 +191,11 @@ void check_references(const std::vector<guard::CaseFile>& cases, const guard::Re
 /// All goldens become what is drawn here, and their folders say so; nothing is taken if a case cannot be drawn.
 void take_as_reference(std::vector<guard::CaseResult>& results, const std::vector<guard::CaseFile>& cases,
                        const guard::Reference& here, std::ostream& say) {
-    if (guard::summary(results).failed > 0) {
-        warn("nothing is taken, as some of the cases cannot be drawn");
+    const guard::Summary sum = guard::summary(results);
+    if (sum.failed > 0 || sum.skipped > 0) {
+        warn(
+            "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
+            "from one place");
         return;
     }
     take_named(

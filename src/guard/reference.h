@@ -25,7 +25,7 @@ namespace mobbscope::guard {
 struct Reference {
     std::map<std::string, std::string> fonts;  ///< file name to SHA-256, 64 hexadecimal digits
     std::string imgui;                         ///< version of Dear ImGui
-    std::string opengl;                        ///< the driver's version and what draws; the processor is all one
+    std::string opengl;                        ///< the driver's version and what draws; the processor does not matter
 };
 
 /// What this program draws with here.

@@ -43,8 +43,8 @@ void check(const ImportOptions& options) {
             "trim must be two times A and B in seconds, 0 <= A < B <= " + short_double(mobb::kMaxTime));
     require(!options.radius || (*options.radius >= 0 && *options.radius <= mobb::kMaxLength),
             "radius must be from 0 to " + short_double(mobb::kMaxLength) + " metres");
-    require(!options.dt || (*options.dt >= mobb::kLeastStep && *options.dt <= mobb::kMaxTime),
-            "dt must be from " + short_double(mobb::kLeastStep) + " to " + short_double(mobb::kMaxTime) + " seconds");
+    require(!options.dt || (*options.dt >= mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
+            "dt must be from " + short_double(mobb::kLeastDt) + " to " + short_double(mobb::kMaxTime) + " seconds");
 }
 
 std::optional<double> metres_per_unit(const std::string& unit) {

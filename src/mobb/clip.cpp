@@ -18,7 +18,7 @@ bool within(double value, double limit) { return std::isfinite(value) && std::ab
 
 Clip::Clip(double dt, std::vector<Disk> samples) : dt_(dt), samples_(std::move(samples)), reach_(0) {
     // Written so that NaN fails it.
-    if (!(dt >= kLeastStep) || !std::isfinite(dt))
+    if (!(dt >= kLeastDt) || !std::isfinite(dt))
         throw std::invalid_argument("dt must be a finite number of at least 1e-12 s");
     if (samples_.empty()) throw std::invalid_argument("a clip needs at least one sample");
     if (samples_.size() > kMaxSamples) {

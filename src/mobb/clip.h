@@ -22,7 +22,7 @@ struct Disk {
 inline constexpr double kMaxLength = 1e9;
 inline constexpr double kMaxTime = 1e12;
 /// Seconds from sample to sample: with fewer, speeds and their squares would not all be numbers.
-inline constexpr double kLeastStep = 1e-12;
+inline constexpr double kLeastDt = 1e-12;
 
 /// Sample and node indices are int; a tree has fewer than twice as many nodes as samples.
 inline constexpr std::size_t kMaxSamples = 500'000'000;
@@ -30,7 +30,7 @@ inline constexpr std::size_t kMaxSamples = 500'000'000;
 /// N >= 1 disks at uniform spacing dt > 0 seconds; disk i holds over [i*dt, (i+1)*dt). Immutable: share it freely.
 class Clip {
   public:
-    /// Throws std::invalid_argument, naming the sample, if dt is not finite or below kLeastStep, there is no sample, a
+    /// Throws std::invalid_argument, naming the sample, if dt is not finite or below kLeastDt, there is no sample, a
     /// number is not finite or beyond kMaxLength, a radius is negative, the clip lasts longer than kMaxTime, or there
     /// are more samples than kMaxSamples.
     Clip(double dt, std::vector<Disk> samples);

@@ -53,7 +53,7 @@ class PngReader {
         if (setjmp(png_jmpbuf(png_))) return false;
         png_set_read_fn(png_, this, give_bytes);
         png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-        // What is too large is said by the caller, in pixels.
+        // The caller checks the size, and speaks of it in pixels.
         png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
         png_read_info(png_, info_);
         return true;
@@ -89,7 +89,7 @@ class PngReader {
   private:
     static void refuse(png_structp png, png_const_charp reason) {
         auto& self = *static_cast<PngReader*>(png_get_error_ptr(png));
-        // libpng says of a header only that it is bad; what is bad about it are warnings just before.
+        // For a bad header libpng's error only says that it is bad; the warning just before says why.
         if (self.warning_.empty() || self.warned_at_ != self.at_)
             self.reason_ = reason;
         else
@@ -105,7 +105,10 @@ class PngReader {
 
     static void give_bytes(png_structp png, png_bytep to, std::size_t size) {
         auto& self = *static_cast<PngReader*>(png_get_io_ptr(png));
-        if (size > self.bytes_.size() - self.at_) png_error(png, "it is cut short");
+        if (size > self.bytes_.size() - self.at_) {
+            self.warning_.clear();  // of something else
+            png_error(png, "it is cut short");
+        }
         std::memcpy(to, self.bytes_.data() + self.at_, size);
         self.at_ += size;
     }

@@ -8,7 +8,7 @@
 
 namespace mobbscope {
 
-/// The bytes of a PNG file. Throws MachineError if there is no memory for them.
+/// The bytes of a PNG file. Throws MachineError if libpng refuses, std::bad_alloc if there is no memory.
 std::string png_bytes(const Image& image);
 
 /// Whole or not at all, as write_file does; a pipe or a device that is there gets the bytes. Throws MachineError if

@@ -268,6 +268,15 @@ TEST_F(DrawnTestCommandTest, AReferenceIsNotSaidOfGoldensThatAreNotTaken) {
     EXPECT_FALSE(exists("path.png"));
 }
 
+TEST_F(DrawnTestCommandTest, AReferenceIsNotSaidOfGoldensThatAreSkipped) {
+    cases.add("later", R"("skip": "until there is one")");
+    const Result run = test({"--update", "all", "--new-reference"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_PRED2(says, run.err, "are skipped");
+    EXPECT_FALSE(exists("reference.json"));
+    EXPECT_FALSE(exists("path.png"));
+}
+
 TEST_F(DrawnTestCommandTest, AtATerminalItAsks) {
     if (std::system("command -v script >/dev/null") != 0) GTEST_SKIP() << "there is no script(1) to make a terminal";
     const auto answer = [&](const std::string& keys) {

@@ -30,7 +30,7 @@ std::string title_of(const Session& session, const Command& command) {
     return title;
 }
 
-std::string check_mark(const Command& command) { return "menu." + std::string(command.id); }
+std::string menu_mark(const Command& command) { return "menu." + std::string(command.id); }
 
 void ask_argument(Session& session, const Command& command) {
     session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
@@ -40,14 +40,14 @@ void choices(Ui& ui, const Command& command) {
     Session& session = ui.session;
     const std::vector<std::string> all = command.choices(session);
     const bool open = ImGui::BeginMenu(title_of(session, command).c_str(), command.enabled(session) && !all.empty());
-    ui.mark(check_mark(command));
+    ui.mark(menu_mark(command));
     if (!open) return;
     for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
         const bool chosen = command.chosen && command.chosen(session, all[i]);
         ImGui::PushID(static_cast<int>(i));
         if (ImGui::MenuItem(all[i].c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
         ImGui::PopID();
-        ui.mark(check_mark(command) + '.' + all[i]);
+        ui.mark(menu_mark(command) + '.' + all[i]);
     }
     if (all.size() > kMostChoices && ImGui::MenuItem("More...")) ask_argument(session, command);
     ImGui::EndMenu();
@@ -61,7 +61,7 @@ void item(Ui& ui, const Command& command) {
     if (ImGui::MenuItem(title_of(session, command).c_str(), shortcut.c_str(), checked, command.enabled(session))) {
         command.needs_argument() ? ask_argument(session, command) : invoke(session, command.id);
     }
-    ui.mark(check_mark(command));
+    ui.mark(menu_mark(command));
 }
 
 std::string_view group_of(const Command& command) { return command.id.substr(0, command.id.find('.')); }
