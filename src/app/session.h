@@ -54,7 +54,7 @@ struct DialogInput {
     int picked = 0;           ///< of a list
     bool confirming = false;  ///< asks whether to overwrite
     int generation = 0;       ///< the field shows another text from without: see set_text
-    int opening = 0;          ///< of any dialog: its field can undo nothing that was typed in another
+    int opening = 0;          ///< counts dialogs: the undo of a field must not reach the text of an earlier one
     bool fresh = true;        ///< the field waits for the keyboard
 
     void set_text(std::string to) {

@@ -32,7 +32,7 @@ class Shell {
     /// before. Returns in how many seconds the next one is wanted if nothing happens; infinity: never.
     double frame(PictureSize size, double now);
 
-    /// After the last frame all input was taken in, and everything stands where it will stay: only time may pass.
+    /// Whether the last frame has taken in all input, and nothing but playback still changes.
     bool settled() const;
 
     /// How many frames were looked at, and so drawn.

@@ -5,11 +5,10 @@
 ///      "imgui": "1.86",
 ///      "opengl": "Mesa 22.3.6, llvmpipe"}
 ///
-/// Pixels of text are the same with the same fonts, Dear ImGui and rasteriser alone. In such a folder each case has a
-/// second golden that holds with any: NAME.plain.png, the case without text, small and coarse (coarse_picture), within
-/// the loose tolerance; where there is a NAME.draw.json, a NAME.plain.draw.json, what is then drawn; and of a window
-/// NAME.plain.state.json, what it shows. What is drawn with a reference is held against both goldens, what is not
-/// against the second alone.
+/// Pixels of text are the same only with the same fonts, Dear ImGui and rasteriser. So each case of such a folder has a
+/// second golden, which holds on any system: NAME.plain.png, the case without text, small and coarse (coarse_picture),
+/// compared with the loose tolerance; with a NAME.draw.json also NAME.plain.draw.json, the draw list without text; for
+/// a window also NAME.plain.state.json, its state. On the reference both goldens are compared, elsewhere the second.
 #pragma once
 
 #include <render/image.h>
@@ -40,7 +39,7 @@ std::optional<Reference> read_reference(const std::filesystem::path& folder);
 /// Throws MachineError.
 void write_reference(const std::filesystem::path& folder, const Reference& reference);
 
-/// "Dear ImGui 1.90.1 for 1.86, Inter-Medium.otf 5f2a0c11 for 8d3e90b4": what is other here; empty if nothing is.
+/// The differences, "Dear ImGui 1.90.1 for 1.86, Inter-Medium.otf 5f2a0c11 for 8d3e90b4"; empty if there are none.
 std::string what_is_other(const Reference& here, const Reference& reference);
 
 /// Half as wide and high, each pixel the mean of four, in 64 levels a channel: a picture that is a tenth as large on

@@ -30,7 +30,7 @@ std::vector<std::string> not_compared(std::span<const CaseResult> results) {
         if (result.other_here.empty()) continue;
         const std::string file = reference_file(result.file.file.parent_path()).string();
         const std::string sentence =
-            "Pixels of text are not compared: here are " + result.other_here + " (" + file + ")";
+            "Pixels of text are not compared: drawn with " + result.other_here + " (" + file + ")";
         if (std::find(out.begin(), out.end(), sentence) == out.end()) out.push_back(sentence);
     }
     return out;

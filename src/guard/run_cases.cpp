@@ -129,7 +129,7 @@ void run(CaseResult& result, PictureMaker& maker, Origin origin) {
         origin == Origin::here ? here : read_reference(result.file.file.parent_path());
     if (reference && result.file.name.ends_with(".plain")) {
         throw InputError(result.file.file.string(), "",
-                         "goldens without text are called so where there is a reference.json; rename the case");
+                         "names that end in .plain are those of goldens without text; rename the case");
     }
     if (reference) result.other_here = what_is_other(here, *reference);
 

@@ -37,7 +37,8 @@ struct CaseResult {
     Image actual;                    ///< empty where there is none; without text if only that picture is different
     Image golden;                    ///< likewise, and of a case that passed
     std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
-    std::vector<FreshGolden> fresh;  ///< of a case that is different or lacks a golden: what would be right then
+    std::vector<FreshGolden>
+        fresh;  ///< of a case that is different or lacks a golden: the files to write if it is accepted
     /// What is other here than where the goldens are from, which is why pixels of text are not held against them; empty
     /// if they are.
     std::string other_here;

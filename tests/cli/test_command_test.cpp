@@ -246,7 +246,7 @@ TEST_F(DrawnTestCommandTest, NoGoldenIsTakenElsewhere) {
     cases.folder().write("reference.json", reference.dump());
     const Result run = test();
     EXPECT_EQ(run.status, 0) << run.out << run.err;
-    EXPECT_PRED2(says, run.out, "Pixels of text are not compared: here are Dear ImGui ");
+    EXPECT_PRED2(says, run.out, "Pixels of text are not compared: drawn with Dear ImGui ");
 
     cases.add("path", R"("view": {"levels": 0})");
     const std::string before = slurp(cases.path() / "path.plain.png");

@@ -39,7 +39,7 @@ TEST_P(GraphPicturePixels, AreTheGoldens) {
     if (other.empty()) {
         expect_golden(drawn, "motion_graph.png", Tolerance::tight);
     } else {
-        std::cout << "Pixels of text are not compared: here are " << other << '\n';
+        std::cout << "Pixels of text are not compared: drawn with " << other << '\n';
     }
     list.texts.clear();
     expect_golden(coarse_picture(renderer().draw(list)), "motion_graph.plain.png", Tolerance::loose);

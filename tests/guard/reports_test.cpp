@@ -206,7 +206,7 @@ TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
 TEST(Reports, SayOnceWhyPixelsOfTextAreNotCompared) {
     std::vector<CaseResult> results{passed("a"), passed("b")};
     const std::string sentence =
-        "Pixels of text are not compared: here are Dear ImGui 2 for 1 (my pictures/reference.json)";
+        "Pixels of text are not compared: drawn with Dear ImGui 2 for 1 (my pictures/reference.json)";
     for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
         EXPECT_EQ(times(written(writer, results), "not compared"), 0u);
     }
