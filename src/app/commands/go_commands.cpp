@@ -1,6 +1,7 @@
 #include <app/command.h>
 #include <app/commands/arguments.h>
 #include <app/commands/node_place.h>
+#include <app/commands/selected_agent.h>
 #include <import/text.h>
 #include <render/level_boxes.h>
 
