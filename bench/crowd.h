@@ -3,8 +3,8 @@
 
 #include "walks.h"
 
-#include <crowd/graph_walk.h>
-#include <crowd/simulate.h>
+#include <crowd/graph/graph_walk.h>
+#include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>

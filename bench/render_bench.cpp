@@ -1,9 +1,9 @@
 /// What a frame of the window costs: a crowd on 30 x 40 m with boxes and disks, seen from another side each time.
 #include "crowd.h"
 
-#include <import/error.h>
-#include <render/build_draw_list.h>
-#include <render/renderer.h>
+#include <base/error.h>
+#include <render/gl/renderer.h>
+#include <render/pictures/build_draw_list.h>
 
 #include <benchmark/benchmark.h>
 

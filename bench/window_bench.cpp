@@ -1,10 +1,10 @@
 /// What a frame of the whole window costs while somebody uses it: process CPU time and frames a second, 1280x720.
 #include "crowd.h"
 
-#include <app/command.h>
-#include <app/shell.h>
-#include <import/error.h>
-#include <render/gl_context.h>
+#include <app/commands/command.h>
+#include <app/window/shell.h>
+#include <base/error.h>
+#include <render/gl/gl_context.h>
 
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>

@@ -1,4 +1,4 @@
-/// The broad phase of a crowd, both ways: a uniform grid over the floor, as the crowd's World has it, and
+/// The broad phase of a crowd, both ways: a uniform grid over the floor, as the crowd's ReservationGrid has it, and
 /// Boost.Geometry's R-tree over (x, y, t). Committed clips are boxes; the question is which of them a candidate's box
 /// overlaps.
 #include <benchmark/benchmark.h>

@@ -1,15 +1,13 @@
+#include <base/error.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/exit_status.h>
-#include <cli/messages.h>
 #include <cli/options.h>
-#include <import/error.h>
+#include <cli/program.h>
+#include <paper_tables/built_in_clips.h>
+#include <paper_tables/measure.h>
+#include <paper_tables/table_report.h>
+#include <paper_tables/workload.h>
 #include <scene/load_files.h>
-#include <tables/built_in_clips.h>
-#include <tables/crowd_queries.h>
-#include <tables/machine.h>
-#include <tables/random_queries.h>
-#include <tables/table_report.h>
 
 #include <cstdint>
 #include <filesystem>

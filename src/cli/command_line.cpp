@@ -1,6 +1,6 @@
+#include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/usage_error.h>
-#include <import/text.h>
+#include <cli/program.h>
 
 #include <CLI/CLI.hpp>
 

@@ -1,14 +1,13 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <base/json_writer.h>
+#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/exit_status.h>
-#include <cli/messages.h>
 #include <cli/options.h>
-#include <crowd/conflicts.h>
-#include <crowd/people.h>
-#include <import/error.h>
-#include <import/file.h>
-#include <import/text.h>
-#include <scene/json_writer.h>
+#include <cli/program.h>
+#include <conflicts/conflicts.h>
+#include <crowd/simulation/people.h>
 #include <scene/scene_edits.h>
 
 #include <glm/vec2.hpp>
@@ -67,8 +66,8 @@ std::optional<double> common_radius(const Scene& scene) {
 
 /// Whether two agents are one person, whose paths join: a hair of overlap in time is no meeting.
 bool same_person(const Scene& scene, const Conflict& conflict) {
-    const auto person = [&scene](int agent) { return scene.agents[static_cast<std::size_t>(agent)].person; };
-    return person(conflict.a) >= 0 && person(conflict.a) == person(conflict.b);
+    const auto run_agent = [&scene](int agent) { return scene.agents[static_cast<std::size_t>(agent)].run_agent; };
+    return run_agent(conflict.a) >= 0 && run_agent(conflict.a) == run_agent(conflict.b);
 }
 
 /// What is said of a crowd's conflicts.
@@ -83,7 +82,7 @@ struct Findings {
         std::size_t count = crowd.size() * (crowd.size() - 1) / 2;
         std::map<int, std::size_t> paths;
         for (const Agent& agent : fitted.scene().agents) {
-            if (agent.person >= 0) count -= paths[agent.person]++;
+            if (agent.run_agent >= 0) count -= paths[agent.run_agent]++;
         }
         return count;
     }
@@ -91,7 +90,8 @@ struct Findings {
     /// People: one may have several paths.
     std::size_t agents() const {
         const std::vector<Agent>& all = fitted.scene().agents;
-        return all.empty() || all.back().person < 0 ? all.size() : static_cast<std::size_t>(all.back().person) + 1;
+        return all.empty() || all.back().run_agent < 0 ? all.size()
+                                                       : static_cast<std::size_t>(all.back().run_agent) + 1;
     }
 
     /// Halfway between the two where they are closest.
@@ -182,7 +182,7 @@ void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
     std::vector<mobb::PlacedTree> crowd;
-    for (const Participant& participant : fitted.participants()) crowd.push_back(fitted.placed(participant));
+    for (const PlacedAgent& participant : fitted.placed_agents()) crowd.push_back(fitted.placed(participant));
     Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
     std::erase_if(conflicts.found,
                   [&fitted](const Conflict& conflict) { return same_person(fitted.scene(), conflict); });

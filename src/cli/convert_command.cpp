@@ -1,12 +1,12 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/messages.h>
 #include <cli/options.h>
-#include <import/csv.h>
-#include <import/error.h>
-#include <import/file.h>
-#include <import/text.h>
-#include <import/tracks.h>
+#include <cli/program.h>
+#include <import/tracks/csv.h>
+#include <import/tracks/tracks.h>
 
 #include <cstddef>
 #include <filesystem>

@@ -1,17 +1,14 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/exit_status.h>
-#include <cli/messages.h>
 #include <cli/options.h>
+#include <cli/program.h>
 #include <cli/render_outputs.h>
-#include <import/error.h>
-#include <import/file.h>
-#include <import/text.h>
-#include <render/diff_json.h>
-#include <render/diff_sentence.h>
-#include <render/image_diff.h>
-#include <render/png.h>
-#include <render/strip.h>
+#include <render/image/image.h>
+#include <render/image/image_diff.h>
+#include <render/image/png.h>
 
 #include <filesystem>
 #include <iostream>

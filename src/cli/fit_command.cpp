@@ -1,12 +1,12 @@
+#include <base/json_writer.h>
+#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/messages.h>
 #include <cli/options.h>
-#include <import/text.h>
+#include <cli/program.h>
 #include <mobb/level_figures.h>
+#include <scene/fit_json.h>
 #include <scene/fitted_scene.h>
-#include <scene/json_writer.h>
-#include <scene/tree_json.h>
 
 #include <iomanip>
 #include <iostream>

@@ -1,6 +1,6 @@
+#include <base/json_writer.h>
+#include <base/text.h>
 #include <cli/graph_info.h>
-#include <import/text.h>
-#include <scene/json_writer.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>

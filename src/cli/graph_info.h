@@ -1,8 +1,8 @@
 /// What is in a motion graph, printed.
 #pragma once
 
-#include <crowd/graph_figures.h>
-#include <crowd/graph_joints.h>
+#include <crowd/graph/graph_figures.h>
+#include <crowd/graph/transitions.h>
 #include <scene/scene.h>
 
 #include <ostream>

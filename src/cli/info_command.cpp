@@ -1,10 +1,10 @@
+#include <base/json_writer.h>
+#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/messages.h>
 #include <cli/options.h>
-#include <import/text.h>
+#include <cli/program.h>
 #include <mobb/predicate.h>
-#include <scene/json_writer.h>
 
 #include <algorithm>
 #include <cmath>

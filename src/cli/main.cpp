@@ -1,11 +1,9 @@
 // mobbscope: see and debug bounding-volume trees in space-time.
+#include <base/error.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/exit_status.h>
-#include <cli/messages.h>
-#include <cli/usage_error.h>
+#include <cli/program.h>
 #include <cli/window_command.h>
-#include <import/error.h>
 
 #include <algorithm>
 #include <csignal>

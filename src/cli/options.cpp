@@ -1,7 +1,7 @@
+#include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/messages.h>
 #include <cli/options.h>
-#include <import/text.h>
+#include <cli/program.h>
 #include <scene/crowd_run.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 /// Options that several commands share, and what they mean for a scene.
 #pragma once
 
+#include <base/text.h>
 #include <import/import.h>
-#include <import/text.h>
 #include <mobb/tree.h>
 #include <scene/scene.h>
 

@@ -1,5 +1,5 @@
+#include <base/text.h>
 #include <cli/print_answer.h>
-#include <import/text.h>
 
 #include <algorithm>
 #include <ostream>

@@ -1,10 +1,9 @@
+#include <base/error.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/exit_status.h>
-#include <cli/messages.h>
 #include <cli/options.h>
 #include <cli/print_answer.h>
-#include <import/error.h>
+#include <cli/program.h>
 
 #include <cstddef>
 #include <iostream>

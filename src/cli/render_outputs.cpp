@@ -1,8 +1,8 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <cli/program.h>
 #include <cli/render_outputs.h>
-#include <cli/writable.h>
-#include <import/error.h>
-#include <import/file.h>
-#include <import/text.h>
 
 #include <algorithm>
 #include <system_error>

@@ -1,7 +1,7 @@
 #include <cli/take_goldens.h>
 
-#include <guard/goldens.h>
-#include <import/text.h>
+#include <base/text.h>
+#include <picture_tests/goldens.h>
 
 #include <istream>
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 
 enum class Answer { yes, no, all, quit };
 
-Answer ask(const guard::CaseResult& result, const std::filesystem::path& folder, std::istream& answers,
+Answer ask(const picture_tests::CaseResult& result, const std::filesystem::path& folder, std::istream& answers,
            std::ostream& say) {
     say << cleaned(result.file.name) << ": " << name(result.outcome) << ": " << cleaned(result.message) << '\n';
     for (const std::filesystem::path& picture : keep_pictures(result, folder)) {
@@ -28,22 +28,22 @@ Answer ask(const guard::CaseResult& result, const std::filesystem::path& folder,
     return answer == "q" ? Answer::quit : Answer::no;
 }
 
-void take_one(guard::CaseResult& result, std::ostream& say) {
+void take_one(picture_tests::CaseResult& result, std::ostream& say) {
     for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
 }
 
 }  // namespace
 
-void take_named(std::span<guard::CaseResult> results, const IsNamed& named, std::ostream& say) {
-    for (guard::CaseResult& result : results) {
+void take_named(std::span<picture_tests::CaseResult> results, const IsNamed& named, std::ostream& say) {
+    for (picture_tests::CaseResult& result : results) {
         if (can_be_taken(result) && named(result)) take_one(result, say);
     }
 }
 
-void take_asked(std::span<guard::CaseResult> results, const std::filesystem::path& folder, std::istream& answers,
-                std::ostream& say) {
+void take_asked(std::span<picture_tests::CaseResult> results, const std::filesystem::path& folder,
+                std::istream& answers, std::ostream& say) {
     bool all = false;
-    for (guard::CaseResult& result : results) {
+    for (picture_tests::CaseResult& result : results) {
         if (!can_be_taken(result)) continue;
         const Answer answer = all ? Answer::yes : ask(result, folder, answers, say);
         if (answer == Answer::quit) return;

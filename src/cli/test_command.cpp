@@ -1,18 +1,17 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/commands.h>
-#include <cli/exit_status.h>
-#include <cli/messages.h>
 #include <cli/options.h>
+#include <cli/program.h>
 #include <cli/take_goldens.h>
-#include <guard/goldens.h>
-#include <guard/reference.h>
-#include <guard/reports.h>
-#include <guard/run_cases.h>
-#include <import/error.h>
-#include <import/file.h>
-#include <import/text.h>
-#include <render/png.h>
-#include <render/sheet.h>
+#include <picture_tests/goldens.h>
+#include <picture_tests/reference.h>
+#include <picture_tests/reports.h>
+#include <picture_tests/run_cases.h>
+#include <render/image/png.h>
+#include <render/pictures/sheet.h>
 
 #include <fnmatch.h>
 #include <unistd.h>
@@ -61,25 +60,26 @@ bool matches_any(const std::vector<std::string>& patterns, const std::string& na
 }
 
 /// The cases that the patterns name; without patterns all. Throws InputError for a pattern that names none.
-std::vector<guard::CaseFile> chosen(const std::vector<guard::CaseFile>& cases,
-                                    const std::vector<std::string>& patterns) {
+std::vector<picture_tests::CaseFile> chosen(const std::vector<picture_tests::CaseFile>& cases,
+                                            const std::vector<std::string>& patterns) {
     if (patterns.empty()) return cases;
     std::vector<std::string> names;
-    for (const guard::CaseFile& file : cases) names.push_back(file.name);
+    for (const picture_tests::CaseFile& file : cases) names.push_back(file.name);
     for (const std::string& pattern : patterns) {
         const auto is_named = [&](const std::string& name) { return matches(pattern, name); };
         if (std::none_of(names.begin(), names.end(), is_named)) {
             throw InputError("there is no case " + in_quotes(pattern) + did_you_mean(pattern, names));
         }
     }
-    std::vector<guard::CaseFile> out;
+    std::vector<picture_tests::CaseFile> out;
     std::copy_if(cases.begin(), cases.end(), std::back_inserter(out),
-                 [&](const guard::CaseFile& file) { return matches_any(patterns, file.name); });
+                 [&](const picture_tests::CaseFile& file) { return matches_any(patterns, file.name); });
     return out;
 }
 
 /// Those of all that are run.
-std::vector<guard::CaseFile> cases_of(const TestCommandArguments& arguments, const std::vector<guard::CaseFile>& all) {
+std::vector<picture_tests::CaseFile> cases_of(const TestCommandArguments& arguments,
+                                              const std::vector<picture_tests::CaseFile>& all) {
     std::vector<std::string> patterns = arguments.names;
     patterns.insert(patterns.end(), arguments.update_names.begin(), arguments.update_names.end());
     return chosen(all, patterns);
@@ -95,7 +95,7 @@ void check_kind(const std::filesystem::path& file, const char* extension, const 
 
 /// Throws InputError if a report would replace a golden or has a name that its kind does not, or if the pictures would
 /// go where the goldens are; MachineError if they cannot go where they are to.
-void check_reports(const TestCommandArguments& arguments, const std::vector<guard::CaseFile>& all) {
+void check_reports(const TestCommandArguments& arguments, const std::vector<picture_tests::CaseFile>& all) {
     if (arguments.columns && arguments.contact_sheet.empty()) {
         throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
     }
@@ -103,7 +103,7 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<guar
     check_kind(arguments.html, ".html", "the report as a page");
     check_kind(arguments.contact_sheet, ".png", "the contact sheet");
     std::error_code ignored;
-    for (const guard::CaseFile& file : all) {
+    for (const picture_tests::CaseFile& file : all) {
         for (const std::filesystem::path& golden : {file.golden(), file.plain()}) {
             if (!std::filesystem::equivalent(arguments.contact_sheet, golden, ignored)) continue;
             throw InputError(arguments.contact_sheet.string(), "",
@@ -119,16 +119,16 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<guar
     }
 }
 
-using WriteReport = void (*)(std::ostream& out, const guard::RunFacts& facts,
-                             std::span<const guard::CaseResult> results);
+using WriteReport = void (*)(std::ostream& out, const picture_tests::RunFacts& facts,
+                             std::span<const picture_tests::CaseResult> results);
 
 /// Into a file, whose folder is made if need be.
-void write_report(const std::filesystem::path& file, WriteReport write, const guard::RunFacts& facts,
-                  std::span<const guard::CaseResult> results) {
+void write_report(const std::filesystem::path& file, WriteReport write, const picture_tests::RunFacts& facts,
+                  std::span<const picture_tests::CaseResult> results) {
     if (file.empty()) return;
     std::ostringstream text;
     write(text, facts, results);
-    guard::make_folder_of(file);
+    picture_tests::make_folder_of(file);
     write_file(file, text.str());
 }
 
@@ -139,11 +139,11 @@ Theme theme_around(const Image& picture) {
 }
 
 /// All pictures of the run with their names.
-void write_contact_sheet(const TestCommandArguments& arguments, std::span<const guard::CaseResult> results,
+void write_contact_sheet(const TestCommandArguments& arguments, std::span<const picture_tests::CaseResult> results,
                          Renderer& renderer) {
     std::vector<SheetCell> cells;
     PictureSize all{1, 0};
-    for (const guard::CaseResult& result : results) {
+    for (const picture_tests::CaseResult& result : results) {
         if (result.actual.rgba.empty()) continue;
         cells.push_back({result.file.name, result.actual});
         all.width = std::max(all.width, result.actual.width);
@@ -161,7 +161,7 @@ void write_contact_sheet(const TestCommandArguments& arguments, std::span<const 
     const Palette& colors = palette(theme_around(cells.front().image));
     try {
         const Image sheet = make_sheet(cells, columns, colors, colors.background, metrics_of(all), renderer);
-        guard::make_folder_of(arguments.contact_sheet);
+        picture_tests::make_folder_of(arguments.contact_sheet);
         write_png(arguments.contact_sheet, sheet);
     } catch (const std::invalid_argument& error) {
         throw InputError(arguments.contact_sheet.string(), "", error.what());
@@ -171,27 +171,29 @@ void write_contact_sheet(const TestCommandArguments& arguments, std::span<const 
 // --- where goldens are from
 
 /// The folders that the cases stand in.
-std::set<std::filesystem::path> folders_of(const std::vector<guard::CaseFile>& cases) {
+std::set<std::filesystem::path> folders_of(const std::vector<picture_tests::CaseFile>& cases) {
     std::set<std::filesystem::path> out;
-    for (const guard::CaseFile& file : cases) out.insert(file.file.parent_path());
+    for (const picture_tests::CaseFile& file : cases) out.insert(file.file.parent_path());
     return out;
 }
 
 /// Throws InputError if the goldens of a case are from elsewhere: one taken here would be the odd one.
-void check_references(const std::vector<guard::CaseFile>& cases, const guard::Reference& here) {
+void check_references(const std::vector<picture_tests::CaseFile>& cases, const picture_tests::Reference& here) {
     for (const std::filesystem::path& folder : folders_of(cases)) {
-        const std::optional<guard::Reference> reference = guard::read_reference(folder);
-        const std::string other = reference ? guard::what_is_other(here, *reference) : "";
+        const std::optional<picture_tests::Reference> reference = picture_tests::read_reference(folder);
+        const std::string other = reference ? picture_tests::what_is_other(here, *reference) : "";
         if (other.empty()) continue;
-        throw InputError("--update: " + guard::reference_file(folder).string() + " says where the goldens are from, " +
-                         "and here are " + other + "; take them there, or all anew with --update all --new-reference");
+        throw InputError("--update: " + picture_tests::reference_file(folder).string() +
+                         " says where the goldens are from, " + "and here are " + other +
+                         "; take them there, or all anew with --update all --new-reference");
     }
 }
 
 /// All goldens become what is drawn here, and their folders say so; nothing is taken if a case cannot be drawn.
-void take_as_reference(std::vector<guard::CaseResult>& results, const std::vector<guard::CaseFile>& cases,
-                       const guard::Reference& here, std::ostream& say) {
-    const guard::Summary sum = guard::summary(results);
+void take_as_reference(std::vector<picture_tests::CaseResult>& results,
+                       const std::vector<picture_tests::CaseFile>& cases, const picture_tests::Reference& here,
+                       std::ostream& say) {
+    const picture_tests::Summary sum = picture_tests::summary(results);
     if (sum.failed > 0 || sum.skipped > 0) {
         warn(
             "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
@@ -199,10 +201,10 @@ void take_as_reference(std::vector<guard::CaseResult>& results, const std::vecto
         return;
     }
     take_named(
-        results, [](const guard::CaseResult&) { return true; }, say);
+        results, [](const picture_tests::CaseResult&) { return true; }, say);
     for (const std::filesystem::path& folder : folders_of(cases)) {
-        guard::write_reference(folder, here);
-        say << "wrote " << cleaned(guard::reference_file(folder).string()) << '\n';
+        picture_tests::write_reference(folder, here);
+        say << "wrote " << cleaned(picture_tests::reference_file(folder).string()) << '\n';
     }
 }
 
@@ -210,16 +212,16 @@ void take_as_reference(std::vector<guard::CaseResult>& results, const std::vecto
 
 /// The context, or why there is none.
 struct Drawer {
-    std::unique_ptr<guard::PictureMaker> maker;
+    std::unique_ptr<picture_tests::PictureMaker> maker;
     std::string no_opengl;
-    guard::RunFacts facts;
+    picture_tests::RunFacts facts;
 };
 
 Drawer open(const TestCommandArguments& arguments) {
     Drawer out;
     out.facts.folder = arguments.folder.string();
     try {
-        out.maker = std::make_unique<guard::PictureMaker>(arguments.backend);
+        out.maker = std::make_unique<picture_tests::PictureMaker>(arguments.backend);
         out.facts.backend = out.maker->backend();
         out.facts.renderer = out.maker->renderer().device();
     } catch (const MachineError& error) {
@@ -229,15 +231,16 @@ Drawer open(const TestCommandArguments& arguments) {
 }
 
 /// The pictures of what did not pass; whether there are any.
-bool keep_all(const TestCommandArguments& arguments, std::span<const guard::CaseResult> results) {
+bool keep_all(const TestCommandArguments& arguments, std::span<const picture_tests::CaseResult> results) {
     bool kept = false;
-    for (const guard::CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
+    for (const picture_tests::CaseResult& result : results)
+        kept = !keep_pictures(result, arguments.output).empty() || kept;
     return kept;
 }
 
 /// What goes to standard output when it is all done.
-void print_results(const TestCommandArguments& arguments, const guard::RunFacts& facts,
-                   std::span<const guard::CaseResult> results, bool kept) {
+void print_results(const TestCommandArguments& arguments, const picture_tests::RunFacts& facts,
+                   std::span<const picture_tests::CaseResult> results, bool kept) {
     if (arguments.json) {
         write_json(std::cout, facts, results);
     } else {
@@ -248,10 +251,10 @@ void print_results(const TestCommandArguments& arguments, const guard::RunFacts&
 }
 
 int run_test(const TestCommandArguments& arguments) {
-    const std::vector<guard::CaseFile> all = guard::find_cases(arguments.folder);
-    const std::vector<guard::CaseFile> cases = cases_of(arguments, all);
+    const std::vector<picture_tests::CaseFile> all = picture_tests::find_cases(arguments.folder);
+    const std::vector<picture_tests::CaseFile> cases = cases_of(arguments, all);
     if (arguments.list) {
-        for (const guard::CaseFile& file : cases) std::cout << cleaned(file.name) << '\n';
+        for (const picture_tests::CaseFile& file : cases) std::cout << cleaned(file.name) << '\n';
         flush_results();
         return kDone;
     }
@@ -264,31 +267,31 @@ int run_test(const TestCommandArguments& arguments) {
     const Drawer drawer = open(arguments);
     const bool renews = arguments.new_reference && drawer.maker;
     if (arguments.update && drawer.maker && !renews)
-        check_references(cases, guard::reference_of(drawer.maker->renderer()));
-    const guard::Origin origin = renews ? guard::Origin::here : guard::Origin::reference;
-    std::vector<guard::CaseResult> results;
-    for (const guard::CaseFile& file : cases) {
+        check_references(cases, picture_tests::reference_of(drawer.maker->renderer()));
+    const picture_tests::Origin origin = renews ? picture_tests::Origin::here : picture_tests::Origin::reference;
+    std::vector<picture_tests::CaseResult> results;
+    for (const picture_tests::CaseFile& file : cases) {
         results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, origin));
     }
     // Where standard output is a report, the rest goes beside it.
     std::ostream& say = arguments.json ? std::cerr : std::cout;
     if (renews) {
-        take_as_reference(results, cases, guard::reference_of(drawer.maker->renderer()), say);
+        take_as_reference(results, cases, picture_tests::reference_of(drawer.maker->renderer()), say);
     } else if (asks) {
         take_asked(results, arguments.output, std::cin, say);
     } else if (arguments.update) {
-        const auto named = [&](const guard::CaseResult& result) {
+        const auto named = [&](const picture_tests::CaseResult& result) {
             return arguments.update_all || matches_any(arguments.update_names, result.file.name);
         };
         take_named(results, named, say);
     }
     const bool kept = keep_all(arguments, results);
-    write_report(arguments.junit, guard::write_junit, drawer.facts, results);
-    write_report(arguments.html, guard::write_html, drawer.facts, results);
+    write_report(arguments.junit, picture_tests::write_junit, drawer.facts, results);
+    write_report(arguments.html, picture_tests::write_html, drawer.facts, results);
     print_results(arguments, drawer.facts, results, kept);
     if (!drawer.maker) throw MachineError(drawer.no_opengl);
     if (!arguments.contact_sheet.empty()) write_contact_sheet(arguments, results, drawer.maker->renderer());
-    return guard::summary(results).ok() ? kDone : kFailed;
+    return picture_tests::summary(results).ok() ? kDone : kFailed;
 }
 
 /// A reference is that of all goldens of a folder.

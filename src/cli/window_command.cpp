@@ -1,17 +1,15 @@
 #include <cli/command_line.h>
-#include <cli/exit_status.h>
-#include <cli/messages.h>
 #include <cli/options.h>
+#include <cli/program.h>
 #include <cli/window_command.h>
 
-#include <app/glfw_window.h>
-#include <app/headless_window.h>
-#include <app/script.h>
-#include <import/error.h>
-#include <import/file.h>
-#include <import/text.h>
-#include <render/render.h>
-#include <scene/demo_scene.h>
+#include <app/script/script.h>
+#include <app/window/glfw_window.h>
+#include <app/window/headless_window.h>
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <render/pictures/render.h>
 #include <scene/load_files.h>
 
 #include <cstdlib>
@@ -47,7 +45,7 @@ int run_script(const Scene& scene, const WindowArguments& arguments) {
     app::Session session(false);
     // One scale everywhere, whatever the monitor's.
     session.settings.ui_scale = arguments.ui_scale.value_or(1);
-    const std::unique_ptr<app::Stage> stage = [&]() -> std::unique_ptr<app::Stage> {
+    const std::unique_ptr<app::ShellHost> host = [&]() -> std::unique_ptr<app::ShellHost> {
         if (!arguments.headless && app::has_display()) {
             return std::make_unique<app::GlfwWindow>(session, arguments.size);
         }
@@ -56,7 +54,7 @@ int run_script(const Scene& scene, const WindowArguments& arguments) {
     }();
     session.open_scene(scene, arguments.files);
     try {
-        script.run(session, *stage, std::cout);
+        script.run(session, *host, std::cout);
     } catch (const app::ExpectationError& error) {
         flush_results();
         complain(error.what());
@@ -85,7 +83,7 @@ void show_window(const Scene& scene, const WindowArguments& arguments) {
 void add_window_options(Command& program, WindowArguments& arguments) {
     program.add_option("FILE", arguments.files, "Scenes, captures or clips to open in the window, as one scene");
     add_parsed(program, "--size", arguments.size, parse_size, "The window's size in pixels", "WxH");
-    add_parsed(program, "--ui-scale", arguments.ui_scale, number_within(app::kLeastScale, app::kMostScale),
+    add_parsed(program, "--ui-scale", arguments.ui_scale, number_within(app::kLeastUiScale, app::kMostUiScale),
                "Size of text and panels, 0.5 to 4; default: the monitor's", "X");
     program.add_option("--script", arguments.script, "Run commands and input from this file, then end", "SCRIPT");
     program.add_flag("--headless", arguments.headless, "With --script: without a display");

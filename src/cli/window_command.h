@@ -1,7 +1,7 @@
 /// `mobbscope [FILE...]`: the window.
 #pragma once
 
-#include <render/image.h>
+#include <render/image/image.h>
 
 #include <filesystem>
 #include <optional>

@@ -1,6 +1,6 @@
+#include <base/file.h>
 #include <import/applicable.h>
-#include <import/file.h>
-#include <import/tracks.h>
+#include <import/tracks/tracks.h>
 
 namespace mobbscope {
 

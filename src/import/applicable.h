@@ -1,7 +1,7 @@
 /// Which import options mean something for which format.
 #pragma once
 
-#include <import/import.h>
+#include <import/clip/imported_clip.h>
 
 #include <filesystem>
 #include <string>

@@ -1,80 +1,13 @@
 /// Files to clips: one door for every format.
 #pragma once
 
-#include <mobb/clip.h>
+#include <import/clip/imported_clip.h>
 
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace mobbscope {
-
-enum class Origin { keep, start, start_heading };
-
-/// Samples per second where neither the file nor an option says how many.
-inline constexpr double kDefaultFps = 30;
-
-/// How a file becomes clips: the import keys of a scene's clip and the import options of the command line.
-/// An empty option takes the default of the contract, section 2; see applicable.h for what a CSV has no use for.
-struct ImportOptions {
-    std::optional<std::string> animation;           ///< index (from 0) or name; a number counts as an index
-    std::optional<std::string> root;                ///< joint name
-    std::optional<double> fps;                      ///< samples per second, over 0 to 1e6; default 30, or as stored
-    std::optional<std::string> unit;                ///< "m", "cm", "in", "auto" or metres per file unit, over 0 to 1e6
-    std::optional<std::string> up;                  ///< "y" or "z"
-    std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key
-    std::optional<Origin> origin;                   ///< default keep
-    std::optional<std::string> id;                  ///< of a file of tracks: the one to take
-    std::optional<double> radius;                   ///< metres, 0 to kMaxLength; overrides r of every sample
-    /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a trajectory file.
-    std::optional<double> dt;
-
-    friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
-};
-
-/// Throws std::invalid_argument, naming the option, if one is out of range whatever the file.
-void check(const ImportOptions& options);
-
-/// Metres per file unit of a checked ImportOptions::unit; nothing for "auto".
-std::optional<double> metres_per_unit(const std::string& unit);
-
-/// Names as they stand in files: "keep", "start", "start_heading".
-std::string_view name(Origin origin);
-std::optional<Origin> origin_from_name(std::string_view name);
-
-/// What the file said, before sampling.
-struct SourceFacts {
-    std::string format;  ///< "csv", "bvh", "gltf", "fbx", or of trajectories as in import/tracks.h
-    double unit = 1;     ///< metres per file unit
-    int frames = 0;
-    std::optional<double> dt;           ///< seconds between frames, where they are uniform
-    double duration = 0;                ///< last key - first key, seconds
-    std::vector<std::string> warnings;  ///< what was passed over or looks wrong, one sentence each
-
-    // Of files with skeletons:
-    std::string animation{};                      ///< its name; "#<index>" if it has none
-    std::string root{};                           ///< the joint in the centre of the disks
-    int joints = 0;                               ///< in the root's subtree, itself included, End Sites not
-    std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
-};
-
-struct Skeleton;
-
-/// A clip and where it came from.
-struct ImportedClip {
-    std::string name;  ///< the file's stem; of one clip of several, the track's id or the animation's name
-    std::string id;    ///< of a file of tracks: the track; else empty
-    mobb::ClipPtr clip;
-    SourceFacts facts;
-    std::string animation{};                     ///< of a file with several: ImportOptions::animation for this one
-    std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
-    /// Seconds: when it starts on the clock of its file's tracks, 0 for the first of them (trajectories with trim: at
-    /// its begin).
-    double start = 0;
-};
 
 /// Reads clips from files, each file once however many of its clips are asked for.
 class Importer {

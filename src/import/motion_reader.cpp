@@ -1,10 +1,10 @@
 // The one place that knows which reader takes which motion file.
-#include <import/bvh.h>
-#include <import/error.h>
-#include <import/fbx.h>
-#include <import/file.h>
-#include <import/gltf.h>
-#include <import/motion.h>
+#include <base/error.h>
+#include <base/file.h>
+#include <import/bvh/bvh.h>
+#include <import/nodes/fbx.h>
+#include <import/nodes/gltf.h>
+#include <import/skeleton/motion.h>
 
 #include <array>
 #include <utility>

@@ -39,12 +39,12 @@ glm::dvec2 chain_axis(const Disk& first, const Disk& last, glm::dvec2 stand_in) 
     return length > kStandingStill ? travel / length : stand_in;
 }
 
-Outline outline_of(std::span<const Disk> disks) {
+KDop outline_of(std::span<const Disk> disks) {
     return {disks, chain_axis(disks.front(), disks.back(), principal_axis(disks))};
 }
 
 /// The rectangle around an outline along its axis, a little wider for rounding errors, from t0 to t1 (w*t).
-Box chain_rectangle(const Outline& outline, double rounding, double t0, double t1) {
+Box chain_rectangle(const KDop& outline, double rounding, double t0, double t1) {
     const glm::dvec2 u = outline.axis(), center = outline.center(), half = outline.half() + rounding;
     Box box;
     box.kind = BoxKind::obb2d;
@@ -154,7 +154,7 @@ Chain::Peak Chain::joined(const Peak& left, const Peak& right) {
     Peak peak{static_cast<int>(upper_.size()), left.first_link, links, {left.outline, right.outline, axis}};
     const double w = time_scale_;
     upper_.push_back(
-        {chain_rectangle(peak.outline, kOutlineRounding * reach_, w * (first.first * dt_), w * (last.end() * dt_)),
+        {chain_rectangle(peak.outline, kKDopRounding * reach_, w * (first.first * dt_), w * (last.end() * dt_)),
          first.first,
          last.end() - first.first,
          {left.child, right.child}});

@@ -2,7 +2,7 @@
 /// 6). A motion graph makes them as it runs.
 #pragma once
 
-#include <mobb/outline.h>
+#include <mobb/kdop.h>
 #include <mobb/tree.h>
 
 #include <glm/vec2.hpp>
@@ -23,11 +23,11 @@ class ChainPart {
 
     const Tree& tree() const { return *tree_; }
     const Clip& clip() const { return tree_->clip(); }
-    const Outline& outline() const { return outline_; }  ///< of all the clip's disks, in the clip's frame
+    const KDop& outline() const { return outline_; }  ///< of all the clip's disks, in the clip's frame
 
   private:
     std::shared_ptr<const Tree> tree_;
-    Outline outline_;
+    KDop outline_;
 };
 
 using ChainPartPtr = std::shared_ptr<const ChainPart>;
@@ -122,7 +122,7 @@ class Chain {
         int child;  ///< as in Upper
         int first_link;
         int links;
-        Outline outline;
+        KDop outline;
     };
 
     int id_of(int child) const {

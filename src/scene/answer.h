@@ -1,8 +1,8 @@
 /// The answer to one query of a scene, as the contract has it.
 #pragma once
 
+#include <base/json_writer.h>
 #include <scene/fitted_scene.h>
-#include <scene/json_writer.h>
 
 #include <cstddef>
 #include <optional>

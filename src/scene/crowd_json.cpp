@@ -1,4 +1,4 @@
-#include <import/text.h>
+#include <base/text.h>
 #include <scene/crowd_json.h>
 #include <scene/motion_graph.h>
 

@@ -9,9 +9,9 @@
 /// chosen.
 #pragma once
 
+#include <base/json_place.h>
+#include <base/json_writer.h>
 #include <scene/crowd_run.h>
-#include <scene/json_place.h>
-#include <scene/json_writer.h>
 #include <scene/scene.h>
 
 #include <memory>

@@ -14,8 +14,8 @@ namespace {
 /// Plays of one person.
 class PlaysOf {
   public:
-    PlaysOf(const Scene& run, int person)
-        : run_(run), person_(person), agent_(run.crowd->agents[static_cast<std::size_t>(person)]) {}
+    PlaysOf(const Scene& run, int run_agent)
+        : run_(run), run_agent_(run_agent), agent_(run.crowd->agents[static_cast<std::size_t>(run_agent)]) {}
 
     double begin(std::size_t play) const { return agent_.plays[play].placement.start; }
     double end(std::size_t play) const { return begin(play) + clip(play).duration(); }
@@ -28,7 +28,7 @@ class PlaysOf {
         if (play > present) out.name += " +" + std::to_string(play - present);
         out.clip = clip_index(play);
         out.placement = agent_.plays[play].placement;
-        out.person = person_;
+        out.run_agent = run_agent_;
         out.play = static_cast<int>(play);
         return out;
     }
@@ -53,7 +53,7 @@ class PlaysOf {
     }
 
     const Scene& run_;
-    int person_;
+    int run_agent_;
     const CrowdAgent& agent_;
 };
 
@@ -69,7 +69,7 @@ std::size_t play_at(const CrowdAgent& agent, double time) {
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(std::distance(agent.plays.begin(), after) - 1, 0));
 }
 
-std::optional<int> person_by_name(const CrowdRun& crowd, std::string_view name) {
+std::optional<int> run_agent_by_name(const CrowdRun& crowd, std::string_view name) {
     const auto is_it = [&](const CrowdAgent& agent) { return agent.name == name; };
     const auto at = std::find_if(crowd.agents.begin(), crowd.agents.end(), is_it);
     if (at == crowd.agents.end()) return std::nullopt;
@@ -80,13 +80,14 @@ Scene scene_at(const Scene& run, double time, CrowdWindow window) {
     Scene out = run;
     const int people = static_cast<int>(run.crowd->agents.size());
     out.agents.reserve(static_cast<std::size_t>(people));
-    for (int person = 0; person < people; ++person) {
-        const PlaysOf plays(run, person);
+    for (int run_agent = 0; run_agent < people; ++run_agent) {
+        const PlaysOf plays(run, run_agent);
         const std::size_t present = plays.at(time);
         out.agents.push_back(plays.agent(present, present));
     }
     if (window.before <= 0 && window.after <= 0) return out;
-    for (int person = 0; person < people; ++person) PlaysOf(run, person).add_around(out.agents, time, window);
+    for (int run_agent = 0; run_agent < people; ++run_agent)
+        PlaysOf(run, run_agent).add_around(out.agents, time, window);
     return out;
 }
 

@@ -26,7 +26,7 @@ double run_time(const Scene& run, const ViewState& view);
 std::size_t play_at(const CrowdAgent& agent, double time);
 
 /// Where an agent of a run stands in CrowdRun::agents, by name; none if there is no such agent.
-std::optional<int> person_by_name(const CrowdRun& crowd, std::string_view name);
+std::optional<int> run_agent_by_name(const CrowdRun& crowd, std::string_view name);
 
 /// The run with an agent for every play that is on between `time` - before and `time` + after. The first agents are the
 /// people in their order, each with its play at the time (or nearest to it) and under its own name, whatever the

@@ -1,4 +1,5 @@
-#include <import/text.h>
+#include <base/text.h>
+#include <mobb/level_figures.h>
 #include <scene/fit_json.h>
 
 #include <limits>
@@ -24,6 +25,55 @@ mobb::Axes read_axes(const JsonPlace& place) {
     place.fail(in_quotes(place.string()) + " names no axes; give one of " + listed(mobb::axes_names()));
 }
 
+using Layout = JsonWriter::Layout;
+
+/// The first `count` coordinates of a vector.
+void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
+    out.begin_array(Layout::row);
+    for (int i = 0; i < count; ++i) out.value(v[i]);
+    out.end_array();
+}
+
+void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
+    const mobb::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
+    const mobb::Box& box = node.box;
+    const int dimensions = box.kind == mobb::BoxKind::obb3d ? 3 : 2;
+    out.begin_object(Layout::row);
+    out.member("index", index);
+    out.member("parent", node.parent);
+    out.member("level", node.level);
+    out.member("first", node.first);
+    out.member("count", node.count);
+    out.member("leaf", node.is_leaf());
+    out.member("kind", mobb::name(box.kind));
+    out.key("center");
+    // A moving box has its centre in the middle of its time; files give it at t0.
+    write_vector(out, box.center - glm::dvec3(box.drift, 0), dimensions);
+    out.key("axes");
+    out.begin_array();
+    for (int i = 0; i < dimensions; ++i) write_vector(out, box.axes[static_cast<std::size_t>(i)], dimensions);
+    out.end_array();
+    out.key("half");
+    write_vector(out, box.half, dimensions);
+    if (box.kind == mobb::BoxKind::moving) {
+        out.key("velocity");
+        write_vector(out, glm::dvec3(2.0 * box.drift / (tree.t1(node) - tree.t0(node)), 0), 2);
+    }
+    out.member("t0", tree.t0(node));
+    out.member("t1", tree.t1(node));
+    out.end_object();
+}
+
+void write_level(JsonWriter& out, const mobb::LevelFigures& figures) {
+    out.begin_object(Layout::row);
+    out.member("level", figures.level);
+    out.member("nodes", figures.nodes);
+    out.member("volume", figures.volume);
+    out.key("tightness");
+    figures.tightness ? out.value(*figures.tightness) : out.null();
+    out.end_object();
+}
+
 }  // namespace
 
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
@@ -36,6 +86,24 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
         fit.time_scale = scale->number(1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
     }
     return fit;
+}
+
+void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {
+    out.begin_object();
+    out.member("clip", clip);
+    out.member("tree", mobb::name(tree.options().tree));
+    out.member("axes", mobb::name(tree.options().axes));
+    out.member("leaf", tree.options().leaf);
+    out.member("time_scale", tree.options().time_scale);
+    out.key("levels");
+    out.begin_array();
+    for (const mobb::LevelFigures& figures : mobb::level_figures(tree)) write_level(out, figures);
+    out.end_array();
+    out.key("nodes");
+    out.begin_array();
+    for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) write_node(out, tree, i);
+    out.end_array();
+    out.end_object();
 }
 
 }  // namespace mobbscope

@@ -3,12 +3,18 @@
 ///     {"tree": "mobb", "leaf": 10, "levels": 0, "axes": "endpoints", "time_scale": 1}
 #pragma once
 
+#include <base/json_place.h>
+#include <base/json_writer.h>
 #include <mobb/tree.h>
-#include <scene/json_place.h>
+
+#include <string>
 
 namespace mobbscope {
 
 /// What the keys say, over `base`: a key that is not there keeps its value. Throws InputError.
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
+
+/// Per-level figures and every node of the tree over the clip of that name.
+void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);
 
 }  // namespace mobbscope

@@ -8,7 +8,7 @@ namespace mobbscope {
 
 FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, const FittedScene* previous,
                          const Progress& progress)
-    : scene_(std::move(scene)), options_(options), participants_(mobbscope::participants(scene_)) {
+    : scene_(std::move(scene)), options_(options), participants_(mobbscope::placed_agents(scene_)) {
     mobb::check(options);
     std::unordered_map<const mobb::Clip*, std::shared_ptr<const mobb::Tree>> fitted;
     if (previous && previous->options() == options) {
@@ -28,7 +28,7 @@ std::size_t FittedScene::bytes_beyond(const FittedScene& other) const {
     std::unordered_set<const void*> shared;
     for (const auto& tree : other.trees_) shared.insert({tree.get(), &tree->clip()});
     std::size_t bytes = scene_.clips.size() * sizeof(SceneClip) + scene_.agents.size() * sizeof(Agent) +
-                        scene_.queries.size() * sizeof(SceneQuery) + participants_.size() * sizeof(Participant);
+                        scene_.queries.size() * sizeof(SceneQuery) + participants_.size() * sizeof(PlacedAgent);
     for (const auto& tree : trees_) {
         if (shared.insert(tree.get()).second) bytes += tree->nodes().size() * (sizeof(mobb::Node) + sizeof(int));
         if (shared.insert(&tree->clip()).second) bytes += tree->clip().samples().size_bytes();

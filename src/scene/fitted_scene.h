@@ -37,9 +37,9 @@ class FittedScene {
     const mobb::FitOptions& options() const { return options_; }
     const mobb::Tree& tree(int clip) const { return *trees_[static_cast<std::size_t>(clip)]; }
     QueryList queries() const { return QueryList(scene_); }  ///< what is asked; valid as long as this
-    const std::vector<Participant>& participants() const { return participants_; }  ///< what is drawn
+    const std::vector<PlacedAgent>& placed_agents() const { return participants_; }  ///< what is drawn
 
-    mobb::PlacedTree placed(const Participant& participant) const {
+    mobb::PlacedTree placed(const PlacedAgent& participant) const {
         return {tree(participant.clip), participant.placement};
     }
 
@@ -50,7 +50,7 @@ class FittedScene {
     Scene scene_;
     mobb::FitOptions options_;
     std::vector<std::shared_ptr<const mobb::Tree>> trees_;  ///< by clip
-    std::vector<Participant> participants_;
+    std::vector<PlacedAgent> participants_;
 };
 
 /// Through the trees, or by measuring every pair of samples.

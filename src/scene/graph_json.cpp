@@ -1,4 +1,4 @@
-#include <import/text.h>
+#include <base/text.h>
 #include <mobb/clip.h>
 #include <scene/graph_json.h>
 

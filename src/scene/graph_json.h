@@ -8,8 +8,8 @@
 /// is none.
 #pragma once
 
-#include <scene/json_place.h>
-#include <scene/json_writer.h>
+#include <base/json_place.h>
+#include <base/json_writer.h>
 #include <scene/motion_graph.h>
 
 #include <functional>

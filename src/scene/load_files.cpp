@@ -1,7 +1,7 @@
-#include <import/error.h>
-#include <import/file.h>
-#include <import/text.h>
-#include <import/tracks.h>
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <import/tracks/tracks.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
@@ -85,5 +85,19 @@ std::optional<std::filesystem::path> scene_file_of(const std::vector<std::filesy
     if (std::count_if(files.begin(), files.end(), is_scene) != 1) return std::nullopt;
     return *std::find_if(files.begin(), files.end(), is_scene);
 }
+
+std::filesystem::path demo_scene_file() {
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const std::filesystem::path name = "scenes/crossing.json";
+    std::filesystem::path installed = (program.parent_path() / MOBBSCOPE_ASSETS_FROM_BIN / name).lexically_normal();
+    if (!error && std::filesystem::exists(installed, error)) return installed;
+    std::filesystem::path as_built = std::filesystem::path(MOBBSCOPE_ASSETS_AS_BUILT) / name;
+    if (std::filesystem::exists(as_built, error)) return as_built;
+    throw MachineError("the demo scene is neither at " + installed.string() + " nor at " + as_built.string() +
+                       "; install the program again");
+}
+
+Scene demo_scene() { return load_scene(demo_scene_file()); }
 
 }  // namespace mobbscope

@@ -23,4 +23,10 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
 /// Where the scene of these files would be saved: the scene among them if there is exactly one.
 std::optional<std::filesystem::path> scene_file_of(const std::vector<std::filesystem::path>& files);
 
+/// Where it is: beside the installed program, else where it was built. Throws MachineError if it is in neither place.
+std::filesystem::path demo_scene_file();
+
+/// Throws MachineError if the program was installed without its scenes.
+Scene demo_scene();
+
 }  // namespace mobbscope

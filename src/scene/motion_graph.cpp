@@ -1,5 +1,5 @@
+#include <base/strong_components.h>
 #include <scene/motion_graph.h>
-#include <scene/strong_components.h>
 
 #include <cmath>
 #include <numbers>

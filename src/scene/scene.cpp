@@ -7,7 +7,7 @@ namespace mobbscope {
 
 namespace {
 
-Participant participant_of(const Scene& scene, std::size_t agent) {
+PlacedAgent placed_agent_of(const Scene& scene, std::size_t agent) {
     const Agent& a = scene.agents[agent];
     return {a.name, a.clip, a.placement, static_cast<int>(agent)};
 }
@@ -47,16 +47,16 @@ SceneQuery query_at(const Scene& scene, std::size_t index) {
         (pairs_before(middle, agents) <= index ? a : end) = middle;
     }
     const std::size_t b = a + 1 + (index - pairs_before(a, agents));
-    return {participant_of(scene, a), participant_of(scene, b), {}, {}};
+    return {placed_agent_of(scene, a), placed_agent_of(scene, b), {}, {}};
 }
 
 std::size_t query_of_pair(const Scene& scene, std::size_t a, std::size_t b) {
     return pairs_before(a, scene.agents.size()) + (b - a - 1);
 }
 
-std::vector<Participant> participants(const Scene& scene) {
-    std::vector<Participant> out;
-    for (std::size_t agent = 0; agent < scene.agents.size(); ++agent) out.push_back(participant_of(scene, agent));
+std::vector<PlacedAgent> placed_agents(const Scene& scene) {
+    std::vector<PlacedAgent> out;
+    for (std::size_t agent = 0; agent < scene.agents.size(); ++agent) out.push_back(placed_agent_of(scene, agent));
     if (!out.empty()) return out;
     for (int clip = 0; clip < static_cast<int>(scene.clips.size()); ++clip) {
         out.push_back({scene.clips[static_cast<std::size_t>(clip)].name, clip, {}, -1});

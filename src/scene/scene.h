@@ -1,8 +1,8 @@
 /// The scene: clips, agents that play them, and the questions asked of them. Read from and written to `*.json`.
 #pragma once
 
-#include <import/error.h>
-#include <import/import.h>
+#include <base/error.h>
+#include <import/clip/imported_clip.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
@@ -34,16 +34,17 @@ std::string to_string(const Color& color);
 
 struct SceneClip {
     std::string name;
-    std::optional<std::string> source;           ///< relative to the scene file; none: the samples stand in the scene
-    ImportOptions options;                       ///< of the source; empty for inline samples
-    mobb::ClipPtr clip;                          ///< never null in a loaded scene
-    SourceFacts facts{};                         ///< of the source
-    std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton.h
-    double start = 0;                            ///< seconds: when it starts among the tracks of its source
+    std::optional<std::string> source;  ///< relative to the scene file; none: the samples stand in the scene
+    ImportOptions options;              ///< of the source; empty for inline samples
+    mobb::ClipPtr clip;                 ///< never null in a loaded scene
+    SourceFacts facts{};                ///< of the source
+    std::shared_ptr<const Skeleton>
+        skeleton{};    ///< null where the source has no joints, see import/skeleton/skeleton.h
+    double start = 0;  ///< seconds: when it starts among the tracks of its source
 };
 
 /// One side of a query: a clip and where it is placed.
-struct Participant {
+struct PlacedAgent {
     std::string name;  ///< the agent's, or the clip's where the query places a clip itself
     int clip = 0;      ///< index into Scene::clips
     mobb::Placement placement;
@@ -56,7 +57,7 @@ struct Agent {
     mobb::Placement placement;
     std::optional<Color> color;  ///< default: the palette's, by index
     /// In a scene that was made of a run: who this is and, if of scene_at, which of the plays; else -1.
-    int person = -1;
+    int run_agent = -1;
     int play = -1;
 };
 
@@ -67,7 +68,7 @@ struct Expectation {
 };
 
 struct SceneQuery {
-    Participant a, b;
+    PlacedAgent a, b;
     std::optional<Expectation> expect;
     std::shared_ptr<const mobb::Trace> trace{};  ///< null: none; shared, so that a query is cheap to copy
 };
@@ -84,7 +85,8 @@ struct Scene {
 };
 
 /// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0. A run asks none:
-/// whom its agents collide with is said by the choices and conflicts (crowd/choice.h, crowd/conflicts.h).
+/// whom its agents collide with is said by the choices and conflicts (crowd/simulation/choice.h,
+/// conflicts/scene_conflicts.h).
 std::size_t query_count(const Scene& scene);
 /// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
 /// when asked for: the pairs of a crowd would fill the memory.
@@ -93,7 +95,7 @@ SceneQuery query_at(const Scene& scene, std::size_t index);
 std::size_t query_of_pair(const Scene& scene, std::size_t a, std::size_t b);
 
 /// What is drawn and asked about: the agents, or without any, every clip where it is.
-std::vector<Participant> participants(const Scene& scene);
+std::vector<PlacedAgent> placed_agents(const Scene& scene);
 
 /// Told how much of some long work is done, of how much in all; it may throw to end the work, and what it throws passes
 /// through. An empty one is told nothing.

@@ -1,5 +1,5 @@
-#include <import/error.h>
-#include <import/text.h>
+#include <base/error.h>
+#include <base/text.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Agent& agent_at(Scene& scene, int agent) { return scene.agents.at(static_cast<st
 template <class Change>
 void change_sides(Scene& scene, int agent, const Change& change) {
     for (SceneQuery& query : scene.queries) {
-        for (Participant* side : {&query.a, &query.b}) {
+        for (PlacedAgent* side : {&query.a, &query.b}) {
             if (side->agent != agent) continue;
             change(*side);
             query.trace.reset();
@@ -95,7 +95,7 @@ void add_agents_for_clips(Scene& scene) {
 void place_agent(Scene& scene, int agent, const mobb::Placement& placement) {
     if (!mobb::is_valid(placement)) throw std::invalid_argument("a placement is too far away or not a number");
     agent_at(scene, agent).placement = placement;
-    change_sides(scene, agent, [&](Participant& side) { side.placement = placement; });
+    change_sides(scene, agent, [&](PlacedAgent& side) { side.placement = placement; });
 }
 
 void rename_agent(Scene& scene, int agent, const std::string& name) {
@@ -106,7 +106,7 @@ void rename_agent(Scene& scene, int agent, const std::string& name) {
         }
     }
     agent_at(scene, agent).name = name;
-    change_sides(scene, agent, [&](Participant& side) { side.name = name; });
+    change_sides(scene, agent, [&](PlacedAgent& side) { side.name = name; });
 }
 
 int add_agent(Scene& scene, int clip, const mobb::Placement& placement) {
@@ -144,7 +144,7 @@ void remove_agent(Scene& scene, int agent) {
     }
     std::erase_if(scene.queries, is_about_it);
     for (SceneQuery& query : scene.queries) {
-        for (Participant* side : {&query.a, &query.b}) side->agent -= side->agent > agent ? 1 : 0;
+        for (PlacedAgent* side : {&query.a, &query.b}) side->agent -= side->agent > agent ? 1 : 0;
     }
     shown.restore(scene);
 }
@@ -154,7 +154,7 @@ std::size_t add_query(Scene& scene, int a, int b) {
     if (scene.queries.empty() && scene.agents.size() > 1) make_queries_explicit(scene);
     const auto side = [&](int agent) {
         const Agent& of = agent_at(scene, agent);
-        return Participant{of.name, of.clip, of.placement, agent};
+        return PlacedAgent{of.name, of.clip, of.placement, agent};
     };
     scene.queries.push_back({side(a), side(b), {}, {}});
     return scene.queries.size() - 1;
@@ -211,7 +211,7 @@ void merge(Scene& scene, Scene other) {
         scene.agents.push_back(std::move(agent));
     }
     for (SceneQuery& query : other.queries) {
-        for (Participant* side : {&query.a, &query.b}) {
+        for (PlacedAgent* side : {&query.a, &query.b}) {
             side->clip += first_clip;
             if (side->agent >= 0) side->agent += first_agent;
             side->name = side->agent >= 0 ? agent_at(scene, side->agent).name

@@ -1,12 +1,13 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
+#include <base/file.h>
+#include <base/json_place.h>
+#include <base/text.h>
 #include <import/applicable.h>
-#include <import/file.h>
-#include <import/text.h>
-#include <import/tracks.h>
+#include <import/import.h>
+#include <import/tracks/tracks.h>
 #include <scene/crowd_json.h>
 #include <scene/fit_json.h>
 #include <scene/graph_json.h>
-#include <scene/json_place.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
 #include <scene/view_json.h>
@@ -296,7 +297,7 @@ class SceneReader {
         return query;
     }
 
-    Participant read_participant(const JsonPlace& place) const {
+    PlacedAgent read_participant(const JsonPlace& place) const {
         if (place.is_string()) {
             const int index = agent_names_.find(place, "agent");
             const Agent& agent = scene_.agents[static_cast<std::size_t>(index)];
@@ -326,7 +327,7 @@ class SceneReader {
         }
     }
 
-    const mobb::Clip& clip_of(const Participant& participant) const {
+    const mobb::Clip& clip_of(const PlacedAgent& participant) const {
         return *scene_.clips[static_cast<std::size_t>(participant.clip)].clip;
     }
 

@@ -1,8 +1,8 @@
 // Scene files written: what is read back is the same scene, bit for bit.
-#include <import/text.h>
+#include <base/json_writer.h>
+#include <base/text.h>
 #include <scene/crowd_json.h>
 #include <scene/graph_json.h>
-#include <scene/json_writer.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
 #include <scene/view_json.h>
@@ -75,7 +75,7 @@ void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
     out.end_object();
 }
 
-void write_participant(JsonWriter& out, const Scene& scene, const Participant& participant) {
+void write_participant(JsonWriter& out, const Scene& scene, const PlacedAgent& participant) {
     if (participant.agent >= 0) return out.value(scene.agents[static_cast<std::size_t>(participant.agent)].name);
     out.begin_object(Layout::row);
     out.member("clip", scene.clips[static_cast<std::size_t>(participant.clip)].name);

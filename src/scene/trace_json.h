@@ -1,10 +1,10 @@
 /// Contacts and traces as they stand in scene files and in the output of `query --json`.
 #pragma once
 
+#include <base/json_place.h>
+#include <base/json_writer.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
-#include <scene/json_place.h>
-#include <scene/json_writer.h>
 
 #include <optional>
 

@@ -11,8 +11,8 @@
 /// `levels` is a level or what `--level` takes, `step` an event number or what `--step` takes.
 #pragma once
 
-#include <scene/json_place.h>
-#include <scene/json_writer.h>
+#include <base/json_place.h>
+#include <base/json_writer.h>
 #include <scene/view_state.h>
 
 namespace mobbscope {

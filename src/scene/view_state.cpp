@@ -1,4 +1,4 @@
-#include <import/text.h>
+#include <base/text.h>
 #include <scene/view_state.h>
 
 #include <stdexcept>

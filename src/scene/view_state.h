@@ -6,8 +6,10 @@
 #include <glm/vec3.hpp>
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace mobbscope {
 
@@ -118,5 +120,16 @@ std::optional<Show> show_from_name(std::string_view name);
 /// What parse_level_range and parse_step read.
 std::string to_string(const LevelRange& levels);
 std::string to_string(const Step& step);
+
+/// A view names something that its scene does not have. what() says so, and what there is.
+class ViewMismatch : public std::invalid_argument {
+  public:
+    /// `key`: that of the view's JSON, such as "query".
+    ViewMismatch(std::string key, const std::string& message) : std::invalid_argument(message), key_(std::move(key)) {}
+    const std::string& key() const { return key_; }
+
+  private:
+    std::string key_;
+};
 
 }  // namespace mobbscope

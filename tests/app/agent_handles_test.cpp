@@ -1,8 +1,8 @@
 // Dragging an agent in the picture: what is held follows the mouse.
-#include <app/agent_handles.h>
-#include <render/build_draw_list.h>
-#include <render/pick.h>
-#include <scene/demo_scene.h>
+#include <app/viewport/agent_handles.h>
+#include <render/drawlist/pick.h>
+#include <render/pictures/build_draw_list.h>
+#include <scene/load_files.h>
 
 #include <gtest/gtest.h>
 
@@ -22,13 +22,13 @@ struct Picture {
         list = build_draw_list(fitted, view, PictureSize{900, 600});
     }
     HandleDrag hold(Handle handle, glm::vec2 pixel) const {
-        const Participant& who = fitted.participants()[1];
+        const PlacedAgent& who = fitted.placed_agents()[1];
         const mobb::PlacedTree placed = fitted.placed(who);
         const mobb::Disk first = placed.placed_clip().disk(0);
         return {handle, 1, who.placement, {first.x, first.y}, placed.placed_clip().time(0), pixel};
     }
     glm::vec2 seen(glm::dvec2 place, double time) const {
-        return *list.lens.project(list.space.point(place.x, place.y, time));
+        return *list.projection.project(list.space.point(place.x, place.y, time));
     }
 };
 
@@ -55,7 +55,7 @@ TEST(AgentHandles, ATurnedAgentKeepsItsFirstPlace) {
     const auto placement = dragged(drag, picture.list, quarter_on, false);
     ASSERT_TRUE(placement);
     EXPECT_NEAR(std::remainder(placement->rotate_deg - drag.start.rotate_deg - 90, 360), 0, 0.1);
-    const mobb::Tree& tree = picture.fitted.tree(picture.fitted.participants()[1].clip);
+    const mobb::Tree& tree = picture.fitted.tree(picture.fitted.placed_agents()[1].clip);
     const mobb::PlacedTree turned(tree, *placement);
     const mobb::Disk first = turned.placed_clip().disk(0);
     EXPECT_NEAR(first.x, at.pivot.x, 1e-9);

@@ -1,5 +1,5 @@
 /// Clearance over time against a direct computation.
-#include <app/clearance.h>
+#include <explain/clearance.h>
 #include <gtest/gtest.h>
 #include <mobb/predicate.h>
 

@@ -1,5 +1,5 @@
 // What each command does to the session, and that undo takes it back where it edits.
-#include <render/lens.h>
+#include <render/drawlist/view_projection.h>
 
 #include "app/crossing_folder.h"
 

@@ -1,8 +1,8 @@
 /// A folder with a small scene and its clips, for tests that open, edit and save.
 #pragma once
 
-#include <app/command.h>
-#include <app/session.h>
+#include <app/commands/command.h>
+#include <app/document/session.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // A run in the session: its time, following, choices, conflicts, and two of it opened as a scene.
-#include <app/command.h>
-#include <app/crowd_view.h>
-#include <import/error.h>
-#include <import/file.h>
+#include <app/commands/command.h>
+#include <app/document/run_agents.h>
+#include <base/error.h>
+#include <base/file.h>
 #include <mobb/predicate.h>
-#include <render/candidates.h>
+#include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <support/temp_folder.h>
@@ -37,7 +37,7 @@ class CrowdTest : public ::testing::Test {
                 run("time.at", std::to_string(agent.plays[play].chosen_at + 1e-5));
                 const Choice& choice = session.choice()->choice;
                 for (const std::size_t i : shown_candidates(choice)) {
-                    if (fate_of(choice, i) == Fate::ruled_out) return static_cast<int>(i);
+                    if (outcome_of(choice, i) == CandidateOutcome::ruled_out) return static_cast<int>(i);
                 }
             }
         }
@@ -54,7 +54,7 @@ TEST_F(CrowdTest, OpensInItsMiddle) {
     EXPECT_EQ(session.time_span().t1, 20);
     EXPECT_FALSE(session.modified());
     EXPECT_TRUE(session.scene().agents.empty());
-    EXPECT_GE(session.fitted().participants().size(), 22u);
+    EXPECT_GE(session.fitted().placed_agents().size(), 22u);
     EXPECT_EQ(session.fitted().queries().size(), 0u);
 }
 
@@ -63,7 +63,7 @@ TEST_F(CrowdTest, APersonStaysSelectedWhileTimeRuns) {
     for (double time = 0; time < 20; time += 0.7) {
         run("time.at", std::to_string(time));
         ASSERT_EQ(session.selection.kind, Selection::Kind::path);
-        EXPECT_EQ(session.fitted().scene().agents[5].person, 5);
+        EXPECT_EQ(session.fitted().scene().agents[5].run_agent, 5);
         EXPECT_EQ(agent_in_question(session), session.crowd()->agents[5].name);
     }
 }
@@ -141,7 +141,7 @@ TEST_F(CrowdTest, ACandidateOpensAgainstWhoRuledItOut) {
     EXPECT_EQ(session.scene().agents.size(), 2u);
     ASSERT_TRUE(session.recorded());
     ASSERT_TRUE(session.recorded()->contact);
-    EXPECT_EQ(*session.recorded()->contact, candidate.ruling->contact);
+    EXPECT_EQ(*session.recorded()->contact, candidate.blocker->contact);
 }
 
 TEST_F(CrowdTest, BothWaysLeadBackFromTwoToAll) {

@@ -1,10 +1,10 @@
 // A run in the window, by keys and clicks: who is followed stays in the picture, and buttons do what they say.
-#include <app/crowd_view.h>
-#include <app/headless_window.h>
-#include <render/build_draw_list.h>
-#include <render/follow.h>
-#include <render/gl_context.h>
-#include <render/png.h>
+#include <app/document/run_agents.h>
+#include <app/window/headless_window.h>
+#include <render/gl/gl_context.h>
+#include <render/image/png.h>
+#include <render/layout/follow.h>
+#include <render/pictures/build_draw_list.h>
 #include <scene/crowd_scene.h>
 #include <support/temp_folder.h>
 
@@ -74,7 +74,7 @@ struct CrowdWindow {
         of.follow = name(agent);
         const double time = run_or_cursor_time(session);
         const glm::dvec2 at = *followed_place(session.fitted(), of, time);
-        const auto pixel = shown.lens.project(shown.space.point(at.x, at.y, shown.moment ? 0.9 : time));
+        const auto pixel = shown.projection.project(shown.space.point(at.x, at.y, shown.moment ? 0.9 : time));
         if (!pixel) return glm::vec2(1e9f);
         const glm::vec2 size(shown.size.width, shown.size.height);
         return 2.0f * *pixel / size - 1.0f;
@@ -83,7 +83,7 @@ struct CrowdWindow {
         EXPECT_LT(glm::length(seen_at(agent)), 0.15) << "agent " << name(agent);
     }
     /// A picture to look at, where MOBBSCOPE_LOOK names a folder.
-    void look(const std::string& file) {
+    void change_view(const std::string& file) {
         const char* const there = std::getenv("MOBBSCOPE_LOOK");
         if (there) write_png(std::filesystem::path(there) / (file + ".png"), window.shell().read_back());
     }
@@ -112,7 +112,7 @@ TEST_P(CrowdWindowTest, FramingGoesOnFollowing) {
     w.key("=");
     w.key("F");
     EXPECT_EQ(w.camera(), followed) << "nobody else is selected";
-    w.look("framed");
+    w.change_view("framed");
 }
 
 TEST_P(CrowdWindowTest, ADoubleClickOnAnotherNameFollowsThatOne) {
@@ -121,7 +121,7 @@ TEST_P(CrowdWindowTest, ADoubleClickOnAnotherNameFollowsThatOne) {
     w.double_click("agent.4");
     EXPECT_EQ(w.session.view().follow, w.name(4));
     w.expect_in_the_middle(4);
-    w.look("another");
+    w.change_view("another");
 }
 
 TEST_P(CrowdWindowTest, WhoIsFramedIsInThePictureThoughNobodyIsFollowed) {
@@ -144,7 +144,7 @@ TEST_P(CrowdWindowTest, TheMomentIsShownFromAsNear) {
         EXPECT_EQ(w.session.view().follow, w.name(1));
         EXPECT_NEAR(w.camera().distance, distance, 1e-9);
         w.expect_in_the_middle(1);
-        w.look("m" + std::to_string(i));
+        w.change_view("m" + std::to_string(i));
     }
     w.key("Home");
     w.key("M");
@@ -197,9 +197,9 @@ TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {
     w.key("F");
     EXPECT_EQ(w.session.view().follow, w.name(1));
     const DrawList shown = w.list();
-    const mobb::PlacedTree tree = w.session.fitted().placed(w.session.fitted().participants()[4]);
+    const mobb::PlacedTree tree = w.session.fitted().placed(w.session.fitted().placed_agents()[4]);
     const mobb::Disk disk = tree.placed_clip().disk(3);
-    const auto pixel = shown.lens.project(shown.space.point(disk.x, disk.y, tree.placed_clip().time(3)));
+    const auto pixel = shown.projection.project(shown.space.point(disk.x, disk.y, tree.placed_clip().time(3)));
     ASSERT_TRUE(pixel);
     const glm::vec2 middle(0.5f * static_cast<float>(shown.size.width), 0.5f * static_cast<float>(shown.size.height));
     EXPECT_LT(glm::length(*pixel - middle), 0.2f * middle.x);

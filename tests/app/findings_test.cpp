@@ -1,5 +1,5 @@
 /// What is found out about a query is kept as long as it is true, and no longer.
-#include <app/session.h>
+#include <app/document/session.h>
 #include <gtest/gtest.h>
 #include <scene/scene_edits.h>
 
@@ -26,10 +26,10 @@ TEST(Findings, AreNoneWithoutAQuery) {
 TEST(Findings, StayWhileOneLooksAround) {
     Session session(false);
     session.edit({"adding", ""}, add_three_agents);
-    session.look([](ViewState& view) { view.query = 0; });
+    session.change_view([](ViewState& view) { view.query = 0; });
     const auto before = session.findings();
     ASSERT_NE(before, nullptr);
-    session.look([](ViewState& view) {
+    session.change_view([](ViewState& view) {
         view.step = {Step::Unit::event, 0};
         view.time = 1.0;
         view.theme = Theme::light;
@@ -40,13 +40,13 @@ TEST(Findings, StayWhileOneLooksAround) {
 TEST(Findings, FollowTheQueryAndTheScene) {
     Session session(false);
     session.edit({"adding", ""}, add_three_agents);
-    session.look([](ViewState& view) { view.query = 0; });
+    session.change_view([](ViewState& view) { view.query = 0; });
     const auto first = session.findings();
     EXPECT_FALSE(first->clearance.contact.has_value());
     EXPECT_NEAR(first->clearance.pieces[*first->clearance.least].clearance, 0.6, 1e-9);
     EXPECT_NEAR(first->floor.apart, 0.6, 1e-9);
 
-    session.look([](ViewState& view) { view.query = 1; });
+    session.change_view([](ViewState& view) { view.query = 1; });
     const auto second = session.findings();
     EXPECT_NE(second, first);
     EXPECT_NEAR(second->clearance.pieces[*second->clearance.least].clearance, 1.6, 1e-9);

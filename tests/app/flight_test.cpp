@@ -1,5 +1,5 @@
 // A camera that flies starts where it was, ends where it should, and does not turn back on the way.
-#include <app/flight.h>
+#include <app/viewport/flight.h>
 
 #include <gtest/gtest.h>
 

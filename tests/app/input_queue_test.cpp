@@ -1,4 +1,4 @@
-#include <app/input_queue.h>
+#include <app/input/input_queue.h>
 
 #include <gtest/gtest.h>
 

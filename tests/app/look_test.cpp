@@ -1,4 +1,4 @@
-#include <app/look.h>
+#include <app/ui/style.h>
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ class LookTest : public ::testing::Test {
 
 TEST_F(LookTest, TextIsReadableOnEverySurface) {
     for (const Theme theme : {Theme::dark, Theme::light}) {
-        const Look look = make_look(theme, 1);
+        const Style look = make_style(theme, 1);
         for (const ImU32 surface : {look.window, look.panel, look.raised}) {
             for (const ImU32 text : {look.text, look.quiet, look.warning, look.error}) {
                 EXPECT_GE(contrast(from_im(text), from_im(surface)), 4.5f) << std::hex << text << " on " << surface;
@@ -35,7 +35,7 @@ TEST_F(LookTest, TextIsReadableOnEverySurface) {
 
 TEST_F(LookTest, LinesAreWholePixelsAtEveryScale) {
     for (const float scale : {0.5f, 1.0f, 1.25f, 1.7f, 2.0f, 4.0f}) {
-        const Look look = make_look(Theme::dark, scale);
+        const Style look = make_style(Theme::dark, scale);
         for (const ImFont* font : {look.body, look.title, look.caption, look.mono}) {
             EXPECT_EQ(font->FontSize, std::round(font->FontSize));
             EXPECT_NE(font->FindGlyphNoFallback('A'), nullptr);
@@ -47,7 +47,7 @@ TEST_F(LookTest, LinesAreWholePixelsAtEveryScale) {
 }
 
 TEST_F(LookTest, FontsHaveWhatUnitsAndFormulasNeed) {
-    const Look look = make_look(Theme::dark, 1);
+    const Style look = make_style(Theme::dark, 1);
     for (const ImWchar code : std::u16string_view(u"\u00B2\u00B7\u00D7\u03B1\u2026\u2190\u2192\u2212\u2264\u25B6")) {
         EXPECT_NE(look.body->FindGlyphNoFallback(code), nullptr) << std::hex << code;
     }

@@ -1,6 +1,6 @@
 // What the palette finds.
-#include <app/fuzzy.h>
-#include <app/palette_entries.h>
+#include <app/commands/fuzzy.h>
+#include <app/commands/palette_entries.h>
 
 #include "app/crossing_folder.h"
 

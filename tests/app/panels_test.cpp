@@ -1,10 +1,10 @@
 // Menus, palette, dialogs and messages in the window, by keys and clicks.
-#include <app/headless_window.h>
-#include <app/look.h>
-#include <render/build_draw_list.h>
-#include <render/gl_context.h>
-#include <render/lens.h>
-#include <render/png.h>
+#include <app/ui/style.h>
+#include <app/window/headless_window.h>
+#include <render/drawlist/view_projection.h>
+#include <render/gl/gl_context.h>
+#include <render/image/png.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "app/crossing_folder.h"
 
@@ -55,7 +55,7 @@ struct Window {
         window.settle();
     }
     /// A picture to look at, where MOBBSCOPE_LOOK names a folder.
-    void look(const std::string& name) {
+    void change_view(const std::string& name) {
         const char* const there = std::getenv("MOBBSCOPE_LOOK");
         if (there) write_png(std::filesystem::path(there) / (name + ".png"), window.shell().read_back());
     }
@@ -112,11 +112,11 @@ TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     // What the viewport shows is what is picked: a click on a wall selects the sample that holds then.
     run_command(w.session, "time.at", "1.2");
     w.window.settle();
-    w.look("moment");
+    w.change_view("moment");
     const DrawList list = build_draw_list(w.session.fitted(), w.session.view(), w.session.hooks.viewport_size());
     ASSERT_FALSE(list.disks.empty());
     const DiskInstance& disk = list.disks.front();
-    const auto pixel = list.lens.project(disk.base + glm::vec3(0, 0, 0.9f));
+    const auto pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.9f));
     ASSERT_TRUE(pixel);
     const glm::vec2 at = w.window.shell().marks().all().at("viewport").min + *pixel;
     w.window.shell().feed(MouseMove{at});
@@ -164,9 +164,9 @@ TEST(Panels, ThePaletteRunsWhatWasTyped) {
     Window w;
     w.key("Ctrl+P");
     ASSERT_EQ(w.session.dialog, Dialog::palette);
-    w.look("palette");
+    w.change_view("palette");
     w.type("tk umobb");
-    w.look("palette_typed");
+    w.change_view("palette_typed");
     w.key("Enter");
     EXPECT_EQ(w.session.dialog, Dialog::none);
     EXPECT_EQ(w.session.scene().fit.tree, mobb::TreeKind::umobb);
@@ -179,7 +179,7 @@ TEST(Panels, ThePaletteGoesThroughItsListAndAsksForArguments) {
     w.key("Enter");
     ASSERT_EQ(w.session.dialog, Dialog::palette);
     EXPECT_EQ(w.session.input.command, "tree.leaf");
-    w.look("palette_argument");
+    w.change_view("palette_argument");
     w.type("7");
     w.key("Enter");
     EXPECT_EQ(w.session.scene().fit.leaf, 7);
@@ -198,12 +198,12 @@ TEST(Panels, ThePaletteGoesThroughItsListAndAsksForArguments) {
 TEST(Panels, MenusRunCommands) {
     Window w;
     w.click("menu.view");
-    w.look("menu_view");
+    w.change_view("menu_view");
     w.click("menu.view.top");
     EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
     w.click("menu.tree");
     w.click("menu.tree.kind");
-    w.look("menu_tree");
+    w.change_view("menu_tree");
     w.click("menu.tree.kind.hybrid1");
     EXPECT_EQ(w.session.scene().fit.tree, mobb::TreeKind::hybrid1);
     w.click("menu.search");
@@ -215,7 +215,7 @@ TEST(Panels, OpeningByKeysAlone) {
     w.key("Ctrl+O");
     ASSERT_EQ(w.session.dialog, Dialog::open);
     EXPECT_EQ(w.session.input.text, w.folder.scene.parent_path().string() + "/");
-    w.look("open");
+    w.change_view("open");
     w.type("wa");
     w.key("Tab");
     EXPECT_TRUE(w.session.input.text.ends_with("/walk.csv")) << w.session.input.text;
@@ -241,7 +241,7 @@ TEST(Panels, WhatCannotBeOpenedIsSaidOverTheDialog) {
     w.key("Enter");
     EXPECT_EQ(w.session.title(), "scene.json");
     ASSERT_EQ(w.session.messages().size(), 1u);
-    w.look("message");
+    w.change_view("message");
     w.click("message.0.dismiss");
     EXPECT_TRUE(w.session.messages().empty());
 }
@@ -254,7 +254,7 @@ TEST(Panels, OverwritingAsks) {
     w.window.settle();
     w.key("Enter");
     EXPECT_EQ(w.session.dialog, Dialog::save_as);
-    w.look("overwrite");
+    w.change_view("overwrite");
     EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
     w.key("Enter");
     EXPECT_EQ(all_messages(w.session), "Saved " + w.folder.file("there.json").string() + "\n");
@@ -267,7 +267,7 @@ TEST(Panels, UnsavedChangesAreAskedAbout) {
     run_command(w.session, "go.agent", "A");
     run_command(w.session, "agent.nudge", "1 0");
     w.key("Ctrl+Q");
-    w.look("unsaved");
+    w.change_view("unsaved");
     w.click("unsaved.cancel");
     EXPECT_FALSE(w.session.closed());
     w.key("Ctrl+Q");
@@ -292,12 +292,12 @@ TEST(Panels, TheHelpSheetOpensAndCloses) {
     Window w;
     w.key("F1");
     EXPECT_TRUE(w.has("help.close"));
-    w.look("help");
+    w.change_view("help");
     w.key("Escape");
     EXPECT_EQ(w.session.dialog, Dialog::none);
     run_command(w.session, "help.about");
     w.window.settle();
-    w.look("about");
+    w.change_view("about");
     w.click("about.close");
     EXPECT_EQ(w.session.dialog, Dialog::none);
 }
@@ -313,8 +313,8 @@ TEST(Panels, NothingIsCutOffAtAnySize) {
             w.window.settle();
             w.expect_inside();
             EXPECT_TRUE(w.has("menu.title"));
-            w.look(std::string("at_") + std::to_string(size.width) + "_" + std::to_string(static_cast<int>(scale)) +
-                   command);
+            w.change_view(std::string("at_") + std::to_string(size.width) + "_" +
+                          std::to_string(static_cast<int>(scale)) + command);
         }
     }
 }

@@ -1,4 +1,4 @@
-#include <app/path_completion.h>
+#include <app/panels/path_completion.h>
 #include <scene/load_files.h>
 #include <support/temp_folder.h>
 

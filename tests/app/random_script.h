@@ -1,9 +1,10 @@
-/// Seeded random statements for the window (app/script.h): keys, mouse, commands, the palette, over whatever is there.
+/// Seeded random statements for the window (app/script/script.h): keys, mouse, commands, the palette, over whatever is
+/// there.
 #pragma once
 
-#include <app/command.h>
-#include <app/ui.h>
-#include <render/image.h>
+#include <app/commands/command.h>
+#include <app/ui/ui.h>
+#include <render/image/image.h>
 
 #include "mobb/random_motion.h"
 

@@ -1,5 +1,5 @@
 // The real window, on a virtual display.
-#include <render/png.h>
+#include <render/image/png.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>

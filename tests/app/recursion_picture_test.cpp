@@ -1,5 +1,5 @@
 /// Traces in pixels: nothing is lost by merging what is small.
-#include <app/recursion_picture.h>
+#include <app/panels/recursion_picture.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// The recursion of random queries: every event in one pair, children inside their parents, counts that add up.
-#include <app/recursion.h>
+#include <explain/recursion.h>
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,6 +1,6 @@
 // Scripts that are none.
-#include <app/script.h>
-#include <import/error.h>
+#include <app/script/script.h>
+#include <base/error.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What is selected means the same in every picture, and never what is gone.
-#include <app/selection.h>
-#include <app/viewport_overlay.h>
-#include <scene/demo_scene.h>
+#include <app/document/selection.h>
+#include <app/viewport/viewport_overlay.h>
+#include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
 #include <gtest/gtest.h>
@@ -22,12 +22,12 @@ FittedScene fitted_demo() {
 
 TEST(Selection, AnAgentIsTheSameInEveryPicture) {
     const FittedScene fitted = fitted_demo();
-    const PathRef second{1, -1, 0};
+    const AgentRef second{1, -1, 0};
     ViewState view;
-    EXPECT_EQ(path_in_view(fitted, view, 1), second);
+    EXPECT_EQ(agent_in_view(fitted, view, 1), second);
     EXPECT_EQ(index_in_view(fitted, view, second), 1);
     view.query = 0;
-    EXPECT_EQ(path_in_view(fitted, view, 1), second);
+    EXPECT_EQ(agent_in_view(fitted, view, 1), second);
     EXPECT_EQ(index_in_view(fitted, view, second), 1);
     EXPECT_EQ(index_in_view(fitted, view, {2, -1, 0}), std::nullopt) << "the third agent is not asked";
 }
@@ -36,11 +36,11 @@ TEST(Selection, ASideThatPlacesAClipIsAPathToo) {
     const FittedScene fitted = fitted_demo();
     ViewState view;
     view.query = 1;
-    const PathRef side = path_in_view(fitted, view, 1);
-    EXPECT_EQ(side, (PathRef{-1, 1, 1}));
+    const AgentRef side = agent_in_view(fitted, view, 1);
+    EXPECT_EQ(side, (AgentRef{-1, 1, 1}));
     EXPECT_EQ(index_in_view(fitted, view, side), 1);
-    ASSERT_TRUE(participant_of(fitted, side));
-    EXPECT_EQ(participant_of(fitted, side)->placement.translate, glm::dvec2(5, 5));
+    ASSERT_TRUE(placed_agent_of(fitted, side));
+    EXPECT_EQ(placed_agent_of(fitted, side)->placement.translate, glm::dvec2(5, 5));
     view.query.reset();
     EXPECT_EQ(index_in_view(fitted, view, side), std::nullopt);
 }

@@ -121,7 +121,7 @@ TEST(Undo, WhatPlaysIsOneStepAndSoIsADragMeanwhile) {
     e.session.close_group();
     for (int i = 0; i < 20; ++i) {
         e.session.advance(0.01);
-        e.session.look([&](ViewState& view) { view.camera.yaw_deg = i; });
+        e.session.change_view([&](ViewState& view) { view.camera.yaw_deg = i; });
     }
     EXPECT_NEAR(*e.session.view().time, 0.4, 1e-9);
     EXPECT_EQ(e.session.history().count(), before + 3);
@@ -181,7 +181,7 @@ TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
         history.change(fitted_with(20 + i), {"fitting", ""});
         ViewState view = history.now().view;
         view.boxes = !view.boxes;
-        history.look(view);
+        history.change_view(view);
         EXPECT_LE(history.bytes(), 3 * each);
     }
     EXPECT_GE(history.count(), 7u) << "views take nothing";
@@ -213,11 +213,11 @@ TEST(Session, UndoTakesBackOneKindOfLookingAtATime) {
     Session session(false);
     session.open({folder.scene});
     const Camera camera = session.view().camera;
-    session.look([](ViewState& view) { view.query = 0; });
-    session.look([](ViewState& view) { view.step = {Step::Unit::event, 3}; });
-    session.look([](ViewState& view) { view.step = {Step::Unit::event, 5}; });
-    session.look([](ViewState& view) { view.camera.preset = CameraPreset::top; });
-    session.look([](ViewState& view) { view.camera.preset = CameraPreset::side; });
+    session.change_view([](ViewState& view) { view.query = 0; });
+    session.change_view([](ViewState& view) { view.step = {Step::Unit::event, 3}; });
+    session.change_view([](ViewState& view) { view.step = {Step::Unit::event, 5}; });
+    session.change_view([](ViewState& view) { view.camera.preset = CameraPreset::top; });
+    session.change_view([](ViewState& view) { view.camera.preset = CameraPreset::side; });
     session.undo();
     EXPECT_EQ(session.view().camera, camera);
     EXPECT_EQ(session.view().step.value, 5) << "the steps are another matter";
@@ -486,8 +486,8 @@ TEST(Jobs, TheDocumentIsNotLeftForAnExcerptMeanwhile) {
     Session session(true);
     session.open({long_walk(folder)});
     while (session.job()) session.poll();
-    const Participant who = session.fitted().participants().front();
-    const Participant other = who;
+    const PlacedAgent who = session.fitted().placed_agents().front();
+    const PlacedAgent other = who;
     session.open_excerpt(who, other);
     run_command(session, "tree.axes", "minarea");
     ASSERT_TRUE(session.job());

@@ -1,4 +1,4 @@
-#include <app/settings.h>
+#include <app/document/settings.h>
 
 #include <support/temp_folder.h>
 

@@ -1,13 +1,13 @@
 // The window without its frame, on every backend.
-#include <app/headless_window.h>
-#include <app/script.h>
-#include <app/ui_pass.h>
-#include <app/window_target.h>
-#include <import/error.h>
-#include <render/build_draw_list.h>
-#include <render/png.h>
-#include <render/renderer.h>
-#include <scene/demo_scene.h>
+#include <app/script/script.h>
+#include <app/window/headless_window.h>
+#include <app/window/ui_pass.h>
+#include <app/window/window_target.h>
+#include <base/error.h>
+#include <render/gl/renderer.h>
+#include <render/image/png.h>
+#include <render/pictures/build_draw_list.h>
+#include <scene/load_files.h>
 
 #include <support/temp_folder.h>
 
@@ -67,7 +67,7 @@ TEST_P(ShellTest, TheThemeIsTheViews) {
         return static_cast<int>(*image.at(2, image.height - 2));
     };
     EXPECT_LT(brightness(), 60);
-    session.look([](ViewState& view) { view.theme = Theme::light; });
+    session.change_view([](ViewState& view) { view.theme = Theme::light; });
     window->settle();
     EXPECT_GT(brightness(), 200);
 }
@@ -237,7 +237,7 @@ TEST_P(UiPassTest, ClipsInPixelsOfTheFramebuffer) {
     ImGui::GetIO().DisplaySize = {size.width, size.height};
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    make_look(Theme::dark, 1);
+    make_style(Theme::dark, 1);
     UiPass pass(renderer->context());
     pass.upload(*ImGui::GetIO().Fonts);
     const WindowTarget target(size);

@@ -1,7 +1,7 @@
 // Every shortcut of the help sheet, pressed in the window.
-#include <app/headless_window.h>
-#include <app/state_json.h>
-#include <render/gl_context.h>
+#include <app/script/state_json.h>
+#include <app/window/headless_window.h>
+#include <render/gl/gl_context.h>
 
 #include "app/crossing_folder.h"
 

@@ -1,8 +1,8 @@
 // Whatever is done in the window, undo leads back to where it began, and redo to where it was.
-#include <app/headless_window.h>
-#include <app/script.h>
-#include <import/error.h>
-#include <scene/demo_scene.h>
+#include <app/script/script.h>
+#include <app/window/headless_window.h>
+#include <base/error.h>
+#include <scene/load_files.h>
 
 #include <support/temp_folder.h>
 

@@ -1,6 +1,5 @@
 /// What is said of an answer is true of two paths that are simple enough to tell.
-#include <app/query_findings.h>
-#include <app/why_words.h>
+#include <explain/query_findings.h>
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,6 +1,6 @@
 #include "run_program.h"
 
-#include <import/csv.h>
+#include <import/tracks/csv.h>
 #include <scene/scene.h>
 #include <support/temp_folder.h>
 

@@ -1,6 +1,6 @@
 #include "run_program.h"
 
-#include <render/png.h>
+#include <render/image/png.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 

@@ -1,7 +1,7 @@
 // `mobbscope graph`, as a user runs it.
 #include "run_program.h"
 
-#include <render/png.h>
+#include <render/image/png.h>
 #include <support/temp_folder.h>
 
 #include "render/backends.h"

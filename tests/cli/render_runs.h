@@ -3,7 +3,7 @@
 
 #include "run_program.h"
 
-#include <render/png.h>
+#include <render/image/png.h>
 #include <support/temp_folder.h>
 
 #include "render/backends.h"

@@ -1,9 +1,9 @@
 // mobbscope test: exit statuses, what is written, and what is said.
 #include "run_program.h"
 
-#include <render/png.h>
+#include <render/image/png.h>
 
-#include "guard/case_folder.h"
+#include "picture_tests/case_folder.h"
 #include "render/backends.h"
 
 #include <gtest/gtest.h>

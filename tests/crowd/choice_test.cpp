@@ -1,8 +1,8 @@
 // Choices made again are those of the simulation.
 #include "walker_moves.h"
 
-#include <crowd/choice.h>
-#include <crowd/simulate.h>
+#include <crowd/simulation/choice.h>
+#include <crowd/simulation/simulate.h>
 
 #include <gtest/gtest.h>
 
@@ -48,9 +48,9 @@ class ChoiceTest : public ::testing::Test {
                 counts.queries += choice.queries;
                 for (const Candidate& candidate : choice.candidates) {
                     counts.off_floor += candidate.leaves_floor;
-                    counts.colliding += !candidate.leaves_floor && candidate.ruling;
-                    if (candidate.ruling) {
-                        EXPECT_NE(candidate.ruling->agent, agent);
+                    counts.colliding += !candidate.leaves_floor && candidate.blocker;
+                    if (candidate.blocker) {
+                        EXPECT_NE(candidate.blocker->agent, agent);
                     }
                 }
             }
@@ -93,12 +93,12 @@ ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area) {
 TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
     CrowdRun crowd;
     crowd.area = {20, 20};
-    Commitments world(moves, crowd.area, crowd.grace);
+    ReservationTable world(moves, crowd.area, crowd.grace);
     const Choice choice = choose(moves, world, crowd, at_wall(moves, crowd.area));
     EXPECT_EQ(choice.kind, PlayKind::pivoted);
     double least = 360;
     for (const Candidate& candidate : choice.candidates) {
-        EXPECT_FALSE(candidate.ruling);
+        EXPECT_FALSE(candidate.blocker);
         if (candidate.is_free() && !candidate.in_the_way) least = std::min(least, std::abs(candidate.turn_deg));
     }
     EXPECT_EQ(std::abs(choice.candidates[choice.taken].turn_deg), least);
@@ -118,7 +118,7 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
     const double exit = moves.move(0).exit.position.x;
     const Play other{0, {{2 * exit + 1.5, 0}, 180, -0.8}, -0.8, PlayKind::chosen};
     for (const double grace : {0.0, 1.0}) {
-        Commitments committed(moves, crowd.area, grace);
+        ReservationTable committed(moves, crowd.area, grace);
         committed.commit(1, 0, other);
         const Choice choice = choose(moves, committed, crowd, point);
         int in_the_way = 0;
@@ -138,7 +138,7 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
 TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
     CrowdRun crowd;
     crowd.area = {20, 20};
-    Commitments world(moves, crowd.area, crowd.grace);
+    ReservationTable world(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
     // Somebody stands all around: slow walkers at the very spot, a little later.
     for (int other = 1; other < 4; ++other) {
@@ -149,24 +149,24 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
     ASSERT_EQ(choice.kind, PlayKind::forced);
     const Candidate& taken = choice.candidates[choice.taken];
     EXPECT_FALSE(taken.leaves_floor);
-    ASSERT_TRUE(taken.ruling);
+    ASSERT_TRUE(taken.blocker);
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_FALSE(candidate.is_free());
         if (candidate.leaves_floor) continue;
-        EXPECT_LE(candidate.ruling->contact.time, taken.ruling->contact.time);
+        EXPECT_LE(candidate.blocker->contact.time, taken.blocker->contact.time);
     }
 }
 
 TEST_F(ChoiceTest, OnNoFloorAtAllTheLatestContactIsStillFound) {
     CrowdRun crowd;
     crowd.area = {0.5, 0.5};
-    Commitments world(moves, crowd.area, crowd.grace);
+    ReservationTable world(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
     const Choice choice = choose(moves, world, crowd, point);
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
     // In a room of one's own no contact is the latest.
-    EXPECT_FALSE(choice.candidates[choice.taken].ruling);
+    EXPECT_FALSE(choice.candidates[choice.taken].blocker);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // Conflicts through the trees are those of the direct search, and few pairs are tested for them.
-#include <crowd/conflicts.h>
-#include <crowd/near_pairs.h>
+#include <conflicts/conflicts.h>
 #include <mobb/random_motion.h>
 
 #include <gtest/gtest.h>

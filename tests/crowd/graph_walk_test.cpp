@@ -1,4 +1,4 @@
-#include <crowd/graph_walk.h>
+#include <crowd/graph/graph_walk.h>
 
 #include <support/input_error.h>
 

@@ -1,10 +1,10 @@
 // The people of a run, each as one agent with one clip.
 #include "walker_moves.h"
 
-#include <crowd/conflicts.h>
-#include <crowd/people.h>
-#include <crowd/simulate.h>
-#include <import/error.h>
+#include <base/error.h>
+#include <conflicts/conflicts.h>
+#include <crowd/simulation/people.h>
+#include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(People, CollideWhereTheirPlaysDo) {
     ASSERT_FALSE(expected.empty());
     const FittedScene people(scene_of_people(run), {});
     std::vector<mobb::PlacedTree> crowd;
-    for (const Participant& person : people.participants()) crowd.push_back(people.placed(person));
+    for (const PlacedAgent& run_agent : people.placed_agents()) crowd.push_back(people.placed(run_agent));
     std::set<std::pair<int, int>> found;
     for (const Conflict& conflict : find_conflicts(crowd, Search::trees).found) found.emplace(conflict.a, conflict.b);
     EXPECT_EQ(found, expected);
@@ -85,9 +85,9 @@ TEST(People, GoOnAsAnotherAgentWhereTheStepChanges) {
     EXPECT_EQ(people.agents[0].name, "7");
     EXPECT_EQ(people.agents[1].name, "7 from 1.5 s");
     EXPECT_EQ(people.agents[2].name, "8");
-    EXPECT_EQ(people.agents[0].person, 0);
-    EXPECT_EQ(people.agents[1].person, 0);
-    EXPECT_EQ(people.agents[2].person, 1) << "6 plays nothing";
+    EXPECT_EQ(people.agents[0].run_agent, 0);
+    EXPECT_EQ(people.agents[1].run_agent, 0);
+    EXPECT_EQ(people.agents[2].run_agent, 1) << "6 plays nothing";
     EXPECT_EQ(people.agents[1].placement.start, 1.5);
     EXPECT_EQ(people.clips[1].clip->dt(), scene.clips[3].clip->dt());
     EXPECT_EQ(people.clips[1].clip->count(), scene.clips[3].clip->count());

@@ -1,5 +1,5 @@
 // How far apart two moments are, and how they are brought together.
-#include <crowd/pose_distance.h>
+#include <crowd/graph/pose_distance.h>
 
 #include <gtest/gtest.h>
 

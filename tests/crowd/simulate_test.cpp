@@ -1,7 +1,7 @@
 // A run holds what the simulator promises, by the direct search.
 #include "walker_moves.h"
 
-#include <crowd/simulate.h>
+#include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <support/input_error.h>

@@ -1,9 +1,9 @@
 /// A small graph of walks that tests play.
 #pragma once
 
-#include <crowd/graph_walk.h>
-#include <crowd/move_set.h>
-#include <crowd/simulate.h>
+#include <crowd/graph/graph_walk.h>
+#include <crowd/simulation/reservation_table.h>
+#include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 

@@ -1,8 +1,8 @@
-// The world's verdicts are those of the direct search over all that is committed.
+// The world's check_all are those of the direct search over all that is committed.
 #include "walker_moves.h"
 
-#include <crowd/counter_random.h>
-#include <crowd/world.h>
+#include <base/random.h>
+#include <crowd/simulation/reservation_grid.h>
 
 #include <gtest/gtest.h>
 
@@ -29,8 +29,8 @@ class WorldTest : public ::testing::Test {
         return moves.motion(agent, play, move, {at, 360 * random.unit(), seconds * random.unit()});
     }
 
-    static std::optional<Ruling> direct(const PlayedMove& candidate, const std::vector<PlayedMove>& committed) {
-        std::optional<Ruling> first;
+    static std::optional<Blocker> direct(const PlayedMove& candidate, const std::vector<PlayedMove>& committed) {
+        std::optional<Blocker> first;
         for (const PlayedMove& other : committed) {
             if (other.agent == candidate.agent) continue;
             const mobb::PlacedClip a(candidate.tree->clip(), candidate.placement);
@@ -47,7 +47,7 @@ class WorldTest : public ::testing::Test {
 
 TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     const glm::dvec2 area{23, 17};
-    World world(area);
+    ReservationGrid world(area);
     std::vector<PlayedMove> committed;
     for (int agent = 0; agent < 60; ++agent) {
         for (int play = 0; play < 3; ++play) {
@@ -59,12 +59,12 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     std::vector<PlayedMove> candidates;
     for (int i = 0; i < 1500; ++i) candidates.push_back(random_motion(i % 60, 9, area, 8));
     std::vector<AskedPair> asked;
-    const std::vector<Verdict> verdicts = world.verdicts(candidates, &asked);
+    const std::vector<CandidateCheck> check_all = world.check_all(candidates, &asked);
     int ruled_out = 0, all_asked = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        EXPECT_EQ(verdicts[i].ruling, direct(candidates[i], committed)) << i;
-        ruled_out += verdicts[i].ruling.has_value();
-        all_asked += verdicts[i].asked;
+        EXPECT_EQ(check_all[i].blocker, direct(candidates[i], committed)) << i;
+        ruled_out += check_all[i].blocker.has_value();
+        all_asked += check_all[i].asked;
     }
     EXPECT_GT(ruled_out, 200);
     EXPECT_LT(ruled_out, 1300);
@@ -74,29 +74,29 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     // On one thread and on many.
     for (const int threads : {1, 5}) {
         tbb::task_arena arena(threads);
-        const std::vector<Verdict> again = arena.execute([&] { return world.verdicts(candidates); });
-        for (std::size_t i = 0; i < verdicts.size(); ++i) {
-            EXPECT_EQ(again[i].ruling, verdicts[i].ruling);
-            EXPECT_EQ(again[i].asked, verdicts[i].asked);
+        const std::vector<CandidateCheck> again = arena.execute([&] { return world.check_all(candidates); });
+        for (std::size_t i = 0; i < check_all.size(); ++i) {
+            EXPECT_EQ(again[i].blocker, check_all[i].blocker);
+            EXPECT_EQ(again[i].asked, check_all[i].asked);
         }
     }
 }
 
 TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
-    World world({20, 20});
+    ReservationGrid world({20, 20});
     const mobb::Placement placement{{1, 2}, 30, 0};
     for (const int agent : {7, 3, 5}) world.commit(moves.motion(agent, agent, 0, placement));
     const PlayedMove candidate = moves.motion(3, 0, 1, placement);
-    const Verdict verdict = world.verdicts({&candidate, 1}).front();
-    ASSERT_TRUE(verdict.ruling);
-    EXPECT_EQ(verdict.ruling->agent, 5);
-    EXPECT_EQ(verdict.ruling->play, 5);
-    EXPECT_EQ(verdict.ruling->contact.time, 0);
+    const CandidateCheck check = world.check_all({&candidate, 1}).front();
+    ASSERT_TRUE(check.blocker);
+    EXPECT_EQ(check.blocker->agent, 5);
+    EXPECT_EQ(check.blocker->play, 5);
+    EXPECT_EQ(check.blocker->contact.time, 0);
 }
 
 TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     const glm::dvec2 area{30, 30};
-    World world(area);
+    ReservationGrid world(area);
     std::vector<PlayedMove> committed;
     for (int i = 0; i < 300; ++i) {
         committed.push_back(random_motion(i % 40, i / 40, area, 20));
@@ -119,32 +119,32 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
             candidates.push_back(random_motion(99, 0, area, 20));
             candidates.back().placement.start += now;
         }
-        const std::vector<Verdict> verdicts = world.verdicts(candidates);
+        const std::vector<CandidateCheck> check_all = world.check_all(candidates);
         for (std::size_t i = 0; i < candidates.size(); ++i) {
-            EXPECT_EQ(verdicts[i].ruling, direct(candidates[i], committed));
+            EXPECT_EQ(check_all[i].blocker, direct(candidates[i], committed));
         }
     }
 }
 
 TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
-    World world({20, 20});
+    ReservationGrid world({20, 20});
     const mobb::Placement placement{{1, 2}, 30, 0};
     const std::size_t first = world.commit(moves.motion(1, 0, 0, placement));
     world.commit(moves.motion(2, 0, 0, placement));
     const PlayedMove candidate = moves.motion(0, 0, 0, placement);
-    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 1);
+    EXPECT_EQ(world.check_all({&candidate, 1}).front().blocker->agent, 1);
     world.withdraw(first);
-    EXPECT_EQ(world.verdicts({&candidate, 1}).front().ruling->agent, 2);
+    EXPECT_EQ(world.check_all({&candidate, 1}).front().blocker->agent, 2);
     std::vector<AskedPair> pairs;
     world.all_pairs(candidate, 0, pairs);
     EXPECT_EQ(pairs.size(), 1u);
     world.forget_before(1000);
     EXPECT_EQ(world.size(), 0u);
-    EXPECT_FALSE(world.verdicts({&candidate, 1}).front().ruling);
+    EXPECT_FALSE(world.check_all({&candidate, 1}).front().blocker);
 }
 
 TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
-    World world({40, 20});
+    ReservationGrid world({40, 20});
     const auto at = [&](int agent, double x, double start) { return moves.motion(agent, 0, 0, {{x, 0}, 90, start}); };
     for (int agent = 0; agent < 5; ++agent) world.commit(at(agent, 4.0 * agent - 8, 100.0 * agent));
     const auto others = [&](double range) {
@@ -162,7 +162,7 @@ TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
 TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
     for (int i = 0; i < 500; ++i) {
         const PlayedMove motion = random_motion(0, 0, {1000, 10}, 1);
-        const FloorRect bounds = motion.outline->bounds(motion.placement);
+        const FloorRect bounds = motion.clip_bounds->bounds(motion.placement);
         const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
         FloorRect tight{glm::dvec2(1e9), glm::dvec2(-1e9)};
         for (int k = 0; k < clip.count(); ++k) {
@@ -178,8 +178,8 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
         EXPECT_LT(wide.y, least.y + most);
         // A wall exactly at the tight bound is touched, one just inside is crossed.
         const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
-        EXPECT_FALSE(leaves_floor(clip, *motion.outline, {2 * (reach + 1e-9), 1e6}));
-        EXPECT_TRUE(leaves_floor(clip, *motion.outline, {2 * (reach - 1e-9), 1e6}));
+        EXPECT_FALSE(leaves_floor(clip, *motion.clip_bounds, {2 * (reach + 1e-9), 1e6}));
+        EXPECT_TRUE(leaves_floor(clip, *motion.clip_bounds, {2 * (reach - 1e-9), 1e6}));
     }
 }
 

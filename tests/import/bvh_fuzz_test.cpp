@@ -1,7 +1,7 @@
 // Damaged BVH files give clips or an InputError, nothing else, and soon.
-#include <import/bvh.h>
-#include <import/error.h>
-#include <import/motion_clips.h>
+#include <base/error.h>
+#include <import/bvh/bvh.h>
+#include <import/skeleton/motion_clips.h>
 #include <support/bvh_text.h>
 #include <support/mutate.h>
 

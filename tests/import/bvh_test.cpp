@@ -1,4 +1,4 @@
-#include <import/bvh.h>
+#include <import/bvh/bvh.h>
 #include <support/bvh_text.h>
 #include <support/input_error.h>
 

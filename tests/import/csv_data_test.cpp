@@ -1,5 +1,5 @@
 // Real and deliberately broken files of the shared data set, where it is.
-#include <import/error.h>
+#include <base/error.h>
 #include <import/import.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Damaged CSV files give clips or an InputError, nothing else, and soon.
-#include <import/csv.h>
-#include <import/error.h>
+#include <base/error.h>
+#include <import/tracks/csv.h>
 #include <support/mutate.h>
 
 #include <gtest/gtest.h>

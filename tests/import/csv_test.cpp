@@ -1,4 +1,4 @@
-#include <import/csv.h>
+#include <import/tracks/csv.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 

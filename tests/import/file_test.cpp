@@ -1,5 +1,5 @@
-#include <import/error.h>
-#include <import/file.h>
+#include <base/error.h>
+#include <base/file.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 

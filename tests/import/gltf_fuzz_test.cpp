@@ -1,9 +1,9 @@
 // Damaged glTF files give clips or an InputError, nothing else, and soon.
 #include "gltf_bytes.h"
 
-#include <import/error.h>
-#include <import/gltf.h>
-#include <import/motion_clips.h>
+#include <base/error.h>
+#include <import/nodes/gltf.h>
+#include <import/skeleton/motion_clips.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>
 

@@ -1,6 +1,6 @@
-#include <import/bvh.h>
-#include <import/motion_clips.h>
-#include <import/skeleton.h>
+#include <import/bvh/bvh.h>
+#include <import/skeleton/motion_clips.h>
+#include <import/skeleton/skeleton.h>
 #include <support/bvh_text.h>
 #include <support/input_error.h>
 
@@ -121,7 +121,7 @@ Frame Time: 0.033333
     EXPECT_EQ(clip_of(wrapped).facts.joints, 2);
     // Up and down is not over the ground; and an End Site is no joint to go on to.
     EXPECT_EQ(clip_of(replaced(wrapped, "0 0 0 5 95 0", "0 0 0 0 95 0")).facts.root, "Head");
-    // World spins on its place: it never moves either, whatever Hips does.
+    // ReservationGrid spins on its place: it never moves either, whatever Hips does.
     EXPECT_EQ(clip_of(replaced(wrapped, "0 0 0 5 95 0", "0 0 20 5 95 0")).facts.root, "Hips");
     ImportOptions options;
     options.root = "World";

@@ -1,7 +1,7 @@
 // The motion files of the shared data set, where it is: real ones against their true numbers, broken ones.
 #include "expected_csv.h"
 
-#include <import/error.h>
+#include <base/error.h>
 #include <import/import.h>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include <import/sampling.h>
+#include <import/clip/sampling.h>
 
 #include <gtest/gtest.h>
 

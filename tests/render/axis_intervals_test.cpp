@@ -1,6 +1,6 @@
+#include <explain/axis_intervals.h>
+#include <explain/query_sentence.h>
 #include <mobb/separation.h>
-#include <render/axis_intervals.h>
-#include <render/query_sentence.h>
 
 #include "render/scenes.h"
 
@@ -26,7 +26,7 @@ Counts check_all(const FittedScene& fitted) {
         const RecordedQuery recorded = record(fitted, fitted.queries()[i]);
         ViewState view;
         view.query = static_cast<int>(i);
-        const std::vector<Subject> sides = subjects(fitted, view);
+        const std::vector<DrawnAgent> sides = drawn_agents(fitted, view);
         const mobb::RelativeFrame frame(sides[0].clip().frame(), sides[1].clip().frame(), sides[0].placed.time_scale());
         for (int step = 0; step < recorded.trace.size(); ++step) {
             const mobb::Trace::Event event = recorded.trace[step];
@@ -136,7 +136,7 @@ TEST(AxisIntervals, AxesAreNamedAsInTheSentence) {
     const RecordedQuery recorded = record(fitted, fitted.queries()[0]);
     ViewState view;
     view.query = 0;
-    const std::vector<Subject> sides = subjects(fitted, view);
+    const std::vector<DrawnAgent> sides = drawn_agents(fitted, view);
     bool found = false;
     for (int step = 0; step < recorded.trace.size(); ++step) {
         const mobb::Trace::Event event = recorded.trace[step];

@@ -1,5 +1,5 @@
-#include <render/gl_objects.h>
-#include <render/shared_library.h>
+#include <render/gl/backends.h>
+#include <render/gl/gl_objects.h>
 
 #include "render/backends.h"
 

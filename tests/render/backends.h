@@ -1,8 +1,8 @@
 /// Tests that run on every backend.
 #pragma once
 
-#include <import/error.h>
-#include <render/renderer.h>
+#include <base/error.h>
+#include <render/gl/renderer.h>
 
 #include <gtest/gtest.h>
 

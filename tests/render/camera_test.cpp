@@ -1,9 +1,9 @@
 // Explicit cameras: settled from one that frames the scene, and moved.
-#include <render/box_corners.h>
-#include <render/build_draw_list.h>
-#include <render/framing.h>
-#include <render/navigate.h>
-#include <render/settle.h>
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/navigate.h>
+#include <render/drawlist/resolve_camera.h>
+#include <render/layout/framing.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -30,7 +30,7 @@ std::vector<glm::vec3> points_of(const DrawList& list) {
 }
 
 /// The largest difference in pixels between where two lenses see the points.
-float pixel_difference(const Lens& a, const Lens& b, const std::vector<glm::vec3>& points) {
+float pixel_difference(const ViewProjection& a, const ViewProjection& b, const std::vector<glm::vec3>& points) {
     float most = 0;
     for (const glm::vec3& point : points) {
         most = std::max(most, glm::length(a.project(point).value() - b.project(point).value()));
@@ -55,13 +55,13 @@ TEST(Settled, ShowsWhatTheFramedPictureShows) {
                         view.camera.fov_deg = fov;
                         if (query) view.query = 0;
                         const DrawList framed = build_draw_list(fitted, view, kGoldenSize);
-                        view.camera = settled(view.camera, framed);
+                        view.camera = resolved_camera(view.camera, framed);
                         ASSERT_TRUE(view.camera.target);
                         EXPECT_EQ(view.camera.preset, CameraPreset::free);
                         const DrawList aimed = build_draw_list(fitted, view, kGoldenSize);
-                        EXPECT_LT(pixel_difference(framed.lens, aimed.lens, points_of(framed)), 0.05f)
+                        EXPECT_LT(pixel_difference(framed.projection, aimed.projection, points_of(framed)), 0.05f)
                             << name(preset) << (perspective ? "" : " ortho") << (far ? " far" : "") << " fov " << fov;
-                        EXPECT_EQ(settled(view.camera, aimed), view.camera) << "settled already";
+                        EXPECT_EQ(resolved_camera(view.camera, aimed), view.camera) << "settled already";
                     }
                 }
             }
@@ -74,7 +74,7 @@ TEST(Settled, TheTargetIsInTheMiddleOfTheScene) {
     ViewState view;
     view.time_height = 3;
     const DrawList list = build_draw_list(fitted, view, kGoldenSize);
-    const Camera camera = settled(view.camera, list);
+    const Camera camera = resolved_camera(view.camera, list);
     EXPECT_NEAR(camera.target->x, 501, 0.5);
     EXPECT_NEAR(camera.target->y, 500, 0.5);
     EXPECT_NEAR(camera.target->z, 3 * 41, 1.5);
@@ -87,24 +87,24 @@ TEST(Settled, SteppingDoesNotMoveThePicture) {
     view.query = 0;
     const PictureSize narrow{320, 360};
     DrawList first = build_draw_list(fitted, view, narrow);
-    view.camera = settled(view.camera, first);
+    view.camera = resolved_camera(view.camera, first);
     const glm::vec3 point(0.1f, 0.2f, 0.3f);
-    const glm::vec2 at = first.lens.project(point).value();
+    const glm::vec2 at = first.projection.project(point).value();
     bool captions_differ = false;
     for (int step = 0; step < 12; ++step) {
         view.step = {Step::Unit::event, static_cast<double>(step)};
         const DrawList list = build_draw_list(fitted, view, narrow);
         captions_differ = captions_differ || list.texts.size() != first.texts.size();
-        EXPECT_LT(glm::length(list.lens.project(point).value() - at), 0.05f) << step;
+        EXPECT_LT(glm::length(list.projection.project(point).value() - at), 0.05f) << step;
     }
     EXPECT_TRUE(captions_differ) << "nothing to disturb the picture";
 }
 
-/// A lens for an explicit camera where drawn space is the world.
-Lens camera_lens(const Camera& camera, PictureSize size = kGoldenSize) {
+/// A projection for an explicit camera where drawn space is the world.
+ViewProjection camera_lens(const Camera& camera, PictureSize size = kGoldenSize) {
     const glm::vec3 target(*camera.target);
     const std::vector<glm::vec3> points{target - 5.0f, target + 5.0f};
-    return make_lens(camera, points, &target, {}, size);
+    return make_projection(camera, points, &target, {}, size);
 }
 
 Camera explicit_camera(bool perspective) {
@@ -138,7 +138,7 @@ TEST(Navigate, OrbitingTurnsAroundTheTarget) {
         const glm::vec3 target(*camera.target);
         EXPECT_LT(glm::length(*camera_lens(turned).project(target) - *camera_lens(camera).project(target)), 0.01f);
         // What is between the eye and the target goes where the mouse goes.
-        const Lens before = camera_lens(camera);
+        const ViewProjection before = camera_lens(camera);
         const glm::vec3 front = target + before.back;
         EXPECT_GT(camera_lens(orbited(camera, {9, 0}, kGoldenSize)).project(front)->x, before.project(front)->x);
         EXPECT_GT(camera_lens(orbited(camera, {0, 9}, kGoldenSize)).project(front)->y, before.project(front)->y);
@@ -152,7 +152,7 @@ TEST(Navigate, OrbitingTurnsAroundTheTarget) {
 TEST(Navigate, WhatIsPannedFollowsTheMouse) {
     for (const bool perspective : {true, false}) {
         const Camera camera = explicit_camera(perspective);
-        const Lens before = camera_lens(camera);
+        const ViewProjection before = camera_lens(camera);
         const glm::vec3 beside = glm::vec3(*camera.target) + before.right * 1.5f + before.up * 0.5f;
         const glm::vec2 way(37, -21);
         const glm::vec2 moved =
@@ -165,12 +165,12 @@ TEST(Navigate, WhatIsPannedFollowsTheMouse) {
 TEST(Navigate, ZoomingKeepsWhatIsUnderTheCursor) {
     for (const bool perspective : {true, false}) {
         const Camera camera = explicit_camera(perspective);
-        const Lens before = camera_lens(camera);
+        const ViewProjection before = camera_lens(camera);
         const glm::vec3 beside = glm::vec3(*camera.target) + before.right * 3.0f + before.up * -1.0f;
         const glm::vec2 cursor = before.project(beside).value();
         for (const double factor : {0.5, 1.0, 1.2, 3.0}) {
             const Camera nearer = zoomed(camera, factor, cursor, kGoldenSize);
-            const Lens after = camera_lens(nearer);
+            const ViewProjection after = camera_lens(nearer);
             EXPECT_LT(glm::length(after.project(beside).value() - cursor), 0.05f) << factor;
             EXPECT_NEAR(after.pixels_per_metre(beside) / before.pixels_per_metre(beside), factor, 1e-3);
         }
@@ -190,11 +190,11 @@ TEST(Navigate, FramingShowsTheWholeBoxAndNotMuchElse) {
                 const Camera framed = framing(camera, min, max, size);
                 EXPECT_EQ(framed.yaw_deg, camera.yaw_deg);
                 EXPECT_EQ(framed.pitch_deg, camera.pitch_deg);
-                const Lens lens = camera_lens(framed, size);
+                const ViewProjection projection = camera_lens(framed, size);
                 float room = 1;
                 for (unsigned i = 0; i < 8; ++i) {
                     const glm::vec3 corner(i & 1u ? max.x : min.x, i & 2u ? max.y : min.y, i & 4u ? max.z : min.z);
-                    const glm::vec2 at = lens.project(corner).value() / glm::vec2(size.width, size.height);
+                    const glm::vec2 at = projection.project(corner).value() / glm::vec2(size.width, size.height);
                     room = std::min({room, at.x, at.y, 1 - at.x, 1 - at.y});
                 }
                 EXPECT_NEAR(room, 0.1, 0.002) << pitch;

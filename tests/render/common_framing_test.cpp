@@ -2,10 +2,10 @@
 #include "render/pictures.h"
 #include "scenes.h"
 
-#include <render/box_corners.h>
-#include <render/build_draw_list.h>
-#include <render/common_framing.h>
-#include <render/settle.h>
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/resolve_camera.h>
+#include <render/layout/common_framing.h>
+#include <render/pictures/build_draw_list.h>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using testing::kGoldenSize;
 float room_around(const DrawList& list) {
     float room = 1e6f;
     const auto see = [&](glm::vec3 point) {
-        const auto pixel = list.lens.project(point);
+        const auto pixel = list.projection.project(point);
         ASSERT_TRUE(pixel);
         room = std::min({room, pixel->x, pixel->y, static_cast<float>(kGoldenSize.width) - pixel->x,
                          static_cast<float>(kGoldenSize.height) - pixel->y});
@@ -41,7 +41,8 @@ Camera turned(Camera camera, double degrees) {
 
 /// Pixels between the first disk and the last one.
 float length_of_path(const DrawList& list) {
-    return glm::distance(*list.lens.project(list.disks.front().base), *list.lens.project(list.disks.back().base));
+    return glm::distance(*list.projection.project(list.disks.front().base),
+                         *list.projection.project(list.disks.back().base));
 }
 
 TEST(CommonFraming, OneViewIsAsLargeAsByItself) {

@@ -2,11 +2,11 @@
 #include "crowd/walker_moves.h"
 #include "render/pictures.h"
 
-#include <crowd/followed.h>
-#include <crowd/simulate.h>
-#include <render/build_draw_list.h>
-#include <render/candidates.h>
-#include <render/follow.h>
+#include <crowd/simulation/choice.h>
+#include <crowd/simulation/simulate.h>
+#include <render/layout/follow.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 
@@ -49,7 +49,7 @@ class CrowdPicture : public ::testing::Test {
                 const Choice choice = choice_of(moves, crowd, agent, play);
                 const double time = choice.time;
                 for (const std::size_t i : shown_candidates(choice)) {
-                    if (fate_of(choice, i) == Fate::ruled_out) return {who.name, time};
+                    if (outcome_of(choice, i) == CandidateOutcome::ruled_out) return {who.name, time};
                 }
             }
         }
@@ -87,10 +87,10 @@ TEST_F(CrowdPicture, WallsStandAroundTheFloor) {
 TEST_F(CrowdPicture, NothingMovesButPeopleWhileTimeRuns) {
     const DrawList a = build_draw_list(run, view(Show::moment, 5), kGoldenSize);
     const DrawList b = build_draw_list(run, view(Show::moment, 11), kGoldenSize);
-    EXPECT_EQ(a.lens.clip_from_world, b.lens.clip_from_world);
+    EXPECT_EQ(a.projection.clip_from_world, b.projection.clip_from_world);
     const DrawList c = build_draw_list(run, view(Show::space_time, 5), kGoldenSize);
     const DrawList d = build_draw_list(run, view(Show::space_time, 11), kGoldenSize);
-    EXPECT_EQ(c.lens.clip_from_world, d.lens.clip_from_world);
+    EXPECT_EQ(c.projection.clip_from_world, d.projection.clip_from_world);
 }
 
 TEST_F(CrowdPicture, SpaceTimeShowsTheWindowAlone) {
@@ -142,7 +142,8 @@ TEST_F(CrowdPicture, WhomTheCameraFollowsStaysInTheMiddle) {
             const DrawList list = build_draw_list(run, asked, kGoldenSize);
             const auto place = followed_place(run, asked, time);
             ASSERT_TRUE(place);
-            const auto at = list.lens.project(list.space.point(place->x, place->y, show == Show::moment ? 0 : time));
+            const auto at =
+                list.projection.project(list.space.point(place->x, place->y, show == Show::moment ? 0 : time));
             ASSERT_TRUE(at);
             EXPECT_NEAR(at->x, 320, 0.01);
             EXPECT_NEAR(at->y, 180, 0.01);
@@ -162,7 +163,8 @@ TEST_F(CrowdPicture, TheFollowedIsSeenFromNear) {
             const DrawList list = build_draw_list(run, asked, kGoldenSize);
             const glm::dvec2 place = followed_place(run, asked, time).value();
             const double level = show == Show::moment ? 0 : time;
-            const glm::vec2 at = list.lens.project(list.space.point(place.x, place.y + kAroundFollowed, level)).value();
+            const glm::vec2 at =
+                list.projection.project(list.space.point(place.x, place.y + kAroundFollowed, level)).value();
             // The picture's height has so much of it but for a margin.
             EXPECT_NEAR(std::abs(at.y - 180), 0.8 * 180, 1);
         }
@@ -179,7 +181,7 @@ TEST_F(CrowdPicture, OfASceneTheFollowedIsSeenAtItsTime) {
     asked.camera = framing_followed(fitted, asked, build_draw_list(fitted, asked, kGoldenSize));
     const DrawList list = build_draw_list(fitted, asked, kGoldenSize);
     const glm::dvec2 place = followed_place(fitted, asked, 500.2).value();
-    const glm::vec2 at = list.lens.project(list.space.point(place.x, place.y, 500.2)).value();
+    const glm::vec2 at = list.projection.project(list.space.point(place.x, place.y, 500.2)).value();
     EXPECT_NEAR(at.x, 320, 1);
     EXPECT_NEAR(at.y, 180, 40);
 }
@@ -196,7 +198,7 @@ TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
         ViewState asked = view(show, time + 1e-3);
         asked.follow = name;
         const DrawList with = build_draw_list(run, asked, kGoldenSize);
-        const FateStyle style = fate_style(Fate::ruled_out, with.palette);
+        const CandidateStyle style = outcome_style_of(CandidateOutcome::ruled_out, with.palette);
         const auto is_discarded = [&](const LineInstance& line) {
             return glm::vec3(line.color) == glm::vec3(style.color) && line.dash != kSolid;
         };
@@ -207,8 +209,8 @@ TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
         EXPECT_EQ(choice->choice.time, time);
         std::set<std::string> rulers;
         for (const Candidate& candidate : choice->choice.candidates) {
-            if (!candidate.ruling) continue;
-            rulers.insert(run.scene().crowd->agents[static_cast<std::size_t>(candidate.ruling->agent)].name);
+            if (!candidate.blocker) continue;
+            rulers.insert(run.scene().crowd->agents[static_cast<std::size_t>(candidate.blocker->agent)].name);
         }
         const bool named = std::any_of(with.texts.begin(), with.texts.end(),
                                        [&](const TextRun& text) { return rulers.contains(text.text); });
@@ -240,7 +242,9 @@ TEST_F(CrowdPicture, OutsideOfTheRunNobodyIsThereAndNothingIsChosen) {
             }
             EXPECT_NE(caption.find(std::string(told) + " lies outside 0..20 s"), std::string::npos) << caption;
             EXPECT_EQ(caption.find("chose"), std::string::npos) << caption;
-            const auto is_fate = [](const LegendEntry& entry) { return entry.text == fate_words(Fate::taken); };
+            const auto is_fate = [](const LegendEntry& entry) {
+                return entry.text == outcome_words(CandidateOutcome::taken);
+            };
             EXPECT_TRUE(std::none_of(list.legend.begin(), list.legend.end(), is_fate));
         }
         EXPECT_EQ(caption_of(build_draw_list(run, view(show, 6), kLarge)).find("outside"), std::string::npos);
@@ -292,7 +296,7 @@ TEST_F(CrowdPicture, TheSentenceKeepsFatesApart) {
     in_the_way.in_the_way = true;
     const auto met = [](int agent) {
         Candidate out;
-        out.ruling = Ruling{agent, 1, {}};
+        out.blocker = Blocker{agent, 1, {}};
         return out;
     };
     followed.choice.candidates = {free, met(5), met(7), in_the_way, in_the_way, off};
@@ -311,12 +315,13 @@ TEST_F(CrowdPicture, TheSentenceKeepsFatesApart) {
 
 TEST(Candidates, EveryFateHasAColourAndALineOfItsOwn) {
     const Palette& colors = palette(Theme::dark);
-    const Fate all[] = {Fate::taken, Fate::free, Fate::in_the_way, Fate::leaves_floor, Fate::ruled_out};
-    for (const Fate a : all) {
-        for (const Fate b : all) {
+    const CandidateOutcome all[] = {CandidateOutcome::taken, CandidateOutcome::free, CandidateOutcome::in_the_way,
+                                    CandidateOutcome::leaves_floor, CandidateOutcome::ruled_out};
+    for (const CandidateOutcome a : all) {
+        for (const CandidateOutcome b : all) {
             if (a == b) continue;
-            const FateStyle one = fate_style(a, colors);
-            const FateStyle other = fate_style(b, colors);
+            const CandidateStyle one = outcome_style_of(a, colors);
+            const CandidateStyle other = outcome_style_of(b, colors);
             EXPECT_NE(one.color, other.color);
             EXPECT_TRUE(one.dash != other.dash || one.width != other.width);
         }

@@ -1,6 +1,5 @@
 // What a comparison found, as JSON and in words.
-#include <render/diff_json.h>
-#include <render/diff_sentence.h>
+#include <render/image/image_diff.h>
 
 #include "support/json_keys.h"
 

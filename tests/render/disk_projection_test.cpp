@@ -1,6 +1,6 @@
-#include <render/build_draw_list.h>
-#include <render/disk_projection.h>
-#include <render/world_box.h>
+#include <render/parts/node_boxes.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/disk_projection.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -31,11 +31,11 @@ struct Range {
 };
 
 /// What the node's samples cover along its axis, by the marks of each.
-Range reached(const Subject& subject, int node, std::size_t which) {
+Range reached(const DrawnAgent& agent, int node, std::size_t which) {
     Range out;
-    const mobb::Node& n = subject.placed.node(node);
+    const mobb::Node& n = agent.placed.node(node);
     for (int sample = n.first; sample < n.end(); ++sample) {
-        const DiskExtents extents = disk_extents(subject, node, sample);
+        const DiskExtents extents = disk_extents(agent, node, sample);
         const AxisExtent& axis = extents.along[which];
         const double at = glm::dot(extents.base, axis.direction);
         out.low = std::min(out.low, at + axis.min);
@@ -48,16 +48,16 @@ TEST(DiskProjection, TheFarthestMarksAreTheBoxesSides) {
     for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
         for (const double w : {1.0, 2.5}) {
             const FittedScene fitted = one_walk(kind, 60, w);
-            const Subject subject = subjects(fitted, {})[0];
-            for (std::size_t node = 0; node < subject.placed.tree().nodes().size(); ++node) {
-                const mobb::Box box = world_box(subject.placed, static_cast<int>(node));
+            const DrawnAgent agent = drawn_agents(fitted, {})[0];
+            for (std::size_t node = 0; node < agent.placed.tree().nodes().size(); ++node) {
+                const mobb::Box box = world_box(agent.placed, static_cast<int>(node));
                 for (const std::size_t which : {0u, 1u}) {
-                    const DiskExtents extents = disk_extents(subject, static_cast<int>(node),
-                                                             subject.placed.node(static_cast<int>(node)).first);
+                    const DiskExtents extents =
+                        disk_extents(agent, static_cast<int>(node), agent.placed.node(static_cast<int>(node)).first);
                     const auto axis = static_cast<std::size_t>(extents.along[which].axis);
                     const double middle = glm::dot(box.center, box.axes[axis]);
                     const double half = box.half[static_cast<int>(axis)];
-                    const Range range = reached(subject, static_cast<int>(node), which);
+                    const Range range = reached(agent, static_cast<int>(node), which);
                     EXPECT_NEAR(range.low, middle - half, 1e-9) << "node " << node << ", axis " << axis;
                     EXPECT_NEAR(range.high, middle + half, 1e-9) << "node " << node << ", axis " << axis;
                 }
@@ -68,20 +68,20 @@ TEST(DiskProjection, TheFarthestMarksAreTheBoxesSides) {
 
 TEST(DiskProjection, OfASingleSampleTheMarksAreTheBoxesSides) {
     const FittedScene fitted = one_walk(mobb::TreeKind::umobb, 1);
-    const Subject subject = subjects(fitted, {})[0];
-    const DiskExtents extents = disk_extents(subject, 0, 0);
+    const DrawnAgent agent = drawn_agents(fitted, {})[0];
+    const DiskExtents extents = disk_extents(agent, 0, 0);
     EXPECT_EQ(extents.along[0].axis, 0);
     EXPECT_EQ(extents.along[1].axis, 1) << "one sample has no way through time: its box is upright";
     for (const AxisExtent& axis : extents.along) {
-        EXPECT_NEAR(axis.max, subject.placed.node(0).box.half[axis.axis], 1e-12);
+        EXPECT_NEAR(axis.max, agent.placed.node(0).box.half[axis.axis], 1e-12);
         EXPECT_NEAR(axis.min, -axis.max, 1e-12);
     }
 }
 
 TEST(DiskProjection, TheCornersAreWhatTheMarksComeFrom) {
     const FittedScene fitted = one_walk(mobb::TreeKind::umobb);
-    const Subject subject = subjects(fitted, {})[0];
-    const DiskExtents extents = disk_extents(subject, 0, 20);
+    const DrawnAgent agent = drawn_agents(fitted, {})[0];
+    const DiskExtents extents = disk_extents(agent, 0, 20);
     EXPECT_NEAR(extents.height, 1 / 30.0, 1e-12);
     EXPECT_NE(extents.along[0].max, -extents.along[0].min) << "the base is not the middle of the disk";
     for (const AxisExtent& axis : extents.along) {
@@ -108,7 +108,7 @@ TEST(DiskProjection, ThePictureShowsOneDiskAndNamesAllThatIsMarked) {
     }
     EXPECT_EQ(list.space.time_height, 1) << "right angles are drawn as such";
     // On each axis one heavy line from the least to the greatest projection.
-    const DiskExtents extents = disk_extents(subjects(fitted, view)[0], 1, 7);
+    const DiskExtents extents = disk_extents(drawn_agents(fitted, view)[0], 1, 7);
     for (const AxisExtent& axis : extents.along) {
         const auto drawn = std::count_if(list.lines.begin(), list.lines.end(), [&](const LineInstance& line) {
             return glm::length(glm::dvec3(line.from) - axis.direction * axis.min) < 1e-5 &&

@@ -1,4 +1,4 @@
-#include <render/disk_runs.h>
+#include <render/gl/disk_runs.h>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr float kTolerance = 0.9f;  // the program's
 
 /// A camera from the side that shows so many pixels per metre.
-Lens lens_of(float pixels_per_metre, double pitch_deg = 20) {
+ViewProjection lens_of(float pixels_per_metre, double pitch_deg = 20) {
     const float half_width = 640 / pixels_per_metre;
     const std::vector<glm::vec3> points{{-half_width, -half_width, -half_width}, {half_width, half_width, half_width}};
     Camera camera;
@@ -23,7 +23,7 @@ Lens lens_of(float pixels_per_metre, double pitch_deg = 20) {
     camera.yaw_deg = -90;
     camera.pitch_deg = pitch_deg;
     const PictureSize size{1280, 12800};
-    return make_lens(camera, points, nullptr, {{0, 0}, {1280, 12800}}, size);
+    return make_projection(camera, points, nullptr, {{0, 0}, {1280, 12800}}, size);
 }
 
 /// A path of 60 disks, 0.1 m high each.
@@ -42,16 +42,16 @@ std::vector<DiskInstance> path() {
     return disks;
 }
 
-DiskGroups group(const std::vector<DiskInstance>& disks, const Lens& lens) {
+DiskGroups group(const std::vector<DiskInstance>& disks, const ViewProjection& projection) {
     std::vector<const DiskInstance*> pointers;
     for (const DiskInstance& disk : disks) pointers.push_back(&disk);
-    return group_runs(pointers, lens, kTolerance);
+    return group_runs(pointers, projection, kTolerance);
 }
 
 TEST(DiskRuns, FarDisksJoinUp) {
     const auto disks = path();
-    const Lens lens = lens_of(8);
-    const DiskGroups groups = group(disks, lens);
+    const ViewProjection projection = lens_of(8);
+    const DiskGroups groups = group(disks, projection);
     EXPECT_LT(groups.single.size() + groups.runs.size(), 20u);
     // The last stays, as its upper face is seen.
     ASSERT_FALSE(groups.single.empty());
@@ -78,9 +78,9 @@ TEST(DiskRuns, NearDisksStayAsTheyAre) {
 TEST(DiskRuns, TubesFollowTheirDisks) {
     const auto disks = path();
     for (const float pixels : {2.0f, 4.0f, 8.0f, 14.0f}) {
-        const Lens lens = lens_of(pixels);
-        ASSERT_NEAR(lens.pixels_per_metre(glm::vec3(0)), pixels, 0.05f);
-        const DiskGroups groups = group(disks, lens);
+        const ViewProjection projection = lens_of(pixels);
+        ASSERT_NEAR(projection.pixels_per_metre(glm::vec3(0)), pixels, 0.05f);
+        const DiskGroups groups = group(disks, projection);
         ASSERT_FALSE(groups.runs.empty());
         for (const DiskInstance& disk : disks) {
             float nearest = std::numeric_limits<float>::max();
@@ -122,14 +122,14 @@ TEST(DiskRuns, ThePixelScaleIsTheLens) {
         camera.preset = CameraPreset::free;
         camera.perspective = perspective;
         const std::vector<glm::vec3> points{{-3, -2, 0}, {3, 2, 5}};
-        const Lens lens = make_lens(camera, points, nullptr, {{40, 30}, {600, 300}}, {640, 360});
-        const PixelScale scale(lens);
+        const ViewProjection projection = make_projection(camera, points, nullptr, {{40, 30}, {600, 300}}, {640, 360});
+        const PixelScale scale(projection);
         for (const glm::vec3& p : {points[0], points[1], glm::vec3(1, -1, 2)}) {
-            EXPECT_NEAR(scale.at(p), lens.pixels_per_metre(p), 1e-3f * scale.at(p));
+            EXPECT_NEAR(scale.at(p), projection.pixels_per_metre(p), 1e-3f * scale.at(p));
         }
         // The middle of a large disk may lie behind the eye, and its rim be seen.
         if (perspective) {
-            EXPECT_NEAR(scale.at(lens.eye + lens.back), scale.near() / lens.near_depth, 1e-3f);
+            EXPECT_NEAR(scale.at(projection.eye + projection.back), scale.near() / projection.near_depth, 1e-3f);
         }
     }
 }

@@ -1,5 +1,5 @@
-#include <render/build_draw_list.h>
-#include <render/draw_list_json.h>
+#include <render/drawlist/draw_list_json.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "render/backends.h"
 #include "render/pictures.h"
@@ -65,8 +65,8 @@ TEST(DrawListJson, SaysAllThatIsDrawn) {
     EXPECT_EQ(value["marks"].size(), list.marks.size());
     EXPECT_EQ(value["texts"].size(), list.texts.size());
     EXPECT_EQ(value["headline"], list.headline);
-    EXPECT_NEAR(value["camera"]["eye"][2].get<double>(), list.lens.eye.z, 1e-4);
-    EXPECT_NEAR(value["camera"]["clip_from_world"][4].get<double>(), list.lens.clip_from_world[1][0], 1e-4);
+    EXPECT_NEAR(value["camera"]["eye"][2].get<double>(), list.projection.eye.z, 1e-4);
+    EXPECT_NEAR(value["camera"]["clip_from_world"][4].get<double>(), list.projection.clip_from_world[1][0], 1e-4);
 
     const json& disk = value["disks"][61];
     EXPECT_EQ(disk["participant"], 1);
@@ -142,7 +142,7 @@ TEST(DrawListJson, SaysWhatIsBesideThePicture) {
         int beside = 0;
         for (std::size_t i = 0; i < list.disks.size(); ++i) {
             const DiskInstance& disk = list.disks[i];
-            const auto at = list.lens.project(disk.base);
+            const auto at = list.projection.project(disk.base);
             const bool centre = at && at->x >= 0 && at->y >= 0 && at->x <= 640 && at->y <= 360;
             const bool told = value["disks"][i]["on_screen"];
             EXPECT_TRUE(told || !centre) << i;

@@ -1,6 +1,5 @@
-#include <render/build_draw_list.h>
-#include <render/level_boxes.h>
-#include <render/world_box.h>
+#include <render/parts/node_boxes.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -24,7 +23,7 @@ TEST(DrawList, HasADiskForEverySample) {
     const FittedScene fitted = testing::hit_scene();
     const DrawList list = build_draw_list(fitted, {}, kGoldenSize);
     ASSERT_EQ(list.disks.size(), 120u);
-    const mobb::PlacedTree placed = fitted.placed(fitted.participants()[1]);
+    const mobb::PlacedTree placed = fitted.placed(fitted.placed_agents()[1]);
     for (int i = 0; i < 60; ++i) {
         const DiskInstance& disk = list.disks[static_cast<std::size_t>(60 + i)];
         const mobb::Disk truth = placed.placed_clip().disk(i);
@@ -86,7 +85,7 @@ TEST(DrawList, AFreeBoxIsShearedByTheDrawnTime) {
     ViewState view;
     view.time_height = 3;
     const DrawList list = build_draw_list(fitted, view, kGoldenSize);
-    const mobb::Box world = world_box(fitted.placed(fitted.participants()[0]), list.boxes[0].id.index);
+    const mobb::Box world = world_box(fitted.placed(fitted.placed_agents()[0]), list.boxes[0].id.index);
     const glm::vec3 tip = list.boxes[0].center + list.boxes[0].extents[0];
     const glm::dvec3 truth = world.center + world.half.x * world.axes[0];
     EXPECT_NEAR(tip.x + list.space.origin.x, truth.x, 1e-4);
@@ -145,7 +144,7 @@ TEST(DrawList, EverythingIsInThePictureWhateverItsShape) {
             const DrawList list = build_draw_list(fitted, view, size);
             const Rect picture{{0, 0}, glm::vec2(size.width, size.height)};
             for (const DiskInstance& disk : list.disks) {
-                const glm::vec2 at = list.lens.project(disk.base).value();
+                const glm::vec2 at = list.projection.project(disk.base).value();
                 EXPECT_TRUE(picture.contains({at, at}));
             }
             for (std::size_t i = 0; i < list.texts.size(); ++i) {
@@ -281,7 +280,7 @@ TEST(DrawList, OddScenesAreDrawn) {
             scene.clips.push_back({"still", std::nullopt, {}, std::make_shared<const mobb::Clip>(1e-3, still)});
             const DrawList list = build_draw_list(FittedScene(scene, {}), {}, kGoldenSize);
             EXPECT_EQ(list.disks.size(), static_cast<std::size_t>(count));
-            const glm::vec2 at = list.lens.project(list.disks[0].base).value();
+            const glm::vec2 at = list.projection.project(list.disks[0].base).value();
             EXPECT_TRUE(at.x >= 0 && at.x <= 640 && at.y >= 0 && at.y <= 360) << at.x << ' ' << at.y;
         }
     }

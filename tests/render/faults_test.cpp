@@ -1,8 +1,7 @@
 // Deliberate faults: each must be told by the picture or by the list of what is drawn, and what is no fault by neither.
-#include <render/build_draw_list.h>
-#include <render/diff_sentence.h>
-#include <render/draw_list_json.h>
-#include <render/image_diff.h>
+#include <render/drawlist/draw_list_json.h>
+#include <render/image/image_diff.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "render/backends.h"
 #include "render/pictures.h"

@@ -1,6 +1,7 @@
-// The picture of a motion graph: what it says. What it looks like is a golden: tests/guard/graph_golden_test.cpp.
-#include <render/graph_moves.h>
-#include <render/graph_picture.h>
+// The picture of a motion graph: what it says. What it looks like is a golden:
+// tests/picture_tests/graph_golden_test.cpp.
+#include <render/pictures/graph_moves.h>
+#include <render/pictures/graph_picture.h>
 
 #include "small_graph.h"
 

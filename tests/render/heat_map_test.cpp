@@ -1,8 +1,7 @@
 #include "render/pictures.h"
 
-#include <render/heat_map.h>
-#include <render/image_diff.h>
-#include <render/strip.h>
+#include <render/image/image.h>
+#include <render/image/image_diff.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "render/pictures.h"
 
-#include <render/image_diff.h>
+#include <render/image/image_diff.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include <render/block_layout.h>
-#include <render/label_layout.h>
+#include <render/layout/block_layout.h>
+#include <render/text/label_layout.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <render/lens.h>
+#include <render/drawlist/view_projection.h>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -17,7 +17,7 @@ std::vector<glm::vec3> block(glm::vec3 half) {
     return points;
 }
 
-TEST(Lens, EverythingFitsIntoTheFrame) {
+TEST(ViewProjection, EverythingFitsIntoTheFrame) {
     for (const PictureSize size :
          {PictureSize{640, 360}, PictureSize{360, 640}, PictureSize{1000, 100}, PictureSize{64, 64}}) {
         const Frame frame{{10, 20}, {static_cast<float>(size.width) - 5, static_cast<float>(size.height) - 15}};
@@ -28,15 +28,15 @@ TEST(Lens, EverythingFitsIntoTheFrame) {
                 camera.preset = preset;
                 camera.pitch_deg = -35;
                 const std::vector<glm::vec3> points = block(half);
-                const Lens lens = make_lens(camera, points, nullptr, frame, size);
+                const ViewProjection projection = make_projection(camera, points, nullptr, frame, size);
                 float tightest = 1e9f;
                 for (const glm::vec3& point : points) {
-                    const glm::vec2 at = lens.project(point).value();
+                    const glm::vec2 at = projection.project(point).value();
                     const float room =
                         std::min({at.x - frame.min.x, at.y - frame.min.y, frame.max.x - at.x, frame.max.y - at.y});
                     EXPECT_GE(room, -0.1f);
                     tightest = std::min(tightest, room);
-                    const glm::vec4 clip = lens.clip_from_world * glm::vec4(point, 1);
+                    const glm::vec4 clip = projection.clip_from_world * glm::vec4(point, 1);
                     EXPECT_LE(std::abs(clip.z), clip.w);
                 }
                 EXPECT_LT(tightest, 1) << "the scene could be larger";
@@ -45,13 +45,13 @@ TEST(Lens, EverythingFitsIntoTheFrame) {
     }
 }
 
-TEST(Lens, PresetsLookTheRightWay) {
+TEST(ViewProjection, PresetsLookTheRightWay) {
     const std::vector<glm::vec3> points = block(glm::vec3(1));
     const Frame frame{{0, 0}, {200, 200}};
     const auto at = [&](CameraPreset preset, glm::vec3 p) {
         Camera camera;
         camera.preset = preset;
-        return make_lens(camera, points, nullptr, frame, {200, 200}).project(p).value();
+        return make_projection(camera, points, nullptr, frame, {200, 200}).project(p).value();
     };
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).x, 200, 0.1);
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).y, 0, 0.1);
@@ -61,37 +61,39 @@ TEST(Lens, PresetsLookTheRightWay) {
     EXPECT_NEAR(at(CameraPreset::side, {0, 1, 1}).y, 0, 0.1);
 }
 
-TEST(Lens, ATargetGoesToTheMiddle) {
+TEST(ViewProjection, ATargetGoesToTheMiddle) {
     Camera camera;
     camera.preset = CameraPreset::free;
     camera.distance = 7;
     const glm::vec3 target(0.3f, 0.2f, 0.5f);
-    const Lens lens = make_lens(camera, block(glm::vec3(1)), &target, {{0, 0}, {300, 200}}, {300, 200});
-    EXPECT_NEAR(lens.project(target)->x, 150, 0.01);
-    EXPECT_NEAR(lens.project(target)->y, 100, 0.01);
-    EXPECT_NEAR(lens.depth(target), 7, 1e-4);
+    const ViewProjection projection =
+        make_projection(camera, block(glm::vec3(1)), &target, {{0, 0}, {300, 200}}, {300, 200});
+    EXPECT_NEAR(projection.project(target)->x, 150, 0.01);
+    EXPECT_NEAR(projection.project(target)->y, 100, 0.01);
+    EXPECT_NEAR(projection.depth(target), 7, 1e-4);
 }
 
 /// Divided by its negative depth it would be seen, upside down, in the middle of the picture.
-TEST(Lens, WhatIsBehindTheEyeIsNotSeen) {
+TEST(ViewProjection, WhatIsBehindTheEyeIsNotSeen) {
     Camera camera;
     camera.preset = CameraPreset::free;
     camera.yaw_deg = 0;
     camera.pitch_deg = 0;
     camera.distance = 2;
     const glm::vec3 target(0);
-    const Lens lens = make_lens(camera, block(glm::vec3(5)), &target, {{0, 0}, {300, 200}}, {300, 200});
-    EXPECT_TRUE(lens.project({1, 0, 0}).has_value());
-    EXPECT_FALSE(lens.project({2, 0, 0}).has_value());
-    EXPECT_FALSE(lens.project({4, 0.1f, 0.1f}).has_value());
-    EXPECT_EQ(lens.pixels_per_metre({4, 0, 0}), 0);
+    const ViewProjection projection =
+        make_projection(camera, block(glm::vec3(5)), &target, {{0, 0}, {300, 200}}, {300, 200});
+    EXPECT_TRUE(projection.project({1, 0, 0}).has_value());
+    EXPECT_FALSE(projection.project({2, 0, 0}).has_value());
+    EXPECT_FALSE(projection.project({4, 0.1f, 0.1f}).has_value());
+    EXPECT_EQ(projection.pixels_per_metre({4, 0, 0}), 0);
 }
 
-TEST(Lens, APointHasNoExtentAndStillIsSeen) {
+TEST(ViewProjection, APointHasNoExtentAndStillIsSeen) {
     const std::vector<glm::vec3> point{glm::vec3(0)};
-    const Lens lens = make_lens({}, point, nullptr, {{0, 0}, {100, 100}}, {100, 100});
-    EXPECT_NEAR(lens.project(point[0])->x, 50, 0.5);
-    EXPECT_NEAR(lens.project(point[0])->y, 50, 0.5);
+    const ViewProjection projection = make_projection({}, point, nullptr, {{0, 0}, {100, 100}}, {100, 100});
+    EXPECT_NEAR(projection.project(point[0])->x, 50, 0.5);
+    EXPECT_NEAR(projection.project(point[0])->y, 50, 0.5);
 }
 
 }  // namespace

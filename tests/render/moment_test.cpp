@@ -1,10 +1,10 @@
 // The picture of one moment: who is there, what is marked, and that all of it is in the picture.
-#include <import/skeleton.h>
+#include <import/skeleton/skeleton.h>
 #include <mobb/predicate.h>
-#include <render/build_draw_list.h>
-#include <render/disk_overlap.h>
-#include <render/moment.h>
-#include <render/pick.h>
+#include <render/drawlist/pick.h>
+#include <render/parts/disk_overlap.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/moment.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -39,7 +39,7 @@ FittedScene fitted(Scene scene) {
 }
 
 Moment moment(const FittedScene& scene, const ViewState& view) {
-    const std::vector<Subject> people = subjects(scene, view);
+    const std::vector<DrawnAgent> people = drawn_agents(scene, view);
     return moment_of(people, cylinder_heights(people), *view.time);
 }
 
@@ -62,23 +62,23 @@ Scene crowd(int count, double side) {
 
 TEST(Moment, TheFarthestJointTouchesTheWall) {
     const FittedScene scene = fitted(crossing());
-    const std::vector<Subject> people = subjects(scene, at(0));
-    for (const Subject& subject : people) {
-        ASSERT_TRUE(subject.skeleton);
-        for (int sample = 0; sample < subject.clip().count(); ++sample) {
-            const double time = 0.5 * (subject.clip().time(sample) + subject.clip().time(sample + 1));
+    const std::vector<DrawnAgent> people = drawn_agents(scene, at(0));
+    for (const DrawnAgent& agent : people) {
+        ASSERT_TRUE(agent.skeleton);
+        for (int sample = 0; sample < agent.clip().count(); ++sample) {
+            const double time = 0.5 * (agent.clip().time(sample) + agent.clip().time(sample + 1));
             const Moment then = moment(scene, at(time));
             const auto body = std::find_if(then.bodies.begin(), then.bodies.end(),
-                                           [&](const Body& b) { return b.subject == subject.index; });
+                                           [&](const Body& b) { return b.agent == agent.index; });
             ASSERT_NE(body, then.bodies.end());
             EXPECT_EQ(body->sample, sample);
             ASSERT_TRUE(body->farthest);
             EXPECT_TRUE(sets_radius(*body));
             EXPECT_NEAR(body->farthest->distance, body->disk.r, 1e-4);
-            const glm::dvec3 place = joint_place(subject, sample, body->farthest->joint);
+            const glm::dvec3 place = joint_place(agent, sample, body->farthest->joint);
             EXPECT_NEAR(std::hypot(place.x - body->disk.x, place.y - body->disk.y), body->disk.r, 1e-4);
-            for (int joint = 0; joint < static_cast<int>(subject.skeleton->joints.size()); ++joint) {
-                const glm::dvec3 p = joint_place(subject, sample, joint);
+            for (int joint = 0; joint < static_cast<int>(agent.skeleton->joints.size()); ++joint) {
+                const glm::dvec3 p = joint_place(agent, sample, joint);
                 EXPECT_LE(std::hypot(p.x - body->disk.x, p.y - body->disk.y), body->disk.r + 1e-4);
                 EXPECT_LT(p.z, body->height);
             }
@@ -109,7 +109,7 @@ TEST(Moment, TheFloorDiskIsTheSampleAndCanBePicked) {
     const Moment then = moment(scene, at(1.6));
     ASSERT_EQ(list.disks.size(), 2u);
     for (const Body& body : then.bodies) {
-        const ObjectId id{body.subject, ObjectId::Kind::disk, body.sample};
+        const ObjectId id{body.agent, ObjectId::Kind::disk, body.sample};
         const auto disk =
             std::find_if(list.disks.begin(), list.disks.end(), [&](const DiskInstance& d) { return d.id == id; });
         ASSERT_NE(disk, list.disks.end());
@@ -119,7 +119,7 @@ TEST(Moment, TheFloorDiskIsTheSampleAndCanBePicked) {
         EXPECT_FLOAT_EQ(disk->radius, static_cast<float>(body.disk.r));
         // On the floor, and half-way up the wall.
         for (const float height : {0.02f, 0.9f}) {
-            const auto pixel = list.lens.project(disk->base + glm::vec3(0, 0, height));
+            const auto pixel = list.projection.project(disk->base + glm::vec3(0, 0, height));
             ASSERT_TRUE(pixel);
             const std::vector<Pick> hits = pick(list, *pixel);
             ASSERT_FALSE(hits.empty());
@@ -222,13 +222,13 @@ TEST(Moment, EverythingIsInsideThePictureAndTheFrameStandsStill) {
             view.time = time;
             const DrawList list = build_draw_list(scene, view, kGoldenSize);
             if (frame != glm::mat4(0)) {
-                EXPECT_EQ(list.lens.clip_from_world, frame) << time;
+                EXPECT_EQ(list.projection.clip_from_world, frame) << time;
             }
-            frame = list.lens.clip_from_world;
+            frame = list.projection.clip_from_world;
             const Rect picture{glm::vec2(0), glm::vec2(kGoldenSize.width, kGoldenSize.height)};
             for (const LineInstance& line : list.lines) {
                 for (const glm::vec3& end : {line.from, line.to}) {
-                    const auto pixel = list.lens.project(end);
+                    const auto pixel = list.projection.project(end);
                     ASSERT_TRUE(pixel);
                     EXPECT_TRUE(picture.contains({*pixel, *pixel})) << pixel->x << ' ' << pixel->y;
                 }

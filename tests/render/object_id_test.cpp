@@ -1,5 +1,5 @@
-#include <render/build_draw_list.h>
-#include <render/object_id.h>
+#include <render/drawlist/object_id.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "render/backends.h"
 #include "render/scenes.h"
@@ -29,7 +29,7 @@ TEST_P(ObjectIdTest, TheUppermostDiskIsFoundFromAbove) {
     const int last = fitted.tree(0).clip().count() - 1;
     for (const DiskInstance& disk : list.disks) {
         if (disk.id.index != last) continue;
-        const glm::vec2 at = list.lens.project(disk.base).value();
+        const glm::vec2 at = list.projection.project(disk.base).value();
         EXPECT_EQ(ids.at(static_cast<int>(at.x), static_cast<int>(at.y)), disk.id);
     }
     EXPECT_FALSE(ids.at(1, 1));
@@ -49,7 +49,7 @@ TEST_P(ObjectIdTest, TheNearestBoxHidesTheDisksInIt) {
             return b.id == ObjectId{participant, ObjectId::Kind::box, node};
         });
         ASSERT_NE(box, list.boxes.end());
-        const glm::vec2 at = list.lens.project(box->center + 0.9f * box->extents[0]).value();
+        const glm::vec2 at = list.projection.project(box->center + 0.9f * box->extents[0]).value();
         EXPECT_EQ(ids.at(static_cast<int>(at.x), static_cast<int>(at.y)), box->id);
     }
 }

@@ -1,5 +1,5 @@
-#include <render/build_draw_list.h>
-#include <render/image_diff.h>
+#include <render/image/image_diff.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "render/backends.h"
 #include "render/pictures.h"

@@ -1,9 +1,9 @@
-#include <render/build_draw_list.h>
-#include <render/pick.h>
-#include <render/render.h>
-#include <render/settle.h>
-#include <render/subject.h>
-#include <render/world_box.h>
+#include <render/drawlist/pick.h>
+#include <render/drawlist/resolve_camera.h>
+#include <render/parts/node_boxes.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/render.h>
+#include <scene/drawn_agent.h>
 
 #include "render/backends.h"
 #include "render/scenes.h"
@@ -109,7 +109,7 @@ TEST_P(PickTest, AgreesFromInsideABoxAmongDisks) {
     ViewState view = fitted.scene().view;
     view.levels = {0, 2, false};
     DrawList list = build_draw_list(fitted, view, kPickSize);
-    view.camera = settled(view.camera, list);
+    view.camera = resolved_camera(view.camera, list);
     view.camera.fov_deg = 100;
     view.camera.distance = 0.2;
     list = build_draw_list(fitted, view, kPickSize);
@@ -155,7 +155,7 @@ TEST_P(PickedPlaces, LieOnWhatIsPicked) {
             view.camera.preset = preset;
             view.levels = {0, 3, false};
             const DrawList list = build_draw_list(fitted, view, kPickSize);
-            const std::vector<Subject> paths = subjects(fitted, view);
+            const std::vector<DrawnAgent> paths = drawn_agents(fitted, view);
             int picked = 0;
             for (int y = 5; y < kPickSize.height; y += 11) {
                 for (int x = 5; x < kPickSize.width; x += 11) {
@@ -171,7 +171,7 @@ TEST_P(PickedPlaces, LieOnWhatIsPicked) {
                         ASSERT_GE(one.depth, depth - 0.01f) << "nearest first";
                         depth = std::max(depth, one.depth);
                         const glm::dvec3 p = one.place;
-                        const glm::vec2 seen = list.lens.project(list.space.point(p.x, p.y, p.z)).value();
+                        const glm::vec2 seen = list.projection.project(list.space.point(p.x, p.y, p.z)).value();
                         ASSERT_LT(glm::length(seen - middle_of_pixel(x, y)), 0.05f);
                     }
                 }
@@ -198,7 +198,7 @@ TEST(FloorAt, IsWhereTheFloorIsSeen) {
         const DrawList list = build_draw_list(fitted, view, kPickSize);
         for (const double time : {12.0, 13.25}) {
             const glm::dvec2 place(500.3, -69.8);
-            const glm::vec2 pixel = list.lens.project(list.space.point(place.x, place.y, time)).value();
+            const glm::vec2 pixel = list.projection.project(list.space.point(place.x, place.y, time)).value();
             EXPECT_LT(glm::length(floor_at(list, pixel, time).value() - place), 1e-4);
         }
     }

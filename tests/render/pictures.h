@@ -1,9 +1,9 @@
 /// Sizes, pictures and questions to draw lists that several tests of src/render share.
 #pragma once
 
-#include <render/draw_list.h>
-#include <render/draw_list_json.h>
-#include <render/image.h>
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/draw_list_json.h>
+#include <render/image/image.h>
 
 #include <cstdint>
 #include <set>

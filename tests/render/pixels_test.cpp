@@ -1,6 +1,6 @@
-#include <render/build_draw_list.h>
-#include <render/image_diff.h>
-#include <render/render.h>
+#include <render/image/image_diff.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/render.h>
 
 #include "render/backends.h"
 #include "render/pictures.h"
@@ -105,7 +105,7 @@ TEST_P(PictureTest, DisksHideWhatIsBehindThem) {
     const DrawList list = build_draw_list(fitted, view, kSmallSize);
     const Image image = renderer().draw(list);
     // The uppermost disk of B, the later half of its path, shows B's colour; the corner shows the background.
-    const glm::vec2 at = list.lens.project(list.disks.back().base).value();
+    const glm::vec2 at = list.projection.project(list.disks.back().base).value();
     const std::uint8_t* pixel = image.at(static_cast<int>(at.x), static_cast<int>(at.y));
     EXPECT_GT(pixel[2], pixel[0] + 60);
     EXPECT_NEAR(image.at(0, 0)[0], 0x14, 1);

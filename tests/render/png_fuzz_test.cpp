@@ -1,7 +1,7 @@
 // Damaged PNG files give a picture or an InputError, nothing else, and soon.
-#include <render/png.h>
+#include <render/image/png.h>
 
-#include <import/error.h>
+#include <base/error.h>
 #include <support/mutate.h>
 #include <support/png_file.h>
 #include <support/temp_folder.h>

@@ -1,4 +1,4 @@
-#include <render/png.h>
+#include <render/image/png.h>
 
 #include "support/input_error.h"
 #include "support/png_file.h"

@@ -1,8 +1,8 @@
-#include <render/build_draw_list.h>
-#include <render/query_boxes.h>
-#include <render/query_progress.h>
-#include <render/query_sentence.h>
-#include <render/separation_gap.h>
+#include <explain/query_progress.h>
+#include <explain/query_sentence.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/query/query_boxes.h>
+#include <render/query/separation_gap.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -20,7 +20,7 @@ using testing::kGoldenSize;
 struct Query {
     explicit Query(FittedScene scene) : fitted(std::move(scene)), recorded(record(fitted, fitted.queries()[0])) {
         view.query = 0;
-        sides = subjects(fitted, view);
+        sides = drawn_agents(fitted, view);
     }
     DrawList at(int step, PictureSize size = kGoldenSize) {
         view.step = {Step::Unit::event, static_cast<double>(step)};
@@ -36,7 +36,7 @@ struct Query {
     FittedScene fitted;
     RecordedQuery recorded;
     ViewState view;
-    std::vector<Subject> sides;
+    std::vector<DrawnAgent> sides;
 };
 
 TEST(QueryProgress, StepsAreEventsPercentagesOrTheEnd) {
@@ -69,7 +69,7 @@ TEST(QueryProgress, AHitSettlesThePairsAboveIt) {
     const auto root = std::find_if(progress.nodes[0].begin(), progress.nodes[0].end(),
                                    [](const NodeProgress& n) { return n.node == 0; });
     ASSERT_NE(root, progress.nodes[0].end());
-    EXPECT_EQ(root->state, BoxState::hit);
+    EXPECT_EQ(root->outcome, mobb::Outcome::hit);
     EXPECT_TRUE(root->open);
 }
 
@@ -214,8 +214,8 @@ TEST(QueryPicture, SmallPicturesKeepTheScene) {
             glm::vec2 low(1e9f);
             glm::vec2 high(-1e9f);
             for (const DiskInstance& disk : list.disks) {
-                low = glm::min(low, list.lens.project(disk.base).value());
-                high = glm::max(high, list.lens.project(disk.base).value());
+                low = glm::min(low, list.projection.project(disk.base).value());
+                high = glm::max(high, list.projection.project(disk.base).value());
             }
             EXPECT_GT(high.x - low.x + high.y - low.y, 0.35f * picture.y) << size.width;
         }

@@ -1,4 +1,4 @@
-#include <render/screen_tiles.h>
+#include <render/gl/face_pass.h>
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,12 @@ namespace {
 
 constexpr PictureSize kOddSize{333, 217};
 
-Lens lens(bool perspective) {
+ViewProjection projection(bool perspective) {
     Camera camera;
     camera.preset = CameraPreset::free;
     camera.perspective = perspective;
     const std::vector<glm::vec3> points{{-3, -2, 0}, {3, 2, 5}};
-    return make_lens(camera, points, nullptr, {{20, 10}, {320, 200}}, kOddSize);
+    return make_projection(camera, points, nullptr, {{20, 10}, {320, 200}}, kOddSize);
 }
 
 BoxInstance box(glm::vec3 center, float half) {
@@ -27,14 +27,14 @@ BoxInstance box(glm::vec3 center, float half) {
     return out;
 }
 
-TEST(ScreenTiles, NoBoxesNeedNone) { EXPECT_TRUE(covering_tiles({}, lens(true)).empty()); }
+TEST(ScreenTiles, NoBoxesNeedNone) { EXPECT_TRUE(covering_tiles({}, projection(true)).empty()); }
 
 TEST(ScreenTiles, TheyCoverTheBoxesOnceAndLieInThePicture) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> at(-4, 4);
     std::uniform_real_distribution<float> unit(-1, 1);
     for (const bool perspective : {true, false}) {
-        const Lens seen = lens(perspective);
+        const ViewProjection seen = projection(perspective);
         std::vector<BoxInstance> boxes;
         for (int i = 0; i < 6; ++i) boxes.push_back(box({at(random), at(random), at(random)}, 0.3f));
         const std::vector<Rect> tiles = covering_tiles(boxes, seen);
@@ -60,7 +60,7 @@ TEST(ScreenTiles, TheyCoverTheBoxesOnceAndLieInThePicture) {
 }
 
 TEST(ScreenTiles, ABoxAroundTheEyeCoversAll) {
-    const Lens seen = lens(true);
+    const ViewProjection seen = projection(true);
     const std::vector<BoxInstance> boxes{box(seen.eye, 1)};
     double area = 0;
     for (const Rect& tile : covering_tiles(boxes, seen)) area += static_cast<double>(tile.size().x * tile.size().y);
@@ -68,7 +68,7 @@ TEST(ScreenTiles, ABoxAroundTheEyeCoversAll) {
 }
 
 TEST(ScreenTiles, WhatIsBesideThePictureNeedsNone) {
-    const Lens seen = lens(false);
+    const ViewProjection seen = projection(false);
     const std::vector<BoxInstance> boxes{box(seen.right * 100.0f, 0.5f), box(seen.up * -100.0f, 0.5f)};
     EXPECT_TRUE(covering_tiles(boxes, seen).empty());
 }

@@ -3,8 +3,8 @@
 #include "render/pictures.h"
 #include "scenes.h"
 
-#include <render/build_draw_list.h>
-#include <render/image_diff.h>
+#include <render/image/image_diff.h>
+#include <render/pictures/build_draw_list.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Pictures side by side.
-#include <render/sheet.h>
+#include <render/pictures/sheet.h>
 
 #include "render/backends.h"
 

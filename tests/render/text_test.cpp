@@ -1,4 +1,4 @@
-#include <render/glyph_atlas.h>
+#include <render/gl/glyph_atlas.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <render/ticks.h>
+#include <render/text/ticks.h>
 
 #include <gtest/gtest.h>
 

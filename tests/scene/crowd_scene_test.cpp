@@ -52,7 +52,7 @@ TEST(CrowdScene, AMomentHasThePeopleInTheirOrder) {
     EXPECT_EQ(scene.agents[0].play, 1);
     EXPECT_EQ(scene.agents[0].clip, 1);
     EXPECT_EQ(scene.agents[0].placement, run.crowd->agents[0].plays[1].placement);
-    EXPECT_EQ(scene.agents[1].person, 1);
+    EXPECT_EQ(scene.agents[1].run_agent, 1);
     EXPECT_EQ(scene.graph, run.graph);
     EXPECT_EQ(scene.crowd, run.crowd);
 }
@@ -60,9 +60,9 @@ TEST(CrowdScene, AMomentHasThePeopleInTheirOrder) {
 TEST(CrowdScene, TheWindowAddsThePlaysAroundBehindThePeople) {
     const Scene scene = scene_at(small_run(), 1.5, {1.5, 1.0});
     EXPECT_EQ(names(scene), (std::vector<std::string>{"17", "42", "17 -1", "42 +1"}));
-    EXPECT_EQ(scene.agents[2].person, 0);
+    EXPECT_EQ(scene.agents[2].run_agent, 0);
     EXPECT_EQ(scene.agents[2].play, 0);
-    EXPECT_EQ(scene.agents[3].person, 1);
+    EXPECT_EQ(scene.agents[3].run_agent, 1);
     EXPECT_EQ(scene.agents[3].play, 1);
     // The window is half open: what begins at its end is not on.
     EXPECT_EQ(names(scene_at(small_run(), 1.5, {1.5, 0.5})), (std::vector<std::string>{"17", "42", "17 -1"}));
@@ -91,7 +91,7 @@ TEST(CrowdScene, TreesAreShared) {
     const FittedScene seen = fitted_at(run, view);
     EXPECT_EQ(&seen.tree(0), &run.tree(0));
     EXPECT_EQ(&seen.tree(1), &run.tree(1));
-    EXPECT_GT(seen.participants().size(), 2u);
+    EXPECT_GT(seen.placed_agents().size(), 2u);
 }
 
 TEST(CrowdScene, ARunAsksNoQueries) {
@@ -109,8 +109,8 @@ TEST(CrowdScene, WithoutATimeTheMiddleIsSeen) {
 TEST(CrowdScene, PeopleAreFoundByName) {
     const Scene run = small_run();
     const CrowdRun& crowd = *run.crowd;
-    EXPECT_EQ(person_by_name(crowd, "42"), 1);
-    EXPECT_EQ(person_by_name(crowd, "4"), std::nullopt);
+    EXPECT_EQ(run_agent_by_name(crowd, "42"), 1);
+    EXPECT_EQ(run_agent_by_name(crowd, "4"), std::nullopt);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(FittedScene, MovingAnAgentFitsNothing) {
     scene.agents[0].placement = {{3, 4}, 90, 2};
     const FittedScene after(scene, scene.fit, &before);
     for (const int clip : {0, 1}) EXPECT_EQ(&after.tree(clip), &before.tree(clip));
-    EXPECT_EQ(after.placed(after.participants()[0]).placed_clip().placement().start, 2);
+    EXPECT_EQ(after.placed(after.placed_agents()[0]).placed_clip().placement().start, 2);
 
     // Other options or another clip, though an equal one, is another tree.
     mobb::FitOptions finer = scene.fit;

@@ -1,6 +1,6 @@
-#include <scene/json_place.h>
-#include <scene/json_value.h>
-#include <scene/json_writer.h>
+#include <base/json_place.h>
+#include <base/json_value.h>
+#include <base/json_writer.h>
 #include <support/input_error.h>
 
 #include <gtest/gtest.h>

@@ -35,7 +35,7 @@ std::string asked(const Scene& scene) {
         const SceneQuery query = query_at(scene, i);
         out += query.a.name + '-' + query.b.name + ' ';
         // Copies of agents agree with them.
-        for (const Participant& side : {query.a, query.b}) {
+        for (const PlacedAgent& side : {query.a, query.b}) {
             if (side.agent < 0) continue;
             const Agent& agent = scene.agents.at(static_cast<std::size_t>(side.agent));
             EXPECT_EQ(side.name, agent.name);

@@ -21,9 +21,9 @@ TEST(Scene, OnlyClipsAreRequired) {
     EXPECT_EQ(scene.fit, mobb::FitOptions{});
     EXPECT_EQ(scene.view, ViewState{});
     EXPECT_EQ(query_count(scene), 0u);
-    ASSERT_EQ(participants(scene).size(), 2u);
-    EXPECT_EQ(participants(scene)[1].name, "a");
-    EXPECT_EQ(participants(scene)[1].agent, -1);
+    ASSERT_EQ(placed_agents(scene).size(), 2u);
+    EXPECT_EQ(placed_agents(scene)[1].name, "a");
+    EXPECT_EQ(placed_agents(scene)[1].agent, -1);
 }
 
 TEST(Scene, EverythingIsRead) {
@@ -56,7 +56,7 @@ TEST(Scene, WithoutQueriesAllPairsOfAgentsAreAsked) {
     EXPECT_EQ(query_at(scene, 1).a.name + query_at(scene, 1).b.name, "AC");
     EXPECT_EQ(query_at(scene, 2).a.name + query_at(scene, 2).b.name, "BC");
     EXPECT_EQ(query_at(scene, 2).b.agent, 2);
-    EXPECT_EQ(participants(scene)[2].agent, 2);
+    EXPECT_EQ(placed_agents(scene)[2].agent, 2);
 }
 
 TEST(Scene, SourcesAreRelativeToTheSceneAndOverridesWin) {

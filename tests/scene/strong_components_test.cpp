@@ -1,5 +1,5 @@
 // Which nodes lead to each other.
-#include <scene/strong_components.h>
+#include <base/strong_components.h>
 
 #include <gtest/gtest.h>
 

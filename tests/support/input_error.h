@@ -1,7 +1,7 @@
 /// What an InputError says.
 #pragma once
 
-#include <import/error.h>
+#include <base/error.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <app/commands/arguments.h>
-#include <import/text.h>
+#include <base/text.h>
 
 #include <optional>
 #include <stdexcept>

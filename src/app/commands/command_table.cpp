@@ -1,5 +1,5 @@
-#include <app/command.h>
-#include <import/text.h>
+#include <app/commands/command.h>
+#include <base/text.h>
 
 #include <algorithm>
 #include <stdexcept>

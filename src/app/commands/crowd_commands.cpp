@@ -1,10 +1,10 @@
-#include <app/command.h>
 #include <app/commands/arguments.h>
+#include <app/commands/command.h>
 #include <app/commands/following.h>
-#include <app/crowd_view.h>
-#include <import/text.h>
-#include <render/candidates.h>
-#include <render/follow.h>
+#include <app/document/run_agents.h>
+#include <base/text.h>
+#include <render/layout/follow.h>
+#include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
@@ -26,7 +26,7 @@ void stop_following(Session& session, const std::string&) {
     session.candidate = -1;
     const double time = run_or_cursor_time(session);
     const glm::dvec3 anchor = camera_anchor(session.fitted(), session.view(), time);
-    session.look([&](ViewState& view) {
+    session.change_view([&](ViewState& view) {
         view.follow.clear();
         // What was in the middle stays there.
         if (view.camera.target) *view.camera.target += glm::dvec3(anchor.x, anchor.y, 0);
@@ -44,14 +44,14 @@ void follow(Session& session, const std::string& name) {
 // --- plays and choices
 
 const CrowdAgent* followed(const Session& session) {
-    const auto person = person_in_question(session);
-    return person ? &session.crowd()->agents[static_cast<std::size_t>(*person)] : nullptr;
+    const auto run_agent = run_agent_in_question(session);
+    return run_agent ? &session.crowd()->agents[static_cast<std::size_t>(*run_agent)] : nullptr;
 }
 
 void to_time(Session& session, double time) {
     session.stop();
     session.candidate = -1;
-    session.look([&](ViewState& view) { view.time = time; });
+    session.change_view([&](ViewState& view) { view.time = time; });
 }
 
 void to_play(Session& session, const std::string& text) {
@@ -91,7 +91,7 @@ bool has_candidates(const Session& session) { return session.choice() != nullptr
 void point_out(Session& session, const std::string& text) {
     const int count = static_cast<int>(session.choice()->choice.candidates.size());
     session.candidate = whole_number_in(text, "the candidate", 0, count - 1);
-    session.look([](ViewState& view) { view.candidates = true; });
+    session.change_view([](ViewState& view) { view.candidates = true; });
 }
 
 /// Who rules the pointed out candidate out; null if nobody does.
@@ -101,7 +101,7 @@ const Candidate* ruled_out(const Session& session, int candidate) {
         return nullptr;
     }
     const Candidate& asked = choice->choice.candidates[static_cast<std::size_t>(candidate)];
-    return asked.ruling ? &asked : nullptr;
+    return asked.blocker ? &asked : nullptr;
 }
 
 void open_candidate(Session& session, const std::string& text) {
@@ -115,8 +115,8 @@ void open_candidate(Session& session, const std::string& text) {
     }
     const CrowdRun& run = *session.crowd();
     const auto clip_of = [&](int move) { return session.scene().graph->moves[static_cast<std::size_t>(move)].clip; };
-    const CrowdAgent& other = run.agents[static_cast<std::size_t>(candidate->ruling->agent)];
-    const Play& play = other.plays[static_cast<std::size_t>(candidate->ruling->play)];
+    const CrowdAgent& other = run.agents[static_cast<std::size_t>(candidate->blocker->agent)];
+    const Play& play = other.plays[static_cast<std::size_t>(candidate->blocker->play)];
     session.open_excerpt({session.view().follow, clip_of(candidate->move), candidate->placement, -1},
                          {other.name, clip_of(play.move), play.placement, -1});
 }
@@ -133,7 +133,7 @@ void to_conflict(Session& session, int index) {
     session.stop();
     session.conflict = index;
     const double time = std::max(found.begin() - kBefore, session.time_span().t0);
-    session.look([&](ViewState& view) {
+    session.change_view([&](ViewState& view) {
         view.query.reset();
         view.time = time;
     });
@@ -199,8 +199,10 @@ std::span<const Command> crowd_commands() {
          .shortcut = "A",
          .doc = "Shows the moves that the followed agent could choose, and what became of each.",
          .enabled = [](const Session& session) { return session.crowd() != nullptr; },
-         .run = [](Session& session,
-                   const std::string&) { session.look([](ViewState& view) { view.candidates = !view.candidates; }); },
+         .run =
+             [](Session& session, const std::string&) {
+                 session.change_view([](ViewState& view) { view.candidates = !view.candidates; });
+             },
          .checked = [](const Session& session) { return session.view().candidates; }},
         {.id = "crowd.window",
          .title = "Seconds around the time",
@@ -210,7 +212,7 @@ std::span<const Command> crowd_commands() {
          .run =
              [](Session& session, const std::string& text) {
                  const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
-                 session.look([&](ViewState& view) { view.time_window = window; });
+                 session.change_view([&](ViewState& view) { view.time_window = window; });
              }},
         {.id = "crowd.next_choice",
          .title = "Next choice",

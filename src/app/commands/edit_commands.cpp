@@ -1,7 +1,7 @@
-#include <app/command.h>
 #include <app/commands/arguments.h>
+#include <app/commands/command.h>
 #include <app/commands/selected_agent.h>
-#include <import/text.h>
+#include <base/text.h>
 #include <scene/scene_edits.h>
 
 #include <glm/common.hpp>
@@ -36,7 +36,7 @@ struct FloorBounds {
 mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
     FloorBounds others, own;
     double start = std::numeric_limits<double>::max();
-    for (const Participant& participant : fitted.participants()) {
+    for (const PlacedAgent& participant : fitted.placed_agents()) {
         const mobb::PlacedTree tree = fitted.placed(participant);
         others.add(tree.placed_clip());
         start = std::min(start, participant.placement.start);
@@ -170,7 +170,7 @@ std::span<const Command> edit_commands() {
          .doc = "Removes the selected agent and the queries about it; its clip stays.",
          .enabled =
              [](const Session& session) {
-                 return has_selected_agent(session) && session.fitted().participants().size() > 1;
+                 return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
              },
          .run = remove},
         {.id = "agent.rename",

@@ -1,6 +1,6 @@
-#include <app/command.h>
+#include <app/commands/command.h>
 #include <app/commands/render_line.h>
-#include <import/file.h>
+#include <base/file.h>
 
 #include <stdexcept>
 

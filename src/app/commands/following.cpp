@@ -1,8 +1,8 @@
-#include <app/commands/explicit_view.h>
+#include <app/commands/camera_commands.h>
 #include <app/commands/following.h>
-#include <app/crowd_view.h>
-#include <import/text.h>
-#include <render/follow.h>
+#include <app/document/run_agents.h>
+#include <base/text.h>
+#include <render/layout/follow.h>
 
 #include <stdexcept>
 #include <vector>
@@ -17,7 +17,7 @@ void follow_agent(Session& session, const std::string& name, double metres) {
         throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
     }
     session.candidate = -1;
-    session.look([&](ViewState& view) { view.follow = name; });
+    session.change_view([&](ViewState& view) { view.follow = name; });
     frame_followed(session, metres);
     select_in_crowd(session, name);
 }

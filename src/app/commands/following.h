@@ -1,7 +1,7 @@
 /// Going along with somebody of a crowd, for commands.
 #pragma once
 
-#include <app/session.h>
+#include <app/document/session.h>
 
 #include <string>
 

@@ -1,9 +1,9 @@
-#include <app/command.h>
 #include <app/commands/arguments.h>
+#include <app/commands/command.h>
 #include <app/commands/node_place.h>
 #include <app/commands/selected_agent.h>
-#include <import/text.h>
-#include <render/level_boxes.h>
+#include <base/text.h>
+#include <render/parts/node_boxes.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -13,26 +13,26 @@ namespace mobbscope::app {
 namespace {
 
 /// The paths that have names: those in the picture first, as a query may place clips itself.
-std::vector<PathRef> paths(const Session& session) {
-    std::vector<PathRef> out;
+std::vector<AgentRef> paths(const Session& session) {
+    std::vector<AgentRef> out;
     if (session.view().query) {
-        for (int side = 0; side < 2; ++side) out.push_back(path_in_view(session.fitted(), session.view(), side));
+        for (int side = 0; side < 2; ++side) out.push_back(agent_in_view(session.fitted(), session.view(), side));
     }
-    for (int i = 0; i < static_cast<int>(session.fitted().participants().size()); ++i) out.push_back({i, -1, 0});
+    for (int i = 0; i < static_cast<int>(session.fitted().placed_agents().size()); ++i) out.push_back({i, -1, 0});
     return out;
 }
 
-PathRef path_named(const Session& session, std::string_view name) {
+AgentRef path_named(const Session& session, std::string_view name) {
     std::vector<std::string> names;
-    for (const PathRef& path : paths(session)) {
-        names.push_back(participant_of(session.fitted(), path)->name);
+    for (const AgentRef& path : paths(session)) {
+        names.push_back(placed_agent_of(session.fitted(), path)->name);
         if (names.back() == name) return path;
     }
     throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
 }
 
-const mobb::Tree& tree_of(const Session& session, const PathRef& path) {
-    return session.fitted().tree(participant_of(session.fitted(), path)->clip);
+const mobb::Tree& tree_of(const Session& session, const AgentRef& path) {
+    return session.fitted().tree(placed_agent_of(session.fitted(), path)->clip);
 }
 
 const mobb::Tree& selected_tree(const Session& session) { return tree_of(session, session.selection.path); }
@@ -42,7 +42,7 @@ const mobb::Tree& selected_tree(const Session& session) { return tree_of(session
 void go_to(Session& session, const Selection& selected) {
     const bool in_view = index_in_view(session.fitted(), session.view(), selected.path).has_value();
     const mobb::Tree& tree = tree_of(session, selected.path);
-    session.look([&](ViewState& view) {
+    session.change_view([&](ViewState& view) {
         if (!in_view) view.query.reset();
         if (selected.kind != Selection::Kind::node || view.query) return;
         const std::vector<int> shown = shown_nodes(tree, view.levels);
@@ -57,8 +57,8 @@ void go_to_node(Session& session, int node) { go_to(session, {Selection::Kind::n
 
 std::vector<std::string> names_of_paths(const Session& session) {
     std::vector<std::string> out;
-    for (const PathRef& path : paths(session)) {
-        const std::string name = participant_of(session.fitted(), path)->name;
+    for (const AgentRef& path : paths(session)) {
+        const std::string name = placed_agent_of(session.fitted(), path)->name;
         if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
     }
     return out;
@@ -70,13 +70,13 @@ void go_agent(Session& session, const std::string& name) {
 
 void go_node(Session& session, const std::string& text) {
     const auto [name, place] = name_and_word(text, "the node");
-    const PathRef path = path_named(session, name);
+    const AgentRef path = path_named(session, name);
     go_to(session, {Selection::Kind::node, path, node_at(tree_of(session, path), place)});
 }
 
 void go_sample(Session& session, const std::string& text) {
     const auto [name, index] = name_and_word(text, "the sample");
-    const PathRef path = path_named(session, name);
+    const AgentRef path = path_named(session, name);
     const int last = tree_of(session, path).clip().count() - 1;
     go_to(session, {Selection::Kind::sample, path, whole_number_in(index, "the sample", 0, last)});
 }
@@ -133,7 +133,7 @@ bool has_contact(const Session& session) {
 
 void go_contact(Session& session, const std::string&) {
     const RecordedQuery& recorded = *session.recorded();
-    session.look([&](ViewState& view) {
+    session.change_view([&](ViewState& view) {
         view.time = recorded.contact->time;
         view.step = {Step::Unit::end, 0};  // the search ends with the hit
     });

@@ -1,6 +1,6 @@
 #include <app/commands/arguments.h>
 #include <app/commands/node_place.h>
-#include <import/text.h>
+#include <base/text.h>
 
 #include <stdexcept>
 #include <vector>

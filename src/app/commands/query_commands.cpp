@@ -1,7 +1,7 @@
-#include <app/command.h>
 #include <app/commands/arguments.h>
+#include <app/commands/command.h>
 #include <app/commands/selected_agent.h>
-#include <import/text.h>
+#include <base/text.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool in_query(const Session& session) { return session.view().query.has_value();
 int query_total(const Session& session) { return static_cast<int>(session.fitted().queries().size()); }
 
 void show_query(Session& session, int query, Step step = {}) {
-    session.look([&](ViewState& view) {
+    session.change_view([&](ViewState& view) {
         view.query = query;
         view.step = step;
     });
@@ -36,7 +36,7 @@ void leave(Session& session, const std::string&) {
     const auto last = std::find_if(messages.rbegin(), messages.rend(), stays);
     if (last != messages.rend()) return session.dismiss(static_cast<std::size_t>(messages.rend() - last) - 1);
     if (!in_query(session)) return session.select({});
-    session.look([](ViewState& view) { view.query.reset(); });
+    session.change_view([](ViewState& view) { view.query.reset(); });
 }
 
 void next(Session& session, const std::string&) { show_query(session, session.view().query.value_or(-1) + 1); }
@@ -112,7 +112,7 @@ void expect(Session& session, const std::string&) {
 // --- steps
 
 void to_event(Session& session, int event) {
-    session.look([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+    session.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
 }
 
 /// Without a query in view its first one is shown instead, at this step.
@@ -139,7 +139,7 @@ void forward(Session& session, const std::string&) {
 }
 
 void last(Session& session, const std::string&) {
-    if (!entered(session, kEnd)) session.look([](ViewState& view) { view.step = kEnd; });
+    if (!entered(session, kEnd)) session.change_view([](ViewState& view) { view.step = kEnd; });
 }
 
 void to(Session& session, const std::string& text) {
@@ -148,7 +148,7 @@ void to(Session& session, const std::string& text) {
 
 void percent(Session& session, const std::string& text) {
     const double share = number_in(text, "the percentage", 0, 100);
-    session.look([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
+    session.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
 }
 
 /// To the next event that ended so; says so if there is none.
@@ -219,7 +219,7 @@ std::span<const Command> query_commands() {
          .doc = "Asks whether the selected agent collides with another.",
          .enabled =
              [](const Session& session) {
-                 return has_selected_agent(session) && session.fitted().participants().size() > 1;
+                 return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
              },
          .run = add_against,
          .choices = others},

@@ -1,8 +1,7 @@
-#include <app/commands/explicit_view.h>
+#include <app/commands/camera_commands.h>
 #include <app/commands/render_line.h>
-#include <import/shell_word.h>
-#include <import/text.h>
-#include <render/lens.h>
+#include <base/text.h>
+#include <render/drawlist/view_projection.h>
 
 #include <initializer_list>
 #include <stdexcept>

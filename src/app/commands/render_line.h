@@ -1,7 +1,7 @@
 /// The picture in the window as a command line.
 #pragma once
 
-#include <app/session.h>
+#include <app/document/session.h>
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #include <app/commands/selected_agent.h>
-#include <import/text.h>
+#include <base/text.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ bool has_selected_agent(const Session& session) {
 int selected_agent(const Session& session) { return session.selection.path.participant; }
 
 std::string selected_agent_name(const Session& session) {
-    return participant_of(session.fitted(), session.selection.path)->name;
+    return placed_agent_of(session.fitted(), session.selection.path)->name;
 }
 
 void edit_selected_agent(Session& session, const std::string& doing,
@@ -35,7 +35,7 @@ std::vector<std::string> clip_names(const Session& session) {
 
 std::vector<std::string> path_names(const Session& session) {
     std::vector<std::string> out;
-    for (const Participant& participant : session.fitted().participants()) out.push_back(participant.name);
+    for (const PlacedAgent& participant : session.fitted().placed_agents()) out.push_back(participant.name);
     return out;
 }
 

@@ -1,7 +1,7 @@
 /// The agent that commands edit: the selected one, or the one whose node or sample is selected.
 #pragma once
 
-#include <app/session.h>
+#include <app/document/session.h>
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
-#include <app/command.h>
 #include <app/commands/arguments.h>
-#include <import/text.h>
+#include <app/commands/command.h>
+#include <base/text.h>
 
 #include <limits>
 #include <stdexcept>

@@ -1,12 +1,12 @@
-#include <app/command.h>
 #include <app/commands/arguments.h>
-#include <app/commands/explicit_view.h>
+#include <app/commands/camera_commands.h>
+#include <app/commands/command.h>
 #include <app/commands/following.h>
-#include <app/crowd_view.h>
-#include <import/text.h>
-#include <render/follow.h>
-#include <render/lens.h>
-#include <render/navigate.h>
+#include <app/document/run_agents.h>
+#include <base/text.h>
+#include <render/drawlist/navigate.h>
+#include <render/drawlist/view_projection.h>
+#include <render/layout/follow.h>
 #include <scene/crowd_run.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ void frame_by_itself(Camera& camera) {
 
 template <CameraPreset preset>
 void see_from(Session& session, const std::string&) {
-    session.look([](ViewState& view) {
+    session.change_view([](ViewState& view) {
         view.camera.preset = preset;
         frame_by_itself(view.camera);
     });
@@ -55,7 +55,7 @@ bool may_have_perspective(const Session& session) {
 }
 
 void frame_all(Session& session, const std::string&) {
-    session.look([](ViewState& view) { frame_by_itself(view.camera); });
+    session.change_view([](ViewState& view) { frame_by_itself(view.camera); });
 }
 
 /// Whether it is somebody that is selected, and not a part of what they walk; at a moment they stand where a sample is.
@@ -111,7 +111,7 @@ void orbit_step(Session& session, const std::string&) {
 
 template <bool ViewState::*part>
 void toggle(Session& session, const std::string&) {
-    session.look([](ViewState& view) { view.*part = !(view.*part); });
+    session.change_view([](ViewState& view) { view.*part = !(view.*part); });
 }
 
 template <bool ViewState::*part>
@@ -124,7 +124,7 @@ bool shows_moment(const Session& session) { return session.view().show == Show::
 /// Heights mean something else then, so the camera frames the scene anew; who it goes along with stays as near.
 void toggle_moment(Session& session, const std::string&) {
     const bool goes_along = follows(session) && session.view().camera.target;
-    session.look([&](ViewState& view) {
+    session.change_view([&](ViewState& view) {
         view.show = view.show == Show::moment ? Show::space_time : Show::moment;
         if (!goes_along) frame_by_itself(view.camera);
     });
@@ -134,7 +134,7 @@ void toggle_moment(Session& session, const std::string&) {
 /// Levels of the deepest tree in the picture.
 int depth_in_view(const Session& session) {
     int depth = 1;
-    for (const Participant& participant : session.fitted().participants()) {
+    for (const PlacedAgent& participant : session.fitted().placed_agents()) {
         depth = std::max(depth, session.fitted().tree(participant.clip).depth());
     }
     return depth;
@@ -142,7 +142,7 @@ int depth_in_view(const Session& session) {
 
 /// A query's picture has no levels: showing some leaves it.
 void show_levels(Session& session, LevelRange levels) {
-    session.look([&](ViewState& view) {
+    session.change_view([&](ViewState& view) {
         view.levels = levels;
         view.query.reset();
     });
@@ -175,7 +175,7 @@ void set_shown_levels(Session& session, const std::string& levels) { show_levels
 
 void set_time_height(Session& session, const std::string& metres) {
     const double height = metres == "auto" ? 0 : number_in(metres, "the height of a second", 1e-6, 1e6);
-    session.look([&](ViewState& view) { view.time_height = height; });
+    session.change_view([&](ViewState& view) { view.time_height = height; });
 }
 
 std::vector<std::string> color_names(const Session&) { return {"agent", "level"}; }
@@ -184,7 +184,7 @@ void set_color_by(Session& session, const std::string& text) {
     const ColorBy other = session.view().color_by == ColorBy::agent ? ColorBy::level : ColorBy::agent;
     const std::optional<ColorBy> color_by = text.empty() ? other : color_by_from_name(text);
     if (!color_by) throw std::invalid_argument("colours cannot be by " + in_quotes(text) + ": give agent or level");
-    session.look([&](ViewState& view) { view.color_by = *color_by; });
+    session.change_view([&](ViewState& view) { view.color_by = *color_by; });
 }
 
 bool is_colored_by(const Session& session, const std::string& text) { return name(session.view().color_by) == text; }
@@ -195,7 +195,7 @@ void set_theme(Session& session, const std::string& text) {
     const Theme other = session.view().theme == Theme::dark ? Theme::light : Theme::dark;
     const std::optional<Theme> theme = text.empty() ? other : theme_from_name(text);
     if (!theme) throw std::invalid_argument("a theme cannot be " + in_quotes(text) + ": give dark or light");
-    session.look([&](ViewState& view) { view.theme = *theme; });
+    session.change_view([&](ViewState& view) { view.theme = *theme; });
 }
 
 bool is_theme(const Session& session, const std::string& text) { return name(session.view().theme) == text; }
@@ -226,13 +226,13 @@ void smaller(Session& session, const std::string&) {
 // --- time
 
 void set_time(Session& session, double time) {
-    session.look([&](ViewState& view) { view.time = time; });
+    session.change_view([&](ViewState& view) { view.time = time; });
 }
 
 /// The shortest sample of the paths in the picture, seconds.
 double sample_time(const Session& session) {
     double dt = std::numeric_limits<double>::max();
-    const auto add = [&](const Participant& participant) {
+    const auto add = [&](const PlacedAgent& participant) {
         dt = std::min(dt, session.fitted().tree(participant.clip).clip().dt());
     };
     if (session.view().query) {
@@ -240,7 +240,7 @@ double sample_time(const Session& session) {
         add(query.a);
         add(query.b);
     } else {
-        for (const Participant& participant : session.fitted().participants()) add(participant);
+        for (const PlacedAgent& participant : session.fitted().placed_agents()) add(participant);
     }
     return dt;
 }
@@ -305,7 +305,7 @@ std::span<const Command> view_commands() {
          .enabled = may_have_perspective,
          .run =
              [](Session& session, const std::string&) {
-                 session.look([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+                 session.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
              },
          .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }},
         {.id = "view.frame",
@@ -539,7 +539,7 @@ std::span<const Command> view_commands() {
          .run =
              [](Session& session, const std::string&) {
                  session.stop();
-                 session.look([](ViewState& view) { view.time.reset(); });
+                 session.change_view([](ViewState& view) { view.time.reset(); });
              }},
         {.id = "time.play",
          .title = "Play",

@@ -1,5 +1,5 @@
-#include <app/panels/dialog_frame.h>
 #include <app/panels/dialogs.h>
+#include <app/ui/dialog_frame.h>
 
 namespace mobbscope::app {
 
@@ -9,7 +9,7 @@ void about(Ui& ui) {
     ImGui::TextWrapped(
         "Shows bounding-volume trees in space-time, and every step of the question whether two paths collide.");
     ImGui::Dummy({0, ui.px(4)});
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
     ImGui::TextWrapped(
         "The method is from the paper \"Detecting Collisions in Graph-Driven Motion Synthesis for Crowd Simulation\".");
     ImGui::PopStyleColor();

@@ -1,10 +1,10 @@
-#include <app/command.h>
-#include <app/panels/memo.h>
-#include <app/panels/outcome_cell.h>
+#include <app/commands/command.h>
 #include <app/panels/query_parts.h>
-#include <app/panels/section.h>
-#include <render/query_sentence.h>
-#include <render/ticks.h>
+#include <app/ui/memo.h>
+#include <app/ui/swatch.h>
+#include <app/ui/widgets.h>
+#include <explain/query_sentence.h>
+#include <render/text/ticks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ struct Chart {
 };
 
 /// The least of each column as a curve, and above it how much more there is in the column.
-void draw_curve(ImDrawList& list, const Look& look, const Chart& chart, const std::vector<ClearanceColumn>& columns) {
+void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const std::vector<ClearanceColumn>& columns) {
     std::vector<ImVec2> curve;
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const ClearanceColumn& column = columns[k];
@@ -41,44 +41,45 @@ void draw_curve(ImDrawList& list, const Look& look, const Chart& chart, const st
         const float x = chart.min.x + static_cast<float>(k);
         const float y = chart.y(column.least);
         if (column.least < 0) {
-            list.AddRectFilled({x, chart.y(0)}, {x + 1, y}, mark_color(look, EventMark::hit, 0.4f));
+            list.AddRectFilled({x, chart.y(0)}, {x + 1, y}, mark_color(style, EventMark::hit, 0.4f));
         }
         const float most = chart.y(column.most);
-        if (y - most > 1) list.AddRectFilled({x, most}, {x + 1, y}, to_im(with_alpha(look.palette.text, 0.35f)));
+        if (y - most > 1) list.AddRectFilled({x, most}, {x + 1, y}, to_im(with_alpha(style.palette.text, 0.35f)));
         curve.push_back({x + 0.5f, y});
     }
-    list.AddPolyline(curve.data(), static_cast<int>(curve.size()), look.text, 0, 1.5f * look.scale);
+    list.AddPolyline(curve.data(), static_cast<int>(curve.size()), style.text, 0, 1.5f * style.scale);
 }
 
 /// Text that stays inside the chart, on a ground that keeps it readable over the curve.
-void text_at(ImDrawList& list, const Look& look, const Chart& chart, ImVec2 at, ImU32 color, const std::string& text) {
-    ImFont* font = look.caption;
+void text_at(ImDrawList& list, const Style& style, const Chart& chart, ImVec2 at, ImU32 color,
+             const std::string& text) {
+    ImFont* font = style.caption;
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str());
     const float x = std::clamp(at.x, chart.min.x + 2, std::max(chart.min.x + 2, chart.max.x - size.x - 2));
     list.AddRectFilled({x - 1, at.y}, {x + size.x + 1, at.y + size.y},
-                       (look.raised & ~IM_COL32_A_MASK) | 0xB0u << IM_COL32_A_SHIFT);
+                       (style.raised & ~IM_COL32_A_MASK) | 0xB0u << IM_COL32_A_SHIFT);
     list.AddText(font, font->FontSize, {x, at.y}, color, text.c_str());
 }
 
-void least_mark(ImDrawList& list, const Look& look, const Chart& chart, const ClearancePiece& least) {
+void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const ClearancePiece& least) {
     const EventMark mark = least.clearance < 0 ? EventMark::hit : EventMark::separated;
     const ImVec2 at{chart.x(0.5 * (least.t0 + least.t1)), chart.y(least.clearance)};
-    list.AddCircleFilled(at, 3.5f * look.scale, mark_color(look, mark));
-    list.AddCircle(at, 3.5f * look.scale, look.text, 0, look.scale);
+    list.AddCircleFilled(at, 3.5f * style.scale, mark_color(style, mark));
+    list.AddCircle(at, 3.5f * style.scale, style.text, 0, style.scale);
 }
 
-void chart_ticks(ImDrawList& list, const Look& look, const Chart& chart) {
+void chart_ticks(ImDrawList& list, const Style& style, const Chart& chart) {
     const double span = chart.time.t1 - chart.time.t0;
-    const double parts = std::max(1.0, static_cast<double>((chart.max.x - chart.min.x) / (70 * look.scale)));
+    const double parts = std::max(1.0, static_cast<double>((chart.max.x - chart.min.x) / (70 * style.scale)));
     const double step = nice_step(span, parts);
     for (const double t : ticks(chart.time.t0, chart.time.t1, step)) {
         const float x = chart.x(t);
-        list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * look.scale}, look.quiet, look.scale);
+        list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * style.scale}, style.quiet, style.scale);
         const std::string text = tick_text(t, step) + " s";
-        ImFont* font = look.caption;
+        ImFont* font = style.caption;
         const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str()).x;
-        if (x + 3 * look.scale + width > chart.max.x) continue;
-        list.AddText(font, font->FontSize, {x + 3 * look.scale, chart.max.y + look.scale}, look.quiet, text.c_str());
+        if (x + 3 * style.scale + width > chart.max.x) continue;
+        list.AddText(font, font->FontSize, {x + 3 * style.scale, chart.max.y + style.scale}, style.quiet, text.c_str());
     }
 }
 
@@ -94,14 +95,14 @@ const ClearancePiece* piece_at(const Clearance& clearance, double t) {
 void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
     const Clearance& clearance = findings.clearance;
     if (!clearance.least) {
-        words(ui.look.quiet, "They share no time, so there is no clearance.");
+        words(ui.style.quiet, "They share no time, so there is no clearance.");
         return;
     }
     const ClearancePiece& least = clearance.pieces[*clearance.least];
     const std::string when = (least.clearance < 0 ? "deepest at " : "least at ") + with_unit(least.t0, "s");
     number_row(ui, when.c_str(), signed_metres(least.clearance) + " m", least.clearance, "m");
 
-    const float label = ui.look.caption->FontSize + ui.px(4);
+    const float label = ui.style.caption->FontSize + ui.px(4);
     const int width = static_cast<int>(ImGui::GetContentRegionAvail().x);
     if (width < 8) return;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -124,19 +125,19 @@ void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
     chart.high = most + 0.08 * range;
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(chart.min, chart.max, ui.look.raised);
+    list.AddRectFilled(chart.min, chart.max, ui.style.raised);
     const float zero = chart.y(0);
-    dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.look, EventMark::hit), ui.look.scale,
+    dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.style, EventMark::hit), ui.style.scale,
                 ui.px(3));
-    draw_curve(list, ui.look, chart, columns);
-    text_at(list, ui.look, chart, {chart.min.x + ui.px(3), zero - label + ui.px(2)}, mark_text(ui.look, EventMark::hit),
-            "contact");
-    text_at(list, ui.look, chart, {chart.min.x + ui.px(3), chart.min.y + ui.px(1)}, ui.look.quiet,
+    draw_curve(list, ui.style, chart, columns);
+    text_at(list, ui.style, chart, {chart.min.x + ui.px(3), zero - label + ui.px(2)},
+            mark_text(ui.style, EventMark::hit), "contact");
+    text_at(list, ui.style, chart, {chart.min.x + ui.px(3), chart.min.y + ui.px(1)}, ui.style.quiet,
             with_unit(most, "m"));
-    least_mark(list, ui.look, chart, least);
-    chart_ticks(list, ui.look, chart);
+    least_mark(list, ui.style, chart, least);
+    chart_ticks(list, ui.style, chart);
     if (const auto& time = ui.session.view().time; time && *time >= chart.time.t0 && *time <= chart.time.t1) {
-        list.AddLine({chart.x(*time), chart.min.y}, {chart.x(*time), chart.max.y}, ui.look.accent, ui.px(1.5f));
+        list.AddLine({chart.x(*time), chart.min.y}, {chart.x(*time), chart.max.y}, ui.style.accent, ui.px(1.5f));
     }
     if (!hovered && !active) return;
     const double t = std::clamp(chart.t(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);

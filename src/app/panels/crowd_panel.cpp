@@ -1,10 +1,8 @@
-#include <app/command.h>
-#include <app/crowd_view.h>
-#include <app/panels.h>
-#include <app/panels/command_button.h>
-#include <app/panels/list_rows.h>
-#include <app/panels/section.h>
-#include <render/candidates.h>
+#include <app/commands/command.h>
+#include <app/document/run_agents.h>
+#include <app/panels/panels.h>
+#include <app/ui/widgets.h>
+#include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
@@ -31,11 +29,11 @@ void following(Ui& ui) {
     const std::string& followed = session.view().follow;
     const std::string who = agent_in_question(session);
     if (who.empty()) {
-        words(ui.look.quiet, "Click somebody to follow them.");
+        words(ui.style.quiet, "Click somebody to follow them.");
         return;
     }
     if (!followed.empty()) {
-        words(ui.look.text, "Following " + followed);
+        words(ui.style.text, "Following " + followed);
         ImGui::SameLine();
         command_button(ui, "stop", "crowd.stop", "crowd.stop");
     }
@@ -44,8 +42,8 @@ void following(Ui& ui) {
 }
 
 /// The line that the picture draws it with.
-void fate_line(Ui& ui, ImVec2 corner, Fate fate) {
-    const FateStyle style = fate_style(fate, ui.look.palette);
+void fate_line(Ui& ui, ImVec2 corner, CandidateOutcome outcome) {
+    const CandidateStyle style = outcome_style_of(outcome, ui.style.palette);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float y = corner.y + 0.5f * ImGui::GetFrameHeight();
     const float end = corner.x + ui.px(26);
@@ -71,55 +69,55 @@ std::string move_name(const Session& session, const Candidate& candidate) {
 
 std::string remark_of(const Session& session, const Choice& choice, std::size_t index) {
     const Candidate& candidate = choice.candidates[index];
-    const Fate fate = fate_of(choice, index);
-    if (fate == Fate::leaves_floor) return "off floor";
-    if (fate != Fate::ruled_out) return std::string(fate_words(fate));
-    const std::string& other = session.crowd()->agents[static_cast<std::size_t>(candidate.ruling->agent)].name;
-    return "meets " + fitted_text(other, 60) + ' ' + at_time(candidate.ruling->contact.time);
+    const CandidateOutcome outcome = outcome_of(choice, index);
+    if (outcome == CandidateOutcome::leaves_floor) return "off floor";
+    if (outcome != CandidateOutcome::ruled_out) return std::string(outcome_words(outcome));
+    const std::string& other = session.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
+    return "meets " + fitted_text(other, 60) + ' ' + at_time(candidate.blocker->contact.time);
 }
 
 void last_choice_list(Ui& ui) {
     Session& session = ui.session;
     const FollowedChoice* followed = session.choice();
     if (!followed) {
-        if (!session.view().follow.empty()) words(ui.look.quiet, "No choice yet at this time.");
+        if (!session.view().follow.empty()) words(ui.style.quiet, "No choice yet at this time.");
         return;
     }
     const Choice choice = followed->choice;
     heading(ui, "LAST CHOICE", at_time(choice.time));
-    words(ui.look.text, choice_sentence(session.scene(), *followed));
+    words(ui.style.text, choice_sentence(session.scene(), *followed));
     std::vector<std::size_t> shown = shown_candidates(choice);
     // What was taken first, then why the others were not.
     std::stable_sort(shown.begin(), shown.end(), [&](std::size_t a, std::size_t b) {
         const auto rank = [&](std::size_t i) {
             constexpr std::array<int, 5> kRanks{0, 2, 3, 4, 1};
-            return kRanks[static_cast<std::size_t>(fate_of(choice, i))];
+            return kRanks[static_cast<std::size_t>(outcome_of(choice, i))];
         };
         return rank(a) < rank(b);
     });
     rows(ui, "##candidates", static_cast<int>(shown.size()), kMostCrowdRows, [&](int i) {
         const std::size_t index = shown[static_cast<std::size_t>(i)];
         const ImVec2 corner = ImGui::GetCursorScreenPos();
-        const Fate fate = fate_of(choice, index);
-        const Rgba color = fate_style(fate, ui.look.palette).color;
+        const CandidateOutcome outcome = outcome_of(choice, index);
+        const Rgba color = outcome_style_of(outcome, ui.style.palette).color;
         const bool pointed_out = session.candidate == static_cast<int>(index);
         if (row(ui, {"candidate" + std::to_string(index), move_name(session, choice.candidates[index]),
                      remark_of(session, choice, index), pointed_out, false, ui.px(26),
-                     to_im(readable(color, ui.look.palette))})) {
+                     to_im(readable(color, ui.style.palette))})) {
             invoke(session, "crowd.candidate", std::to_string(index));
         }
         ui.mark("candidate." + std::to_string(index));
-        fate_line(ui, corner, fate);
+        fate_line(ui, corner, outcome);
         if (!ImGui::IsItemHovered()) return;
         ImGui::SetTooltip("%s", candidate_sentence(session.scene(), choice, index).c_str());
-        if (fate == Fate::ruled_out && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        if (outcome == CandidateOutcome::ruled_out && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
             invoke(session, "crowd.open_candidate", std::to_string(index));
         }
     });
     if (!session.crowd()) return;  // a double click has opened two of them
     const bool opens = session.candidate >= 0 &&
                        static_cast<std::size_t>(session.candidate) < choice.candidates.size() &&
-                       choice.candidates[static_cast<std::size_t>(session.candidate)].ruling;
+                       choice.candidates[static_cast<std::size_t>(session.candidate)].blocker;
     ImGui::BeginDisabled(!opens);
     command_button(ui, "open as a scene", "crowd.open_candidate", "crowd.open_candidate");
     ImGui::EndDisabled();
@@ -127,9 +125,9 @@ void last_choice_list(Ui& ui) {
 
 void plays(Ui& ui) {
     Session& session = ui.session;
-    const auto person = person_in_question(session);
-    if (!person) return;
-    const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(*person)];
+    const auto run_agent = run_agent_in_question(session);
+    if (!run_agent) return;
+    const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(*run_agent)];
     const std::size_t now = play_at(agent, run_time(session.scene(), session.view()));
     heading(ui, ("PLAYS OF " + agent.name).c_str(), std::to_string(agent.plays.size()));
     rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostCrowdRows, [&](int i) {
@@ -138,7 +136,7 @@ void plays(Ui& ui) {
         const char* kind = play.kind == PlayKind::pivoted  ? "pivoted  "
                            : play.kind == PlayKind::forced ? "forced  "
                                                            : "";
-        const Palette& palette = ui.look.palette;
+        const Palette& palette = ui.style.palette;
         const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
                             : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
                                                              : 0;
@@ -159,7 +157,7 @@ void conflicts(Ui& ui) {
         return;
     }
     if (found->empty()) {
-        words(to_im(readable(ui.look.palette.separated, ui.look.palette)), "Nobody collides with anybody.");
+        words(to_im(readable(ui.style.palette.separated, ui.style.palette)), "Nobody collides with anybody.");
         return;
     }
     // A double click may open two of them.
@@ -170,7 +168,7 @@ void conflicts(Ui& ui) {
         char depth[48];
         std::snprintf(depth, sizeof depth, "%.2f s  %.2f m", conflict.begin(), -conflict.facts.least_clearance);
         if (row(ui, {"conflict" + std::to_string(i), conflict.a.name + " and " + conflict.b.name, depth,
-                     session.conflict == i, false, 0, to_im(readable(ui.look.palette.hit, ui.look.palette))})) {
+                     session.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
             session.conflict = i;
         }
         ui.mark("conflict." + std::to_string(i));
@@ -192,13 +190,13 @@ void conflicts(Ui& ui) {
 void crowd_panel(Ui& ui) {
     const Session& session = ui.session;
     const std::size_t people =
-        session.crowd() ? session.crowd()->agents.size() : session.fitted().participants().size();
+        session.crowd() ? session.crowd()->agents.size() : session.fitted().placed_agents().size();
     heading(ui, "CROWD", std::to_string(people) + " agents");
     if (session.crowd()) {
         char text[96];
         std::snprintf(text, sizeof text, "%.2f of %.4g s on %.4g x %.4g m", run_time(session.scene(), session.view()),
                       session.crowd()->seconds, session.crowd()->area.x, session.crowd()->area.y);
-        words(ui.look.quiet, text);
+        words(ui.style.quiet, text);
     }
     following(ui);
     if (session.crowd()) last_choice_list(ui);

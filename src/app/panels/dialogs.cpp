@@ -1,7 +1,7 @@
-#include <app/command.h>
-#include <app/panels.h>
-#include <app/panels/dialog_frame.h>
+#include <app/commands/command.h>
 #include <app/panels/dialogs.h>
+#include <app/panels/panels.h>
+#include <app/ui/dialog_frame.h>
 
 #include <string>
 

@@ -1,7 +1,7 @@
 /// The dialogs, one function each; dialogs() calls the one that is open.
 #pragma once
 
-#include <app/ui.h>
+#include <app/ui/ui.h>
 
 namespace mobbscope::app {
 

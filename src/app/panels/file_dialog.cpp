@@ -1,8 +1,7 @@
-#include <app/command.h>
-#include <app/panels/dialog_frame.h>
+#include <app/commands/command.h>
 #include <app/panels/dialogs.h>
-#include <app/panels/text_field.h>
-#include <app/path_completion.h>
+#include <app/panels/path_completion.h>
+#include <app/ui/dialog_frame.h>
 #include <scene/load_files.h>
 
 #include <array>
@@ -117,9 +116,9 @@ void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, b
         if (moved && i == input.picked) ImGui::SetScrollHereY();
         if (!entry.folder) {
             const std::string size = size_text(entry.size);
-            const float width = ui.look.mono->CalcTextSizeA(ui.look.mono->FontSize, 1e6f, 0, size.c_str()).x;
+            const float width = ui.style.mono->CalcTextSizeA(ui.style.mono->FontSize, 1e6f, 0, size.c_str()).x;
             ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-            ImGui::PushFont(ui.look.mono);
+            ImGui::PushFont(ui.style.mono);
             ImGui::TextDisabled("%s", size.c_str());
             ImGui::PopFont();
         }
@@ -138,7 +137,7 @@ void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, b
 }
 
 void recent_files(Ui& ui, const Purpose& purpose, bool& accepted) {
-    ImGui::PushFont(ui.look.caption);
+    ImGui::PushFont(ui.style.caption);
     ImGui::TextDisabled("RECENT");
     ImGui::PopFont();
     int index = 0;
@@ -207,7 +206,7 @@ void file_dialog(Ui& ui) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     if (input.confirming) {
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.look.warning);
+        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.warning);
         ImGui::TextUnformatted("This file exists. Enter overwrites it.");
         ImGui::PopStyleColor();
     } else if (!purpose.extension) {

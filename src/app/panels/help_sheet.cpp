@@ -1,6 +1,6 @@
-#include <app/command.h>
-#include <app/panels/dialog_frame.h>
+#include <app/commands/command.h>
 #include <app/panels/dialogs.h>
+#include <app/ui/dialog_frame.h>
 
 #include <algorithm>
 #include <array>
@@ -51,13 +51,13 @@ std::vector<Line> lines() {
 
 void help_line(Ui& ui, const Line& line, float keys_width) {
     if (line.heading) {
-        ImGui::PushFont(ui.look.caption);
+        ImGui::PushFont(ui.style.caption);
         ImGui::TextDisabled("%s", line.what.c_str());
         ImGui::PopFont();
         return;
     }
     const float x = ImGui::GetCursorPosX();
-    ImGui::PushFont(ui.look.mono);
+    ImGui::PushFont(ui.style.mono);
     ImGui::TextUnformatted(line.keys.c_str());
     ImGui::PopFont();
     ImGui::SameLine();
@@ -73,7 +73,7 @@ void help_sheet(Ui& ui) {
     const std::vector<Line> all = lines();
     float keys_width = 0, what_width = 0;
     for (const Line& line : all) {
-        const ImFont& mono = *ui.look.mono;
+        const ImFont& mono = *ui.style.mono;
         keys_width = std::max(keys_width, mono.CalcTextSizeA(mono.FontSize, 1e6f, 0, line.keys.c_str()).x);
         what_width = std::max(what_width, ImGui::CalcTextSize(line.what.c_str()).x);
     }

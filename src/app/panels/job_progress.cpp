@@ -1,6 +1,6 @@
-#include <app/job.h>
-#include <app/panels.h>
-#include <app/panels/dialog_frame.h>
+#include <app/document/job.h>
+#include <app/panels/panels.h>
+#include <app/ui/dialog_frame.h>
 
 #include <cmath>
 
@@ -23,14 +23,14 @@ void job_progress(Ui& ui) {
     const float width = ImGui::GetContentRegionAvail().x;
     const float height = ui.px(6);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.look.raised, height / 2);
+    draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised, height / 2);
     float from = 0;
     float to = static_cast<float>(progress);
     if (progress < 0) {
         from = static_cast<float>(0.75 * (0.5 - 0.5 * std::cos(ui.now / kSweep * 6.283)));
         to = from + 0.25f;
     }
-    draw.AddRectFilled({at.x + from * width, at.y}, {at.x + to * width, at.y + height}, ui.look.accent, height / 2);
+    draw.AddRectFilled({at.x + from * width, at.y}, {at.x + to * width, at.y + height}, ui.style.accent, height / 2);
     ImGui::Dummy({width, height});
     ui.mark("job.bar");
     ImGui::Dummy({0, ui.px(2)});

@@ -1,6 +1,6 @@
-#include <app/panels/outcome_cell.h>
 #include <app/panels/query_parts.h>
-#include <app/panels/section.h>
+#include <app/ui/swatch.h>
+#include <app/ui/widgets.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -32,8 +32,8 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.px(2), ui.px(1)});
     if (ImGui::BeginTable("pairs", 5, ImGuiTableFlags_SizingStretchProp)) {
         const char* const heads[] = {"A", "B", "apart", "radii", "clear"};
-        ImGui::PushFont(ui.look.caption);
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+        ImGui::PushFont(ui.style.caption);
+        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
         ImGui::TableNextRow();
         for (const char* head : heads) {
             ImGui::TableNextColumn();
@@ -44,7 +44,7 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
         const auto row = [&](const mobb::MeasuredPair& p, bool nearest) {
             ImGui::TableNextRow();
             const EventMark mark = clearance(p) < 0 ? EventMark::hit : EventMark::overlap;
-            const ImU32 color = nearest ? mark_text(ui.look, mark) : ui.look.text;
+            const ImU32 color = nearest ? mark_text(ui.style, mark) : ui.style.text;
             ImGui::TableNextColumn();
             number(ui, std::to_string(p.i), p.i, "", color);
             ImGui::TableNextColumn();
@@ -55,7 +55,7 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
             number(ui, three_decimals(radii(p)), radii(p), "m", color);
             ImGui::TableNextColumn();
             number(ui, signed_metres(clearance(p)), clearance(p), "m", color);
-            if (nearest) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, mark_color(ui.look, mark, 0.14f));
+            if (nearest) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, mark_color(ui.style, mark, 0.14f));
         };
         const std::size_t shown = std::min(event.pairs.size(), kMostPairs);
         for (std::size_t k = 0; k < shown; ++k) row(event.pairs[k], &event.pairs[k] == &*least);
@@ -64,7 +64,7 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
     }
     ImGui::PopStyleVar();
     if (event.pairs.size() > kMostPairs) {
-        words(ui.look.quiet, "The first 100 and the nearest of " + std::to_string(event.pairs.size()) + ".");
+        words(ui.style.quiet, "The first 100 and the nearest of " + std::to_string(event.pairs.size()) + ".");
     }
 }
 

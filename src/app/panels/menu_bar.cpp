@@ -1,6 +1,6 @@
-#include <app/command.h>
-#include <app/panels.h>
-#include <app/panels/dialog_frame.h>
+#include <app/commands/command.h>
+#include <app/panels/panels.h>
+#include <app/ui/dialog_frame.h>
 
 #include <algorithm>
 #include <array>
@@ -105,18 +105,18 @@ void search(Ui& ui, float left, float right) {
     const ImVec2 min = ImGui::GetItemRectMin();
     const ImVec2 max = ImGui::GetItemRectMax();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(min, max, ui.look.panel, ui.px(4));
-    draw.AddRect(min, max, ImGui::IsItemHovered() ? ui.look.accent : ui.look.border, ui.px(4));
+    draw.AddRectFilled(min, max, ui.style.panel, ui.px(4));
+    draw.AddRect(min, max, ImGui::IsItemHovered() ? ui.style.accent : ui.style.border, ui.px(4));
     const float pad = ui.px(10);
     const std::string key(first_shortcut(*find_command("go.palette")));
-    const float key_width = ui.look.mono->CalcTextSizeA(ui.look.mono->FontSize, 1e6f, 0, key.c_str()).x;
-    const float y = (min.y + max.y - ui.look.body->FontSize) / 2;
+    const float key_width = ui.style.mono->CalcTextSizeA(ui.style.mono->FontSize, 1e6f, 0, key.c_str()).x;
+    const float y = (min.y + max.y - ui.style.body->FontSize) / 2;
     for (const char* text : {"Search commands, agents, nodes", "Search commands", "Search"}) {
         if (ImGui::CalcTextSize(text).x + key_width + 3 * pad > width) continue;
-        draw.AddText({min.x + pad, y}, ui.look.quiet, text);
+        draw.AddText({min.x + pad, y}, ui.style.quiet, text);
         break;
     }
-    draw.AddText(ui.look.mono, ui.look.mono->FontSize, {max.x - pad - key_width, y}, ui.look.quiet, key.c_str());
+    draw.AddText(ui.style.mono, ui.style.mono->FontSize, {max.x - pad - key_width, y}, ui.style.quiet, key.c_str());
 }
 
 /// The file's name at the right, with a dot when it is not saved; returns where it begins. A long name loses its end.
@@ -130,7 +130,7 @@ float file_title(Ui& ui, float left) {
     const float x = ImGui::GetWindowWidth() - pad - width;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float middle = ImGui::GetFrameHeight() / 2;
-    if (session.modified()) draw.AddCircleFilled({x - dot + ui.px(4), middle}, ui.px(3.5f), ui.look.warning);
+    if (session.modified()) draw.AddCircleFilled({x - dot + ui.px(4), middle}, ui.px(3.5f), ui.style.warning);
     ImGui::SetCursorPos({x - dot, 0});
     ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
     ui.mark("menu.title");
@@ -139,7 +139,7 @@ float file_title(Ui& ui, float left) {
         ImGui::SetTooltip("%s%s", file.c_str(), session.modified() ? "\nnot saved" : "");
     }
     draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);
-    draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.look.quiet, title.c_str());
+    draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.style.quiet, title.c_str());
     draw.PopClipRect();
     return x - dot;
 }

@@ -1,4 +1,4 @@
-#include <app/panels.h>
+#include <app/panels/panels.h>
 
 #include <imgui_internal.h>
 
@@ -40,9 +40,9 @@ MessagePlace place_of(const Ui& ui) {
 /// Draws one; true if it is to go.
 bool draw(Ui& ui, const Message& message, std::size_t index) {
     const bool stays = message.level != Message::Level::info;
-    const ImU32 color = message.level == Message::Level::error     ? ui.look.error
-                        : message.level == Message::Level::warning ? ui.look.warning
-                                                                   : ui.look.accent;
+    const ImU32 color = message.level == Message::Level::error     ? ui.style.error
+                        : message.level == Message::Level::warning ? ui.style.warning
+                                                                   : ui.style.accent;
     const std::string mark = "message." + std::to_string(index);
     const ImGuiStyle& style = ImGui::GetStyle();
     const float words = ImGui::CalcTextSize("Copy").x + ImGui::CalcTextSize("x").x;

@@ -1,7 +1,6 @@
-#include <app/palette_entries.h>
-#include <app/panels/dialog_frame.h>
+#include <app/commands/palette_entries.h>
 #include <app/panels/dialogs.h>
-#include <app/panels/text_field.h>
+#include <app/ui/dialog_frame.h>
 
 #include <string>
 
@@ -26,14 +25,14 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
     const auto put = [&](ImFont* font, const std::string& what) {
         if (what.empty()) return;
         right -= font->CalcTextSizeA(font->FontSize, 1e6f, 0, what.c_str()).x;
-        draw.AddText(font, font->FontSize, {right, y + (ImGui::GetFontSize() - font->FontSize) / 2}, ui.look.quiet,
+        draw.AddText(font, font->FontSize, {right, y + (ImGui::GetFontSize() - font->FontSize) / 2}, ui.style.quiet,
                      what.c_str());
         right -= 2 * pad;
     };
-    put(ui.look.mono, key);
-    put(ui.look.caption, detail);
+    put(ui.style.mono, key);
+    put(ui.style.caption, detail);
     draw.PushClipRect(at, {right, at.y + height}, true);
-    draw.AddText({at.x + pad, y}, enabled ? ui.look.text : ui.look.quiet, text.c_str());
+    draw.AddText({at.x + pad, y}, enabled ? ui.style.text : ui.style.quiet, text.c_str());
     draw.PopClipRect();
     return clicked;
 }
@@ -100,7 +99,7 @@ void argument(Ui& ui, const Command& command) {
     ImGui::TextUnformatted(std::string(command.title).c_str());
     const bool entered = text_field(ui, std::string(command.argument).c_str()).entered;
     ui.mark("palette.input");
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
     ImGui::TextWrapped("%s", std::string(command.doc).c_str());
     ImGui::PopStyleColor();
     const std::vector<std::string> choices = matching_choices(session, command, input.text);

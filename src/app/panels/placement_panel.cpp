@@ -1,6 +1,6 @@
-#include <app/command.h>
-#include <app/panels.h>
-#include <app/panels/section.h>
+#include <app/commands/command.h>
+#include <app/panels/panels.h>
+#include <app/ui/widgets.h>
 #include <scene/scene_edits.h>
 
 #include <imgui_stdlib.h>
@@ -18,7 +18,7 @@ namespace {
 bool placement_number(Ui& ui, const char* label, const char* name, double& value, float speed, const char* format,
                       const char* help) {
     form_label(ui, label, help);
-    ImGui::PushFont(ui.look.mono);
+    ImGui::PushFont(ui.style.mono);
     const bool changed = ImGui::DragScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &value, speed,
                                            nullptr, nullptr, format);
     ImGui::PopFont();
@@ -37,7 +37,7 @@ void rename_agent(Ui& ui, int agent, const std::string& name) {
     });
 }
 
-void color_field(Ui& ui, const Participant& who, int index) {
+void color_field(Ui& ui, const PlacedAgent& who, int index) {
     form_label(ui, "Colour", nullptr);
     const Rgba now = agent_color(ui.session.scene(), who, index);
     std::array<float, 3> rgb{now.r, now.g, now.b};
@@ -58,7 +58,7 @@ void color_field(Ui& ui, const Participant& who, int index) {
 void placement_panel(Ui& ui) {
     Session& session = ui.session;
     if (!session.selection.on_path()) return;
-    const auto who = participant_of(session.fitted(), session.selection.path);
+    const auto who = placed_agent_of(session.fitted(), session.selection.path);
     if (!who || who->agent < 0) return;
     // Of this agent: what is half typed into a field is no other's.
     ImGui::PushID(who->agent);

@@ -1,8 +1,8 @@
-#include <app/panels/outcome_cell.h>
 #include <app/panels/query_parts.h>
-#include <app/panels/section.h>
-#include <app/why_words.h>
-#include <render/query_sentence.h>
+#include <app/ui/swatch.h>
+#include <app/ui/widgets.h>
+#include <explain/query_findings.h>
+#include <explain/query_sentence.h>
 
 namespace mobbscope::app {
 
@@ -28,10 +28,10 @@ void expectation(Ui& ui) {
     if (query.expect) {
         const auto wrong = disagreement(query, ui.session.answer_of(index));
         if (!wrong) {
-            words(ui.look.quiet, "As the scene expects.");
+            words(ui.style.quiet, "As the scene expects.");
             return;
         }
-        words(ui.look.warning, "Not as the scene expects: " + *wrong);
+        words(ui.style.warning, "Not as the scene expects: " + *wrong);
     }
     query_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
 }
@@ -52,13 +52,13 @@ void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& co
 void query_answer(Ui& ui, const QueryFindings& findings) {
     const bool collide = findings.clearance.contact.has_value();
     const EventMark mark = collide ? EventMark::hit : EventMark::separated;
-    framed(ui, mark_color(ui.look, mark, 0.10f), mark_color(ui.look, mark), [&] {
-        ImGui::PushFont(ui.look.title);
-        answer_sign(ui, collide, mark_color(ui.look, mark));
-        words(mark_text(ui.look, mark), answer_words(findings.sides, findings.clearance));
+    framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
+        ImGui::PushFont(ui.style.title);
+        answer_sign(ui, collide, mark_color(ui.style, mark));
+        words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
         ImGui::PopFont();
         for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor)) {
-            words(ui.look.text, sentence);
+            words(ui.style.text, sentence);
         }
     });
     ui.mark("query.answer");

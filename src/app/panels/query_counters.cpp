@@ -1,6 +1,6 @@
 #include <app/panels/query_parts.h>
-#include <app/panels/section.h>
-#include <app/why_words.h>
+#include <app/ui/widgets.h>
+#include <explain/query_findings.h>
 
 #include <array>
 
@@ -45,23 +45,23 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
     const float room = ImGui::GetContentRegionAvail().x;
     const float first = left + 0.68f * room;
     const float second = left + room;
-    ImGui::PushFont(ui.look.caption);
+    ImGui::PushFont(ui.style.caption);
     ImGui::TextUnformatted("");
-    right_aligned("so far", first, ui.look.quiet);
-    right_aligned("in all", second, ui.look.quiet);
+    right_aligned("so far", first, ui.style.quiet);
+    right_aligned("in all", second, ui.style.quiet);
     ImGui::PopFont();
     for (const Counter& counter : kCounters) {
         if (counter.beyond_the_paper && counter.of(total) == 0) continue;
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
         ImGui::TextUnformatted(counter.label);
         ImGui::PopStyleColor();
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", counter.doc);
-        ImGui::PushFont(ui.look.mono);
-        right_aligned(std::to_string(counter.of(now)), first, ui.look.text);
-        right_aligned(std::to_string(counter.of(total)), second, ui.look.quiet);
+        ImGui::PushFont(ui.style.mono);
+        right_aligned(std::to_string(counter.of(now)), first, ui.style.text);
+        right_aligned(std::to_string(counter.of(total)), second, ui.style.quiet);
         ImGui::PopFont();
     }
-    words(ui.look.quiet, gain_words(total.tests, findings.clearance));
+    words(ui.style.quiet, gain_words(total.tests, findings.clearance));
 }
 
 }  // namespace mobbscope::app

@@ -1,9 +1,9 @@
-#include <app/command.h>
-#include <app/panels/outcome_cell.h>
+#include <app/commands/command.h>
 #include <app/panels/query_parts.h>
-#include <app/panels/section.h>
-#include <import/text.h>
-#include <render/query_sentence.h>
+#include <app/ui/swatch.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+#include <explain/query_sentence.h>
 
 #include <algorithm>
 
@@ -44,11 +44,11 @@ void query_row(Ui& ui, std::size_t index, float height) {
     const float side = ui.px(11);
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 cell{at.x + ui.px(2), at.y + 0.5f * (line - side) + ui.px(2)};
-    outcome_cell(list, ui.look, cell, {cell.x + side, cell.y + side}, mark, 1);
+    outcome_cell(list, ui.style, cell, {cell.x + side, cell.y + side}, mark, 1);
     const float left = cell.x + side + ui.px(7);
-    list.AddText({left, at.y + ui.px(2)}, ui.look.text, pair_that_fits(query, at.x + width - left).c_str());
+    list.AddText({left, at.y + ui.px(2)}, ui.style.text, pair_that_fits(query, at.x + width - left).c_str());
     const std::string found = answer.contact ? "hit at " + with_unit(answer.contact->time, "s") : "never collide";
-    list.AddText({left, at.y + ui.px(3) + line}, mark_text(ui.look, mark), found.c_str());
+    list.AddText({left, at.y + ui.px(3) + line}, mark_text(ui.style, mark), found.c_str());
     ImGui::PopID();
 }
 
@@ -58,13 +58,13 @@ void query_list(Ui& ui) {
     const std::size_t count = ui.session.fitted().queries().size();
     heading(ui, "QUERIES", count > 0 ? std::to_string(count) : "");
     if (count == 0) {
-        words(ui.look.quiet, ui.session.empty()
-                                 ? "Open a scene to ask whether two agents collide."
-                                 : "A query asks whether two agents ever collide. Add agents at the left (+ agent): "
-                                   "every pair of them is asked by itself.");
+        words(ui.style.quiet, ui.session.empty()
+                                  ? "Open a scene to ask whether two agents collide."
+                                  : "A query asks whether two agents ever collide. Add agents at the left (+ agent): "
+                                    "every pair of them is asked by itself.");
         return;
     }
-    words(ui.look.quiet, "Choose one to see why.");
+    words(ui.style.quiet, "Choose one to see why.");
     const float height = 2 * ImGui::GetTextLineHeight() + ui.px(6);
     const float spacing = ImGui::GetStyle().ItemSpacing.y;
     const int rows = static_cast<int>(count);

@@ -1,8 +1,8 @@
-#include <app/command.h>
-#include <app/panels.h>
-#include <app/panels/outcome_cell.h>
+#include <app/commands/command.h>
+#include <app/panels/panels.h>
 #include <app/panels/query_parts.h>
-#include <app/panels/section.h>
+#include <app/ui/swatch.h>
+#include <app/ui/widgets.h>
 
 namespace mobbscope::app {
 
@@ -14,7 +14,7 @@ void query_header(Ui& ui) {
     const std::string which = std::to_string(*ui.session.view().query + 1) + " / " + std::to_string(count);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(1)});
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
     ImGui::TextUnformatted(count == 1 ? "Query" : ("Query " + which).c_str());
     ImGui::PopStyleColor();
     if (count > 1) {

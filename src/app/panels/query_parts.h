@@ -2,9 +2,9 @@
 /// cursor of the current ImGui window.
 #pragma once
 
-#include <app/panels/command_button.h>
-#include <app/query_findings.h>
-#include <app/ui.h>
+#include <app/ui/ui.h>
+#include <app/ui/widgets.h>
+#include <explain/query_findings.h>
 
 namespace mobbscope::app {
 

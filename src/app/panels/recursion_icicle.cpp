@@ -1,9 +1,9 @@
-#include <app/command.h>
-#include <app/panels/memo.h>
-#include <app/panels/outcome_cell.h>
+#include <app/commands/command.h>
 #include <app/panels/query_parts.h>
-#include <app/recursion_picture.h>
-#include <render/query_sentence.h>
+#include <app/panels/recursion_picture.h>
+#include <app/ui/memo.h>
+#include <app/ui/swatch.h>
+#include <explain/query_sentence.h>
 
 #include <algorithm>
 #include <string>
@@ -16,9 +16,9 @@ namespace {
 constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step
 
 /// Pairs that went on to others stay quiet: what they found stands below them.
-void draw_inner(ImDrawList& list, const Look& look, ImVec2 min, ImVec2 max, bool hit, float strength) {
-    list.AddRectFilled(min, max, look.raised);
-    if (hit) list.AddRectFilled({min.x, max.y - 2 * look.scale}, max, mark_color(look, EventMark::hit, strength));
+void draw_inner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, bool hit, float strength) {
+    list.AddRectFilled(min, max, style.raised);
+    if (hit) list.AddRectFilled({min.x, max.y - 2 * style.scale}, max, mark_color(style, EventMark::hit, strength));
 }
 
 }  // namespace
@@ -54,9 +54,9 @@ void recursion_icicle(Ui& ui, ImVec2 size) {
         const ImVec2 max{end.x - gap, end.y - gap};
         const float strength = pair.first <= step ? 1 : kIcicleAhead;
         if (pair.has_children()) {
-            draw_inner(list, ui.look, min, max, pair.hit, strength);
+            draw_inner(list, ui.style, min, max, pair.hit, strength);
         } else {
-            outcome_cell(list, ui.look, min, max, mark_of(pair), strength);
+            outcome_cell(list, ui.style, min, max, mark_of(pair), strength);
         }
         if (pair.has_children() && cell.merged == 1) {
             const std::string name =
@@ -64,10 +64,10 @@ void recursion_icicle(Ui& ui, ImVec2 size) {
             const ImVec2 text = ImGui::CalcTextSize(name.c_str());
             if (text.x + ui.px(8) < max.x - min.x && text.y <= max.y - min.y) {
                 list.AddText({min.x + ui.px(4), 0.5f * (min.y + max.y - text.y)},
-                             pair.first <= step ? ui.look.text : ui.look.quiet, name.c_str());
+                             pair.first <= step ? ui.style.text : ui.style.quiet, name.c_str());
             }
         }
-        if (cell.pair == present) list.AddRect(min, max, ui.look.text, 0, 0, ui.px(2));
+        if (cell.pair == present) list.AddRect(min, max, ui.style.text, 0, 0, ui.px(2));
         if (mouse.x >= min.x && mouse.x < end.x && mouse.y >= min.y && mouse.y < end.y) under = &cell;
     }
     list.PopClipRect();

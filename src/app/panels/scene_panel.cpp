@@ -1,8 +1,7 @@
-#include <app/command.h>
-#include <app/panels.h>
-#include <app/panels/list_rows.h>
-#include <app/panels/section.h>
-#include <render/palette.h>
+#include <app/commands/command.h>
+#include <app/panels/panels.h>
+#include <app/ui/widgets.h>
+#include <render/drawlist/palette.h>
 
 #include <cstdio>
 
@@ -43,7 +42,7 @@ std::string clip_remark(const Session& session, const SceneClip& clip) {
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
 void path_row(Ui& ui, const FittedScene& fitted, int index) {
     Session& session = ui.session;
-    const Participant& who = fitted.participants()[static_cast<std::size_t>(index)];
+    const PlacedAgent& who = fitted.placed_agents()[static_cast<std::size_t>(index)];
     const Selection self{Selection::Kind::path, {index, -1, 0}, -1};
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -67,7 +66,8 @@ void agents(Ui& ui) {
     const std::shared_ptr<const FittedScene> kept = session.shown();
     const bool has_agents = !kept->scene().agents.empty();
     // Of a run its people; what they play before and after now is theirs.
-    const auto count = static_cast<int>(session.crowd() ? session.crowd()->agents.size() : kept->participants().size());
+    const auto count =
+        static_cast<int>(session.crowd() ? session.crowd()->agents.size() : kept->placed_agents().size());
     heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
     rows(ui, "##agents", count, kMostSceneRows, [&](int i) { path_row(ui, *kept, i); });
     if (session.crowd()) return;
@@ -94,7 +94,7 @@ void clips(Ui& ui) {
         const bool warned = !clip.facts.warnings.empty();
         if (row(ui,
                 {"clip" + std::to_string(i), clip.name, (warned ? "! " : "") + tenths_of_seconds(clip.clip->duration()),
-                 session.selection == self, session.hovered == self, 0, warned ? ui.look.warning : 0})) {
+                 session.selection == self, session.hovered == self, 0, warned ? ui.style.warning : 0})) {
             session.select(self);
         }
         ui.mark("clip." + std::to_string(i));
@@ -116,7 +116,7 @@ void queries(Ui& ui) {
         const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
-        const Palette& palette = ui.look.palette;
+        const Palette& palette = ui.style.palette;
         if (row(ui, {"query" + std::to_string(i), query.a.name + " against " + query.b.name,
                      std::string(unexpected ? "! " : "") + (hit ? "hit" : "miss"), session.view().query == i, false, 0,
                      to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
@@ -127,7 +127,7 @@ void queries(Ui& ui) {
         if (unexpected && ImGui::IsItemHovered()) ImGui::SetTooltip("The scene expects the other answer");
     });
     if (count == 0)
-        words(ui.look.quiet,
+        words(ui.style.quiet,
               session.scene().agents.empty() ? "agents are asked, bare clips are not" : "needs two agents");
 }
 
@@ -135,7 +135,7 @@ void queries(Ui& ui) {
 
 void scene_panel(Ui& ui) {
     if (ui.session.empty()) {
-        words(ui.look.quiet, "Nothing is open");
+        words(ui.style.quiet, "Nothing is open");
         return;
     }
     agents(ui);

@@ -1,6 +1,6 @@
-#include <app/panels.h>
-#include <app/panels/section.h>
-#include <app/viewport_overlay.h>
+#include <app/panels/panels.h>
+#include <app/ui/widgets.h>
+#include <app/viewport/viewport_overlay.h>
 
 namespace mobbscope::app {
 
@@ -9,7 +9,7 @@ void selection_panel(Ui& ui) {
     if (session.empty()) return;
     heading(ui, "SELECTION");
     if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
-        words(ui.look.quiet,
+        words(ui.style.quiet,
               "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "
               "to move it, "
               "roll the wheel to zoom. F1 lists all keys.");
@@ -19,7 +19,7 @@ void selection_panel(Ui& ui) {
     ImGui::TextWrapped("%s", what.name.c_str());
     for (const auto& [key, value] : what.facts) {
         form_label(ui, key.c_str(), nullptr);
-        ImGui::PushFont(ui.look.mono);
+        ImGui::PushFont(ui.style.mono);
         ImGui::TextWrapped("%s", value.c_str());
         ImGui::PopFont();
     }

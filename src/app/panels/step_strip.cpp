@@ -1,9 +1,9 @@
-#include <app/command.h>
-#include <app/panels/memo.h>
-#include <app/panels/outcome_cell.h>
+#include <app/commands/command.h>
 #include <app/panels/query_parts.h>
-#include <app/recursion_picture.h>
-#include <render/query_sentence.h>
+#include <app/panels/recursion_picture.h>
+#include <app/ui/memo.h>
+#include <app/ui/swatch.h>
+#include <explain/query_sentence.h>
 
 #include <algorithm>
 #include <array>
@@ -19,15 +19,15 @@ constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.8f, 0.8f
 
 constexpr float kStripAhead = 0.4f;  // strength of what comes after the present step
 
-void draw_cell(ImDrawList& list, const Look& look, const StripCell& cell, ImVec2 at, float height, float strength) {
+void draw_cell(ImDrawList& list, const Style& style, const StripCell& cell, ImVec2 at, float height, float strength) {
     const float width = cell.x1 - cell.x0;
-    const float gap = width >= 3 * look.scale ? look.scale : 0;
+    const float gap = width >= 3 * style.scale ? style.scale : 0;
     // Taller ones behind: the top of each is seen, so a column shows all that is in it.
     for (std::size_t m = kEventMarks; m-- > 0;) {
         if (cell.marks[m] == 0) continue;
         const float top = at.y + height * (1 - kHeights[m]);
         list.AddRectFilled({at.x + cell.x0, top}, {at.x + cell.x1 - gap, at.y + height},
-                           mark_color(look, static_cast<EventMark>(m), strength));
+                           mark_color(style, static_cast<EventMark>(m), strength));
     }
 }
 
@@ -57,17 +57,17 @@ void step_strip(Ui& ui, float width, float height) {
     ui.mark("query.strip");
     const int step = ui.session.step();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + width, at.y + height}, ui.look.raised);
+    list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);
     const float room = height - ui.px(4);  // the rest is for the marker
     for (const StripCell& cell : cells) {
-        draw_cell(list, ui.look, cell, {at.x, at.y + ui.px(4)}, room, cell.first <= step ? 1 : kStripAhead);
+        draw_cell(list, ui.style, cell, {at.x, at.y + ui.px(4)}, room, cell.first <= step ? 1 : kStripAhead);
     }
     const auto present =
         std::partition_point(cells.begin(), cells.end(), [&](const StripCell& c) { return c.end <= step; });
     const float x = at.x + 0.5f * (present->x0 + present->x1);
     const float r = ui.px(4);
-    list.AddTriangleFilled({x - r, at.y}, {x + r, at.y}, {x, at.y + r}, ui.look.text);
-    list.AddLine({x, at.y}, {x, at.y + height}, ui.look.text, ui.px(1.5f));
+    list.AddTriangleFilled({x - r, at.y}, {x + r, at.y}, {x, at.y + r}, ui.style.text);
+    list.AddLine({x, at.y}, {x, at.y + height}, ui.style.text, ui.px(1.5f));
 
     const bool active = ImGui::IsItemActive();
     if (!active && !ImGui::IsItemHovered()) return;

@@ -1,6 +1,6 @@
-#include <app/command.h>
+#include <app/commands/command.h>
 #include <app/panels/query_parts.h>
-#include <app/panels/section.h>
+#include <app/ui/widgets.h>
 
 #include <cstdio>
 
@@ -15,7 +15,7 @@ void draw_icon(Ui& ui, bool forward, bool to_end, bool enabled) {
     const ImVec2 middle{0.5f * (min.x + max.x), 0.5f * (min.y + max.y)};
     const float r = ui.px(4.5f);
     const float way = forward ? 1.0f : -1.0f;
-    const ImU32 color = enabled ? ui.look.text : ui.look.border;
+    const ImU32 color = enabled ? ui.style.text : ui.style.border;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float shift = to_end ? -0.3f * r * way : 0;
     const ImVec2 tip{middle.x + shift + way * r, middle.y};
@@ -63,7 +63,7 @@ void step_transport(Ui& ui) {
     icon_button(ui, "step.last", true, true);
     text_button(ui, "over", "step.over");
     text_button(ui, "out", "step.out");
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.look.quiet);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("next");
     ImGui::PopStyleColor();
@@ -74,10 +74,10 @@ void step_transport(Ui& ui) {
 
     char format[48];
     std::snprintf(format, sizeof format, "step %%d / %d", last);
-    ImGui::PushFont(ui.look.mono);
+    ImGui::PushFont(ui.style.mono);
     // The number stays readable under the grab.
-    ImGui::PushStyleColor(ImGuiCol_SliderGrab, to_im(with_alpha(ui.look.palette.accent, 0.45f)));
-    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, to_im(with_alpha(ui.look.palette.accent, 0.6f)));
+    ImGui::PushStyleColor(ImGuiCol_SliderGrab, to_im(with_alpha(ui.style.palette.accent, 0.45f)));
+    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, to_im(with_alpha(ui.style.palette.accent, 0.6f)));
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderInt("##step", &step, 0, last, format, ImGuiSliderFlags_AlwaysClamp)) {
         invoke(ui.session, "step.to", std::to_string(step));

@@ -1,14 +1,13 @@
-#include <app/command.h>
-#include <app/crowd_view.h>
-#include <app/panels.h>
-#include <app/panels/command_button.h>
-#include <app/panels/list_rows.h>
+#include <app/commands/command.h>
+#include <app/document/run_agents.h>
+#include <app/panels/panels.h>
 #include <app/panels/query_parts.h>
-#include <import/text.h>
-#include <render/paths.h>
-#include <render/subject.h>
-#include <render/ticks.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+#include <render/parts/paths.h>
+#include <render/text/ticks.h>
 #include <scene/crowd_run.h>
+#include <scene/drawn_agent.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
@@ -24,16 +23,16 @@ constexpr float kMostBar = 26;  // height of a path's bar, pixels at scale 1
 /// Seconds below the bars.
 void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImFont* mono = ui.look.mono;
+    const ImFont* mono = ui.style.mono;
     const double length = std::max(span.t1 - span.t0, 1e-12);
     const double step = nice_step(length, std::max(2.0f, width / ui.px(90)));
     for (const double t : ticks(span.t0, span.t1, step)) {
         const float x = corner.x + width * static_cast<float>((t - span.t0) / length);
-        draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.look.quiet);
+        draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
         const std::string text = tick_text(t, step) + " s";
         const float wide = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text.c_str()).x;
         const float left = std::clamp(x - 0.5f * wide, corner.x, corner.x + width - wide);
-        draw.AddText(mono, mono->FontSize, {left, corner.y + ui.px(5)}, ui.look.quiet, text.c_str());
+        draw.AddText(mono, mono->FontSize, {left, corner.y + ui.px(5)}, ui.style.quiet, text.c_str());
     }
 }
 
@@ -41,18 +40,18 @@ void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) 
 void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(double)>& x_of) {
     const Session& session = ui.session;
     const CrowdRun& crowd = *session.crowd();
-    const Palette& palette = ui.look.palette;
+    const Palette& palette = ui.style.palette;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     const auto duration = [&](const Play& play) {
         const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
         return session.scene().clips[static_cast<std::size_t>(move.clip)].clip->duration();
     };
-    if (const auto person = person_in_question(session)) {
-        Participant who;
-        const Rgba own = agent_color(session.fitted().scene(), who, *person);
+    if (const auto run_agent = run_agent_in_question(session)) {
+        PlacedAgent who;
+        const Rgba own = agent_color(session.fitted().scene(), who, *run_agent);
         const float gap = ui.px(1);
-        for (const Play& play : crowd.agents[static_cast<std::size_t>(*person)].plays) {
+        for (const Play& play : crowd.agents[static_cast<std::size_t>(*run_agent)].plays) {
             const float left = x_of(play.placement.start);
             const float right = x_of(play.placement.start + duration(play));
             draw.AddRectFilled({left + 0.5f * gap, corner.y + ui.px(3)},
@@ -82,15 +81,15 @@ void time_bars(Ui& ui, float width, float height) {
     if (ImGui::IsItemActive()) {
         const double at = span.t0 + length * std::clamp<double>((ImGui::GetIO().MousePos.x - corner.x) / width, 0, 1);
         session.stop();
-        session.look([&](ViewState& view) { view.time = at; });
+        session.change_view([&](ViewState& view) { view.time = at; });
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.look.window, ui.px(3));
-    std::vector<Subject> paths;
+    draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.style.window, ui.px(3));
+    std::vector<DrawnAgent> paths;
     if (session.crowd()) {
         play_bars(ui, corner, {width, height}, x_of);
     } else {
-        paths = subjects(session.fitted(), session.view());
+        paths = drawn_agents(session.fitted(), session.view());
     }
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
@@ -110,9 +109,9 @@ void time_bars(Ui& ui, float width, float height) {
     }
     if (const auto time = session.view().time; time && *time >= span.t0 && *time <= span.t1) {
         const float x = x_of(*time);
-        draw.AddLine({x, corner.y - ui.px(3)}, {x, corner.y + height + ui.px(3)}, ui.look.text, ui.px(2));
+        draw.AddLine({x, corner.y - ui.px(3)}, {x, corner.y + height + ui.px(3)}, ui.style.text, ui.px(2));
     }
-    draw.AddRect(corner, {corner.x + width, corner.y + height}, ui.look.border, ui.px(3));
+    draw.AddRect(corner, {corner.x + width, corner.y + height}, ui.style.border, ui.px(3));
 }
 
 /// The first clock. `tall`: nothing stands below it.
@@ -124,8 +123,8 @@ void time_row(Ui& ui, bool tall) {
     char text[64];
     std::snprintf(text, sizeof text, "%7.3f s", session.view().time.value_or(span.t0));
     ImGui::AlignTextToFramePadding();
-    ImGui::PushFont(ui.look.mono);
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(session.view().time ? ui.look.text : ui.look.quiet), "%s",
+    ImGui::PushFont(ui.style.mono);
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(session.view().time ? ui.style.text : ui.style.quiet), "%s",
                        session.view().time ? text : "   off   ");
     ImGui::PopFont();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
@@ -134,7 +133,7 @@ void time_row(Ui& ui, bool tall) {
     const float width = std::max(ui.px(60), ImGui::GetContentRegionAvail().x - clear - ui.px(8));
     const float below = ui.px(24);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const std::size_t lanes = session.crowd() ? 1 : subjects(session.fitted(), session.view()).size();
+    const std::size_t lanes = session.crowd() ? 1 : drawn_agents(session.fitted(), session.view()).size();
     const auto paths = static_cast<float>(lanes);
     const float most =
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
@@ -154,7 +153,7 @@ void step_row(Ui& ui) {
     char text[48];
     std::snprintf(text, sizeof text, "step %d / %d", ui.session.step(), ui.session.recorded()->trace.size() - 1);
     ImGui::AlignTextToFramePadding();
-    ImGui::PushFont(ui.look.mono);
+    ImGui::PushFont(ui.style.mono);
     ImGui::TextUnformatted(text);
     ImGui::PopFont();
     ImGui::SameLine();

@@ -1,8 +1,8 @@
-#include <app/command.h>
-#include <app/panels.h>
-#include <app/panels/section.h>
-#include <import/text.h>
-#include <render/level_boxes.h>
+#include <app/commands/command.h>
+#include <app/panels/panels.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+#include <render/parts/node_boxes.h>
 
 #include <algorithm>
 #include <array>
@@ -13,36 +13,36 @@ namespace mobbscope::app {
 
 namespace {
 
-struct Choice {
+struct PanelChoice {
     const char* value;  ///< the command's argument
     const char* label;
     const char* help;
 };
 
-constexpr std::array<Choice, 6> kKinds{{{"mobb", "MOBB", "Boxes upright in time"},
+constexpr std::array<PanelChoice, 6> kKinds{{{"mobb", "MOBB", "Boxes upright in time"},
                                         {"umobb", "UMOBB", "Free boxes in space-time"},
                                         {"hybrid1", "hybrid 1", "MOBB root, UMOBB below"},
                                         {"hybrid2", "hybrid 2", "UMOBB root, MOBB below"},
                                         {"moving", "moving", "Boxes that move with the walk"},
                                         {"aabb", "AABB", "Boxes along x and y: the baseline of other fields"}}};
-constexpr std::array<Choice, 3> kAxes{{{"endpoints", "endpoints", "Along first to last sample: the paper's"},
+constexpr std::array<PanelChoice, 3> kAxes{{{"endpoints", "endpoints", "Along first to last sample: the paper's"},
                                        {"covariance", "covariance", "Principal axes of the centres"},
                                        {"minarea", "minarea", "Smallest area or volume found"}}};
-constexpr std::array<Choice, 2> kColours{{{"agent", "agent", "Boxes in their agent's colour"},
+constexpr std::array<PanelChoice, 2> kColours{{{"agent", "agent", "Boxes in their agent's colour"},
                                           {"level", "level", "Boxes by their level, from dark to bright"}}};
 
 template <std::size_t count>
-void choose(Ui& ui, const char* label, const char* command, const std::array<Choice, count>& choices,
+void choose(Ui& ui, const char* label, const char* command, const std::array<PanelChoice, count>& choices,
             std::string_view now, const char* help) {
     form_label(ui, label, help);
-    const auto at = std::find_if(choices.begin(), choices.end(), [&](const Choice& c) { return c.value == now; });
+    const auto at = std::find_if(choices.begin(), choices.end(), [&](const PanelChoice& c) { return c.value == now; });
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
     const bool open = ImGui::BeginCombo((std::string("##") + command).c_str(), at == choices.end() ? "" : at->label);
     // Once it is open the last item is of its list.
     ui.marks.add(command, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
     if (!open) return;
-    for (const Choice& choice : choices) {
+    for (const PanelChoice& choice : choices) {
         if (ImGui::Selectable(choice.label, choice.value == now)) invoke(ui.session, command, choice.value);
         ui.mark(std::string(command) + "." + choice.value);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.help);
@@ -53,7 +53,7 @@ void choose(Ui& ui, const char* label, const char* command, const std::array<Cho
 /// A whole number with buttons; what is typed counts when it is done.
 void whole(Ui& ui, const char* label, const char* command, int now, int least, const char* help) {
     form_label(ui, label, help);
-    ImGui::PushFont(ui.look.mono);
+    ImGui::PushFont(ui.style.mono);
     int value = now;
     ImGui::InputInt((std::string("##") + command).c_str(), &value, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopFont();
@@ -69,7 +69,7 @@ void time_scale(Ui& ui) {
     const mobb::FitOptions& fit = ui.session.fitted().options();
     form_label(ui, "Time scale", "Metres per second that mix time with space in free boxes (w); no other boxes use it");
     ImGui::BeginDisabled(!has_free_boxes(fit.tree));
-    ImGui::PushFont(ui.look.mono);
+    ImGui::PushFont(ui.style.mono);
     double value = fit.time_scale;
     const double least = 1 / mobb::kMaxTimeScale;
     const double most = mobb::kMaxTimeScale;
@@ -106,7 +106,7 @@ void shown_levels(Ui& ui, int depth) {
         if (wanted != shown) invoke(ui.session, "view.level", to_string(wanted));
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ui.look.window, ui.px(4));
+    draw.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ui.style.window, ui.px(4));
     const int over = ImGui::IsItemHovered() ? level_at(io.MousePos.x) : -1;
     for (int level = 0; level < depth; ++level) {
         const ImVec2 min{corner.x + cell * static_cast<float>(level) + 1, corner.y + 1};
@@ -114,24 +114,24 @@ void shown_levels(Ui& ui, int depth) {
         const bool lit = !shown.leaves && !ui.session.view().query && level >= std::min(shown.first, depth - 1) &&
                          level <= shown.last;
         if (lit || level == over)
-            draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.look.palette.accent, 0.45f)) : ui.look.raised,
+            draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.raised,
                                ui.px(3));
         const std::string label = std::to_string(level);
-        const ImFont* mono = ui.look.mono;
+        const ImFont* mono = ui.style.mono;
         const ImVec2 text = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, label.c_str());
         // Of very deep trees only the cells remain.
         if (text.x > cell) continue;
         draw.AddText(mono, mono->FontSize, {0.5f * (min.x + max.x - text.x), 0.5f * (min.y + max.y - text.y)},
-                     lit ? ui.look.text : ui.look.quiet, label.c_str());
+                     lit ? ui.style.text : ui.style.quiet, label.c_str());
     }
-    draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, ui.look.border, ui.px(4));
+    draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, ui.style.border, ui.px(4));
     if (beside) {
         ImGui::SameLine(0, ui.px(6));
     } else {
         ImGui::SetCursorScreenPos({corner.x, ImGui::GetCursorScreenPos().y});
     }
     const bool on = shown.leaves && !ui.session.view().query;
-    ImGui::PushStyleColor(ImGuiCol_Button, on ? to_im(with_alpha(ui.look.palette.accent, 0.45f)) : ui.look.window);
+    ImGui::PushStyleColor(ImGuiCol_Button, on ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.window);
     if (ImGui::Button("leaves")) invoke(ui.session, "view.leaves");
     ImGui::PopStyleColor();
     ui.mark("view.leaves");
@@ -141,9 +141,9 @@ void shown_levels(Ui& ui, int depth) {
 int clip_in_focus(const Session& session) {
     if (session.selection.kind == Selection::Kind::clip) return session.selection.index;
     if (session.selection.on_path()) {
-        if (const auto who = participant_of(session.fitted(), session.selection.path)) return who->clip;
+        if (const auto who = placed_agent_of(session.fitted(), session.selection.path)) return who->clip;
     }
-    return session.fitted().participants().front().clip;
+    return session.fitted().placed_agents().front().clip;
 }
 
 /// Volume of each level as a bar, and how much of it the disks fill.
@@ -154,7 +154,7 @@ void level_bars(Ui& ui, int clip) {
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
-    const ImFont* mono = ui.look.mono;
+    const ImFont* mono = ui.style.mono;
     const float height = ui.px(18);
     const auto draw_row = [&](int i) {
         const mobb::LevelFigures& level = figures[static_cast<std::size_t>(i)];
@@ -180,8 +180,8 @@ void level_bars(Ui& ui, int clip) {
         const float y1 = corner.y + height - ui.px(3);
         const ImVec2 start{corner.x + label, y0};
         draw.AddText(mono, mono->FontSize, {corner.x, corner.y + 0.5f * (height - mono->FontSize)},
-                     drawn || over ? ui.look.text : ui.look.quiet, ("L" + std::to_string(level.level)).c_str());
-        const Rgba accent = ui.look.palette.accent;
+                     drawn || over ? ui.style.text : ui.style.quiet, ("L" + std::to_string(level.level)).c_str());
+        const Rgba accent = ui.style.palette.accent;
         draw.AddRectFilled(start, {start.x + std::max(ui.px(1), long_bar), y1},
                            to_im(with_alpha(accent, drawn || over ? 0.55f : 0.3f)), ui.px(2));
         // The filled part is what the disks take of the boxes.
@@ -190,7 +190,7 @@ void level_bars(Ui& ui, int clip) {
         draw.AddText(mono, mono->FontSize,
                      {corner.x + width - mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text).x,
                       corner.y + 0.5f * (height - mono->FontSize)},
-                     ui.look.quiet, text);
+                     ui.style.quiet, text);
         if (clicked) invoke(ui.session, "view.level", std::to_string(level.level));
         if (over) {
             ImGui::SetTooltip(
@@ -202,7 +202,7 @@ void level_bars(Ui& ui, int clip) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     for (int i = 0; i < static_cast<int>(figures.size()); ++i) draw_row(i);
     ImGui::PopStyleVar();
-    words(ui.look.quiet, "m\u00B2\u00B7s, and how full of disks");
+    words(ui.style.quiet, "m\u00B2\u00B7s, and how full of disks");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include <app/panels.h>
+#include <app/panels/panels.h>
 
 #include <algorithm>
 #include <string>
@@ -19,7 +19,7 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
     const bool active = ImGui::IsItemActive();
     if (active || ImGui::IsItemHovered()) {
         ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-        ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), ui.look.accent);
+        ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), ui.style.accent);
     }
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
     return active ? (upright ? moved.x : moved.y) : 0;
@@ -77,7 +77,7 @@ void window_layout(Ui& ui, Viewport& viewport) {
     });
     ImGui::PopStyleVar();
     spacing();
-    settings.left_width += splitter(ui, "splitter.left", {bar, room.y}, true) / ui.look.scale;
+    settings.left_width += splitter(ui, "splitter.left", {bar, room.y}, true) / ui.style.scale;
     spacing();
     ImGui::BeginGroup();
     const float middle = room.x - left - right - 2 * bar;
@@ -85,13 +85,13 @@ void window_layout(Ui& ui, Viewport& viewport) {
     ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
     viewport.draw(ui);
     ImGui::EndChild();
-    settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.look.scale;
+    settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
     panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui); });
     ImGui::PopStyleVar();
     ImGui::EndGroup();
     spacing();
-    settings.right_width -= splitter(ui, "splitter.right", {bar, room.y}, true) / ui.look.scale;
+    settings.right_width -= splitter(ui, "splitter.right", {bar, room.y}, true) / ui.style.scale;
     spacing();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
     panel(ui, "right", {right, room.y}, [&] {

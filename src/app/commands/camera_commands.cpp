@@ -1,0 +1,80 @@
+#include <app/commands/camera_commands.h>
+#include <render/drawlist/resolve_camera.h>
+#include <render/layout/framing.h>
+#include <render/parts/node_boxes.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/moment.h>
+
+#include <algorithm>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr PictureSize kWithoutWindow{1280, 720};
+
+void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
+    for (int i = range.first; i < range.end(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
+        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
+    }
+}
+
+void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
+    for (const glm::dvec3& corner : mobb::corners(world_box(tree, node))) {
+        bounds.add({corner.x, corner.y, corner.z / tree.time_scale()});
+    }
+}
+
+bool is_selected(const Session& session, const Selection& selected, int index, int clip) {
+    if (selected.on_path()) return index_in_view(session.fitted(), session.view(), selected.path) == index;
+    if (selected.kind == Selection::Kind::clip) return clip == selected.index;
+    return selected.kind == Selection::Kind::query && session.view().query == selected.index;
+}
+
+}  // namespace
+
+PictureSize viewport_size(const Session& session) {
+    return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
+}
+
+void move_camera(Session& session, const std::function<Camera(const Camera&, const DrawList&)>& move) {
+    const PictureSize size = viewport_size(session);
+    const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
+    const DrawList list = build_draw_list(session.fitted(), session.view(), size, scale);
+    const Camera camera = resolved_camera(session.view().camera, list);
+    const Camera moved = move(camera, list);
+    session.change_view([&](ViewState& view) {
+        view.camera = moved;
+        if (!list.moment) view.time_height = list.space.time_height;
+    });
+}
+
+std::optional<Bounds> box_of(const Session& session, const Selection& selected) {
+    Bounds bounds;
+    const std::vector<DrawnAgent> shown = drawn_agents(session.fitted(), session.view());
+    for (const DrawnAgent& agent : shown) {
+        const mobb::PlacedClip& clip = agent.clip();
+        const auto is_clip = [&](const auto& known) { return known.clip.get() == &clip.clip(); };
+        const auto& clips = session.scene().clips;
+        const auto at = std::find_if(clips.begin(), clips.end(), is_clip);
+        if (!is_selected(session, selected, agent.index, static_cast<int>(at - clips.begin()))) continue;
+        if (selected.kind == Selection::Kind::node) {
+            add_box(bounds, agent.placed, selected.index);
+        } else if (selected.kind == Selection::Kind::sample) {
+            add_samples(bounds, clip, {selected.index, 1});
+        } else {
+            add_samples(bounds, clip, {0, clip.count()});
+        }
+    }
+    if (bounds.min.x > bounds.max.x) return std::nullopt;
+    if (session.view().show == Show::moment) {
+        const std::vector<double> heights = cylinder_heights(shown);
+        bounds.min.z = 0;
+        bounds.max.z = *std::max_element(heights.begin(), heights.end());
+    }
+    return bounds;
+}
+
+}  // namespace mobbscope::app

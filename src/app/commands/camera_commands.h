@@ -1,0 +1,23 @@
+/// The view with a camera that says where it stands, for commands that move it.
+#pragma once
+
+#include <app/document/session.h>
+#include <render/drawlist/draw_list.h>
+#include <render/layout/framing.h>
+
+#include <functional>
+
+namespace mobbscope::app {
+
+/// Of the viewport's picture; without a window that of `render`.
+PictureSize viewport_size(const Session& session);
+
+/// Looks from elsewhere: `move` turns the present explicit camera, and what it shows, into another. Time keeps the
+/// height that it has now, as the camera's target is measured in it. Requires a scene.
+void move_camera(Session& session, const std::function<Camera(const Camera&, const DrawList&)>& move);
+
+/// What `selected` covers of what the present picture shows, in (x, y, t), or in the picture of a moment (x, y,
+/// height). None if it is not in the picture.
+std::optional<Bounds> box_of(const Session& session, const Selection& selected);
+
+}  // namespace mobbscope::app

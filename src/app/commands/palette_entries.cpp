@@ -1,0 +1,172 @@
+#include <app/commands/arguments.h>
+#include <app/commands/fuzzy.h>
+#include <app/commands/node_place.h>
+#include <app/commands/palette_entries.h>
+#include <app/commands/selected_agent.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+namespace {
+
+// A word that a title has says more than the same in the id or the explanation.
+constexpr double kIdShare = 0.8;
+constexpr double kDocShare = 0.3;
+constexpr std::size_t kMostQueries = 2000;
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> out;
+    for (std::string word; in >> word;) out.push_back(word);
+    return out;
+}
+
+struct SearchField {
+    std::string_view text;
+    double share = 1;
+    bool sentence = false;
+};
+
+/// Every word must be found in some field, in any order.
+std::optional<double> score(const std::vector<std::string>& words, std::initializer_list<SearchField> fields) {
+    double sum = 0;
+    for (const std::string& word : words) {
+        std::optional<double> best;
+        for (const SearchField& field : fields) {
+            const auto found = field.sentence ? word_score(word, field.text) : fuzzy_score(word, field.text);
+            if (found) best = std::max(best.value_or(0), *found * field.share);
+        }
+        if (!best) return std::nullopt;
+        sum += *best;
+    }
+    return sum;
+}
+
+/// Why a command that is not enabled cannot be done.
+std::string why_not(const Session& session, const Command& command) {
+    if (command.enabled(session)) return "";
+    if (session.job()) return "something is under way";
+    if (session.empty()) return "nothing is open";
+    if (command.id.starts_with("agent.") && session.crowd()) return "a run is not edited";
+    if (command.id.starts_with("agent.") || command.id == "query.add") {
+        return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
+    }
+    if (command.id.starts_with("step.") || command.id == "go.contact") {
+        return session.view().query ? "there is none from here" : "no query is shown";
+    }
+    return "not now";
+}
+
+struct Scored {
+    double score = 0;
+    PaletteEntry entry;
+};
+
+class Collector {
+  public:
+    Collector(const Session& session, const std::string& text) : session_(session), words_(words_of(text)) {}
+
+    void add(std::string_view id, std::string argument, std::string title, std::string detail,
+             std::initializer_list<SearchField> fields) {
+        const auto found = score(words_, fields);
+        if (!found) return;
+        const Command* command = find_command(id);
+        found_.push_back({*found,
+                          {command, std::move(argument), std::move(title), std::move(detail),
+                           std::string(first_shortcut(*command)), why_not(session_, *command)}});
+    }
+    bool has_words() const { return !words_.empty(); }
+
+    std::vector<PaletteEntry> sorted() && {
+        std::stable_sort(found_.begin(), found_.end(), [](const Scored& a, const Scored& b) {
+            if (a.entry.why_not.empty() != b.entry.why_not.empty()) return a.entry.why_not.empty();
+            return a.score > b.score;
+        });
+        std::vector<PaletteEntry> out;
+        out.reserve(found_.size());
+        for (Scored& scored : found_) out.push_back(std::move(scored.entry));
+        return out;
+    }
+
+  private:
+    const Session& session_;
+    std::vector<std::string> words_;
+    std::vector<Scored> found_;
+};
+
+void add_command(Collector& out, const Session& session, const Command& command) {
+    const std::string title(command.title);
+    const std::string menu(command.menu);
+    out.add(command.id, "", title, menu, {{title}, {command.id, kIdShare}, {command.doc, kDocShare, true}});
+    // Those of `go` are the things themselves.
+    if (!out.has_words() || !command.choices || command.id.starts_with("go.")) return;
+    for (const std::string& choice : command.choices(session)) {
+        std::string named = title;
+        named.append(": ").append(choice);
+        out.add(command.id, choice, named, menu, {{named}, {command.id, kIdShare}});
+    }
+}
+
+/// "A 2.1".
+void add_node(Collector& out, const Session& session, const std::string& text) {
+    try {
+        const auto [name, place] = name_and_word(text, "the node");
+        const auto lower = [](std::string_view of) {
+            std::string low(of);
+            std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return std::tolower(c); });
+            return low;
+        };
+        for (const PlacedAgent& participant : session.fitted().placed_agents()) {
+            if (lower(participant.name) != lower(name)) continue;
+            static_cast<void>(node_at(session.fitted().tree(participant.clip), place));
+            const std::string named = participant.name + ' ' + std::string(place);
+            out.add("go.node", named, named, "Node", {{named}});
+        }
+    } catch (const std::invalid_argument&) {
+        // What was typed is no node.
+    }
+}
+
+void add_things(Collector& out, const Session& session) {
+    for (const std::string& name : path_names(session)) out.add("go.agent", name, name, "Agent", {{name}, {"agent"}});
+    for (const SceneClip& clip : session.scene().clips) {
+        out.add("go.clip", clip.name, clip.name, "Clip", {{clip.name}, {"clip"}});
+    }
+    // All pairs of a crowd would take seconds with each letter; they are found from their agents.
+    const std::size_t count = session.fitted().queries().size();
+    for (std::size_t i = 0; i < (count <= kMostQueries ? count : 0); ++i) {
+        const SceneQuery query = session.fitted().queries()[i];
+        const std::string title = query.a.name + " against " + query.b.name;
+        out.add("query.select", std::to_string(i), title, "Query", {{title}, {"query " + std::to_string(i)}});
+    }
+}
+
+}  // namespace
+
+std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text) {
+    Collector out(session, text);
+    if (out.has_words()) add_node(out, session, text);
+    for (const Command& command : commands()) add_command(out, session, command);
+    if (out.has_words()) add_things(out, session);
+    return std::move(out).sorted();
+}
+
+std::vector<std::string> matching_choices(const Session& session, const Command& command, const std::string& text) {
+    std::vector<std::pair<double, std::string>> found;
+    if (command.choices) {
+        for (std::string& choice : command.choices(session)) {
+            if (const auto points = score(words_of(text), {{choice}})) found.emplace_back(*points, std::move(choice));
+        }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::string> out;
+    for (auto& [points, choice] : found) out.push_back(std::move(choice));
+    return out;
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,27 @@
+/// What the palette offers for what was typed.
+#pragma once
+
+#include <app/commands/command.h>
+
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+
+struct PaletteEntry {
+    const Command* command = nullptr;
+    std::string argument;  ///< that it is run with; the palette asks for one if it is needed and empty
+    std::string title;
+    std::string detail;    ///< the kind of thing: a menu, "Agent", "Node" ...
+    std::string shortcut;  ///< ... of the command
+    std::string why_not;   ///< why it cannot be done now; empty: it can
+};
+
+/// The best first, what cannot be done now last. Without text every command in the order of the menus; with text also
+/// the choices of commands, agents, clips, queries, and a node by its agent and place ("A 2.1").
+std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text);
+
+/// The choices of a command that fit what was typed, the best first.
+std::vector<std::string> matching_choices(const Session& session, const Command& command, const std::string& text);
+
+}  // namespace mobbscope::app

@@ -1,0 +1,95 @@
+#include <app/document/history.h>
+
+#include <numeric>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// A person goes back a few; every state of a large scene costs memory.
+constexpr std::size_t kMostStates = 500;
+
+/// In words: looking around of one kind is taken back in one go, but not along with another.
+std::string what_changes(const ViewState& from, const ViewState& to) {
+    if (from.query != to.query) return "choosing what is asked";
+    const auto only = [&](auto... members) {
+        ViewState view = from;
+        ((view.*members = to.*members), ...);
+        return view == to;
+    };
+    if (only(&ViewState::camera, &ViewState::time_height)) return "moving the view";
+    if (only(&ViewState::step)) return "stepping";
+    if (only(&ViewState::time)) return "moving in time";
+    if (only(&ViewState::follow, &ViewState::camera, &ViewState::time_height, &ViewState::time)) return "following";
+    return "what is shown";
+}
+
+}  // namespace
+
+void History::reset(Document document) {
+    states_.clear();
+    states_.push_back({std::move(document), {}, false, 0});
+    now_ = 0;
+    open_ = false;
+}
+
+std::size_t History::bytes() const {
+    return std::accumulate(states_.begin() + 1, states_.end(), std::size_t{0},
+                           [](std::size_t sum, const State& state) { return sum + state.bytes; });
+}
+
+/// Becomes the present document's.
+void History::set(Document document) {
+    State& state = states_[now_];
+    state.bytes = now_ > 0 ? document.fitted->bytes_beyond(*states_[now_ - 1].document.fitted) : 0;
+    state.document = std::move(document);
+}
+
+/// Behind the present state, which it becomes; what follows stays.
+void History::append(State state) {
+    states_.insert(states_.begin() + static_cast<std::ptrdiff_t>(++now_), state);
+    set(std::move(state.document));
+    while (now_ > 0 && (states_.size() > kMostStates || bytes() > most_bytes_)) {
+        states_.erase(states_.begin());
+        --now_;
+    }
+    // Nothing leads to the oldest, so nothing that is done joins it.
+    states_.front().name = {};
+    states_.front().looked = false;
+}
+
+void History::change(Document document, const EditName& name) {
+    const bool joins = open_ && now_ > 0 && !name.group.empty() && states_[now_].name.group == name.group;
+    states_.resize(now_ + 1);
+    if (joins) {
+        set(std::move(document));
+    } else {
+        append({std::move(document), name, false, 0});
+    }
+    open_ = true;
+}
+
+void History::change_view(const ViewState& view) {
+    const std::string title = what_changes(now().view, view);
+    if (states_[now_].looked && states_[now_].name.title == title) {
+        states_[now_].document.view = view;
+        return;
+    }
+    append({{now().fitted, view, now().origin}, {title, ""}, true, 0});
+    open_ = false;
+}
+
+void History::amend(Document document) { set(std::move(document)); }
+
+void History::undo() {
+    --now_;
+    open_ = false;
+}
+
+void History::redo() {
+    ++now_;
+    open_ = false;
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,89 @@
+/// The document and its past: undo and redo of every edit.
+#pragma once
+
+#include <scene/fitted_scene.h>
+#include <scene/view_state.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// Where an excerpt was taken from: two paths of a run or a crowd, opened as a scene of their own.
+struct Origin {
+    std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
+    ViewState view;                             ///< of the whole, when it was left
+    std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
+};
+
+/// The scene with its trees, and how it is seen. Values: a state once reached can be returned to at no cost, as the
+/// scene is immutable and shared.
+struct Document {
+    std::shared_ptr<const FittedScene> fitted;  ///< never null
+    ViewState view;
+    std::shared_ptr<const Origin> origin{};  ///< of an excerpt; else null
+};
+
+/// Groups what belongs together: one drag, one number typed.
+struct EditName {
+    std::string title;  ///< "Move A", for the menu: "Undo Move A"
+    std::string group;  ///< an edit joins the last one if both have this group and it is still open; empty: never
+};
+
+/// Goes back at most 499 states, and no further than the states hold kMostBytes beyond the oldest (scenes share what
+/// they have in common): the oldest are forgotten first, and undo then ends at the oldest that is left.
+class History {
+  public:
+    static constexpr std::size_t kMostBytes = std::size_t{512} << 20;
+
+    explicit History(Document document, std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {
+        reset(std::move(document));
+    }
+
+    const Document& now() const { return states_[now_].document; }
+
+    /// Forgets the past: another file was opened.
+    void reset(Document document);
+    /// The document is now this; what was undone is forgotten.
+    void change(Document document, const EditName& name);
+    /// Only how it is seen has changed. Looking around of one kind (moving the view, stepping ...) is one state, and it
+    /// does not clear what can be redone.
+    void change_view(const ViewState& view);
+    /// The present state is this instead; no edit of its own.
+    void amend(Document document);
+    /// The next edit starts a group of its own, even under the same name.
+    void close_group() { open_ = false; }
+
+    bool can_undo() const { return now_ > 0; }
+    bool can_redo() const { return now_ + 1 < states_.size(); }
+    /// Requires can_undo() (can_redo()).
+    void undo();
+    void redo();
+    /// What undo (redo) would take back (bring back); empty if nothing.
+    std::string undo_title() const { return can_undo() ? states_[now_].name.title : ""; }
+    std::string redo_title() const { return can_redo() ? states_[now_ + 1].name.title : ""; }
+
+    std::size_t count() const { return states_.size(); }
+    /// What the states hold beyond the oldest, roughly.
+    std::size_t bytes() const;
+
+  private:
+    struct State {
+        Document document;
+        EditName name;  ///< of the edit that led here
+        bool looked = false;
+        std::size_t bytes = 0;  ///< that the state before does not share
+    };
+    void append(State state);
+    void set(Document document);
+
+    std::size_t most_bytes_;
+    std::vector<State> states_;
+    std::size_t now_ = 0;
+    bool open_ = false;
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,88 @@
+#include <app/document/job.h>
+
+#include <condition_variable>
+#include <memory>
+#include <thread>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+std::atomic<int> jobs = 0;
+
+/// Counts itself.
+struct Counted {
+    Counted() { ++jobs; }
+    ~Counted() { --jobs; }
+    Counted(const Counted&) = delete;
+    Counted& operator=(const Counted&) = delete;
+};
+
+}  // namespace
+
+void JobControl::step(std::size_t done, std::size_t all) {
+    if (cancelled_) throw Cancelled();
+    progress_ = all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all);
+}
+
+/// Kept alive by whoever needs it longer, the window or the job's thread.
+struct Job::Shared {
+    Counted counted;  // first, so that it goes last
+    JobControl control;
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool done = false;
+    Finish finish;
+    std::exception_ptr error;
+    std::function<void()> wake;  ///< empty when nobody waits any more
+};
+
+Job::Job(std::string title, Work work, std::function<void()> wake)
+    : title_(std::move(title)), shared_(std::make_shared<Shared>()) {
+    shared_->wake = std::move(wake);
+    std::thread([shared = shared_, work = std::move(work)]() mutable {
+        Finish finish;
+        std::exception_ptr error;
+        try {
+            finish = work(shared->control);
+        } catch (...) {
+            error = std::current_exception();
+        }
+        // What the work holds goes before the window hears of its end.
+        work = nullptr;
+        {
+            const std::scoped_lock lock(shared->mutex);
+            shared->finish = std::move(finish);
+            shared->error = error;
+            shared->done = true;
+            if (shared->wake) shared->wake();
+        }
+        shared->changed.notify_all();
+    }).detach();
+}
+
+Job::~Job() {
+    cancel();
+    // Who is to be woken may go now.
+    const std::scoped_lock lock(shared_->mutex);
+    shared_->wake = nullptr;
+}
+
+bool Job::any_left() { return jobs > 0; }
+
+double Job::progress() const { return shared_->control.progress(); }
+
+void Job::cancel() { shared_->control.cancel(); }
+
+bool Job::wait(std::chrono::milliseconds longest) const {
+    std::unique_lock lock(shared_->mutex);
+    return shared_->changed.wait_for(lock, longest, [&] { return shared_->done; });
+}
+
+void Job::finish() {
+    if (shared_->error) std::rethrow_exception(shared_->error);
+    if (const Finish finish = std::exchange(shared_->finish, nullptr)) finish();
+}
+
+}  // namespace mobbscope::app

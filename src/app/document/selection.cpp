@@ -1,0 +1,103 @@
+#include <app/document/selection.h>
+
+#include <algorithm>
+
+namespace mobbscope::app {
+
+namespace {
+
+AgentRef path_of_side(const FittedScene& fitted, int query, int side) {
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
+    const int agent = (side == 0 ? asked.a : asked.b).agent;
+    // With agents, participants are the agents in their order.
+    return agent >= 0 ? AgentRef{agent, -1, 0} : AgentRef{-1, query, side};
+}
+
+}  // namespace
+
+AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int participant) {
+    return view.query ? path_of_side(fitted, *view.query, participant) : AgentRef{participant, -1, 0};
+}
+
+std::optional<int> index_in_view(const FittedScene& fitted, const ViewState& view, const AgentRef& path) {
+    const int count = view.query ? 2 : static_cast<int>(fitted.placed_agents().size());
+    if (!view.query)
+        return path.participant >= 0 && path.participant < count ? std::optional(path.participant) : std::nullopt;
+    for (int side = 0; side < count; ++side) {
+        if (path_of_side(fitted, *view.query, side) == path) return side;
+    }
+    return std::nullopt;
+}
+
+std::optional<PlacedAgent> placed_agent_of(const FittedScene& fitted, const AgentRef& path) {
+    if (path.participant >= 0) {
+        const auto index = static_cast<std::size_t>(path.participant);
+        if (index >= fitted.placed_agents().size()) return std::nullopt;
+        return fitted.placed_agents()[index];
+    }
+    if (path.query < 0 || static_cast<std::size_t>(path.query) >= fitted.queries().size()) return std::nullopt;
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(path.query)];
+    return path.side == 0 ? asked.a : asked.b;
+}
+
+bool exists(const FittedScene& fitted, const Selection& selection) {
+    const auto within = [&](std::size_t count) {
+        return selection.index >= 0 && static_cast<std::size_t>(selection.index) < count;
+    };
+    switch (selection.kind) {
+        case Selection::Kind::none:
+            return true;
+        case Selection::Kind::clip:
+            return within(fitted.scene().clips.size());
+        case Selection::Kind::query:
+            return within(fitted.queries().size());
+        case Selection::Kind::path:
+        case Selection::Kind::node:
+        case Selection::Kind::sample:
+            break;
+    }
+    const auto participant = placed_agent_of(fitted, selection.path);
+    if (!participant) return false;
+    if (selection.kind == Selection::Kind::path) return true;
+    const mobb::Tree& tree = fitted.tree(participant->clip);
+    return within(selection.kind == Selection::Kind::node ? tree.nodes().size()
+                                                          : static_cast<std::size_t>(tree.clip().count()));
+}
+
+namespace {
+
+/// Of a run the agents are others at another time: the person stays selected, and what is of one of its plays as long
+/// as that is there.
+Selection still_of_run(const Selection& selection, const FittedScene& before, const FittedScene& now) {
+    const auto& was = before.scene().agents;
+    const auto index = static_cast<std::size_t>(selection.path.participant);
+    if (selection.path.participant < 0 || index >= was.size()) return {};
+    const auto& agents = now.scene().agents;
+    const auto is_it = [&](const Agent& agent) {
+        return agent.run_agent == was[index].run_agent && agent.play == was[index].play;
+    };
+    const auto at = std::find_if(agents.begin(), agents.end(), is_it);
+    if (at == agents.end() || selection.kind == Selection::Kind::path) {
+        return {Selection::Kind::path, {was[index].run_agent, -1, 0}, -1};
+    }
+    return {selection.kind, {static_cast<int>(at - agents.begin()), -1, 0}, selection.index};
+}
+
+}  // namespace
+
+Selection still(const Selection& selection, const FittedScene& before, const FittedScene& now) {
+    if (&before != &now && selection.on_path() && before.scene().crowd && before.scene().crowd == now.scene().crowd) {
+        const Selection out = still_of_run(selection, before, now);
+        return exists(now, out) ? out : Selection{};
+    }
+    if (selection.kind == Selection::Kind::node) {
+        const auto was = placed_agent_of(before, selection.path);
+        const auto is = placed_agent_of(now, selection.path);
+        if (was && is && &before.tree(was->clip) != &now.tree(is->clip)) {
+            return {Selection::Kind::path, selection.path, -1};
+        }
+    }
+    return exists(now, selection) ? selection : Selection{};
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,105 @@
+#include <app/document/settings.h>
+#include <base/error.h>
+#include <base/file.h>
+#include <base/json_writer.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr std::size_t kMostRecent = 12;
+
+/// Replaces `value` by a number of the file within these bounds.
+void read(const nlohmann::json& json, const char* key, double least, double most, double& value) {
+    const auto at = json.find(key);
+    if (at == json.end() || !at->is_number()) return;
+    const double read = at->get<double>();
+    if (read >= least && read <= most) value = read;
+}
+
+std::filesystem::path folder_named_by(const char* variable) {
+    const char* value = std::getenv(variable);
+    const std::filesystem::path folder = value ? value : "";
+    // The XDG rules ignore relative ones.
+    return folder.is_absolute() ? folder : std::filesystem::path();
+}
+
+}  // namespace
+
+void Settings::remember(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::path absolute = std::filesystem::absolute(file, error).lexically_normal();
+    if (error) absolute = file;
+    std::erase(recent, absolute);
+    recent.insert(recent.begin(), std::move(absolute));
+    if (recent.size() > kMostRecent) recent.resize(kMostRecent);
+}
+
+std::filesystem::path settings_file() {
+    std::filesystem::path folder = folder_named_by("XDG_CONFIG_HOME");
+    if (folder.empty()) {
+        folder = folder_named_by("HOME");
+        if (folder.empty()) return {};
+        folder /= ".config";
+    }
+    return folder / "mobbscope" / "settings.json";
+}
+
+Settings load_settings(const std::filesystem::path& file) {
+    Settings settings;
+    std::string text;
+    try {
+        text = read_file(file);
+    } catch (const InputError&) {
+        return settings;
+    }
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_object()) return settings;
+    read(json, "ui_scale", 0.5, 4, settings.ui_scale);
+    read(json, "left_width", 50, 5000, settings.left_width);
+    read(json, "right_width", 50, 5000, settings.right_width);
+    read(json, "bottom_height", 50, 5000, settings.bottom_height);
+    const auto recent = json.find("recent");
+    if (recent == json.end() || !recent->is_array()) return settings;
+    for (const nlohmann::json& entry : *recent) {
+        if (settings.recent.size() == kMostRecent) break;
+        if (!entry.is_string()) continue;
+        const std::filesystem::path path = entry.get<std::string>();
+        if (path.is_absolute()) settings.recent.push_back(path);
+    }
+    return settings;
+}
+
+void save_settings(const std::filesystem::path& file, const Settings& settings) {
+    if (file.empty()) return;
+    std::ostringstream text;
+    JsonWriter out(text);
+    out.begin_object();
+    out.member("ui_scale", settings.ui_scale);
+    out.member("left_width", settings.left_width);
+    out.member("right_width", settings.right_width);
+    out.member("bottom_height", settings.bottom_height);
+    out.key("recent");
+    out.begin_array();
+    for (const std::filesystem::path& path : settings.recent) out.value(std::string_view(path.native()));
+    out.end_array();
+    out.end_object();
+    std::error_code ignored;
+    std::filesystem::create_directories(file.parent_path(), ignored);
+    try {
+        write_file(file, text.str());
+    } catch (const MachineError&) {
+        // Nothing that was worked on is lost.
+    }
+}
+
+}  // namespace mobbscope::app

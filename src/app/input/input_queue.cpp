@@ -1,0 +1,137 @@
+#include <app/input/input_queue.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+
+namespace mobbscope::app {
+
+/// What has changed in the frame that is being fed.
+struct InputQueue::Frame {
+    bool moved = false;
+    bool turned = false;  ///< the wheel
+    bool typed = false;
+    std::array<bool, 3> buttons{};
+    std::array<bool, static_cast<std::size_t>(Key::count)> keys{};
+    bool any_key = false;
+    bool after_key = false;  ///< the last event was a key
+    bool in_text = false;    ///< a text field has the keys
+
+    bool any_button() const { return buttons[0] || buttons[1] || buttons[2]; }
+};
+
+namespace {
+
+std::size_t index_of(Key key) { return static_cast<std::size_t>(key); }
+
+/// Characters beyond Dear ImGui's range become U+FFFD.
+ImWchar typed_letter(char32_t code) {
+    return static_cast<ImWchar>(code <= IM_UNICODE_CODEPOINT_MAX ? code : char32_t{IM_UNICODE_CODEPOINT_INVALID});
+}
+
+}  // namespace
+
+bool InputQueue::any_button_down() const {
+    return std::any_of(buttons_.begin(), buttons_.end(), [](bool down) { return down; });
+}
+
+bool InputQueue::is_letter(const KeyPress& key, const Frame& frame) const {
+    const bool types = (key.key >= Key::a && key.key <= Key::n9) || key.key == Key::space ||
+                       (key.key >= Key::comma && key.key <= Key::right_bracket);
+    return frame.in_text && types && !keys_[index_of(Key::ctrl)] && !keys_[index_of(Key::alt)];
+}
+
+bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) const {
+    if (std::holds_alternative<MouseMove>(event)) return frame.any_button() || frame.turned;
+    if (const auto* button = std::get_if<MouseButton>(&event)) {
+        // What is under the mouse is known a frame after it got there.
+        return frame.moved || frame.turned || frame.any_key || frame.buttons[static_cast<std::size_t>(button->button)];
+    }
+    if (std::holds_alternative<Wheel>(event)) return frame.any_button();
+    if (const auto* key = std::get_if<KeyPress>(&event)) {
+        if (is_letter(*key, frame)) return frame.any_button() || frame.any_key;
+        return frame.keys[index_of(key->key)] || frame.any_button() || frame.typed;
+    }
+    // A letter belongs to the key right before it; any other key comes a frame earlier.
+    if (std::holds_alternative<TypedText>(event)) return frame.any_button() || (frame.any_key && !frame.after_key);
+    return false;
+}
+
+void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const Others& others) {
+    const bool after_key = std::exchange(frame.after_key, false);
+    if (const auto* move = std::get_if<MouseMove>(&event)) {
+        io.MousePos = {move->at.x, move->at.y};
+        frame.moved = true;
+    } else if (const auto* button = std::get_if<MouseButton>(&event)) {
+        const auto index = static_cast<std::size_t>(button->button);
+        buttons_[index] = button->down;
+        io.MouseDown[button->button] = button->down;
+        frame.buttons[index] = true;
+    } else if (const auto* wheel = std::get_if<Wheel>(&event)) {
+        io.MouseWheelH += wheel->by.x;
+        io.MouseWheel += wheel->by.y;
+        frame.turned = true;
+    } else if (const auto* key = std::get_if<KeyPress>(&event)) {
+        const bool repeated = key->down && keys_[index_of(key->key)];
+        keys_[index_of(key->key)] = key->down;
+        io.KeysDown[index_of(key->key)] = key->down;
+        io.KeyCtrl = keys_[index_of(Key::ctrl)];
+        io.KeyShift = keys_[index_of(Key::shift)];
+        io.KeyAlt = keys_[index_of(Key::alt)];
+        io.KeySuper = keys_[index_of(Key::super)];
+        frame.after_key = true;
+        if (!is_letter(*key, frame)) frame.keys[index_of(key->key)] = frame.any_key = true;
+        typed_by_command_ = key->down && others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated);
+    } else if (const auto* text = std::get_if<TypedText>(&event)) {
+        // Not through AddInputCharacter: from 1.87 on it has a queue of its own, a frame behind the keys of this one.
+        if (!typed_by_command_) io.InputQueueCharacters.push_back(typed_letter(text->code));
+        typed_by_command_ = false;
+        frame.typed = true;
+        frame.after_key = after_key;
+    } else if (const auto* drop = std::get_if<Drop>(&event)) {
+        others.drop(*drop);
+    } else {
+        others.close();
+    }
+}
+
+void InputQueue::feed(ImGuiIO& io, const Others& others) {
+    Frame frame;
+    frame.in_text = io.WantTextInput;
+    while (!waiting_.empty() && !must_wait(waiting_.front(), frame)) {
+        const InputEvent event = std::move(waiting_.front());
+        waiting_.pop_front();
+        apply(event, frame, io, others);
+        // What a command opens takes the keys from the next frame on.
+        if (typed_by_command_ && (waiting_.empty() || !std::holds_alternative<TypedText>(waiting_.front()))) break;
+    }
+}
+
+void InputQueue::map_keys(ImGuiIO& io) {
+    for (const auto& [theirs, ours] :
+         std::initializer_list<std::pair<ImGuiKey, Key>>{{ImGuiKey_Tab, Key::tab},
+                                                         {ImGuiKey_LeftArrow, Key::left},
+                                                         {ImGuiKey_RightArrow, Key::right},
+                                                         {ImGuiKey_UpArrow, Key::up},
+                                                         {ImGuiKey_DownArrow, Key::down},
+                                                         {ImGuiKey_PageUp, Key::page_up},
+                                                         {ImGuiKey_PageDown, Key::page_down},
+                                                         {ImGuiKey_Home, Key::home},
+                                                         {ImGuiKey_End, Key::end},
+                                                         {ImGuiKey_Insert, Key::insert},
+                                                         {ImGuiKey_Delete, Key::del},
+                                                         {ImGuiKey_Backspace, Key::backspace},
+                                                         {ImGuiKey_Space, Key::space},
+                                                         {ImGuiKey_Enter, Key::enter},
+                                                         {ImGuiKey_Escape, Key::escape},
+                                                         {ImGuiKey_A, Key::a},
+                                                         {ImGuiKey_C, Key::c},
+                                                         {ImGuiKey_V, Key::v},
+                                                         {ImGuiKey_X, Key::x},
+                                                         {ImGuiKey_Y, Key::y},
+                                                         {ImGuiKey_Z, Key::z}}) {
+        io.KeyMap[theirs] = static_cast<int>(ours);
+    }
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,48 @@
+/// Input on its way to Dear ImGui, which sees one state of mouse and keys a frame: what comes too fast for that waits.
+#pragma once
+
+#include <app/input/input.h>
+
+#include <imgui.h>
+
+#include <array>
+#include <deque>
+#include <functional>
+
+namespace mobbscope::app {
+
+class InputQueue {
+  public:
+    /// What is not for Dear ImGui. Called in the order of the events.
+    struct Others {
+        /// A key went down, or repeats; true if it did something: then it types nothing.
+        std::function<bool(const Chord& chord, bool repeated)> chord;
+        std::function<void(const Drop&)> drop;
+        std::function<void()> close;
+    };
+
+    void push(const InputEvent& event) { waiting_.push_back(event); }
+    bool empty() const { return waiting_.empty(); }
+    bool any_button_down() const;
+
+    /// Hands over as much as one frame can see: each button and key changes at most once, and nothing overtakes
+    /// anything.
+    void feed(ImGuiIO& io, const Others& others);
+
+    /// Where Dear ImGui finds the keys that it knows (ImGuiIO::KeyMap).
+    static void map_keys(ImGuiIO& io);
+
+  private:
+    struct Frame;
+    /// A key that types a letter into the field that has the keys: of those a frame takes any number.
+    bool is_letter(const KeyPress& key, const Frame& frame) const;
+    bool must_wait(const InputEvent& event, const Frame& frame) const;
+    void apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const Others& others);
+
+    std::deque<InputEvent> waiting_;
+    std::array<bool, 3> buttons_{};
+    std::array<bool, static_cast<std::size_t>(Key::count)> keys_{};
+    bool typed_by_command_ = false;  ///< the last key did something, so the letter that follows means nothing
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,108 @@
+#include <app/panels/recursion_picture.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// Puts a pair on the pixels of others.
+void merge(PairCell& cell, const Recursion& recursion, int pair) {
+    const auto at = [&](int i) { return mark_of(recursion.pairs[static_cast<std::size_t>(i)]); };
+    if (at(pair) > at(cell.pair)) cell.pair = pair;
+    ++cell.merged;
+}
+
+}  // namespace
+
+EventMark mark_of(const RecursionPair& pair) {
+    // A pair that went on to others stands for what they found.
+    if (pair.has_children() && pair.hit) return EventMark::hit;
+    return mark_of(mobb::TestKind::obb2d, pair.outcome);
+}
+
+std::vector<StripCell> strip_cells(const mobb::Trace& trace, int width) {
+    const int events = trace.size();
+    const int count = std::min(events, width);
+    std::vector<StripCell> out;
+    out.reserve(static_cast<std::size_t>(count));
+    for (int c = 0; c < count; ++c) {
+        StripCell cell;
+        cell.first = static_cast<int>(static_cast<std::int64_t>(c) * events / count);
+        cell.end = static_cast<int>(static_cast<std::int64_t>(c + 1) * events / count);
+        cell.x0 = static_cast<float>(c) * static_cast<float>(width) / static_cast<float>(count);
+        cell.x1 = static_cast<float>(c + 1) * static_cast<float>(width) / static_cast<float>(count);
+        for (int e = cell.first; e < cell.end; ++e) {
+            const mobb::Trace::Event event = trace[e];
+            ++cell.marks[static_cast<std::size_t>(mark_of(event.test, event.outcome))];
+        }
+        out.push_back(cell);
+    }
+    return out;
+}
+
+std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a, mobb::Interval b, int width,
+                                   int height) {
+    std::vector<PairCell> out;
+    std::unordered_map<std::uint64_t, std::size_t> small;  // by place: cells of one pixel
+    const auto pixel = [](double t, mobb::Interval whole, int size) {
+        return static_cast<int>(std::lround(std::clamp((t - whole.t0) / (whole.t1 - whole.t0), 0.0, 1.0) * size));
+    };
+    for (int pass = 0; pass < 2; ++pass) {
+        for (std::size_t i = 0; i < recursion.pairs.size(); ++i) {
+            const RecursionPair& pair = recursion.pairs[i];
+            if (pair.has_children() != (pass == 0)) continue;
+            PairCell cell;
+            cell.pair = static_cast<int>(i);
+            cell.x0 = std::min(pixel(pair.time_a.t0, a, width), width - 1);
+            cell.x1 = std::max(pixel(pair.time_a.t1, a, width), cell.x0 + 1);
+            cell.y0 = std::min(height - pixel(pair.time_b.t1, b, height), height - 1);
+            cell.y1 = std::max(height - pixel(pair.time_b.t0, b, height), cell.y0 + 1);
+            const bool tiny = cell.x1 - cell.x0 <= 2 && cell.y1 - cell.y0 <= 2;
+            if (tiny) {
+                // What is below two pixels shows only what it found.
+                if (pass == 0) continue;
+                const auto key = static_cast<std::uint64_t>(cell.x0) << 32 | static_cast<std::uint32_t>(cell.y0);
+                const auto [at, is_new] = small.try_emplace(key, out.size());
+                if (!is_new) {
+                    PairCell& there = out[at->second];
+                    there.x1 = std::max(there.x1, cell.x1);
+                    there.y1 = std::max(there.y1, cell.y1);
+                    merge(there, recursion, cell.pair);
+                    continue;
+                }
+            }
+            out.push_back(cell);
+        }
+    }
+    return out;
+}
+
+std::vector<PairCell> icicle_cells(const Recursion& recursion, int width, int row) {
+    std::vector<PairCell> out;
+    std::vector<std::size_t> last(static_cast<std::size_t>(recursion.depth), SIZE_MAX);  // by depth: cell to the left
+    const double per_event = static_cast<double>(width) / static_cast<double>(recursion.pair_of.size());
+    for (std::size_t i = 0; i < recursion.pairs.size(); ++i) {
+        const RecursionPair& pair = recursion.pairs[i];
+        PairCell cell;
+        cell.pair = static_cast<int>(i);
+        cell.x0 = std::min(static_cast<int>(pair.first * per_event), width - 1);
+        cell.x1 = std::max(static_cast<int>(pair.end * per_event), cell.x0 + 1);
+        cell.y0 = pair.depth * row;
+        cell.y1 = cell.y0 + row;
+        std::size_t& left = last[static_cast<std::size_t>(pair.depth)];
+        if (left != SIZE_MAX && cell.x0 < out[left].x1) {
+            out[left].x1 = std::max(out[left].x1, cell.x1);
+            merge(out[left], recursion, cell.pair);
+            continue;
+        }
+        left = out.size();
+        out.push_back(cell);
+    }
+    return out;
+}
+
+}  // namespace mobbscope::app

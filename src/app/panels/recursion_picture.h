@@ -1,0 +1,42 @@
+/// A recursion in pixels: what is too small to be seen apart is put together, and nothing that says more is lost.
+#pragma once
+
+#include <app/ui/event_mark.h>
+#include <explain/recursion.h>
+
+#include <vector>
+
+namespace mobbscope::app {
+
+/// The events [first, end) that stand in one column of a strip, or a single event.
+struct StripCell {
+    int first = 0;
+    int end = 0;
+    float x0 = 0;  ///< pixels from the left
+    float x1 = 0;
+    MarkCounts marks{};
+};
+
+/// All events of a trace side by side in `width` >= 1 pixels. No cell is narrower than a pixel, so a long trace has at
+/// most `width` of them.
+std::vector<StripCell> strip_cells(const mobb::Trace& trace, int width);
+
+/// A pair of nodes as a rectangle, or several that fall on the same pixels.
+struct PairCell {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< pixels, [x0, x1) x [y0, y1), y downwards
+    int pair = 0;                        ///< the first of those whose outcome says most
+    int merged = 1;                      ///< how many pairs it stands for
+};
+
+/// Pairs as A's time (to the right) by B's (upwards), a and b over the whole picture; pairs with children come before
+/// these. Sizes >= 1.
+std::vector<PairCell> square_cells(const Recursion& recursion, mobb::Interval a, mobb::Interval b, int width,
+                                   int height);
+
+/// Pairs as the events of them and below them (to the right) by depth (downwards); rows of `row` pixels.
+std::vector<PairCell> icicle_cells(const Recursion& recursion, int width, int row);
+
+/// How a pair's outcome is shown.
+EventMark mark_of(const RecursionPair& pair);
+
+}  // namespace mobbscope::app

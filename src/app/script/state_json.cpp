@@ -1,0 +1,169 @@
+#include <app/script/state_json.h>
+#include <explain/query_sentence.h>
+#include <render/pictures/candidates.h>
+#include <scene/view_json.h>
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+/// Of a run all but what everybody plays.
+Json scene_json(Scene scene) {
+    scene.crowd.reset();
+    scene.view = {};
+    for (SceneQuery& query : scene.queries) query.trace.reset();
+    std::vector<int> counts;
+    for (const SceneClip& clip : scene.clips) counts.push_back(clip.clip->count());
+    Json json = Json::parse(to_json(scene));
+    std::size_t index = 0;
+    for (Json& clip : json["clips"]) clip["samples"] = counts[index++];
+    json.erase("mobbscope");
+    return json;
+}
+
+Json view_json(const ViewState& view) {
+    std::ostringstream text;
+    JsonWriter out(text);
+    write_view(out, view);
+    return Json::parse(text.str());
+}
+
+std::string name_of(const Session& session, const Selection& selection) {
+    const auto index = static_cast<std::size_t>(selection.index);
+    switch (selection.kind) {
+        case Selection::Kind::none:
+            return "";
+        case Selection::Kind::clip:
+            return session.scene().clips[index].name;
+        case Selection::Kind::query: {
+            const SceneQuery query = session.fitted().queries()[index];
+            return query.a.name + " against " + query.b.name;
+        }
+        case Selection::Kind::path:
+        case Selection::Kind::node:
+        case Selection::Kind::sample:
+            break;
+    }
+    return placed_agent_of(session.fitted(), selection.path)->name;
+}
+
+Json selection_json(const Session& session, const Selection& selection) {
+    constexpr std::array<const char*, 6> kKinds{"none", "path", "node", "sample", "clip", "query"};
+    Json json{{"kind", kKinds[static_cast<std::size_t>(selection.kind)]}};
+    if (selection.kind == Selection::Kind::none || !exists(session.fitted(), selection)) return json;
+    json["name"] = name_of(session, selection);
+    if (selection.on_path()) {
+        const AgentRef& path = selection.path;
+        json["path"] = {{"participant", path.participant}, {"query", path.query}, {"side", path.side}};
+    }
+    if (selection.kind != Selection::Kind::path) json["index"] = selection.index;
+    return json;
+}
+
+Json query_json(const Session& session) {
+    const RecordedQuery* recorded = session.recorded();
+    if (!recorded) return nullptr;
+    const int index = *session.view().query;
+    const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(index)];
+    const mobb::TestCounts& tests = recorded->tests;
+    const mobb::Trace::Event event = recorded->trace[session.step()];
+    const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
+    return {{"index", index},
+            {"a", query.a.name},
+            {"b", query.b.name},
+            {"collides", recorded->contact.has_value()},
+            {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
+            {"step", session.step()},
+            {"steps", recorded->trace.size()},
+            {"tests",
+             {{"time", tests.time},
+              {"obb2d", tests.obb2d},
+              {"obb3d", tests.obb3d},
+              {"moving", tests.moving},
+              {"aabb", tests.aabb},
+              {"samples", tests.samples}}},
+            {"outcome", mobb::name(event.outcome)},
+            {"sentence", step_sentence(sides, recorded->trace, session.step())}};
+}
+
+Json crowd_json(const Session& session) {
+    if (!session.is_crowd()) return nullptr;
+    Json json{{"following", text_or_null(session.view().follow)}, {"choice", nullptr}, {"conflicts", nullptr}};
+    if (const FollowedChoice* followed = session.choice()) {
+        const Choice& choice = followed->choice;
+        json["choice"] = {{"play", followed->play},
+                          {"time", choice.time},
+                          {"candidates", choice.candidates.size()},
+                          {"taken", choice.taken},
+                          {"pointed_out", session.candidate},
+                          {"sentence", choice_sentence(session.scene(), *followed)}};
+    }
+    if (const auto* conflicts = session.conflicts()) {
+        json["conflicts"] = {{"count", conflicts->size()}, {"shown", session.conflict}};
+    }
+    return json;
+}
+
+Json messages_json(const Session& session) {
+    constexpr std::array<const char*, 3> kLevels{"info", "warning", "error"};
+    Json json = Json::array();
+    for (const Message& message : session.messages()) {
+        json.push_back({{"level", kLevels[static_cast<std::size_t>(message.level)]}, {"text", message.text}});
+    }
+    return json;
+}
+
+std::string_view kind_name(Dialog dialog) {
+    constexpr std::array<std::string_view, 9> kNames{"none",    "open",    "add",  "save_as", "export_picture",
+                                                     "unsaved", "palette", "help", "about"};
+    return kNames[static_cast<std::size_t>(dialog)];
+}
+
+}  // namespace
+
+Json state_json(const Session& session) {
+    Json json;
+    json["title"] = session.title();
+    json["file"] = session.file() ? Json(session.file()->string()) : Json(nullptr);
+    json["modified"] = session.modified();
+    json["empty"] = session.empty();
+    json["scene"] = scene_json(session.scene());
+    json["view"] = view_json(session.view());
+    json["selection"] = selection_json(session, session.selection);
+    json["hovered"] = selection_json(session, session.hovered);
+    json["query"] = query_json(session);
+    json["crowd"] = crowd_json(session);
+    json["excerpt"] = session.in_excerpt();
+    json["time"] = or_null(session.view().time);
+    json["playing"] = session.playing();
+    json["dialog"] = kind_name(session.dialog);
+    json["messages"] = messages_json(session);
+    json["undo"] = text_or_null(session.history().undo_title());
+    json["redo"] = text_or_null(session.history().redo_title());
+    json["job"] = nullptr;
+    if (const Job* job = session.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
+    return json;
+}
+
+std::string state_text(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace mobbscope::app

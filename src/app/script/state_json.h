@@ -1,0 +1,27 @@
+/// What a session shows, as JSON: what scripts print and expect.
+///
+///     {"title": "crossing.json", "file": "...", "modified": false, "empty": false,
+///      "scene": {...}, "view": {...}, "selection": {"kind": "node", "name": "A", "path": {...}, "index": 3},
+///      "hovered": {...}, "query": null, "time": null, "playing": false, "dialog": "none",
+///      "messages": [{"level": "info", "text": "..."}], "undo": null, "redo": null, "job": null}
+///
+/// `scene` is as in scene files, but clips say their number of `samples` and queries have no traces; `view` is as in
+/// scene files, so what is as always is left out. `query` is what is asked in the view: {"index", "a", "b", "collides",
+/// "contact_time", "step", "steps", "tests": {"time", "obb2d", "obb3d", "moving", "aabb", "samples"}, "outcome",
+/// "sentence"}, the last two of the step. `undo` and `redo` are titles.
+#pragma once
+
+#include <app/document/session.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace mobbscope::app {
+
+nlohmann::ordered_json state_json(const Session& session);
+
+/// It, or a part of it, as text; `indent` -1: on one line. File names may be no UTF-8: what is none is replaced.
+std::string state_text(const nlohmann::ordered_json& json, int indent = -1);
+
+}  // namespace mobbscope::app

@@ -1,0 +1,23 @@
+/// Outcomes as cells: each has its colour and its own filling, so that they are told apart without colour as well.
+#pragma once
+
+#include <app/ui/event_mark.h>
+#include <app/ui/ui.h>
+
+namespace mobbscope::app {
+
+/// Opaque, for lines and fillings. `strength` 1: full; less steps back.
+ImU32 mark_color(const Style& style, EventMark mark, float strength = 1);
+/// Readable as text.
+ImU32 mark_text(const Style& style, EventMark mark);
+
+/// Separated in space: solid. Apart in time: an empty dashed outline. Overlap: hatched. Hit: solid with a cross in it.
+void outcome_cell(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, EventMark mark, float strength);
+
+/// A line in dashes of `on` pixels.
+void dashed_line(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 color, float width, float on);
+
+/// What the cells mean, on as many lines as it takes.
+void outcome_legend(Ui& ui);
+
+}  // namespace mobbscope::app

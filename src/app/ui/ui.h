@@ -1,0 +1,51 @@
+/// What panels are drawn with: one frame of Dear ImGui over the session.
+#pragma once
+
+#include <app/document/session.h>
+#include <app/ui/style.h>
+#include <render/drawlist/draw_list.h>
+
+#include <imgui.h>
+
+#include <map>
+#include <string>
+
+namespace mobbscope::app {
+
+/// Where widgets stand in the last frame, by name: scripts and tests click on names, not on pixels.
+class Marks {
+  public:
+    void clear() { rects_.clear(); }
+    void add(const std::string& name, const Rect& rect) { rects_[name] = rect; }
+    const std::map<std::string, Rect>& all() const { return rects_; }
+
+  private:
+    std::map<std::string, Rect> rects_;
+};
+
+/// Paints the viewport's picture for the panels to show.
+class Painter {
+  public:
+    virtual ~Painter() = default;
+    /// The texture of what the viewport shows, upper row first at v = 1 (OpenGL's way up). It is painted anew when a
+    /// frame is next looked at. `still`: it will stay a while, so it is worth smooth edges.
+    virtual ImTextureID paint(bool still) = 0;
+};
+
+/// All that a panel gets.
+struct Ui {
+    Session& session;
+    const Style& style;
+    Marks& marks;
+    Painter& painter;
+    double now = 0;  ///< seconds, only ever more
+    double next_frame =
+        0;  ///< in so many seconds another frame is wanted, whatever happens; infinity: none. Panels lower it
+
+    /// Names the last widget for scripts.
+    void mark(const std::string& name) const;
+    void want_frame_in(double seconds) { next_frame = next_frame < seconds ? next_frame : seconds; }
+    float px(float at_scale_1) const { return at_scale_1 * style.scale; }
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,214 @@
+#include <app/commands/command.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <sstream>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// The words of a text; a number and its unit are one.
+std::vector<std::string> unbroken_words(const std::string& text) {
+    std::vector<std::string> out;
+    std::istringstream in(text);
+    for (std::string word; in >> word;) {
+        const bool unit = (word[0] == 'm' || word[0] == 's') && (word.size() == 1 || std::ispunct(word[1]) != 0);
+        if (unit && word.size() <= 2 && !out.empty()) {
+            out.back() += ' ' + word;
+        } else {
+            out.push_back(word);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+void heading(Ui& ui, const char* text, const std::string& right) {
+    ImGui::Dummy({0, ui.px(6)});
+    ImGui::PushFont(ui.style.caption);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float left = ImGui::GetCursorPosX();
+    ImGui::TextUnformatted(text);
+    const float width = ImGui::CalcTextSize(right.c_str()).x;
+    if (!right.empty() && ImGui::CalcTextSize(text).x + width + ui.px(12) < room) {
+        ImGui::SameLine(left + room - width);
+        ImGui::TextUnformatted(right.c_str());
+    }
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+void words(ImU32 color, const std::string& text) {
+    const float wrap = ImGui::GetCurrentWindowRead()->DC.TextWrapPos;
+    const float room = wrap > 0 ? wrap - ImGui::GetCursorPosX() : ImGui::GetContentRegionAvail().x;
+    std::string lines;
+    std::string line;
+    for (const std::string& word : unbroken_words(text)) {
+        const std::size_t before = line.size();
+        if (before > 0) line += ' ';
+        line += word;
+        if (before == 0 || ImGui::CalcTextSize(line.c_str()).x <= room) continue;
+        lines.append(line, 0, before) += '\n';
+        line = word;
+    }
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(-1);
+    ImGui::TextUnformatted((lines + line).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color) {
+    ImGui::PushFont(ui.style.mono);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(shown.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    if (!ImGui::IsItemHovered()) return;
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.17g", value);
+    ImGui::SetTooltip("%s %s\nClick to copy", digits, unit);
+    if (ImGui::IsItemClicked() && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(digits);
+}
+
+void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float left = ImGui::GetCursorPosX();
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
+    ImGui::PushFont(ui.style.mono);
+    const float width = ImGui::CalcTextSize(shown.c_str()).x;
+    ImGui::PopFont();
+    ImGui::SameLine(left + room - width);
+    number(ui, shown, value, unit, ui.style.text);
+}
+
+void form_label(Ui& ui, const char* label, const char* help) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
+    ImGui::TextUnformatted(label);
+    ImGui::PopStyleColor();
+    if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    // Below the longest label of all forms the columns still stand under one another.
+    const float column = ImGui::GetWindowContentRegionMin().x + ImGui::CalcTextSize("Leaf samples").x + ui.px(12);
+    ImGui::SameLine(std::max(column, 0.34f * ImGui::GetWindowContentRegionMax().x));
+    ImGui::SetNextItemWidth(-1);
+}
+
+void framed(Ui& ui, ImU32 fill, ImU32 border, const std::function<void()>& draw) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float inset = ui.px(9);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.ChannelsSplit(2);
+    list.ChannelsSetCurrent(1);
+    ImGui::SetCursorScreenPos({at.x + inset, at.y + inset});
+    ImGui::BeginGroup();
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width - 2 * inset);
+    draw();
+    ImGui::PopTextWrapPos();
+    ImGui::EndGroup();
+    const float bottom = ImGui::GetItemRectMax().y + inset;
+    list.ChannelsSetCurrent(0);
+    list.AddRectFilled(at, {at.x + width, bottom}, fill, ui.px(5));
+    list.AddRect(at, {at.x + width, bottom}, border, ui.px(5), 0, ui.px(1.5f));
+    list.ChannelsMerge();
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({width, bottom - at.y});
+}
+
+void flow(float width) {
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + spacing + width <= right) ImGui::SameLine();
+}
+
+std::string signed_metres(double metres) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%+.3f", metres);
+    return text;
+}
+
+void command_button(Ui& ui, const char* label, const char* id, const std::string& mark) {
+    const Command& command = *find_command(id);
+    ImGui::BeginDisabled(!command.enabled(ui.session));
+    ImGui::PushID(mark.c_str());  // labels may be alike
+    const bool pressed = ImGui::Button(label);
+    ImGui::PopID();
+    ImGui::EndDisabled();
+    ui.mark(mark);
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+        const std::string_view key = first_shortcut(command);
+        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.text);  // whatever the button's
+        ImGui::SetTooltip("%s%s", std::string(command.doc).c_str(),
+                          key.empty() ? "" : ("  (" + std::string(key) + ")").c_str());
+        ImGui::PopStyleColor();
+    }
+    if (pressed) invoke(ui.session, id);
+}
+
+float button_width(const char* label) {
+    return ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+std::string fitted_text(const std::string& text, float room) {
+    std::string line = cleaned(text);
+    if (ImGui::CalcTextSize(line.c_str()).x <= room) return line;
+    const float left = std::max(room - ImGui::CalcTextSize("\u2026").x, 0.0f);
+    const char* end = nullptr;
+    ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), left, 0, line.c_str(), nullptr, &end);
+    return line.substr(0, static_cast<std::size_t>(end - line.c_str())) + "\u2026";
+}
+
+void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw) {
+    const float height = ImGui::GetFrameHeight();
+    const bool scrolls = count > most_rows;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), 0});
+    if (scrolls)
+        ImGui::BeginChild(name, {0, height * (static_cast<float>(most_rows) + 0.5f)}, false,
+                          ImGuiWindowFlags_NoBackground);
+    ImGuiListClipper clipper;
+    clipper.Begin(count, height);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw(i);
+    }
+    if (scrolls) ImGui::EndChild();
+    ImGui::PopStyleVar();
+}
+
+bool row(Ui& ui, const Row& row) {
+    const float height = ImGui::GetFrameHeight();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    ImGui::PushID(row.id.c_str());
+    const bool clicked = ImGui::InvisibleButton("##row", {width, height});
+    ImGui::PopID();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 end{corner.x + width, corner.y + height};
+    if (row.selected || row.hovered || ImGui::IsItemHovered()) {
+        draw.AddRectFilled(corner, end, row.selected ? ui.style.raised : ui.style.border, ui.px(4));
+    }
+    if (row.selected) draw.AddRectFilled(corner, {corner.x + ui.px(2), end.y}, ui.style.accent, ui.px(1));
+    const float pad = ui.px(6);
+    const ImFont* mono = ui.style.mono;
+    const float y = corner.y + 0.5f * (height - ImGui::GetFontSize());
+    const ImVec2 remark = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, row.remark.c_str());
+    const float left = corner.x + pad + row.indent;
+    const std::string name = fitted_text(row.name, std::max(ui.px(24), end.x - pad - remark.x - ui.px(8) - left));
+    draw.AddText({left, y}, ui.style.text, name.c_str());
+    draw.AddText(mono, mono->FontSize, {end.x - pad - remark.x, corner.y + 0.5f * (height - mono->FontSize)},
+                 row.remark_color != 0 ? row.remark_color : ui.style.quiet, row.remark.c_str());
+    return clicked;
+}
+
+}  // namespace mobbscope::app

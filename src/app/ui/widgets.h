@@ -1,0 +1,59 @@
+/// The small parts that panels with words and numbers are put together from.
+#pragma once
+
+#include <app/ui/ui.h>
+
+#include <functional>
+#include <string>
+
+namespace mobbscope::app {
+
+/// A quiet heading with room above it; `right` stands at the other end of its line if there is room.
+void heading(Ui& ui, const char* text, const std::string& right = "");
+
+/// Text in a colour, wrapped between words: ImGui would break numbers at their points.
+void words(ImU32 color, const std::string& text);
+
+/// A number as shown; the tooltip has all its digits, and a click copies them.
+void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color);
+
+/// A label at the left and, at the right edge, a number.
+void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit);
+
+/// A row of a form: the label at the left, the next widget takes the rest. `help` is its tooltip; null: none.
+void form_label(Ui& ui, const char* label, const char* help);
+
+/// A frame around what `draw` draws, as wide as there is room.
+void framed(Ui& ui, ImU32 fill, ImU32 border, const std::function<void()>& draw);
+
+/// The next widget, `width` pixels wide, goes on the same line if it fits there.
+void flow(float width);
+
+/// "+0.183"
+std::string signed_metres(double metres);
+
+/// Disabled as the command is; its tooltip says what the command does and by which key. `mark` names it for scripts.
+void command_button(Ui& ui, const char* label, const char* command, const std::string& mark);
+
+/// Pixels of a button with this label, in the present font and style.
+float button_width(const char* label);
+
+/// A text on one line that fits `room` pixels in the present font: its end becomes an ellipsis.
+std::string fitted_text(const std::string& text, float room);
+
+/// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.
+void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw);
+
+/// A list's row across the panel: a name, and a short remark at its right end. Returns true when it is clicked.
+struct Row {
+    std::string id;  ///< unique in the list
+    std::string name;
+    std::string remark;
+    bool selected = false;
+    bool hovered = false;    ///< lit, as it is under the mouse elsewhere
+    float indent = 0;        ///< pixels left of the name
+    ImU32 remark_color = 0;  ///< 0: quiet
+};
+bool row(Ui& ui, const Row& row);
+
+}  // namespace mobbscope::app

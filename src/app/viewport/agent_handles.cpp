@@ -1,0 +1,137 @@
+#include <app/viewport/agent_handles.h>
+#include <render/drawlist/pick.h>
+#include <render/parts/floor_and_axes.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr float kKnob = 6;        // radius of what is taken hold of, pixels at scale 1
+constexpr float kReach = 10;      // ... and how near the mouse must be
+constexpr float kLeastRing = 34;  // pixels at scale 1
+constexpr float kArrow = 56;
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+double snapped(double value, double step) { return std::round(value / step) * step; }
+
+float distance(ImVec2 a, ImVec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+}  // namespace
+
+HandlePlaces handle_places(Ui& ui, const ShownPicture& picture, const mobb::PlacedClip& clip) {
+    const DrawnSpace& space = picture.list.space;
+    const ViewProjection& projection = picture.list.projection;
+    const mobb::Disk first = clip.disk(0);
+    HandlePlaces out;
+    out.time = clip.time(0);
+    out.pivot = {first.x, first.y};
+    const glm::vec3 middle = space.point(first.x, first.y, out.time);
+    const float scale = projection.pixels_per_metre(middle);
+    if (scale <= 0) return out;
+    out.radius = std::max(1.35 * first.r, static_cast<double>(ui.px(kLeastRing) / scale));
+    // In front, seen from the eye, where the path does not hide it.
+    const glm::dvec2 towards(projection.back.x, projection.back.y);
+    const glm::dvec2 front = glm::length(towards) > 1e-3 ? glm::normalize(towards) : glm::dvec2(0, -1);
+    const glm::dvec2 knob = out.pivot + out.radius * front;
+    if (!floor_on_edge(projection)) {
+        out.move = picture.at(middle);
+        out.turn = picture.at(space.point(knob.x, knob.y, out.time));
+    }
+    if (!time_on_end(projection)) {
+        const glm::dvec2 side = out.pivot - out.radius * glm::dvec2(projection.right.x, projection.right.y);
+        out.shift = picture.at(space.point(side.x, side.y, out.time + ui.px(kArrow) / scale / space.time_height));
+    }
+    return out;
+}
+
+Handle handle_at(Ui& ui, const HandlePlaces& places, ImVec2 mouse) {
+    const auto near = [&](const std::optional<ImVec2>& at) { return at && distance(*at, mouse) <= ui.px(kReach); };
+    if (near(places.turn)) return Handle::turn;
+    if (near(places.shift)) return Handle::shift;
+    if (near(places.move)) return Handle::move;
+    return Handle::none;
+}
+
+void draw_handles(Ui& ui, const ShownPicture& picture, const HandlePlaces& places, Handle lit) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const DrawnSpace& space = picture.list.space;
+    const ImU32 ground = to_im(ui.style.palette.background);
+    const auto color = [&](Handle handle) { return handle == lit ? ui.style.accent : ui.style.text; };
+    const auto knob = [&](ImVec2 at, Handle handle) {
+        draw.AddCircleFilled(at, ui.px(kKnob + 1.5f), ground);
+        draw.AddCircleFilled(at, ui.px(kKnob), color(handle));
+    };
+    if (places.turn) {
+        std::vector<glm::vec3> ring;
+        for (int i = 0; i < 64; ++i) {
+            const double angle = 2 * std::numbers::pi * i / 64;
+            ring.push_back(space.point(places.pivot.x + places.radius * std::cos(angle),
+                                       places.pivot.y + places.radius * std::sin(angle), places.time));
+        }
+        draw_line(ui, picture, ring, true, color(Handle::turn), ui.px(1.2f));
+        knob(*places.turn, Handle::turn);
+    }
+    if (places.shift) {
+        const glm::vec3 right = picture.list.projection.right;
+        const glm::dvec2 side = places.pivot - places.radius * glm::dvec2(right.x, right.y);
+        if (const auto foot = picture.at(space.point(side.x, side.y, places.time))) {
+            const ImVec2 head = *places.shift;
+            draw.AddLine(*foot, head, ground, ui.px(3.5f));
+            draw.AddLine(*foot, head, color(Handle::shift), ui.px(1.5f));
+            const float w = ui.px(kKnob);
+            draw.AddTriangleFilled({head.x - w, head.y + w}, {head.x + w, head.y + w}, {head.x, head.y - w},
+                                   color(Handle::shift));
+        }
+    }
+    if (places.move) {
+        knob(*places.move, Handle::move);
+        const ImVec2 at = *places.move;
+        const float arm = ui.px(kKnob - 2);
+        draw.AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, ground, ui.px(1.5f));
+        draw.AddLine({at.x, at.y - arm}, {at.x, at.y + arm}, ground, ui.px(1.5f));
+    }
+}
+
+std::optional<mobb::Placement> dragged(const HandleDrag& drag, const DrawList& list, glm::vec2 pixel, bool snap) {
+    mobb::Placement out = drag.start;
+    if (drag.handle == Handle::shift) {
+        // Seconds along the time axis as it is seen where the drag began.
+        const glm::vec3 foot = list.space.point(drag.pivot.x, drag.pivot.y, drag.time);
+        const auto here = list.projection.project(foot);
+        const auto above = list.projection.project(foot + glm::vec3(0, 0, 1));
+        if (!here || !above) return std::nullopt;
+        const glm::vec2 metre = *above - *here;
+        const float length = glm::dot(metre, metre);
+        if (length < 1e-6f) return std::nullopt;
+        out.start += glm::dot(pixel - drag.from, metre) / length / list.space.time_height;
+        if (snap) out.start = snapped(out.start, 0.1);
+        return out;
+    }
+    const auto from = floor_at(list, drag.from, drag.time);
+    const auto to = floor_at(list, pixel, drag.time);
+    if (!from || !to) return std::nullopt;
+    if (drag.handle == Handle::move) {
+        out.translate += *to - *from;
+        if (snap) out.translate = {snapped(out.translate.x, 0.1), snapped(out.translate.y, 0.1)};
+        return out;
+    }
+    const glm::dvec2 before = *from - drag.pivot;
+    const glm::dvec2 after = *to - drag.pivot;
+    if (glm::length(before) < 1e-9 || glm::length(after) < 1e-9) return std::nullopt;
+    out.rotate_deg = drag.start.rotate_deg + degrees(std::atan2(after.y, after.x) - std::atan2(before.y, before.x));
+    out.rotate_deg = snap ? snapped(out.rotate_deg, 5) : out.rotate_deg;
+    out.rotate_deg = std::remainder(out.rotate_deg, 360);
+    // The clip turns about its own origin; moved so that the pivot stays.
+    const mobb::Rotation turn = mobb::Rotation::from_degrees(out.rotate_deg - drag.start.rotate_deg);
+    out.translate = drag.pivot + turn(drag.start.translate - drag.pivot);
+    return out;
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,43 @@
+/// Handles on the selected agent: move it on the floor, turn it, shift it in time.
+#pragma once
+
+#include <app/viewport/viewport_overlay.h>
+
+#include <mobb/clip.h>
+
+#include <optional>
+
+namespace mobbscope::app {
+
+enum class Handle { none, move, turn, shift };
+
+/// Where the handles of a path stand in the picture, pixels of the window.
+struct HandlePlaces {
+    double time = 0;                          ///< of the plane in which it is moved and turned: when the path starts
+    glm::dvec2 pivot{0};                      ///< where the path starts, world metres
+    double radius = 0;                        ///< of the ring that turns it, metres
+    std::optional<ImVec2> move, turn, shift;  ///< their middles; none where they cannot be seen or have no meaning
+};
+HandlePlaces handle_places(Ui& ui, const ShownPicture& picture, const mobb::PlacedClip& clip);
+
+/// The handle at a pixel of the window.
+Handle handle_at(Ui& ui, const HandlePlaces& places, ImVec2 mouse);
+
+/// Draws them; `lit` is under the mouse or held.
+void draw_handles(Ui& ui, const ShownPicture& picture, const HandlePlaces& places, Handle lit);
+
+/// One drag of a handle, or of the path itself: where the mouse took hold, and what then was.
+struct HandleDrag {
+    Handle handle = Handle::none;
+    int agent = -1;
+    mobb::Placement start;
+    glm::dvec2 pivot{0};  ///< about which it is turned, world metres
+    double time = 0;      ///< of the plane in which it is dragged
+    glm::vec2 from{0};    ///< pixel of the picture
+};
+
+/// The placement with the mouse at a pixel of the picture; none where the line of sight misses the floor. `snap`: whole
+/// decimetres, steps of 5 degrees, tenths of a second.
+std::optional<mobb::Placement> dragged(const HandleDrag& drag, const DrawList& list, glm::vec2 pixel, bool snap);
+
+}  // namespace mobbscope::app

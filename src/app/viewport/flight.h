@@ -1,0 +1,23 @@
+/// A camera on its way from one view to another: a jump would lose the person.
+#pragma once
+
+#include <scene/view_state.h>
+
+namespace mobbscope::app {
+
+class Flight {
+  public:
+    /// Both settled (render/drawlist/resolve_camera.h). `now`: seconds.
+    Flight(const Camera& from, const Camera& to, double now) : from_(from), to_(to), start_(now) {}
+
+    bool over(double now) const { return now - start_ >= kSeconds; }
+    Camera at(double now) const;
+
+  private:
+    static constexpr double kSeconds = 0.3;
+
+    Camera from_, to_;
+    double start_;
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,385 @@
+#include <app/commands/command.h>
+#include <app/viewport/viewport.h>
+#include <render/drawlist/metrics.h>
+#include <render/drawlist/navigate.h>
+#include <render/drawlist/pick.h>
+#include <render/drawlist/resolve_camera.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/render.h>
+#include <scene/drawn_agent.h>
+#include <scene/scene_edits.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr double kRest = 0.2;        // seconds without change after which smooth edges are worth their time
+constexpr float kClickReach = 4;     // pixels at scale 1 that a click may slip
+constexpr double kWheelZoom = 1.15;  // a notch of the wheel
+
+glm::vec2 mouse_pixel(const ShownPicture& picture) { return picture.pixel(ImGui::GetIO().MousePos); }
+
+/// What is under a pixel, nearest first; nodes that are only outlined, as they were tested before, come last: they
+/// stand around everything else.
+std::vector<Pick> picks(const DrawList& list, glm::vec2 pixel) {
+    std::vector<Pick> hits = pick(list, pixel);
+    const auto stands_out = [&](const Pick& hit) {
+        if (hit.id.kind == ObjectId::Kind::disk) return true;
+        const auto box = std::find_if(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) {
+            return b.pickable && b.id == hit.id && b.fill.a > 0;
+        });
+        return box != list.boxes.end();
+    };
+    std::stable_partition(hits.begin(), hits.end(), stands_out);
+    return hits;
+}
+
+/// Nothing is open: what to do.
+void welcome(Ui& ui) {
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    ImGui::SetCursorPos({ImGui::GetCursorPosX() + 0.5f * room.x - ui.px(150), ImGui::GetCursorPosY() + 0.4f * room.y});
+    ImGui::BeginGroup();
+    ImGui::PushFont(ui.style.title);
+    ImGui::TextUnformatted("Drop a scene or motion clips here");
+    ImGui::PopFont();
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
+    ImGui::TextUnformatted("scenes and captures .json, clips .bvh .glb .gltf .fbx .csv");
+    ImGui::PopStyleColor();
+    ImGui::Dummy({0, ui.px(6)});
+    if (ImGui::Button("Open...")) invoke(ui.session, "file.open");
+    ui.mark("welcome.open");
+    ImGui::SameLine();
+    if (ImGui::Button("Open the demo")) invoke(ui.session, "file.demo");
+    ui.mark("welcome.demo");
+    ImGui::EndGroup();
+}
+
+}  // namespace
+
+// --- the picture
+
+void Viewport::build(const Key& key, const FollowedChoice* choice) {
+    list_.reset();
+    why_not_.clear();
+    try {
+        check(key.size);
+        list_ = build_draw_list(*key.fitted, key.view, {.size = key.size, .scale = key.scale}, choice);
+    } catch (const std::invalid_argument& error) {
+        why_not_ = error.what();
+    }
+    painted_ = false;
+}
+
+Camera Viewport::shown_camera() const {
+    return list_ ? resolved_camera(key_->view.camera, *list_) : key_->view.camera;
+}
+
+/// The camera has jumped, by a command or by undo: it flies there instead, if somebody is looking.
+void Viewport::take_off(Ui& ui, const Key& next) {
+    const bool jumped = key_ && list_ && ui.session.attended() && drag_ == Drag::none && key_->fitted == next.fitted &&
+                        key_->size == next.size && !(key_->view.camera == next.view.camera);
+    if (!jumped) {
+        if (!key_ || key_->fitted != next.fitted || key_->size != next.size) flight_.reset();
+        return;
+    }
+    Camera from = resolved_camera(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
+    const DrawList there = build_draw_list(*next.fitted, next.view, next.size, next.scale);
+    // Heights must mean the same all the way.
+    if (there.space.time_height != list_->space.time_height || there.moment.has_value() != list_->moment.has_value()) {
+        return;
+    }
+    // Targets may be counted from somebody else now: the way begins where the camera stands.
+    const glm::dvec3 seen = list_->space.place(list_->space.from_target(*from.target));
+    from.target = there.space.to_target(there.space.point(seen.x, seen.y, seen.z));
+    flight_.emplace(from, resolved_camera(next.view.camera, there), ui.now);
+}
+
+void Viewport::update_picture(Ui& ui, PictureSize size) {
+    const Session& session = ui.session;
+    // Text follows the panels where they are made larger than the picture would have it by itself.
+    const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
+    const FollowedChoice* choice = session.view().candidates ? session.choice() : nullptr;
+    const Key next{session.shown(), session.view(), size, words,
+                   choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1)};
+    if (key_ && *key_ == next && !flight_) return;
+    if (!(key_ && *key_ == next)) take_off(ui, next);
+    changed_at_ = ui.now;
+    key_ = next;
+    if (flight_ && !flight_->over(ui.now)) {
+        Key on_the_way = next;
+        on_the_way.view.camera = flight_->at(ui.now);
+        build(on_the_way, choice);
+        ui.want_frame_in(0);
+        return;
+    }
+    flight_.reset();
+    build(next, choice);
+}
+
+void Viewport::paint(Ui& ui, ImVec2 corner) {
+    const bool still = !ui.session.attended() || ui.now - changed_at_ >= kRest;
+    if (!painted_ || (still && !painted_still_)) {
+        texture_ = ui.painter.paint(still);
+        painted_ = true;
+        painted_still_ = still;
+    }
+    if (!painted_still_) ui.want_frame_in(kRest);
+    const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
+                     corner.y + static_cast<float>(list_->size.height)};
+    ImGui::GetWindowDrawList()->AddImage(texture_, corner, end, {0, 1}, {1, 0});
+}
+
+void Viewport::draw(Ui& ui) {
+    viewport_toolbar(ui);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const PictureSize size{static_cast<int>(room.x), static_cast<int>(room.y)};
+    if (ui.session.empty()) {
+        list_.reset();
+        key_.reset();
+        welcome(ui);
+        return;
+    }
+    if (size.width < kMinSide || size.height < kMinSide) return;
+    update_picture(ui, size);
+    ui.session.hooks.viewport_size = [size] { return size; };
+    ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
+    if (!list_) {
+        ImGui::TextWrapped("%s", why_not_.c_str());
+        return;
+    }
+    const ShownPicture picture{*list_, corner};
+    ImGui::InvisibleButton(
+        "##picture", room,
+        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
+    ui.mark("viewport");
+    mouse(ui, picture);
+    // A drag may have changed the document: what is shown is never of before.
+    update_picture(ui, size);
+    if (!list_) return;
+    paint(ui, corner);
+    decorate(ui, {*list_, corner});
+}
+
+// --- the mouse
+
+void Viewport::move_camera(Ui& ui, const Camera& camera) {
+    ui.session.change_view([&](ViewState& view) {
+        view.camera = camera;
+        // The camera stands in a scene whose time is drawn so high.
+        if (!list_->moment) view.time_height = list_->space.time_height;
+    });
+    flight_.reset();
+}
+
+void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
+    const glm::vec2 pixel = mouse_pixel(picture);
+    const bool over = ImGui::IsItemHovered();
+    if (over && ImGui::GetIO().MouseWheel != 0) wheel(ui, pixel);
+    if (ImGui::IsItemActivated()) press(ui, picture, pixel);
+    if (ImGui::IsItemActive()) {
+        drag(ui, pixel);
+    } else if (drag_ != Drag::none) {
+        release(ui, pixel);
+    }
+    if (drag_ == Drag::none) {
+        const auto held = over && list_ ? handles(ui, picture) : std::nullopt;
+        lit_ = held ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
+        if (over && list_ && lit_ == Handle::none) {
+            hover(ui, pixel);
+        } else if (place_) {
+            place_.reset();
+            ui.session.hovered = {};
+        }
+    }
+    last_ = pixel;
+}
+
+void Viewport::wheel(Ui& ui, glm::vec2 pixel) {
+    const double factor = std::pow(kWheelZoom, ImGui::GetIO().MouseWheel);
+    move_camera(ui, zoomed(shown_camera(), factor, pixel, list_->size));
+}
+
+std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& picture) {
+    const Session& session = ui.session;
+    // They stand where a path begins, in space-time.
+    if (picture.list.moment || !session.selection.on_path() || session.crowd()) return std::nullopt;
+    const auto who = placed_agent_of(session.fitted(), session.selection.path);
+    const bool in_view = index_in_view(session.fitted(), session.view(), session.selection.path).has_value();
+    if (!who || who->agent < 0 || !in_view) return std::nullopt;
+    const mobb::PlacedTree placed = session.fitted().placed(*who);
+    return Handles{*who, handle_places(ui, picture, placed.placed_clip())};
+}
+
+std::optional<HandleDrag> Viewport::take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const {
+    const Session& session = ui.session;
+    const auto held = handles(ui, picture);
+    if (!held) return std::nullopt;
+    const auto& [who, places] = *held;
+    const Handle handle = handle_at(ui, places, ImGui::GetIO().MousePos);
+    if (handle != Handle::none) return HandleDrag{handle, who.agent, who.placement, places.pivot, places.time, pixel};
+    if (session.selection.kind != Selection::Kind::path) return std::nullopt;
+    // The selected path itself moves on the floor, at the height where it is held.
+    for (const Pick& hit : pick(*list_, pixel)) {
+        if (hit.id.kind != ObjectId::Kind::disk) continue;
+        if (agent_in_view(session.fitted(), session.view(), hit.id.participant) != session.selection.path) break;
+        return HandleDrag{Handle::move, who.agent, who.placement, places.pivot, hit.place.z, pixel};
+    }
+    return std::nullopt;
+}
+
+void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
+    const ImGuiIO& io = ImGui::GetIO();
+    pressed_at_ = pixel;
+    last_ = pixel;
+    moved_ = false;
+    drag_ = Drag::orbit;
+    place_.reset();
+    ui.session.hovered = {};
+    if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
+        drag_ = Drag::pan;
+    } else if (const auto hold = take_hold(ui, picture, pixel)) {
+        drag_ = Drag::handle;
+        handle_drag_ = *hold;
+        lit_ = hold->handle;
+    }
+}
+
+void Viewport::drag(Ui& ui, glm::vec2 pixel) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!moved_ && glm::length(pixel - pressed_at_) <= ui.px(kClickReach)) return;
+    const glm::vec2 by = moved_ ? pixel - last_ : pixel - pressed_at_;
+    moved_ = true;
+    if (by == glm::vec2(0)) return;
+    if (drag_ == Drag::orbit) move_camera(ui, orbited(shown_camera(), by, list_->size));
+    if (drag_ == Drag::pan) move_camera(ui, panned(shown_camera(), by, list_->size));
+    if (drag_ != Drag::handle) return;
+    const auto placement = dragged(handle_drag_, *list_, pixel, io.KeyCtrl);
+    if (!placement) return;
+    const Camera camera = shown_camera();
+    const double height = list_->space.time_height;
+    const char* what = handle_drag_.handle == Handle::move   ? "moving "
+                       : handle_drag_.handle == Handle::turn ? "turning "
+                                                             : "shifting ";
+    attempt(ui.session, [&] {
+        const std::string& name = ui.session.scene().agents.at(static_cast<std::size_t>(handle_drag_.agent)).name;
+        ui.session.edit({what + name, "drag"}, [&](Scene& scene) {
+            place_agent(scene, handle_drag_.agent, *placement);
+            scene.view.camera = camera;
+            scene.view.time_height = height;
+        });
+    });
+}
+
+void Viewport::release(Ui& ui, glm::vec2 pixel) {
+    const bool was_click = !moved_ && drag_ != Drag::pan;
+    drag_ = Drag::none;
+    ui.session.close_group();
+    if (was_click && list_) click(ui, pixel);
+}
+
+void Viewport::hover(Ui& ui, glm::vec2 pixel) {
+    Session& session = ui.session;
+    const std::vector<Pick> hits = picks(*list_, pixel);
+    place_.reset();
+    session.hovered = {};
+    if (hits.empty()) return;
+    const ObjectId& id = hits.front().id;
+    place_ = hits.front().place;
+    session.hovered = {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
+                       agent_in_view(session.fitted(), session.view(), id.participant), id.index};
+}
+
+/// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
+void Viewport::click(Ui& ui, glm::vec2 pixel) {
+    Session& session = ui.session;
+    const std::vector<Pick> hits = picks(*list_, pixel);
+    const bool again = glm::length(pixel - clicked_at_) <= ui.px(kClickReach);
+    depth_ = again ? depth_ + 1 : 0;
+    clicked_at_ = pixel;
+    if (hits.empty()) {
+        session.select({});
+        return;
+    }
+    const ObjectId& id = hits[depth_ % hits.size()].id;
+    const AgentRef path = agent_in_view(session.fitted(), session.view(), id.participant);
+    session.select({id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample, path, id.index});
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
+}
+
+// --- over the picture
+
+void Viewport::tooltip(Ui& ui) const {
+    const Session& session = ui.session;
+    if (!place_ || session.hovered.kind == Selection::Kind::none) return;
+    const Described what = describe(session.fitted(), session.hovered);
+    ImGui::BeginTooltip();
+    ImGui::TextUnformatted(what.name.c_str());
+    ImGui::PushFont(ui.style.mono);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
+    for (const auto& [key, value] : what.facts) {
+        if (key == "samples" || key == "time" || key == "radius") ImGui::Text("%-8s%s", key.c_str(), value.c_str());
+    }
+    const char* here = list_->moment ? "%-8s%.3f, %.3f m, %.3f m high" : "%-8s%.3f, %.3f m at %.3f s";
+    ImGui::Text(here, "here", place_->x, place_->y, place_->z);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    ImGui::EndTooltip();
+}
+
+void Viewport::handle_tooltip(Ui& ui, const mobb::Placement& placement) const {
+    if (drag_ != Drag::handle || !moved_) {
+        const char* words = lit_ == Handle::move   ? "Drag to move on the floor. Ctrl: in steps"
+                            : lit_ == Handle::turn ? "Drag to turn about the start. Ctrl: in steps"
+                                                   : "Drag to begin earlier or later. Ctrl: in steps";
+        ImGui::SetTooltip("%s", words);
+        return;
+    }
+    ImGui::BeginTooltip();
+    ImGui::PushFont(ui.style.mono);
+    if (lit_ == Handle::move) ImGui::Text("x %.2f  y %.2f m", placement.translate.x, placement.translate.y);
+    if (lit_ == Handle::turn) ImGui::Text("%.1f\u00B0", placement.rotate_deg);
+    if (lit_ == Handle::shift) ImGui::Text("starts at %.2f s", placement.start);
+    ImGui::PopFont();
+    ImGui::EndTooltip();
+}
+
+void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
+    const Session& session = ui.session;
+    const ImVec2 end{picture.corner.x + static_cast<float>(list_->size.width),
+                     picture.corner.y + static_cast<float>(list_->size.height)};
+    ImGui::GetWindowDrawList()->PushClipRect(picture.corner, end, true);
+    draw_highlight(ui, picture, session.selection, ui.style.text, ui.px(2));
+    if (session.hovered != session.selection) draw_highlight(ui, picture, session.hovered, ui.style.text, ui.px(1));
+    draw_candidate(ui, picture);
+    draw_other_of_conflict(ui, picture);
+    const auto held = handles(ui, picture);
+    if (held) {
+        draw_handles(ui, picture, held->places, lit_);
+        const auto mark = [&](const char* name, const std::optional<ImVec2>& at) {
+            if (at) ui.marks.add(name, {{at->x - 4, at->y - 4}, {at->x + 4, at->y + 4}});
+        };
+        mark("handle.move", held->places.move);
+        mark("handle.turn", held->places.turn);
+        mark("handle.shift", held->places.shift);
+    }
+    ImGui::GetWindowDrawList()->PopClipRect();
+    // The picture has no padding, what is said of it has.
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(9), ui.px(7)});
+    if (held && lit_ != Handle::none) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+        handle_tooltip(ui, held->who.placement);
+    } else if (drag_ == Drag::none && ImGui::IsItemHovered()) {
+        tooltip(ui);
+    }
+    ImGui::PopStyleVar();
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,83 @@
+/// The picture in the middle of the window, and what the mouse does in it.
+#pragma once
+
+#include <app/ui/ui.h>
+#include <app/viewport/agent_handles.h>
+#include <app/viewport/flight.h>
+#include <app/viewport/viewport_overlay.h>
+#include <render/drawlist/draw_list.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace mobbscope::app {
+
+class Viewport {
+  public:
+    /// Draws picture, handles and what is under the mouse into the current ImGui child window.
+    void draw(Ui& ui);
+
+    /// What it showed last, as `render` would draw it but for a flight under way; null for an empty scene.
+    const DrawList* shown() const { return list_ ? &*list_ : nullptr; }
+
+  private:
+    /// All that the picture depends on.
+    struct Key {
+        std::shared_ptr<const FittedScene> fitted;
+        ViewState view;
+        PictureSize size;
+        double scale = 0;
+        std::pair<int, int> choice{-1, -1};  ///< agent and play whose candidates are shown
+        friend bool operator==(const Key&, const Key&) = default;
+    };
+    enum class Drag { none, orbit, pan, handle };
+
+    void update_picture(Ui& ui, PictureSize size);
+    void build(const Key& key, const FollowedChoice* choice);
+    void take_off(Ui& ui, const Key& next);
+    void paint(Ui& ui, ImVec2 corner);
+    void mouse(Ui& ui, const ShownPicture& picture);
+    void wheel(Ui& ui, glm::vec2 pixel);
+    void press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel);
+    void drag(Ui& ui, glm::vec2 pixel);
+    void release(Ui& ui, glm::vec2 pixel);
+    void hover(Ui& ui, glm::vec2 pixel);
+    void click(Ui& ui, glm::vec2 pixel);
+    void tooltip(Ui& ui) const;
+    void handle_tooltip(Ui& ui, const mobb::Placement& placement) const;
+    void decorate(Ui& ui, const ShownPicture& picture);
+    Camera shown_camera() const;
+    void move_camera(Ui& ui, const Camera& camera);
+    /// The agent that can be dragged, as it is selected and in the picture.
+    struct Handles {
+        PlacedAgent who;
+        HandlePlaces places;
+    };
+    static std::optional<Handles> handles(Ui& ui, const ShownPicture& picture);
+    std::optional<HandleDrag> take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const;
+
+    std::optional<Key> key_;  ///< what the document asks for, a flight apart
+    std::optional<DrawList> list_;
+    std::string why_not_;  ///< there is no list: the reason
+    std::optional<Flight> flight_;
+    bool painted_ = false;
+    bool painted_still_ = false;
+    double changed_at_ = 0;
+    ImTextureID texture_ = nullptr;
+
+    Drag drag_ = Drag::none;
+    HandleDrag handle_drag_;
+    Handle lit_ = Handle::none;  ///< under the mouse or held
+    glm::vec2 pressed_at_{0};
+    glm::vec2 last_{0};
+    bool moved_ = false;     ///< since the button went down: no click
+    std::size_t depth_ = 0;  ///< of the last click: another click at its place selects what lies behind
+    glm::vec2 clicked_at_{-1e6f};
+    std::optional<glm::dvec3> place_;  ///< under the mouse: x, y, t; in the picture of a moment the height
+};
+
+/// Buttons above the picture: where from, what is shown.
+void viewport_toolbar(Ui& ui);
+
+}  // namespace mobbscope::app

@@ -1,0 +1,384 @@
+#include <app/window/glfw_window.h>
+#include <app/window/window_icon.h>
+#include <base/error.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// Where the display does not hold frames back, this does: a window that plays at 1000 frames a second helps nobody.
+constexpr double kLeastFrame = 1.0 / 120;
+/// Of the monitor's room, what a window takes at most.
+constexpr double kShareOfMonitor = 0.9;
+
+std::string last_error;
+
+[[noreturn]] void fail(const std::string& what) {
+    throw MachineError(what + (last_error.empty() ? "" : " (" + last_error + ")") +
+                       "; `mobbscope render` makes pictures and `mobbscope --script FILE --headless` runs the window "
+                       "without a display");
+}
+
+/// Owns GLFW's window along with its context.
+class WindowContext final : public GlContext {
+  public:
+    explicit WindowContext(GLFWwindow* window) : window_(window) {}
+    ~WindowContext() override { glfwDestroyWindow(window_); }
+
+    std::string_view name() const override { return "window"; }
+
+  private:
+    bool bind() noexcept override {
+        // To make current what is current may cost a flush.
+        if (glfwGetCurrentContext() != window_) glfwMakeContextCurrent(window_);
+        return glfwGetCurrentContext() == window_;
+    }
+    Function function(const char* function_name) const noexcept override { return glfwGetProcAddress(function_name); }
+
+    GLFWwindow* window_;
+};
+
+Key physical_key(int key) {
+    const auto in_row = [](int pressed, int first, Key of_first) {
+        return static_cast<Key>(static_cast<int>(of_first) + pressed - first);
+    };
+    if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) return in_row(key, GLFW_KEY_A, Key::a);
+    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return in_row(key, GLFW_KEY_0, Key::n0);
+    if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return in_row(key, GLFW_KEY_KP_0, Key::n0);
+    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return in_row(key, GLFW_KEY_F1, Key::f1);
+    constexpr std::array<std::pair<int, Key>, 36> kOthers{{
+        {GLFW_KEY_SPACE, Key::space},
+        {GLFW_KEY_ENTER, Key::enter},
+        {GLFW_KEY_KP_ENTER, Key::enter},
+        {GLFW_KEY_ESCAPE, Key::escape},
+        {GLFW_KEY_TAB, Key::tab},
+        {GLFW_KEY_BACKSPACE, Key::backspace},
+        {GLFW_KEY_DELETE, Key::del},
+        {GLFW_KEY_INSERT, Key::insert},
+        {GLFW_KEY_LEFT, Key::left},
+        {GLFW_KEY_RIGHT, Key::right},
+        {GLFW_KEY_UP, Key::up},
+        {GLFW_KEY_DOWN, Key::down},
+        {GLFW_KEY_HOME, Key::home},
+        {GLFW_KEY_END, Key::end},
+        {GLFW_KEY_PAGE_UP, Key::page_up},
+        {GLFW_KEY_PAGE_DOWN, Key::page_down},
+        {GLFW_KEY_COMMA, Key::comma},
+        {GLFW_KEY_PERIOD, Key::period},
+        {GLFW_KEY_KP_DECIMAL, Key::period},
+        {GLFW_KEY_SLASH, Key::slash},
+        {GLFW_KEY_KP_DIVIDE, Key::slash},
+        {GLFW_KEY_MINUS, Key::minus},
+        {GLFW_KEY_KP_SUBTRACT, Key::minus},
+        {GLFW_KEY_EQUAL, Key::equal},
+        {GLFW_KEY_KP_ADD, Key::equal},
+        {GLFW_KEY_LEFT_BRACKET, Key::left_bracket},
+        {GLFW_KEY_RIGHT_BRACKET, Key::right_bracket},
+        {GLFW_KEY_LEFT_CONTROL, Key::ctrl},
+        {GLFW_KEY_RIGHT_CONTROL, Key::ctrl},
+        {GLFW_KEY_LEFT_SHIFT, Key::shift},
+        {GLFW_KEY_RIGHT_SHIFT, Key::shift},
+        {GLFW_KEY_LEFT_ALT, Key::alt},
+        {GLFW_KEY_RIGHT_ALT, Key::alt},
+        {GLFW_KEY_LEFT_SUPER, Key::super},
+        {GLFW_KEY_RIGHT_SUPER, Key::super},
+        {GLFW_KEY_UNKNOWN, Key::none},
+    }};
+    const auto at = std::find_if(kOthers.begin(), kOthers.end(), [&](const auto& other) { return other.first == key; });
+    return at == kOthers.end() ? Key::none : at->second;
+}
+
+/// What stands on the key; where that is no name of ours (Cyrillic, the digits of a French keyboard), what an American
+/// keyboard has there.
+Key key_of(int key, int scancode) {
+    const char* printed = glfwGetKeyName(key, scancode);
+    if (printed) {
+        if (const std::optional<Key> named = key_from_name(printed)) return *named;
+    }
+    return physical_key(key);
+}
+
+int standard_cursor(ImGuiMouseCursor cursor) {
+    switch (cursor) {
+        case ImGuiMouseCursor_TextInput:
+            return GLFW_IBEAM_CURSOR;
+        case ImGuiMouseCursor_ResizeNS:
+            return GLFW_VRESIZE_CURSOR;
+        case ImGuiMouseCursor_ResizeEW:
+            return GLFW_HRESIZE_CURSOR;
+        case ImGuiMouseCursor_ResizeAll:
+            return GLFW_CROSSHAIR_CURSOR;
+        case ImGuiMouseCursor_Hand:
+            return GLFW_HAND_CURSOR;
+        default:
+            return GLFW_ARROW_CURSOR;
+    }
+}
+
+[[maybe_unused]] bool is_set(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value;
+}
+
+/// GLFW from start to end.
+struct Library {
+    Library() {
+        glfwSetErrorCallback([](int, const char* message) { last_error = message; });
+#ifdef GLFW_PLATFORM
+        // From GLFW 3.4 on Wayland is tried first, whose library complains on standard error where there is none.
+        if (!is_set("WAYLAND_DISPLAY") && !is_set("WAYLAND_SOCKET")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+        if (!glfwInit()) fail("there is no display to open a window on");
+    }
+    ~Library() { glfwTerminate(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+};
+
+double monitor_scale() {
+    float x = 1;
+    float y = 1;
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &x, &y);
+    return x > 0 ? static_cast<double>(x) : 1.0;
+}
+
+PictureSize default_size(double scale) {
+    const auto scaled = [&](int side) { return static_cast<int>(std::lround(side * scale)); };
+    PictureSize size{scaled(kDefaultSize.width), scaled(kDefaultSize.height)};
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+        int x = 0;
+        int y = 0;
+        PictureSize room;
+        glfwGetMonitorWorkarea(monitor, &x, &y, &room.width, &room.height);
+        if (room.width > 0 && room.height > 0) {
+            size.width = std::min(size.width, static_cast<int>(room.width * kShareOfMonitor));
+            size.height = std::min(size.height, static_cast<int>(room.height * kShareOfMonitor));
+        }
+    }
+    return {std::max(size.width, kLeastSize.width), std::max(size.height, kLeastSize.height)};
+}
+
+GLFWwindow* open_window(PictureSize size) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until there is something to see
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "mobbscope");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "mobbscope");
+    GLFWwindow* window = glfwCreateWindow(size.width, size.height, "Mobbscope", nullptr, nullptr);
+    if (!window) fail("no window with OpenGL 3.3 can be opened");
+    return window;
+}
+
+}  // namespace
+
+bool has_display() {
+    const auto is_set = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value && *value != '\0';
+    };
+    return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
+
+struct GlfwWindow::State {
+    State(Session& of, std::optional<PictureSize> size)
+        : session(of),
+          window(open_window(
+              size.value_or(default_size(of.settings.ui_scale > 0 ? of.settings.ui_scale : monitor_scale())))),
+          shell(std::make_unique<WindowContext>(window), of, monitor_scale()) {
+        glfwSwapInterval(1);
+        glfwSetWindowSizeLimits(window, kLeastSize.width, kLeastSize.height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+        set_icon();
+        set_callbacks();
+        session.hooks.wake = [] { glfwPostEmptyEvent(); };
+        session.hooks.set_clipboard = [this](const std::string& text) { glfwSetClipboardString(window, text.c_str()); };
+        session.hooks.clipboard = [this]() -> std::string {
+            const char* text = glfwGetClipboardString(window);
+            return text ? text : "";
+        };
+    }
+    ~State() {
+        session.cancel_job();  // it would wake a window that is gone
+        session.hooks.wake = nullptr;
+        session.hooks.set_clipboard = nullptr;
+        session.hooks.clipboard = nullptr;
+        for (const auto& [shape, cursor] : cursors) glfwDestroyCursor(cursor);
+    }
+
+    static Shell& shell_of(GLFWwindow* of) { return static_cast<State*>(glfwGetWindowUserPointer(of))->shell; }
+
+    void set_icon() const {
+        std::array<Image, 3> icons{window_icon(16), window_icon(32), window_icon(64)};
+        std::array<GLFWimage, 3> images{};
+        for (std::size_t i = 0; i < icons.size(); ++i) {
+            images[i] = {icons[i].width, icons[i].height, icons[i].rgba.data()};
+        }
+        glfwSetWindowIcon(window, static_cast<int>(images.size()), images.data());
+    }
+
+    void set_callbacks() {
+        glfwSetWindowUserPointer(window, this);
+        glfwSetCursorPosCallback(window, [](GLFWwindow* of, double x, double y) {
+            // Positions come in the window's coordinates, which on some displays are not pixels.
+            PictureSize points;
+            PictureSize pixels;
+            glfwGetWindowSize(of, &points.width, &points.height);
+            glfwGetFramebufferSize(of, &pixels.width, &pixels.height);
+            const glm::dvec2 scale(static_cast<double>(pixels.width) / std::max(points.width, 1),
+                                   static_cast<double>(pixels.height) / std::max(points.height, 1));
+            shell_of(of).feed(MouseMove{glm::vec2(glm::dvec2(x, y) * scale)});
+        });
+        glfwSetCursorEnterCallback(window, [](GLFWwindow* of, int entered) {
+            bool held = false;
+            for (int button = 0; button < 3; ++button) held |= glfwGetMouseButton(of, button) == GLFW_PRESS;
+            // Dear ImGui's way to say that there is no mouse.
+            if (!entered && !held) shell_of(of).feed(MouseMove{glm::vec2(-FLT_MAX)});
+        });
+        glfwSetMouseButtonCallback(window, [](GLFWwindow* of, int button, int action, int) {
+            if (button < 3) shell_of(of).feed(MouseButton{button, action == GLFW_PRESS});
+        });
+        glfwSetScrollCallback(window,
+                              [](GLFWwindow* of, double x, double y) { shell_of(of).feed(Wheel{glm::vec2(x, y)}); });
+        glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int scancode, int action, int) {
+            const Key known = key_of(key, scancode);
+            if (known != Key::none) shell_of(of).feed(KeyPress{known, action != GLFW_RELEASE});
+        });
+        glfwSetCharCallback(window, [](GLFWwindow* of, unsigned int code) {
+            shell_of(of).feed(TypedText{static_cast<char32_t>(code)});
+        });
+        glfwSetDropCallback(window, [](GLFWwindow* of, int count, const char** paths) {
+            shell_of(of).feed(Drop{{paths, paths + count}});
+        });
+        glfwSetWindowCloseCallback(window, [](GLFWwindow* of) {
+            glfwSetWindowShouldClose(of, GLFW_FALSE);
+            // No frame is drawn of a minimised window, and it may have to ask about unsaved changes.
+            if (glfwGetWindowAttrib(of, GLFW_ICONIFIED)) glfwRestoreWindow(of);
+            shell_of(of).feed(CloseRequest{});
+        });
+        glfwSetWindowContentScaleCallback(
+            window, [](GLFWwindow* of, float x, float) { shell_of(of).set_scale(static_cast<double>(x)); });
+    }
+
+    bool is_seen() const {
+        PictureSize size;
+        glfwGetFramebufferSize(window, &size.width, &size.height);
+        return size.width > 0 && size.height > 0 && !glfwGetWindowAttrib(window, GLFW_ICONIFIED);
+    }
+
+    /// Draws, and notes when to draw again.
+    void draw() {
+        if (!is_seen()) {
+            session.poll();
+            next = std::numeric_limits<double>::infinity();
+            return;
+        }
+        PictureSize size;
+        glfwGetFramebufferSize(window, &size.width, &size.height);
+        last_drawn = glfwGetTime();
+        next = shell.frame(size, last_drawn);
+        shell.present();
+        glfwSwapBuffers(window);
+        show_title();
+        show_cursor();
+        if (!std::exchange(shown, true)) glfwShowWindow(window);
+    }
+
+    void show_title() {
+        const std::string wanted = session.title() + (session.modified() ? "*" : "") + " - Mobbscope";
+        if (wanted == title) return;
+        glfwSetWindowTitle(window, wanted.c_str());
+        title = wanted;
+    }
+
+    void show_cursor() {
+        const int shape = standard_cursor(shell.cursor());
+        if (shape == cursor_shape) return;
+        auto [at, is_new] = cursors.try_emplace(shape, nullptr);
+        if (is_new) at->second = glfwCreateStandardCursor(shape);
+        glfwSetCursor(window, at->second);
+        cursor_shape = shape;
+    }
+
+    /// Sleeps until something happens or the next frame is due, at most so long.
+    void wait(double most) const {
+        const double due = std::max(next, kLeastFrame - (glfwGetTime() - last_drawn));
+        const double seconds = std::min(due, most);
+        if (seconds <= 0) {
+            glfwPollEvents();
+        } else if (std::isinf(seconds)) {
+            glfwWaitEvents();
+        } else {
+            glfwWaitEventsTimeout(seconds);
+        }
+    }
+
+    Library library;
+    Session& session;
+    GLFWwindow* window;
+    Shell shell;
+    std::string title;
+    std::map<int, GLFWcursor*> cursors;
+    int cursor_shape = GLFW_ARROW_CURSOR;
+    double last_drawn = 0;
+    double next = 0;
+    bool shown = false;
+};
+
+GlfwWindow::GlfwWindow(Session& session, std::optional<PictureSize> size)
+    : state_(std::make_unique<State>(session, size)) {}
+
+GlfwWindow::~GlfwWindow() = default;
+
+void GlfwWindow::run() {
+    while (!state_->session.closed()) {
+        state_->wait(std::numeric_limits<double>::infinity());
+        state_->draw();
+    }
+}
+
+Shell& GlfwWindow::shell() { return state_->shell; }
+
+void GlfwWindow::frame() {
+    glfwPollEvents();
+    state_->draw();
+}
+
+void GlfwWindow::run_for(double seconds) {
+    for (const double end = glfwGetTime() + seconds; glfwGetTime() < end && !state_->session.closed();) {
+        state_->wait(end - glfwGetTime());
+        state_->draw();
+    }
+}
+
+void GlfwWindow::resize(PictureSize size) {
+    glfwSetWindowSize(state_->window, size.width, size.height);
+    // The display answers in its own time.
+    run_for(0.1);
+}
+
+void GlfwWindow::settle() {
+    frame();
+    // What still wants frames after that long is an animation.
+    for (const double end = glfwGetTime() + 2; state_->next == 0 && !shell().settled() && glfwGetTime() < end;)
+        frame();
+}
+
+}  // namespace mobbscope::app

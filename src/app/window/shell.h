@@ -1,0 +1,60 @@
+/// The window without its frame: input events in, pixels out, on any OpenGL context. The real window, scripts and
+/// `render --ui` all run this.
+#pragma once
+
+#include <app/document/session.h>
+#include <app/input/input.h>
+#include <app/ui/ui.h>
+#include <render/gl/gl_context.h>
+#include <render/image/image.h>
+
+#include <memory>
+#include <string>
+
+namespace mobbscope::app {
+
+/// Of text and panels.
+inline constexpr double kLeastUiScale = 0.5;
+inline constexpr double kMostUiScale = 4;
+
+class Shell {
+  public:
+    /// `scale`: of text and panels where the settings say none; either is brought within kLeastUiScale..kMostUiScale.
+    /// Takes over the session's hooks about the picture and the scale. Throws MachineError if OpenGL fails.
+    Shell(std::unique_ptr<GlContext> context, Session& session, double scale);
+    ~Shell();
+    Shell(const Shell&) = delete;
+    Shell& operator=(const Shell&) = delete;
+
+    void feed(const InputEvent& event);
+
+    /// One frame; it is drawn when it is read back or presented. `size`: at least 1x1. `now`: seconds, never less than
+    /// before. Returns in how many seconds the next one is wanted if nothing happens; infinity: never.
+    double frame(PictureSize size, double now);
+
+    /// Whether the last frame has taken in all input, and nothing but playback still changes.
+    bool settled() const;
+
+    /// How many frames were looked at, and so drawn.
+    int frames_drawn() const;
+
+    /// The last frame; there must have been one. Throws MachineError if OpenGL reports an error.
+    Image read_back();
+    /// Copies the last frame to the context's default framebuffer; likewise.
+    void present();
+
+    /// Where widgets stood in the last frame.
+    const Marks& marks() const;
+    /// The viewport's picture, as `render` draws it. Throws std::invalid_argument if there is none yet.
+    Image viewport_picture();
+
+    /// Of text and panels where the settings say none: another monitor has another.
+    void set_scale(double scale);
+    ImGuiMouseCursor cursor() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace mobbscope::app

@@ -1,0 +1,120 @@
+#include <app/window/ui_pass.h>
+#include <render/gl/gl_objects.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace mobbscope::app {
+
+namespace {
+
+static_assert(sizeof(ImDrawIdx) == 2, "indices are drawn as GL_UNSIGNED_SHORT");
+
+const void* at_byte(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
+
+void attribute(GLuint index, GLint components, GLenum type, GLboolean normalised, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, components, type, normalised, sizeof(ImDrawVert), at_byte(offset));
+}
+
+template <class T>
+void fill(GLenum target, const ImVector<T>& with) {
+    glBufferData(target, static_cast<GLsizeiptr>(with.size_in_bytes()), with.Data, GL_STREAM_DRAW);
+}
+
+/// How many of the command's first indices make triangles of plain colour, which take one texel all over.
+unsigned leading_plain(const ImDrawList& list, const ImDrawCmd& command) {
+    const auto texel = [&](unsigned i) {
+        const unsigned vertex = command.VtxOffset + list.IdxBuffer[static_cast<int>(command.IdxOffset + i)];
+        return list.VtxBuffer[static_cast<int>(vertex)].uv;
+    };
+    const ImVec2 white = ImGui::GetFontTexUvWhitePixel();
+    const auto is_plain = [&](unsigned i) { return texel(i).x == white.x && texel(i).y == white.y; };
+    unsigned count = 0;
+    while (count < command.ElemCount && is_plain(count)) ++count;
+    return count - count % 3;
+}
+
+}  // namespace
+
+ImTextureID texture_id(const Texture& texture) {
+    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name()));
+}
+
+UiPass::UiPass(GlContext& context) : textured_(context, "ui"), plain_(context, "ui", "ui_plain") {
+    glBindVertexArray(array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+    attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, pos));
+    attribute(1, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, uv));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ImDrawVert, col));
+    context.check("preparing the panels");
+}
+
+void UiPass::upload(ImFontAtlas& fonts) {
+    unsigned char* coverage = nullptr;
+    int width = 0;
+    int height = 0;
+    fonts.GetTexDataAsAlpha8(&coverage, &width, &height);
+    reset_state();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, glyphs_.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, coverage);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    // White, as opaque as the glyph covers the pixel.
+    const std::array<GLint, 4> swizzle{GL_ONE, GL_ONE, GL_ONE, GL_RED};
+    glTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_RGBA, swizzle.data());
+    fonts.ClearTexData();
+    fonts.SetTexID(texture_id(glyphs_));
+}
+
+void UiPass::draw(const ImDrawData& data, PictureSize size) {
+    reset_state();
+    glViewport(0, 0, size.width, size.height);
+    blend_over();
+    glEnable(GL_SCISSOR_TEST);
+    for (const ShaderProgram* program : {&plain_, &textured_}) {
+        program->use();
+        glUniform2f(program->uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
+    }
+    glUniform1i(textured_.uniform("picture"), 0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindVertexArray(array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+        const ImDrawList& list = *data.CmdLists[i];
+        fill(GL_ARRAY_BUFFER, list.VtxBuffer);
+        fill(GL_ELEMENT_ARRAY_BUFFER, list.IdxBuffer);
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            const ImVec4& clip = command.ClipRect;
+            const auto width = static_cast<GLsizei>(clip.z - clip.x);
+            const auto height = static_cast<GLsizei>(clip.w - clip.y);
+            if (width <= 0 || height <= 0 || command.ElemCount == 0) continue;
+            // OpenGL counts rows from below.
+            glScissor(static_cast<GLint>(clip.x), size.height - static_cast<GLint>(clip.w), width, height);
+            glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
+            const auto draw_indices = [&](unsigned first, unsigned count) {
+                glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_SHORT,
+                                         at_byte((command.IdxOffset + first) * sizeof(ImDrawIdx)),
+                                         static_cast<GLint>(command.VtxOffset));
+            };
+            const unsigned plain = leading_plain(list, command);
+            if (plain > 0) {
+                plain_.use();
+                draw_indices(0, plain);
+                textured_.use();
+            }
+            if (plain == command.ElemCount) continue;
+            // A picture hides what is behind it.
+            const bool is_picture = command.GetTexID() != texture_id(glyphs_);
+            if (is_picture) glDisable(GL_BLEND);
+            draw_indices(plain, command.ElemCount - plain);
+            if (is_picture) glEnable(GL_BLEND);
+        }
+    }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,78 @@
+/// A value in a JSON file together with the way to it: typed access whose errors name file, line and JSON pointer.
+#pragma once
+
+#include <base/json_value.h>
+
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mobbscope {
+
+/// The most that JsonPlace::integer can give.
+inline constexpr int kMaxInt = std::numeric_limits<int>::max();
+
+/// Refers to the value, to the file's name and to the place it was reached from; all must outlive it.
+class JsonPlace {
+  public:
+    JsonPlace(const JsonValue& root, const std::string& file) : value_(&root), file_(&file), line_(root.line) {}
+
+    int line() const { return line_; }
+    /// RFC 6901; "" for the whole text.
+    std::string pointer() const;
+    /// "line 12, /agents/0/clip".
+    std::string description() const;
+    /// Throws InputError for this place.
+    [[noreturn]] void fail(const std::string& message) const;
+
+    bool is_null() const { return std::holds_alternative<std::nullptr_t>(value_->data); }
+    bool is_string() const { return std::holds_alternative<std::string>(value_->data); }
+    bool is_number() const { return std::holds_alternative<double>(value_->data); }
+
+    // Each throws InputError if the value is of another type or out of range.
+    double number() const;
+    double number(double least, double most) const;
+    int integer(int least, int most) const;
+    bool boolean() const;
+    const std::string& string() const;
+
+    /// Elements of an array (throws InputError if it is none).
+    int size() const;
+    JsonPlace operator[](int index) const&;
+    JsonPlace operator[](int index) const&& = delete;  // the element would refer to a place that is gone
+    /// An array of exactly `count` elements.
+    void require_size(int count, const char* what) const;
+
+    /// Members of an object (throws InputError if it is none).
+    int members() const;
+    JsonPlace member(int index) const&;
+    JsonPlace member(int index) const&& = delete;
+    const std::string& key() const { return *key_; }  ///< of a place reached as a member
+    std::optional<JsonPlace> find(std::string_view key) const&;
+    std::optional<JsonPlace> find(std::string_view key) const&& = delete;
+    JsonPlace require(std::string_view key) const&;
+    JsonPlace require(std::string_view key) const&& = delete;
+    /// Throws InputError for the first member that is none of these, naming the nearest.
+    void allow_only(std::initializer_list<std::string_view> keys) const;
+
+  private:
+    JsonPlace(const JsonPlace& parent, const JsonMember& member)
+        : value_(&member.value), file_(parent.file_), parent_(&parent), key_(&member.key), line_(member.line) {}
+    JsonPlace(const JsonPlace& parent, const JsonValue& element, int index)
+        : value_(&element), file_(parent.file_), parent_(&parent), index_(index), line_(element.line) {}
+
+    const JsonValue::Array& array() const;
+    const JsonValue::Object& object() const;
+    [[noreturn]] void fail_type(const char* expected) const;
+
+    const JsonValue* value_;
+    const std::string* file_;
+    const JsonPlace* parent_ = nullptr;
+    const std::string* key_ = nullptr;  ///< in the parent, if that is an object
+    int index_ = 0;                     ///< in the parent, if that is an array
+    int line_;
+};
+
+}  // namespace mobbscope

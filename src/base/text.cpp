@@ -1,0 +1,233 @@
+#include <base/text.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kLongestQuote = 60;
+
+/// Levenshtein's edit distance in bytes.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// Edit distance of what a message would show: damaged files hold words of any length.
+std::size_t distance_to(std::string_view word, std::string_view name) {
+    return edit_distance(word.substr(0, kLongestQuote), name.substr(0, kLongestQuote));
+}
+
+/// Whether a decimal number beyond double's range is too small for it, not too large.
+bool is_tiny(std::string_view number) {
+    const std::size_t e = number.find_first_of("eE");
+    const std::string_view digits = number.substr(0, e);
+    const auto first = static_cast<long long>(digits.find_first_of("123456789"));
+    const auto point = static_cast<long long>(std::min(digits.find('.'), digits.size()));
+    if (e == std::string_view::npos) return point < first;
+    std::string_view power = number.substr(e + 1);
+    if (power.starts_with('+')) power.remove_prefix(1);
+    long long exponent = 0;
+    // A power that no integer holds outweighs any number of digits.
+    if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec != std::errc{})
+        return power.starts_with('-');
+    return exponent < first - point;
+}
+
+/// Where each character begins, and the text's end.
+std::vector<std::size_t> beginnings(std::string_view text) {
+    const bool utf8 = is_utf8(text);
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool is_trail_byte = (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
+        if (!utf8 || !is_trail_byte) out.push_back(i);
+    }
+    out.push_back(text.size());
+    return out;
+}
+
+}  // namespace
+
+std::optional<double> parse_double(std::string_view text) {
+    // from_chars takes no plus sign and takes "inf" and "nan"; a file of numbers wants it the other way round.
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range && is_tiny(text)) return text[0] == '-' ? -0.0 : 0.0;
+    if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<int> parse_int(std::string_view text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::optional<std::pair<double, double>> parse_range(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const std::optional<double> first = parse_double(text.substr(0, colon));
+    const std::optional<double> last = parse_double(text.substr(colon + 1));
+    if (!first || !last) return std::nullopt;
+    return std::pair{*first, *last};
+}
+
+std::string format_double(double value) {
+    // A JSON reader takes "-0" for the integer 0 and loses the sign.
+    if (value == 0 && std::signbit(value)) return "-0.0";
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17);
+    return {buffer, end};
+}
+
+std::string short_double(double value) {
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return {buffer, end};
+}
+
+std::string brief(double value) {
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
+    return {buffer, end};
+}
+
+std::string counted(long long count, std::string_view singular, std::string_view plural) {
+    return std::to_string(count) + ' ' + std::string(count == 1 ? singular : plural);
+}
+
+std::string listed(std::span<const std::string_view> names) {
+    std::string out;
+    for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
+    return out;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+bool is_utf8(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto byte = [&](std::size_t k) {
+            return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u;
+        };
+        const unsigned lead = byte(0);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+        unsigned code = length == 1 ? lead : lead & (0x7fu >> length);
+        for (std::size_t k = 1; k < length; ++k) {
+            if ((byte(k) & 0xc0) != 0x80) return false;
+            code = code << 6 | (byte(k) & 0x3f);
+        }
+        // The least code of each length: a longer form than needed is malformed, as are lone trail bytes and
+        // surrogates.
+        constexpr unsigned kLeast[] = {0, 0x80, 0x800, 0x10000};
+        if ((lead >= 0x80 && lead < 0xc0) || lead > 0xf7 || code < kLeast[length - 1] || code > 0x10ffff ||
+            (code >= 0xd800 && code < 0xe000)) {
+            return false;
+        }
+        i += length;
+    }
+    return true;
+}
+
+std::string cleaned(std::string_view text) {
+    const bool utf8 = is_utf8(text);
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+        // U+0080 to U+009F steer terminals as the characters below a blank do.
+        const bool upper_control = utf8 && byte == 0xc2 && next < 0xa0;
+        const bool plain = byte >= 0x20 && byte != 0x7f && !upper_control && (utf8 || byte < 0x80);
+        out += plain ? text[i] : '?';
+        if (upper_control) ++i;
+    }
+    return out;
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+    if (text.size() <= most) return std::string(text);
+    const std::vector<std::size_t> at = beginnings(text);
+    const std::size_t count = at.size() - 1;
+    if (count <= most) return std::string(text);
+    // Names of one recording differ in their ends as often as in their beginnings.
+    const std::size_t tail = (most - 1) / 2;
+    const std::size_t head = most - 1 - tail;
+    return std::string(text.substr(0, at[head])) + "\u2026" + std::string(text.substr(at[count - tail]));
+}
+
+std::string in_quotes(std::string_view text) { return "'" + shortened(cleaned(text), kLongestQuote) + "'"; }
+
+std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
+    if (names.empty()) return "";
+    const std::string& name = nearest(word, names);
+    // A word that is wrong in more than half of its letters is another word.
+    const bool meant = distance_to(word, name) <= (std::min(word.size(), kLongestQuote) + 1) / 2;
+    return meant ? " (did you mean " + in_quotes(name) + "?)" : "";
+}
+
+const std::string& nearest(std::string_view word, std::span<const std::string> names) {
+    return *std::min_element(names.begin(), names.end(), [word](const std::string& a, const std::string& b) {
+        return distance_to(word, a) < distance_to(word, b);
+    });
+}
+
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + '\'';
+}
+
+ScriptLine split_line(std::string_view line) {
+    ScriptLine out;
+    std::size_t at = 0;
+    std::size_t behind_first = line.size();
+    while (true) {
+        while (at < line.size() && (line[at] == ' ' || line[at] == '\t')) ++at;
+        if (at == line.size() || line[at] == '#') {
+            if (behind_first < at) out.rest = trimmed(line.substr(behind_first, at - behind_first));
+            return out;
+        }
+        std::string word;
+        if (line[at] == '"') {
+            const std::size_t close = line.find('"', at + 1);
+            if (close == std::string_view::npos) throw std::invalid_argument("a quote is not closed");
+            word = line.substr(at + 1, close - at - 1);
+            at = close + 1;
+        } else {
+            const std::size_t begin = at;
+            while (at < line.size() && line[at] != ' ' && line[at] != '\t') ++at;
+            word = line.substr(begin, at - begin);
+        }
+        out.words.push_back(std::move(word));
+        if (out.words.size() == 1) behind_first = at;
+    }
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,80 @@
+/// Numbers and words in text, the same in every locale.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mobbscope {
+
+/// The whole text as a finite decimal number; nothing for anything else ("", blanks, "nan", "1e999", "0x1", "1.5m").
+/// What is too small for a double ("1e-400") is zero.
+std::optional<double> parse_double(std::string_view text);
+
+/// The whole text as a decimal int ("010" is 10); nothing for anything else.
+std::optional<int> parse_int(std::string_view text);
+
+/// "A:B" as two finite numbers; nothing for anything else.
+std::optional<std::pair<double, double>> parse_range(std::string_view text);
+
+/// 17 significant digits: the number that is read back is the same double. Negative zero keeps its sign ("-0.0").
+std::string format_double(double value);
+
+/// The fewest digits that are read back as the same double: for messages.
+std::string short_double(double value);
+
+/// A number for people: six significant digits.
+std::string brief(double value);
+
+/// "1 sample", "12 samples".
+std::string counted(long long count, std::string_view singular, std::string_view plural);
+template <std::integral Count>
+std::string counted(Count count, std::string_view singular, std::string_view plural) {
+    return counted(static_cast<long long>(count), singular, plural);
+}
+
+/// "mobb, umobb, hybrid1".
+std::string listed(std::span<const std::string_view> names);
+
+/// Without blanks (space, tab, carriage return) at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Whether the bytes are well-formed UTF-8 (RFC 3629).
+bool is_utf8(std::string_view text);
+
+/// Text from a file or a name, fit for a line on a terminal: control characters, and bytes that are not UTF-8, become
+/// '?'.
+std::string cleaned(std::string_view text);
+
+/// At most `most` (>= 5) characters: where there are more, the beginning, an ellipsis and the end. Text that is not
+/// UTF-8 is cut by bytes.
+std::string shortened(std::string_view text, std::size_t most);
+
+/// Text in single quotes for a message: cleaned and shortened.
+std::string in_quotes(std::string_view text);
+
+/// " (did you mean 'leaf'?)" if one of the names is near enough to be meant, else "".
+std::string did_you_mean(std::string_view word, std::span<const std::string> names);
+
+/// The name with the least edit distance; the first of equals. There must be one.
+const std::string& nearest(std::string_view word, std::span<const std::string> names);
+
+/// A word as a POSIX shell takes it literally: in single quotes where it needs them.
+std::string shell_word(const std::string& word);
+
+/// The words of a line, and what follows the first: for statements that take all of it as it stands.
+struct ScriptLine {
+    std::vector<std::string> words;
+    std::string rest;
+};
+
+/// Words apart from blanks; one in double quotes may hold blanks. A `#` that begins a word begins a comment. Throws
+/// std::invalid_argument if a quote is not closed.
+ScriptLine split_line(std::string_view line);
+
+}  // namespace mobbscope

@@ -1,0 +1,61 @@
+#include <base/error.h>
+#include <base/text.h>
+#include <cli/program.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <string>
+#include <system_error>
+
+namespace mobbscope::cli {
+
+namespace {
+
+constexpr std::size_t kLongestMessage = 1000;  // names of files may be longer
+
+}  // namespace
+
+void complain(std::string_view message) {
+    std::cerr << "mobbscope: " + shortened(cleaned(message), kLongestMessage) + '\n' << std::flush;
+}
+
+void say(std::string_view message) { complain(message); }
+
+void warn(std::string_view message) { complain("warning: " + std::string(message)); }
+
+void flush_results() {
+    std::cout.flush();
+    if (!std::cout) throw MachineError("standard output cannot be written; is the disk full or the reader gone?");
+}
+
+namespace fs = std::filesystem;
+
+fs::path meant(const fs::path& file) {
+    // A bare name has no folder of its own until it is made absolute.
+    const fs::path absolute = fs::absolute(file);
+    std::error_code error;
+    const fs::path target = fs::weakly_canonical(absolute, error);
+    return error ? absolute : target;
+}
+
+void check_writable(const fs::path& output) {
+    const auto refuse = [&](const std::string& why) {
+        throw MachineError(output.string() + ": cannot be written: " + why);
+    };
+    std::error_code error;
+    if (fs::is_directory(output, error)) refuse("is a folder");
+    const fs::path target = meant(output);
+    const fs::path folder = target.parent_path();
+    if (!fs::is_directory(folder, error)) refuse("there is no folder " + in_quotes(folder.string()));
+    const bool there = fs::exists(target, error);
+    if (there && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) refuse("it is write-protected");
+    // What is no regular file is written in place.
+    if (there && !fs::is_regular_file(target, error)) return;
+    if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+        refuse("its folder " + in_quotes(folder.string()) + " is write-protected");
+    }
+}
+
+}  // namespace mobbscope::cli

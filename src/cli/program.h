@@ -1,0 +1,41 @@
+/// What the program says: results to standard output, everything else to standard error.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace mobbscope::cli {
+
+/// One line on standard error, "mobbscope: ...", whatever characters a file's name or text brings along, and however
+/// many.
+void complain(std::string_view message);
+/// The same for how far long work is.
+void say(std::string_view message);
+/// The same for something that does not stop the program.
+void warn(std::string_view message);
+
+/// Hands everything written to std::cout to the system. Throws MachineError if it did not take it all.
+void flush_results();
+
+enum ExitStatus : int {
+    kDone = 0,
+    kFailed = 1,     ///< the comparison or check asked for failed
+    kBadInput = 2,   ///< bad usage or bad input
+    kNoMachine = 3,  ///< the machine lacks something: no GL, cannot write
+};
+
+/// Bad usage: the program says what is wrong, names --help, and exits with 2.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The file that a name means, through links; the name itself where that cannot be told.
+std::filesystem::path meant(const std::filesystem::path& file);
+
+/// Throws MachineError, saying why, if a file cannot be written there; a pipe or a device may be. Writes
+/// nothing.
+void check_writable(const std::filesystem::path& output);
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,240 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <cli/command_line.h>
+#include <cli/program.h>
+#include <cli/render/render_job.h>
+#include <picture_tests/case_file.h>
+#include <picture_tests/picture_maker.h>
+#include <picture_tests/window_picture.h>
+#include <render/drawlist/draw_list_json.h>
+#include <render/gl/renderer.h>
+#include <render/image/png.h>
+#include <render/layout/common_framing.h>
+#include <render/layout/follow.h>
+#include <render/pictures/build_draw_list.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace mobbscope::cli {
+
+namespace {
+
+/// For a person who waits; a script's log stays empty.
+class Patience {
+  public:
+    explicit Patience(std::size_t all) : all_(all) {}
+
+    void one_more() {
+        ++done_;
+        constexpr std::chrono::seconds kPause{4};
+        if (done_ == all_ || !watched_ || Clock::now() - said_ < kPause) return;
+        said_ = Clock::now();
+        complain(std::to_string(done_) + " of " + std::to_string(all_) + " pictures are written");
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::size_t all_;
+    std::size_t done_ = 0;
+    bool watched_ = ::isatty(STDERR_FILENO) == 1;
+    Clock::time_point said_ = Clock::now();
+};
+
+bool needs_renderer(const RenderJob& job) {
+    return !job.arguments.ui && !(job.arguments.outputs.image.empty() && job.arguments.outputs.ids.empty());
+}
+
+/// `renderer`: null where nothing of it needs OpenGL.
+void draw_scene(const RenderJob& job, const RenderPicture& picture, Renderer* renderer) {
+    const RenderOutputs& outputs = picture.outputs;
+    const DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+    if (!outputs.image.empty()) write_png(outputs.image, renderer->draw(list, job.arguments.picture.samples));
+    std::optional<IdImage> ids;
+    if (!outputs.ids.empty()) {
+        ids = renderer->draw_ids(list);
+        write_png(outputs.ids, id_picture(list, *ids));
+    }
+    if (outputs.draw_list.empty()) return;
+    std::ostringstream text;
+    write_draw_list(text, list, ids ? &*ids : nullptr);
+    write_file(outputs.draw_list, text.str());
+}
+
+/// Whether --follow says where the camera is: it does unless there is a target.
+bool is_near_followed(const RenderJob& job) {
+    const std::optional<std::string>& follow = job.arguments.view.follow;
+    const ViewState& view = job.pictures.front().view;
+    return follow && !follow->empty() && !view.camera.target && !view.projection;
+}
+
+/// One camera for all, so that none jumps.
+void see_from(std::vector<RenderPicture>& pictures, const Camera& camera, bool turns) {
+    for (RenderPicture& picture : pictures) {
+        const double yaw = turns ? picture.view.camera.yaw_deg : camera.yaw_deg;
+        picture.view.camera = camera;
+        picture.view.camera.yaw_deg = yaw;
+    }
+}
+
+void refuse_other_options(const Command& command) {
+    for (const GivenOption& given : command.given()) {
+        if (given.name == "FILE" || given.name == "--output" || given.name == "--backend") continue;
+        throw InputError(given.name + ": a case says by itself how it is drawn; leave it out");
+    }
+}
+
+}  // namespace
+
+SceneStore::Loaded& SceneStore::loaded(const RenderArguments& arguments) {
+    for (const auto& known : scenes_) {
+        if (known->scene.file == arguments.file && known->options == arguments.import_options) return *known;
+    }
+    scenes_.push_back(
+        std::make_unique<Loaded>(Loaded{arguments.import_options, load(arguments.file, arguments.import_options), {}}));
+    return *scenes_.back();
+}
+
+std::shared_ptr<const FittedScene> SceneStore::fitted(const RenderArguments& arguments) {
+    Loaded& found = loaded(arguments);
+    const mobb::FitOptions options = arguments.fit.over(found.scene.fit);
+    for (const auto& known : found.fitted) {
+        if (known->options() == options) return known;
+    }
+    found.fitted.push_back(std::make_shared<const FittedScene>(found.scene, options));
+    return found.fitted.back();
+}
+
+void SceneStore::note_sources(OutputCheck& check) const {
+    for (const auto& loaded : scenes_) check.reads(loaded->scene);
+}
+
+void RenderPlan::add(RenderArguments arguments) {
+    check_names(arguments.outputs);
+    check_together(arguments);
+    if (is_case(arguments.file)) throw InputError(arguments.file.string(), "", "a case is drawn alone, not in a batch");
+    RenderJob job{std::move(arguments), nullptr, {}};
+    job.fitted = scenes_.fitted(job.arguments);
+    const ViewState view = view_over(job.fitted->scene().view, job.arguments.view);
+    try {
+        job.pictures = pictures_of(*job.fitted, view, job.arguments);
+        check_and_frame(job);
+    } catch (const ViewMismatch& mismatch) {
+        refuse_view(job.arguments, mismatch);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(job.arguments.file.string(), "", error.what());
+    }
+    jobs_.push_back(std::move(job));
+}
+
+void RenderPlan::check_and_frame(RenderJob& job) {
+    const bool turns = job.arguments.sequence.turntable.has_value();
+    const bool near = is_near_followed(job);
+    std::optional<Camera> camera;  // near whom it follows
+    CommonFraming framing;
+    bool legends = true;
+    for (const RenderPicture& picture : job.pictures) {
+        const DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+        note_glyphs(list);
+        if (near) {
+            const Camera seen = framing_followed(*job.fitted, picture.view, list);
+            if (!camera) camera = seen;
+            camera->distance = std::max(camera->distance, seen.distance);
+            continue;
+        }
+        if (!job.arguments.sequence.any()) return;
+        framing.add(list);
+        legends = legends && !list.legend.empty();
+    }
+    const Camera& asked = job.pictures.front().view.camera;
+    if (camera) return see_from(job.pictures, *camera, turns);
+    if (asked.target) return;
+    see_from(job.pictures, turns ? framing.turning(asked) : framing.still(asked), turns);
+    job.arguments.picture.framed = true;
+    // A legend that one picture has no room for would come and go.
+    for (RenderPicture& picture : job.pictures) picture.view.legend = picture.view.legend && legends;
+}
+
+/// Names may hold characters that the fonts of pictures lack.
+void RenderPlan::note_glyphs(const DrawList& list) {
+    for (const TextRun& run : list.texts) {
+        for (const char32_t code : code_points(run.text)) {
+            if (!Font::of(run.face).has(code)) missing_glyphs_.insert(code);
+        }
+    }
+}
+
+OutputCheck RenderPlan::sources() const {
+    OutputCheck check;
+    scenes_.note_sources(check);
+    for (const RenderJob& job : jobs_) {
+        if (!job.arguments.view.state.empty()) check.reads(job.arguments.view.state);
+    }
+    return check;
+}
+
+void RenderPlan::check_outputs(const RenderJob& job, OutputCheck& outputs) {
+    for (const RenderPicture& picture : job.pictures) outputs.writes(picture.outputs);
+}
+
+void RenderPlan::draw(Backend backend) const {
+    if (!missing_glyphs_.empty()) {
+        warn("the fonts of pictures lack " +
+             counted(static_cast<long long>(missing_glyphs_.size()), "character", "characters") +
+             " of this scene's names; boxes stand for them");
+    }
+    std::optional<Renderer> renderer;
+    std::size_t all = 0;
+    for (const RenderJob& job : jobs_) {
+        all += job.pictures.size();
+        if (!needs_renderer(job)) continue;
+        if (!renderer) renderer.emplace(backend);
+        renderer->check_samples(job.arguments.picture.samples);
+    }
+    Patience patience(all);
+    for (const RenderJob& job : jobs_) {
+        for (const RenderPicture& picture : job.pictures) {
+            if (job.arguments.ui) {
+                write_png(picture.outputs.image, picture_tests::window_picture(
+                                                     *job.fitted, picture.view, job.arguments.file, backend,
+                                                     job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
+            } else {
+                draw_scene(job, picture, renderer ? &*renderer : nullptr);
+            }
+            patience.one_more();
+        }
+    }
+}
+
+bool is_case(const std::filesystem::path& file) { return file.filename().string().ends_with(".case.json"); }
+
+void render_case(const Command& command, const RenderArguments& arguments) {
+    check_names(arguments.outputs);
+    refuse_other_options(command);
+    if (arguments.outputs.image.empty()) throw UsageError("--output is required");
+    const picture_tests::Case drawn = picture_tests::read_case(arguments.file);
+    if (drawn.skip) throw InputError(arguments.file.string(), "", "the case is skipped: " + *drawn.skip);
+    OutputCheck outputs;
+    outputs.reads(arguments.file);
+    outputs.reads(drawn.shot.panels.front().fitted->scene());
+    outputs.writes(arguments.outputs);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.outputs.image, picture_tests::CaseFile{{}, arguments.file}.golden(),
+                                    ignored)) {
+        throw InputError(arguments.outputs.image.string(), "",
+                         "is the golden of this case; mobbscope test --update takes it, or give another output");
+    }
+    picture_tests::PictureMaker maker(arguments.backend.value_or(Backend::automatic));
+    write_png(arguments.outputs.image, maker.make(drawn.shot));
+}
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,75 @@
+/// What one command, or one line of a batch, asks to be drawn: planned and checked in full, then drawn.
+#pragma once
+
+#include <cli/render/render_options.h>
+#include <cli/render/render_sequence.h>
+#include <render/drawlist/draw_list.h>
+#include <scene/fitted_scene.h>
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::cli {
+
+/// Scenes read once, and their trees fitted once for each set of options.
+class SceneStore {
+  public:
+    /// Warns of what loading warns of. Throws InputError.
+    std::shared_ptr<const FittedScene> fitted(const RenderArguments& arguments);
+
+    /// Tells of the files that all of them came from.
+    void note_sources(OutputCheck& check) const;
+
+  private:
+    struct Loaded {
+        ImportOptions options;
+        Scene scene;
+        std::vector<std::shared_ptr<const FittedScene>> fitted;
+    };
+    Loaded& loaded(const RenderArguments& arguments);
+
+    std::vector<std::unique_ptr<Loaded>> scenes_;
+};
+
+struct RenderJob {
+    RenderArguments arguments;
+    std::shared_ptr<const FittedScene> fitted;
+    std::vector<RenderPicture> pictures;
+};
+
+/// Plans jobs, and remembers what their pictures have in common.
+class RenderPlan {
+  public:
+    /// Throws InputError unless every picture of the job can be drawn.
+    void add(RenderArguments arguments);
+
+    std::span<const RenderJob> jobs() const { return jobs_; }
+
+    /// Throws as OutputCheck::writes does for the files of one job; `outputs` is the plan's, told of all that is read.
+    static void check_outputs(const RenderJob& job, OutputCheck& outputs);
+    /// All files that are read, but for those that only the caller knows of.
+    OutputCheck sources() const;
+
+    /// Draws and writes all pictures. Throws MachineError; pictures before that are whole.
+    void draw(Backend backend) const;
+
+  private:
+    void check_and_frame(RenderJob& job);
+    void note_glyphs(const DrawList& list);
+
+    SceneStore scenes_;
+    std::vector<RenderJob> jobs_;
+    std::set<char32_t> missing_glyphs_;  ///< that the fonts of pictures lack
+};
+
+/// By the file's name.
+bool is_case(const std::filesystem::path& file);
+
+/// Draws it as `mobbscope test` does. Throws InputError if `command` was given options that the case decides on.
+void render_case(const Command& command, const RenderArguments& arguments);
+
+}  // namespace mobbscope::cli

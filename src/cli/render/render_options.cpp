@@ -1,0 +1,354 @@
+#include <app/window/shell.h>
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <cli/command_line.h>
+#include <cli/program.h>
+#include <cli/render/render_options.h>
+#include <render/drawlist/metrics.h>
+#include <render/drawlist/view_projection.h>
+#include <render/pictures/render.h>
+#include <scene/view_json.h>
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace mobbscope::cli {
+
+namespace {
+
+constexpr double kLeastDistance = 1e-6;  // metres
+constexpr double kMostRate = 1000;       // pictures per second
+
+/// "1,2.5" as numbers within [-most, most].
+template <std::size_t Count>
+std::array<double, Count> parse_numbers(const std::string& text, double most, const char* what) {
+    std::array<double, Count> out{};
+    std::string_view rest = text;
+    for (std::size_t i = 0; i < Count; ++i) {
+        const std::size_t comma = rest.find(',');
+        const std::optional<double> value = parse_double(rest.substr(0, comma));
+        const bool last = comma == std::string_view::npos;
+        if (!value || !(*value >= -most && *value <= most) || last != (i + 1 == Count)) {
+            throw std::invalid_argument(in_quotes(text) + " is no " + what + ", each from " + brief(-most) + " to " +
+                                        brief(most));
+        }
+        out[i] = *value;
+        rest.remove_prefix(last ? rest.size() : comma + 1);
+    }
+    return out;
+}
+
+glm::dvec3 parse_target(const std::string& text) {
+    const auto [x, y, z] = parse_numbers<3>(text, mobb::kMaxLength, "place: give X,Y,HEIGHT in metres");
+    return {x, y, z};
+}
+
+glm::dvec2 parse_shift(const std::string& text) {
+    const auto [right, up] = parse_numbers<2>(text, 1, "shift: give RIGHT,UP in widths and heights of the picture");
+    return {right, up};
+}
+
+int parse_query(const std::string& text) {
+    const std::optional<int> index = parse_int(text);
+    if (!index || *index < 0) throw std::invalid_argument(in_quotes(text) + " is no query: give its number, from 0");
+    return *index;
+}
+
+std::optional<double> parse_time(const std::string& text) {
+    if (text == "none") return std::nullopt;
+    return number_within(-mobb::kMaxTime, mobb::kMaxTime)(text);
+}
+
+double parse_time_height(const std::string& text) { return text == "auto" ? 0 : number_within(1e-6, 1e6)(text); }
+
+std::pair<int, int> parse_frames(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::optional<int> first = parse_int(std::string_view(text).substr(0, colon));
+    const std::optional<int> last =
+        colon == std::string::npos ? std::nullopt : parse_int(std::string_view(text).substr(colon + 1));
+    if (!first || !last || *first < 0 || *last < *first) {
+        throw std::invalid_argument(in_quotes(text) + " names no pictures: give the first and the last, such as 0:59");
+    }
+    return {*first, *last};
+}
+
+int parse_turntable(const std::string& text) {
+    const std::optional<int> count = parse_int(text);
+    if (!count || *count < 1)
+        throw std::invalid_argument(in_quotes(text) + " is no number of pictures: give 1 or more");
+    return *count;
+}
+
+void add_camera_options(Command& command, ViewArguments& view) {
+    constexpr const char* kGroup = "Camera (over the scene's)";
+    const auto add = [&](const char* name, auto& target, auto parse, const char* help, const char* placeholder) {
+        add_parsed(command, name, target, parse, help, placeholder).group(kGroup);
+    };
+    add("--view", view.preset, one_of(camera_preset, "iso, top, front, side, free"),
+        "iso, top, front, side, or free (--yaw, --pitch); frames the scene", "NAME");
+    add("--yaw", view.yaw, number_within(-3600, 3600), "Free: degrees from +x to the eye, counter-clockwise", "DEG");
+    add("--pitch", view.pitch, number_within(-90, 90), "Free: degrees above the floor", "DEG");
+    add("--fov", view.fov, number_within(kLeastFov, kMostFov), "Vertical field of view in degrees", "DEG");
+    command
+        .add_flag(
+            "--perspective,!--ortho", [&view](bool with) { view.perspective = with; }, "With perspective, or without")
+        .group(kGroup);
+    add("--target", view.target, parse_target, "What is looked at: metres, time as the height that it is drawn at",
+        "X,Y,HEIGHT");
+    add("--distance", view.distance, number_within(kLeastDistance, mobb::kMaxLength),
+        "Metres from the target to the eye", "D");
+    add("--shift", view.shift, parse_shift,
+        "Where the target is seen: widths and heights of the picture from its middle", "RIGHT,UP");
+}
+
+void add_shown_options(Command& command, ViewArguments& view) {
+    constexpr const char* kGroup = "What is shown (over the scene's)";
+    const auto add = [&](const char* name, auto& target, auto parse, const char* help, const char* placeholder) {
+        add_parsed(command, name, target, parse, help, placeholder).group(kGroup);
+    };
+    add("--view-state", view.state, parse_file_name,
+        "A view of its own: keys of a scene's view, or a scene's whole view", "FILE.json");
+    add("--show", view.show, one_of(show_from_name, "space-time, moment"),
+        "space-time, or the floor at one moment (--time)", "WHAT");
+    add("--level", view.levels, parse_level_range, "Levels: N, A:B or leaves", "LEVELS");
+    add("--query", view.query, parse_query, "A query instead of levels: its number, from 0", "K");
+    add("--step", view.step, parse_step, "Step of the query: an event number, a percentage (40%) or end", "STEP");
+    add("--time", view.time, parse_time, "Time cursor, global seconds, or none", "T");
+    add("--time-window", view.time_window, number_within(kLeastTimeWindow, kMostTimeWindow),
+        "Of a crowd's run: seconds before and after the time (2)", "S");
+    command
+        .add_option(
+            "--follow", [&view](const std::string& agent) { view.follow = agent == "none" ? "" : agent; },
+            "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with its last "
+            "choice; or none",
+            "AGENT")
+        .group(kGroup);
+    add("--time-height", view.time_height, parse_time_height, "Metres drawn per second; default: auto, as tall as wide",
+        "M");
+    add("--color-by", view.color_by, one_of(color_by_from_name, "agent, level"),
+        "What the colour of boxes says: agent or level", "WHAT");
+    add("--theme", view.theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
+    const auto toggle = [&](const char* names, bool ViewState::*value, const char* help) {
+        command
+            .add_flag(
+                names, [&view, value](bool shown) { view.toggles.emplace_back(value, shown); }, help)
+            .group(kGroup);
+    };
+    toggle("--labels,!--no-labels", &ViewState::labels, "All text");
+    toggle("--caption,!--no-caption", &ViewState::caption, "The sentences at the top");
+    toggle("--legend,!--no-legend", &ViewState::legend, "What colours and lines mean");
+    toggle("--floor,!--no-floor", &ViewState::floor, "The grid, and the paths' traces on it");
+    toggle("--time-axis,!--no-time-axis", &ViewState::time_axis, "Ticks in seconds");
+    toggle("--boxes,!--no-boxes", &ViewState::boxes, "Boxes of nodes");
+    toggle("--disks,!--no-disks", &ViewState::disks, "Disks of samples");
+    toggle("--candidates,!--no-candidates", &ViewState::candidates,
+           "The moves that the followed agent could choose, and what became of each");
+    toggle("--tested-before,!--pair-only", &ViewState::tested_before,
+           "With a query: the pairs before the step's, or it alone");
+}
+
+void add_sequence_options(Command& command, SequenceArguments& sequence) {
+    constexpr const char* kGroup = "Numbered pictures (OUT_0000.png, ...)";
+    add_parsed(command, "--frames", sequence.frames, parse_frames,
+               "Pictures A to B of the motion, or with a query its steps A to B", "A:B")
+        .group(kGroup);
+    command.add_flag("--play", sequence.play, "All pictures of the motion, or with a query all its steps")
+        .group(kGroup);
+    add_parsed(command, "--rate", sequence.rate, number_within(1 / kMostRate, kMostRate),
+               "Pictures per second of the motion (30)", "FPS")
+        .group(kGroup);
+    add_parsed(command, "--turntable", sequence.turntable, parse_turntable, "N pictures once around the scene", "N")
+        .group(kGroup);
+}
+
+[[noreturn]] void contradict(const std::string& a, const std::string& b, const std::string& why) {
+    throw InputError(a + " and " + b + " contradict each other: " + why);
+}
+
+void check_camera(const ViewArguments& view) {
+    const CameraPreset preset = view.preset.value_or(CameraPreset::free);
+    const std::string name_of_view = "--view " + std::string(name(preset));
+    const std::string angle = view.yaw ? "--yaw" : "--pitch";
+    if (preset != CameraPreset::free && (view.yaw || view.pitch)) {
+        contradict(name_of_view, angle, "a named view has angles of its own; leave one out, or give --view free");
+    }
+    if (view.target && !view.distance) throw InputError("--target: say with --distance how far the eye is from it");
+    if (view.preset && !view.target && (view.distance || view.shift)) {
+        contradict(name_of_view, view.distance ? "--distance" : "--shift",
+                   "a named view frames the scene by itself; add a --target, or leave one out");
+    }
+    // With a target it says how large the picture is, in perspective or not.
+    if (!view.fov || view.target) return;
+    const std::string parallel = "there is no field of view without perspective; leave one out";
+    if (view.perspective == false) contradict("--ortho", "--fov", parallel);
+    Camera camera;
+    camera.preset = preset;
+    if (!orientation(camera).perspective) contradict(name_of_view, "--fov", parallel);
+}
+
+void check_sequence(const RenderArguments& arguments) {
+    const SequenceArguments& sequence = arguments.sequence;
+    const std::string kind = sequence.turntable ? "--turntable" : sequence.play ? "--play" : "--frames";
+    if (sequence.frames && sequence.play) contradict("--frames", "--play", "--play takes all of them; leave one out");
+    if (sequence.turntable && (sequence.frames || sequence.play)) {
+        contradict("--turntable", sequence.play ? "--play" : "--frames",
+                   "pictures go around the scene or on in time; leave one out");
+    }
+    if (sequence.rate && !sequence.frames && !sequence.play) {
+        throw InputError("--rate: it is of pictures that go on in time; add --play or --frames");
+    }
+    if (arguments.ui && sequence.any()) contradict("--ui", kind, "a script runs the window; see mobbscope --help");
+}
+
+/// What a picture of the whole window has in its own way.
+void check_window(const RenderArguments& arguments) {
+    if (!arguments.ui) {
+        if (arguments.ui_scale) throw InputError("--ui-scale: the picture has panels only with --ui");
+        return;
+    }
+    const auto refuse = [](const char* option) {
+        contradict("--ui", option, "it is of the scene's picture, not the window's; leave one out");
+    };
+    if (arguments.picture.background) refuse("--background");
+    if (arguments.picture.samples != kPictureSamples) refuse("--samples");
+    if (!arguments.outputs.ids.empty()) refuse("--ids");
+    if (!arguments.outputs.draw_list.empty()) refuse("--draw-list");
+}
+
+/// The view of a file over another: of a scene its whole view, else the keys that there are.
+ViewState view_of_file(const std::filesystem::path& file, const ViewState& base) {
+    check_file_name(file);
+    const std::string name = file.string();
+    const JsonValue value = parse_json(read_file(file), name);
+    const JsonPlace root(value, name);
+    if (!root.find("clips")) return read_view(root, base);
+    const auto view = root.find("view");
+    return view ? read_view(*view) : ViewState{};
+}
+
+/// Throws InputError at the key of a view, or of a scene's view, if the file has it.
+void refuse_where_said(const std::filesystem::path& file, const std::string& key, const std::string& message) {
+    const std::string name = file.string();
+    const JsonValue value = parse_json(read_file(file), name);
+    const JsonPlace root(value, name);
+    const auto view = root.find("clips") ? root.find("view") : root;
+    if (!view) return;
+    if (const auto said = view->find(key)) said->fail(message);
+}
+
+/// Whether the command line says it itself.
+bool is_option_given(const ViewArguments& view, const std::string& key) {
+    return (key == "query" && view.query) || (key == "step" && view.step) || (key == "follow" && view.follow);
+}
+
+Camera camera_over(Camera camera, const ViewArguments& arguments) {
+    if (arguments.preset) {
+        camera.preset = *arguments.preset;
+        // A preset frames the scene; a target was meant for the camera that it replaces.
+        camera.target.reset();
+        camera.shift = {0, 0};
+    }
+    if (arguments.yaw || arguments.pitch) {
+        // The angle that is not given stays what is seen now.
+        const Orientation present = orientation(camera);
+        camera.preset = CameraPreset::free;
+        camera.yaw_deg = arguments.yaw.value_or(present.yaw_deg);
+        camera.pitch_deg = arguments.pitch.value_or(present.pitch_deg);
+        camera.perspective = present.perspective;
+    }
+    if (arguments.fov) camera.fov_deg = *arguments.fov;
+    if (arguments.perspective) camera.perspective = *arguments.perspective;
+    if (arguments.target) camera.target = arguments.target;
+    const auto need_target = [&](const char* option) {
+        if (!camera.target) throw InputError(std::string(option) + ": it is of a target; add one with --target");
+    };
+    if (arguments.distance) {
+        need_target("--distance");
+        camera.distance = *arguments.distance;
+    }
+    if (arguments.shift) {
+        need_target("--shift");
+        camera.shift = *arguments.shift;
+    }
+    if (arguments.fov && !camera.target && !orientation(camera).perspective) {
+        throw InputError("--fov: this scene is seen without perspective; give a --view with it, such as iso");
+    }
+    return camera;
+}
+
+}  // namespace
+
+void add_render_options(Command& command, RenderArguments& arguments) {
+    command.add_option("FILE", arguments.file,
+                       "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)");
+    add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name, "The picture, a PNG file", "OUT.png");
+    add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
+               "OUT.png");
+    add_parsed(command, "--draw-list", arguments.outputs.draw_list, parse_file_name,
+               "What is drawn, as numbers; needs no OpenGL", "OUT.json");
+    add_parsed(command, "--size", arguments.picture.size, parse_size, "The picture's size in pixels (1280x720)", "WxH");
+    add_parsed(command, "--scale", arguments.picture.scale, number_within(kLeastScale, kMostScale),
+               "Of text and lines; 1 suits 1280x720, default: what suits the size", "X");
+    add_parsed(command, "--samples", arguments.picture.samples, parse_samples, "Per pixel: 1, 2, 4 or 8 (4)", "N");
+    add_parsed(command, "--background", arguments.picture.background, parse_background,
+               "#RRGGBB, #RRGGBBAA or transparent; default: the theme's", "COLOR");
+    add_parsed(command, "--backend", arguments.backend, one_of(backend_from_name, "auto, osmesa, egl"),
+               "OpenGL without a display: auto, osmesa or egl", "NAME");
+    command.add_flag("--ui", arguments.ui, "The whole window, panels included");
+    add_parsed(command, "--ui-scale", arguments.ui_scale, number_within(app::kLeastUiScale, app::kMostUiScale),
+               "With --ui: size of text and panels, 0.5 to 4", "X");
+    add_camera_options(command, arguments.view);
+    add_shown_options(command, arguments.view);
+    add_sequence_options(command, arguments.sequence);
+    add_fit_options(command, arguments.fit);
+    add_import_options(command, arguments.import_options);
+}
+
+void check_together(const RenderArguments& arguments) {
+    if (arguments.file.empty()) throw UsageError("FILE is required");
+    if (arguments.ui && arguments.outputs.image.empty()) throw UsageError("--output is required");
+    if (!arguments.outputs.any()) throw UsageError("--output, --ids or --draw-list is required");
+    const ViewArguments& view = arguments.view;
+    if (view.query && view.levels) {
+        contradict("--query", "--level", "a picture shows a query or levels; leave one out");
+    }
+    check_window(arguments);
+    check_camera(view);
+    check_sequence(arguments);
+}
+
+ViewState view_over(ViewState view, const ViewArguments& arguments) {
+    if (!arguments.state.empty()) view = view_of_file(arguments.state, view);
+    view.camera = camera_over(view.camera, arguments);
+    if (arguments.show) view.show = *arguments.show;
+    if (arguments.levels) {
+        view.levels = *arguments.levels;
+        view.query.reset();
+    }
+    if (arguments.query) view.query = *arguments.query;
+    if (arguments.step) view.step = *arguments.step;
+    if (arguments.time) view.time = *arguments.time;
+    if (arguments.time_window) view.time_window = *arguments.time_window;
+    if (arguments.follow) view.follow = *arguments.follow;
+    if (arguments.time_height) view.time_height = *arguments.time_height;
+    if (arguments.color_by) view.color_by = *arguments.color_by;
+    if (arguments.theme) view.theme = *arguments.theme;
+    for (const auto& [toggle, value] : arguments.toggles) view.*toggle = value;
+    if (arguments.step && !view.query) throw InputError("--step: say with --query which query it is a step of");
+    return view;
+}
+
+void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch) {
+    const std::string scene = arguments.file.string();
+    const std::filesystem::path& state = arguments.view.state;
+    if (!is_option_given(arguments.view, mismatch.key())) {
+        if (!state.empty()) refuse_where_said(state, mismatch.key(), scene + ": " + mismatch.what());
+        if (lower_extension(scene) == ".json") refuse_where_said(scene, mismatch.key(), mismatch.what());
+    }
+    throw InputError(scene, "", mismatch.what());
+}
+
+}  // namespace mobbscope::cli

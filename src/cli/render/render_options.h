@@ -1,0 +1,79 @@
+/// The options of `render` that describe a picture: as given, and what they make of a scene's view.
+#pragma once
+
+#include <cli/options.h>
+#include <cli/render_outputs.h>
+#include <render/drawlist/picture_options.h>
+#include <render/gl/gl_context.h>
+#include <scene/view_state.h>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::cli {
+
+/// An empty one leaves the scene's view.
+struct ViewArguments {
+    std::filesystem::path state;  ///< --view-state
+    std::optional<CameraPreset> preset;
+    std::optional<double> yaw, pitch, fov;
+    std::optional<bool> perspective;
+    std::optional<glm::dvec3> target;
+    std::optional<double> distance;
+    std::optional<glm::dvec2> shift;
+    std::optional<Show> show;
+    std::optional<LevelRange> levels;
+    std::optional<int> query;
+    std::optional<Step> step;
+    std::optional<std::optional<double>> time;  ///< an empty one within: no time cursor
+    std::optional<double> time_window;
+    std::optional<std::string> follow;  ///< empty: nobody
+    std::optional<double> time_height;  ///< 0: chosen by itself
+    std::optional<ColorBy> color_by;
+    std::optional<Theme> theme;
+    std::vector<std::pair<bool ViewState::*, bool>> toggles;
+};
+
+/// Several pictures instead of one.
+struct SequenceArguments {
+    std::optional<std::pair<int, int>> frames;  ///< first and last
+    bool play = false;
+    std::optional<int> turntable;
+    std::optional<double> rate;  ///< pictures per second
+
+    bool any() const { return frames || play || turntable; }
+};
+
+struct RenderArguments {
+    std::filesystem::path file;
+    RenderOutputs outputs;
+    PictureOptions picture;
+    std::optional<Backend> backend;
+    ViewArguments view;
+    SequenceArguments sequence;
+    bool ui = false;
+    std::optional<double> ui_scale;
+    FitArguments fit;
+    ImportOptions import_options;
+};
+
+/// Adds them all, none of them required. `arguments` must live until the command has run; what it holds is the default.
+void add_render_options(Command& command, RenderArguments& arguments);
+
+/// Throws UsageError if there is no scene or nothing to write, InputError if the options given cannot all be
+/// had, whatever the scene.
+void check_together(const RenderArguments& arguments);
+
+/// The scene's view with the options given over it. Throws InputError if the view state's file is none, or the two do
+/// not go together.
+ViewState view_over(ViewState view, const ViewArguments& arguments);
+
+/// Throws InputError for a view that names what its scene does not have, at the place in the file that says it.
+[[noreturn]] void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch);
+
+}  // namespace mobbscope::cli

@@ -1,0 +1,107 @@
+#include <base/error.h>
+#include <base/text.h>
+#include <cli/render/render_sequence.h>
+#include <render/drawlist/view_projection.h>
+#include <render/layout/framing.h>
+#include <scene/crowd_run.h>
+#include <scene/drawn_agent.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace mobbscope::cli {
+
+namespace {
+
+constexpr double kUsualRate = 30;
+constexpr int kLeastDigits = 4;
+
+/// How many there are, and what the view of each is.
+struct Sequence {
+    double count = 0;       ///< may be beyond any int
+    std::string described;  ///< "the motion has 60 pictures at 30 per second"
+    std::function<ViewState(int)> view;
+};
+
+Sequence turntable(const ViewState& view, int count) {
+    const auto turned = [view, count](int i) {
+        ViewState out = view;
+        const Orientation seen = orientation(view.camera);
+        out.camera.preset = CameraPreset::free;
+        out.camera.yaw_deg = std::remainder(seen.yaw_deg + 360.0 * i / count, 360.0);
+        out.camera.pitch_deg = seen.pitch_deg;
+        out.camera.perspective = seen.perspective;
+        return out;
+    };
+    return {static_cast<double>(count), "the turntable has " + counted(count, "picture", "pictures"), turned};
+}
+
+Sequence steps(const FittedScene& fitted, const ViewState& view) {
+    const auto query = static_cast<std::size_t>(*view.query);
+    static_cast<void>(drawn_agents(fitted, view));  // throws if there is no such query
+    const int count = record(fitted, fitted.queries()[query]).trace.size();
+    const auto at = [view](int i) {
+        ViewState out = view;
+        out.step = {Step::Unit::event, static_cast<double>(i)};
+        return out;
+    };
+    return {static_cast<double>(count), "query " + std::to_string(query) + " has " + counted(count, "step", "steps"),
+            at};
+}
+
+Sequence motion(const FittedScene& fitted, const ViewState& view, double rate) {
+    Bounds bounds;
+    if (fitted.scene().crowd) {
+        bounds.min.z = 0;
+        bounds.max.z = fitted.scene().crowd->seconds;
+    } else {
+        bounds = bounds_of(drawn_agents(fitted, view));
+    }
+    const double begin = bounds.min.z;
+    // A picture at the very end would show nobody.
+    const double count = std::max(1.0, std::ceil((bounds.max.z - begin) * rate - 1e-6));
+    const auto at = [view, begin, rate](int i) {
+        ViewState out = view;
+        out.time = begin + i / rate;
+        return out;
+    };
+    return {count, "the motion has " + brief(count) + " pictures at " + brief(rate) + " per second", at};
+}
+
+}  // namespace
+
+std::vector<RenderPicture> pictures_of(const FittedScene& fitted, const ViewState& view,
+                                       const RenderArguments& arguments) {
+    const SequenceArguments& asked = arguments.sequence;
+    if (!asked.any()) return {{view, arguments.outputs}};
+    const std::string option = asked.turntable ? "--turntable" : asked.play ? "--play" : "--frames";
+    const auto contradict = [&](const char* other, const char* why) {
+        throw InputError(option + " and " + other + " contradict each other: " + why + "; leave one out");
+    };
+    const bool of_query = !asked.turntable && view.query && view.show == Show::space_time;
+    if (of_query && arguments.view.step) contradict("--step", "the pictures are the query's steps");
+    if (of_query && asked.rate) contradict("--rate", "the pictures are a query's steps");
+    if (!asked.turntable && !of_query && arguments.view.time) contradict("--time", "the pictures go through the time");
+
+    const Sequence sequence = asked.turntable ? turntable(view, *asked.turntable)
+                              : of_query      ? steps(fitted, view)
+                                              : motion(fitted, view, asked.rate.value_or(kUsualRate));
+    const auto [first, last] =
+        asked.frames ? std::pair<double, double>(*asked.frames) : std::pair<double, double>(0, sequence.count - 1);
+    if (last >= sequence.count) throw InputError(option + ": " + sequence.described + ", counted from 0");
+    if (last - first >= kMostPictures) {
+        throw InputError(option + ": these are " + brief(last - first + 1) + " pictures; at most " +
+                         std::to_string(kMostPictures) + " are made at once");
+    }
+    const int digits = std::max(kLeastDigits, static_cast<int>(std::to_string(static_cast<int>(last)).size()));
+    std::vector<RenderPicture> out;
+    for (int i = static_cast<int>(first); i <= static_cast<int>(last); ++i) {
+        out.push_back({sequence.view(i), numbered(arguments.outputs, i, digits)});
+    }
+    return out;
+}
+
+}  // namespace mobbscope::cli

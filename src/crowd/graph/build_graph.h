@@ -1,0 +1,38 @@
+/// A motion graph cut out of recordings, in the manner of Snap-Together Motion (Gleicher et al. 2003): common poses
+/// become hubs, and what lies between two of them becomes a move.
+#pragma once
+
+#include <crowd/graph/hub_choice.h>
+#include <scene/scene.h>
+
+#include <cstddef>
+
+namespace mobbscope {
+
+/// What became of the recordings.
+struct BuildReport {
+    std::size_t recordings = 0;
+    std::size_t without_joints = 0;  ///< of those; they cannot be cut
+    std::size_t rigs = 0;            ///< each has hubs of its own
+    double seconds = 0;              ///< that recordings with joints last
+    std::size_t pieces = 0;          ///< found between the hubs
+    std::size_t alike = 0;           ///< of those, left out: another goes the same way, or there were enough
+    std::size_t dead_ends = 0;       ///< moves left out as they lead nowhere, or to too few others
+    std::size_t dropped_hubs = 0;    ///< left out with those
+    std::size_t rigs_left_out = 0;   ///< that no hub remains of
+};
+
+struct BuiltGraph {
+    Scene scene;  ///< the moves' clips, parts of the recordings by `trim`, and the graph
+    BuildReport report;
+};
+
+/// Cuts a graph out of the scene's clips, which are whole recordings (load_recordings). Every joint of the graph is
+/// within options.bounds: each cut is within half of them of its hub, and distances obey the triangle inequality. The
+/// same for the same scene and options, whatever the number of threads. `progress` is told while moments are compared;
+/// what it throws passes through. Throws InputError, in the name of `place`, if no move comes out, and
+/// std::invalid_argument for options out of range.
+BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, const std::string& place,
+                       const Progress& progress = {});
+
+}  // namespace mobbscope

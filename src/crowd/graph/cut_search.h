@@ -1,0 +1,49 @@
+/// Where recordings come by a given moment: the places at which they may be cut.
+#pragma once
+
+#include <crowd/graph/pose_distance.h>
+#include <crowd/graph/pose_track.h>
+#include <scene/motion_graph.h>
+#include <scene/scene.h>
+
+#include <glm/vec2.hpp>
+
+#include <vector>
+
+namespace mobbscope {
+
+/// A recording made ready to be cut.
+struct Recording {
+    int clip = 0;  ///< index into the clips of the scene of recordings
+    PoseTrack track;
+    PoseWindows windows;
+    int first = 0;  ///< frames [first, end) may be cuts: a moment fits in, and the T-pose before a motion is left out
+    int end = 0;
+};
+
+/// The scene's clips that have a skeleton, in their order.
+std::vector<Recording> recordings_of(const Scene& scene, Rigs& rigs);
+
+/// A moment that clips may begin and end in.
+struct HubMoment {
+    int recording = 0;
+    int frame = 0;
+    double heading_deg = 0;  ///< in the recording: where the root goes, over the time around or else after it
+    glm::dvec2 velocity{0};  ///< of the root, metres per second, with the heading along +x
+};
+
+HubMoment hub_moment(const std::vector<Recording>& recordings, int recording, int frame);
+
+/// A frame that is like a hub.
+struct Cut {
+    int recording = 0;
+    int frame = 0;
+    double heading_deg = 0;  ///< in the recording: what the hub's +x is here
+    double distance = 0;     ///< of the poses, metres
+};
+
+/// Every place where a recording of the hub's rig is within half of each bound of the hub: of a time that is alike the
+/// most alike frame. Ordered by recording and frame. The root's velocity counts from the frame before and to the next.
+std::vector<Cut> cuts_like(const std::vector<Recording>& recordings, const HubMoment& hub, const GraphBounds& bounds);
+
+}  // namespace mobbscope

@@ -1,0 +1,51 @@
+/// Which moments become hubs: those that recur most, so that much of the recordings lies between them.
+#pragma once
+
+#include <crowd/graph/cut_search.h>
+#include <scene/motion_graph.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mobbscope {
+
+/// How a motion graph is cut out of recordings.
+struct GraphOptions {
+    /// Of every joint. Half a bound to a hub on either side makes a whole one from side to side.
+    GraphBounds bounds{0.16, 0.6};
+    double least_seconds = 1;  ///< that a move lasts, over 0
+    double most_seconds = 4;   ///< at least least_seconds
+    int hubs = 8;              ///< most hubs that a rig gets, at least 1
+    int moves = 16;            ///< most moves from one hub to another, at least 1
+    int candidates = 400;      ///< moments looked at as hubs, for each rig, at least 1
+    int least_moves = 3;       ///< hubs and moves that all lead to each other stay if they have so many moves
+    std::uint64_t seed = 1;    ///< decides which moments are looked at
+};
+
+/// A moment and where recordings come by it.
+struct Hub {
+    HubMoment moment;
+    std::vector<Cut> cuts;
+};
+
+/// A part of a recording from a cut at one hub to a cut at another, or at the same.
+struct Piece {
+    int from = 0;  ///< index into the hubs
+    int to = 0;
+    Cut begin;
+    Cut end;  ///< of the same recording, later
+};
+
+/// Every part of the recordings that lasts as long as a move may, ordered by recording, begin and end. Parts in which
+/// the path jumps, as captures do where they are damaged, are left out.
+std::vector<Piece> pieces_between(const std::vector<Recording>& recordings, const std::vector<Hub>& hubs,
+                                  const GraphOptions& options);
+
+/// Takes hub after hub of one rig, each the candidate that lets pieces which lead to each other cover the most seconds
+/// more; ends at options.hubs, or when another would add less than a second. `candidates`: all of one rig.
+std::vector<Hub> choose_hubs(const std::vector<Recording>& recordings, const std::vector<Hub>& candidates,
+                             const GraphOptions& options);
+
+
+}  // namespace mobbscope

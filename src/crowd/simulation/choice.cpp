@@ -1,0 +1,216 @@
+#include <base/error.h>
+#include <base/random.h>
+#include <crowd/simulation/choice.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kTurnStep = 15;  // degrees
+constexpr double kHalfTurn = 180;
+
+class Chooser {
+  public:
+    Chooser(const MoveSet& moves, const ReservationTable& committed, const CrowdRun& run, const ChoicePoint& point,
+            std::vector<AskedPair>* asked)
+        : moves_(moves), committed_(committed), run_(run), point_(point), asked_(asked) {
+        choice_.time = point.time;
+    }
+
+    Choice choose() {
+        std::size_t straight = 0;
+        for (int step = 0; step * kTurnStep <= kHalfTurn; ++step) {
+            const double turn = step * kTurnStep;
+            const std::size_t first = choice_.candidates.size();
+            add_candidates(turn);
+            if (turn > 0 && turn < kHalfTurn) add_candidates(-turn);
+            if (turn == 0) straight = choice_.candidates.size();
+            judge(first);
+            if (take_clear()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
+        }
+        if (take_free()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
+        take_latest();
+        return done(PlayKind::forced);
+    }
+
+  private:
+    void add_candidates(double turn) {
+        const Play& before = point_.before;
+        for (const int move : moves_.after(before.move)) {
+            Candidate candidate{move,  turn, moves_.following(before.move, before.placement, move, turn),
+                                false, {},   false};
+            // A graph whose moves lead far away would in the end leave what can be placed.
+            if (!mobb::is_valid(candidate.placement)) continue;
+            const mobb::PlacedClip placed(moves_.tree(move).clip(), candidate.placement);
+            candidate.leaves_floor = leaves_floor(placed, moves_.bounds(move), run_.area);
+            choice_.candidates.push_back(candidate);
+        }
+    }
+
+    Choice done(PlayKind kind) {
+        choice_.kind = kind;
+        return std::move(choice_);
+    }
+
+    /// Those from `first` on.
+    void judge(std::size_t first) {
+        find_rulings(first, false);
+        std::vector<Play> plays;
+        std::vector<std::size_t> of;
+        for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
+            const Candidate& candidate = choice_.candidates[i];
+            if (!candidate.is_free()) continue;
+            plays.push_back({candidate.move, candidate.placement, point_.time, PlayKind::chosen});
+            of.push_back(i);
+        }
+        const std::vector<bool> in_the_way = committed_.in_the_way(point_.agent, point_.play, plays);
+        for (std::size_t i = 0; i < of.size(); ++i) choice_.candidates[of[i]].in_the_way = in_the_way[i];
+    }
+
+    /// Of the candidates from `first` on that leave the floor, or of those that do not.
+    void find_rulings(std::size_t first, bool off_floor) {
+        std::vector<PlayedMove> motions;
+        std::vector<std::size_t> of;
+        for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
+            const Candidate& candidate = choice_.candidates[i];
+            if (candidate.leaves_floor != off_floor) continue;
+            motions.push_back(moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement));
+            of.push_back(i);
+        }
+        const std::vector<CandidateCheck> check_all = committed_.motions().check_all(motions, asked_);
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            choice_.candidates[of[i]].blocker = check_all[i].blocker;
+            choice_.queries += check_all[i].asked;
+        }
+    }
+
+    /// One of the free candidates that are in nobody's way. At most one heading either way has any: the last.
+    bool take_clear() {
+        return take_one_of([](const Candidate& candidate) { return candidate.is_free() && !candidate.in_the_way; });
+    }
+
+    /// One of the free candidates at the least turn that has any.
+    bool take_free() {
+        const auto first = std::find_if(choice_.candidates.begin(), choice_.candidates.end(),
+                                        [](const Candidate& candidate) { return candidate.is_free(); });
+        if (first == choice_.candidates.end()) return false;
+        const double turn = std::abs(first->turn_deg);
+        return take_one_of(
+            [turn](const Candidate& candidate) { return candidate.is_free() && std::abs(candidate.turn_deg) == turn; });
+    }
+
+    void take_latest() {
+        if (choice_.candidates.empty()) {
+            throw InputError(moves_.fitted().scene().file.string(), "",
+                             "the graph's moves lead beyond all bounds; check their stances");
+        }
+        const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
+        const bool some_stay = std::any_of(choice_.candidates.begin(), choice_.candidates.end(), stays);
+        if (!some_stay) find_rulings(0, true);
+        const auto contact = [](const Candidate& candidate) {
+            return candidate.blocker ? candidate.blocker->contact.time : std::numeric_limits<double>::infinity();
+        };
+        double latest = -std::numeric_limits<double>::infinity();
+        for (const Candidate& candidate : choice_.candidates) {
+            if (candidate.leaves_floor != some_stay) latest = std::max(latest, contact(candidate));
+        }
+        const auto is_latest = [&](const Candidate& candidate) {
+            return candidate.leaves_floor != some_stay && contact(candidate) == latest;
+        };
+        // Of those that two who overlap already may take, the ones that part them first.
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const Candidate& candidate : choice_.candidates) {
+            if (is_latest(candidate)) shortest = std::min(shortest, seconds_of_contact(candidate));
+        }
+        take_one_of([&](const Candidate& candidate) {
+            return is_latest(candidate) && seconds_of_contact(candidate) == shortest;
+        });
+    }
+
+    /// With the motion that rules it out.
+    double seconds_of_contact(const Candidate& candidate) const {
+        if (!candidate.blocker) return 0;
+        const PlayedMove motion = moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
+        return committed_.motions().seconds_of_contact(motion, *candidate.blocker);
+    }
+
+    template <class Allowed>
+    bool take_one_of(const Allowed& allowed) {
+        std::vector<std::size_t> indices;
+        for (std::size_t i = 0; i < choice_.candidates.size(); ++i) {
+            if (allowed(choice_.candidates[i])) indices.push_back(i);
+        }
+        if (indices.empty()) return false;
+        CounterRandom random(run_.seed, static_cast<std::uint64_t>(point_.agent),
+                             static_cast<std::uint64_t>(point_.play));
+        choice_.taken = indices[random.below(static_cast<std::uint32_t>(indices.size()))];
+        return true;
+    }
+
+    const MoveSet& moves_;
+    const ReservationTable& committed_;
+    const CrowdRun& run_;
+    const ChoicePoint& point_;
+    std::vector<AskedPair>* asked_;
+    Choice choice_;
+};
+
+/// Commits what `agent` was committed to at a choice: what has not ended, and its last play before the choice, which
+/// may end at it.
+void commit_plays(ReservationTable& committed, const MoveSet& moves, const CrowdRun& run, int agent,
+                  const ChoicePoint& point) {
+    const std::vector<Play>& plays = run.agents[static_cast<std::size_t>(agent)].plays;
+    const auto made_before = [&](const Play& play) {
+        return play.chosen_at < point.time || (play.chosen_at == point.time && agent < point.agent);
+    };
+    const auto ended = [&](const Play& play) { return play.placement.start + moves.duration(play.move) <= point.time; };
+    // First plays come before all choices.
+    const auto end = std::partition_point(plays.begin() + 1, plays.end(), made_before);
+    const auto begin = std::partition_point(plays.begin(), end - 1, ended);
+    for (auto play = begin; play != end; ++play) {
+        committed.commit(agent, static_cast<int>(play - plays.begin()), *play);
+    }
+}
+
+}  // namespace
+
+Choice choose(const MoveSet& moves, const ReservationTable& committed, const CrowdRun& run, const ChoicePoint& point,
+              std::vector<AskedPair>* asked) {
+    return Chooser(moves, committed, run, point, asked).choose();
+}
+
+Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
+    const std::vector<Play>& plays = run.agents.at(static_cast<std::size_t>(agent)).plays;
+    const Play& made = plays.at(static_cast<std::size_t>(play));
+    if (play == 0) return {made.chosen_at, made.kind, {{made.move, 0, made.placement, false, {}, false}}, 0, 0};
+    const ChoicePoint point{agent, play, plays[static_cast<std::size_t>(play) - 1], made.chosen_at};
+    ReservationTable committed(moves, run.area, run.grace);
+    for (int other = 0; other < static_cast<int>(run.agents.size()); ++other) {
+        if (other != agent) commit_plays(committed, moves, run, other, point);
+    }
+    return choose(moves, committed, run, point);
+}
+
+std::optional<int> last_chosen(const CrowdAgent& agent, double time) {
+    // Plays are chosen in their order; the first was placed.
+    const auto later = [](double t, const Play& play) { return t < play.chosen_at; };
+    const auto after = std::upper_bound(agent.plays.begin() + 1, agent.plays.end(), time, later);
+    const auto play = static_cast<int>(after - agent.plays.begin()) - 1;
+    return play > 0 ? std::optional(play) : std::nullopt;
+}
+
+std::optional<FollowedChoice> last_choice(const MoveSet& moves, int agent, double time) {
+    const CrowdRun& run = *moves.fitted().scene().crowd;
+    const auto play = last_chosen(run.agents.at(static_cast<std::size_t>(agent)), time);
+    if (!play) return std::nullopt;
+    return FollowedChoice{agent, *play, choice_of(moves, run, agent, *play)};
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,204 @@
+#include <base/error.h>
+#include <base/random.h>
+#include <base/text.h>
+#include <crowd/simulation/simulate.h>
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kLeastMove = 0.01;  // seconds: of shorter ones a run would have no end of choices
+constexpr int kTries = 2000;         // places looked at for an agent before the floor counts as full
+constexpr double kReports = 100;     // of progress in a run
+
+struct Turn {
+    double time;
+    int agent;
+    bool operator>(const Turn& other) const { return std::tie(time, agent) > std::tie(other.time, other.agent); }
+};
+
+class Simulator {
+  public:
+    Simulator(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample,
+              const SimulationProgress& progress)
+        : moves_(moves),
+          options_(options),
+          sample_(sample),
+          progress_(progress),
+          world_(moves, options.area, options.grace) {
+        CrowdRun& run = simulation_.run;
+        run.area = options.area;
+        run.seconds = options.seconds;
+        run.seed = options.seed;
+        run.ahead = options.ahead;
+        run.grace = options.grace;
+    }
+
+    Simulation run() {
+        refuse_unplayable();
+        for (int agent = 0; agent < options_.agents; ++agent) place(agent);
+        while (!turns_.empty()) {
+            const Turn turn = turns_.top();
+            turns_.pop();
+            world_.forget_before(turn.time);
+            make_choice(turn);
+            if (turn.time >= counts().simulated + options_.seconds / kReports) tell(turn.time);
+        }
+        tell(options_.seconds);
+        return std::move(simulation_);
+    }
+
+  private:
+    SimulationCounts& counts() { return simulation_.counts; }
+
+    void tell(double time) {
+        counts().simulated = time;
+        if (progress_) progress_(counts());
+    }
+
+    void refuse_unplayable() const {
+        const std::string file = moves_.fitted().scene().file.string();
+        if (moves_.count() == 0) throw InputError(file, "", "the graph has no move; add one");
+        for (std::size_t move = 0; move < moves_.count(); ++move) {
+            if (moves_.duration(static_cast<int>(move)) < kLeastMove) {
+                throw InputError(file, "",
+                                 "move " + std::to_string(move) + " of the graph lasts " +
+                                     brief(moves_.duration(static_cast<int>(move))) + " s; a crowd plays moves of " +
+                                     brief(kLeastMove) + " s and more: remove it");
+            }
+            if (!moves_.after(static_cast<int>(move)).empty()) continue;
+            const GraphMove& last = moves_.move(static_cast<int>(move));
+            throw InputError(file, "",
+                             "hub " + in_quotes(moves_.graph().hubs[static_cast<std::size_t>(last.to)].name) +
+                                 " of the graph is a dead end: no move begins there; remove what leads to it");
+        }
+    }
+
+    /// A first move, begun some time ago, somewhere on the floor where it collides with nobody and, if there is room,
+    /// ends in nobody's way.
+    void place(int agent) {
+        CounterRandom random(options_.seed, static_cast<std::uint64_t>(agent), 0);
+        for (int i = 0; i < kTries; ++i) {
+            const int move = static_cast<int>(random.below(static_cast<std::uint32_t>(moves_.count())));
+            mobb::Placement placement;
+            placement.rotate_deg = 360 * random.unit() - 180;
+            placement.start = -moves_.duration(move) * random.unit();
+            // The clip's bounds, wherever its own origin is, come to lie anywhere on the floor.
+            const FloorRect bounds = moves_.bounds(move).bounds(placement);
+            const glm::dvec2 room = options_.area - (bounds.high - bounds.low);
+            const double across = random.unit(), along = random.unit();
+            if (room.x < 0 || room.y < 0) continue;
+            placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
+            const PlayedMove motion = moves_.motion(agent, 0, move, placement);
+            if (leaves_floor({motion.tree->clip(), placement}, *motion.clip_bounds, options_.area)) continue;
+            if (world_.motions().check_all({&motion, 1}).front().blocker) continue;
+            const Play play{move, placement, placement.start, PlayKind::chosen};
+            // Where the floor is nearly full, any place will do.
+            if (i < kTries / 2 && world_.in_the_way(agent, 0, {&play, 1}).front()) continue;
+            simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
+            ++counts().agents;
+            commit(agent, play);
+            return;
+        }
+        throw InputError("there is no room for agent " + std::to_string(agent + 1) + " of " +
+                         std::to_string(options_.agents) + " on a floor of " + brief(options_.area.x) + " x " +
+                         brief(options_.area.y) + " m; give fewer agents or a larger area");
+    }
+
+    void make_choice(const Turn& turn) {
+        const std::vector<Play>& plays = simulation_.run.agents[static_cast<std::size_t>(turn.agent)].plays;
+        const ChoicePoint point{turn.agent, static_cast<int>(plays.size()), plays.back(), turn.time};
+        asked_.clear();
+        const bool records_asked = sample_ && sample_->recorded() == Recorded::asked;
+        const Choice choice = choose(moves_, world_, simulation_.run, point, records_asked ? &asked_ : nullptr);
+        const Candidate& taken = choice.candidates[choice.taken];
+        if (sample_) record(choice, point);
+        count(choice);
+        commit(turn.agent, {taken.move, taken.placement, turn.time, choice.kind});
+    }
+
+    void record(const Choice& choice, const ChoicePoint& point) {
+        if (sample_->recorded() == Recorded::all) {
+            for (const Candidate& candidate : choice.candidates) {
+                world_.motions().all_pairs(moves_.motion(point.agent, point.play, candidate.move, candidate.placement),
+                                           sample_->range(), asked_);
+            }
+        }
+        sample_->offer(asked_);
+    }
+
+    void count(const Choice& choice) {
+        SimulationCounts& c = counts();
+        ++c.choices;
+        c.candidates += static_cast<std::int64_t>(choice.candidates.size());
+        for (const Candidate& candidate : choice.candidates) {
+            if (candidate.leaves_floor) {
+                ++c.off_floor;
+            } else if (candidate.blocker) {
+                ++c.colliding;
+            } else if (candidate.in_the_way) {
+                ++c.in_the_way;
+            }
+        }
+        c.queries += choice.queries;
+        if (choice.kind == PlayKind::pivoted) ++c.pivots;
+        if (choice.kind == PlayKind::forced) ++c.forced;
+    }
+
+    void commit(int agent, const Play& play) {
+        std::vector<Play>& plays = simulation_.run.agents[static_cast<std::size_t>(agent)].plays;
+        world_.commit(agent, static_cast<int>(plays.size()), play);
+        plays.push_back(play);
+        ++counts().plays;
+        counts().most_held = std::max(counts().most_held, world_.motions().size());
+        const double end = play.placement.start + moves_.duration(play.move);
+        if (end < options_.seconds) turns_.push({std::max(0.0, end - options_.ahead), agent});
+    }
+
+    const MoveSet& moves_;
+    const SimulateOptions& options_;
+    QuerySample* sample_;
+    const SimulationProgress& progress_;
+    ReservationTable world_;
+    Simulation simulation_;
+    std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
+    std::vector<AskedPair> asked_;  ///< at the present choice point
+};
+
+void check_range(const char* option, double value, double low, double high) {
+    if (value >= low && value <= high) return;
+    throw std::invalid_argument(std::string(option) + " is " + brief(value) + "; give a number from " + brief(low) +
+                                " to " + brief(high));
+}
+
+}  // namespace
+
+void check(const SimulateOptions& options) {
+    check_range("agents", options.agents, 1, kMaxAgents);
+    check_range("the area's width", options.area.x, kMinArea, kMaxArea);
+    check_range("the area's depth", options.area.y, kMinArea, kMaxArea);
+    check_range("seconds", options.seconds, kMinSimulated, kMaxSimulated);
+    check_range("seed", static_cast<double>(options.seed), 0, static_cast<double>(kMaxSeed));
+    check_range("ahead", options.ahead, 0, kMaxSimulated);
+    check_range("grace", options.grace, 0, kMaxSimulated);
+    check_range("threads", options.threads, 0, kMaxThreads);
+}
+
+Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample,
+                    const SimulationProgress& progress) {
+    check(options);
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    return arena.execute([&] { return Simulator(moves, options, sample, progress).run(); });
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,63 @@
+/// The crowd simulator (paper, Section 5): agents on a walled floor play moves back to back and collide with nobody.
+#pragma once
+
+#include <crowd/simulation/choice.h>
+#include <crowd/simulation/query_sample.h>
+#include <scene/crowd_run.h>
+
+#include <cstdint>
+#include <functional>
+
+namespace mobbscope {
+
+struct SimulateOptions {
+    int agents = 100;         ///< 1 to kMaxAgents
+    glm::dvec2 area{30, 40};  ///< metres, each over 0: the floor is centred on the origin
+    double seconds = 120;     ///< over 0: simulated
+    std::uint64_t seed = 1;   ///< at most kMaxSeed
+    double ahead = 0;         ///< seconds, >= 0: each move is chosen so long before it begins; the paper's is 0
+    double grace = 1;         ///< seconds, >= 0: room kept where moves end, see choose; the paper's is 0
+    int threads = 0;          ///< at most kMaxThreads; 0: as many as the machine has. The run does not depend on it
+};
+
+inline constexpr int kMaxAgents = 1'000'000;
+inline constexpr int kMaxThreads = 1024;
+inline constexpr double kMinSimulated = 1e-3;  ///< seconds
+inline constexpr double kMaxSimulated = 1e6;   ///< seconds, also of `ahead` and `grace`
+inline constexpr double kMinArea = 1e-3;       ///< metres along a wall
+inline constexpr double kMaxArea = 1e6;
+
+/// Throws std::invalid_argument, naming the option, if one is out of range.
+void check(const SimulateOptions& options);
+
+/// What was done in a run, or so far.
+struct SimulationCounts {
+    double simulated = 0;  ///< seconds
+    int agents = 0;        ///< that have found a place
+    std::int64_t plays = 0;
+    std::int64_t choices = 0;
+    std::int64_t candidates = 0;  ///< at choice points
+    std::int64_t off_floor = 0;   ///< candidates discarded because they leave the floor
+    std::int64_t colliding = 0;   ///< candidates discarded because they collide with a committed motion
+    std::int64_t in_the_way = 0;  ///< candidates passed over because they end in somebody's way
+    std::int64_t queries = 0;     ///< pairs that the trees were asked to discard candidates
+    std::int64_t pivots = 0;
+    std::int64_t forced = 0;
+    std::size_t most_held = 0;  ///< committed motions held at one time
+};
+
+/// Told now and then how far a run is; it may throw to end it, and what it throws passes through.
+using SimulationProgress = std::function<void(const SimulationCounts&)>;
+
+struct Simulation {
+    CrowdRun run;
+    SimulationCounts counts;
+};
+
+/// Runs a crowd. Every agent is placed at random, in mid-move, where it collides with nobody; then choices are made in
+/// the order of (time, agent) until every agent's moves reach the end. `sample` is offered the queries of all choices.
+/// Throws InputError if a hub is a dead end, or if there is no room for all agents.
+Simulation simulate(const MoveSet& moves, const SimulateOptions& options, QuerySample* sample = nullptr,
+                    const SimulationProgress& progress = {});
+
+}  // namespace mobbscope

@@ -1,0 +1,143 @@
+#include <explain/axis_intervals.h>
+#include <mobb/separation.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace mobbscope {
+
+namespace {
+
+/// The two boxes in the frame of A's path, of an aabb test in the world's directions, counted from the middle of A's
+/// box: far from the world's origin the numbers keep their digits.
+/// A box along the axes of a frame, wrapped again along the world's.
+mobb::Box along_the_world(const mobb::Box& box, glm::dvec2 center, const mobb::Rotation& to_world) {
+    mobb::Box out;
+    out.kind = mobb::BoxKind::aabb;
+    const glm::dvec2 half = mobb::half_in_world(box, to_world);
+    out.center = {center.x, center.y, 0};
+    out.half = {half.x, half.y, box.half.z};
+    return out;
+}
+
+BoxPair boxes_of(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    const mobb::PlacedTree& a = sides[0].placed;
+    const mobb::PlacedTree& b = sides[1].placed;
+    const mobb::RelativeFrame frame(a.frame(), b.frame(), a.time_scale());
+    BoxPair pair{a.node(event.a).box, b.node(event.b).box};
+    pair.b.center = frame.point(pair.b.center) - pair.a.center;
+    for (glm::dvec3& axis : pair.b.axes) axis = frame.direction(axis);
+    pair.b.drift = frame.direction(pair.b.drift);
+    pair.a.center = glm::dvec3(0);
+    if (event.test == mobb::TestKind::aabb) {
+        const mobb::Rotation& to_world = a.placed_clip().rotation();
+        const glm::dvec2 middle_b = to_world(glm::dvec2(pair.b.center));
+        pair.a = along_the_world(pair.a, glm::dvec2(0), to_world);
+        pair.b = along_the_world(pair.b, middle_b, b.placed_clip().rotation());
+    }
+    return pair;
+}
+
+std::string name_of(std::span<const DrawnAgent> sides, const BoxPair& boxes, mobb::TestKind test, int axis) {
+    if (test == mobb::TestKind::aabb) return axis == 0 ? "x" : "y";
+    const AxisOrigin origin = axis_origin(test, axis);
+    const std::string a = origin.a < 0 ? "" : sides[0].label + ' ' + axis_word(boxes.a, test, origin.a);
+    const std::string b = origin.b < 0 ? "" : sides[1].label + ' ' + axis_word(boxes.b, test, origin.b);
+    return a.empty() ? b : b.empty() ? a : a + " x " + b;
+}
+
+/// Of one box, in a test.
+int own_axes(mobb::TestKind test) { return test == mobb::TestKind::obb3d ? 3 : 2; }
+
+glm::dvec3 axis_of(const mobb::Box& box, int i) { return box.axes[static_cast<std::size_t>(i)]; }
+
+mobb::Box rectangle_at(mobb::Box box, double wt) {
+    if (box.half.z > 0) {
+        const glm::dvec2 moved = box.drift * ((wt - box.center.z) / box.half.z);
+        box.center += glm::dvec3(moved.x, moved.y, 0);
+    }
+    box.center.z = wt;
+    box.half.z = 0;
+    box.drift = {0, 0};
+    return box;
+}
+
+}  // namespace
+
+std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    std::vector<AxisInterval> out;
+    const BoxPair boxes = boxes_of(sides, event);
+    for (int axis = 0; axis < mobb::axis_count(event.test); ++axis) {
+        if (!is_tried(boxes.a, boxes.b, event.test, axis)) continue;
+        const glm::dvec3 direction = test_axis(boxes.a, boxes.b, event.test, axis);
+        const BoxPair tested = event.test == mobb::TestKind::moving ? at_nearest_moment(boxes, direction) : boxes;
+        const double middle = glm::dot(tested.a.center, direction);
+        const Projection on_a = project(tested.a, direction).minus(middle);
+        const Projection on_b = project(tested.b, direction).minus(middle);
+        out.push_back({axis, name_of(sides, boxes, event.test, axis), on_a.min, on_a.max, on_b.min, on_b.max,
+                       std::max(on_b.min - on_a.max, on_a.min - on_b.max)});
+    }
+    return out;
+}
+
+Projection project(const mobb::Box& box, glm::dvec3 axis) {
+    const double center = glm::dot(box.center, axis);
+    double reach = 0;
+    for (const glm::dvec3& edge : mobb::half_edges(box)) reach += std::abs(glm::dot(edge, axis));
+    return {center - reach, center + reach};
+}
+
+AxisOrigin axis_origin(mobb::TestKind test, int axis) {
+    if (test == mobb::TestKind::aabb) return {};
+    const int own = own_axes(test);
+    if (axis < own) return {axis, -1};
+    if (axis < 2 * own) return {-1, axis - own};
+    return {(axis - 2 * own) / 3, (axis - 2 * own) % 3};
+}
+
+bool is_tried(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis) {
+    const AxisOrigin origin = axis_origin(test, axis);
+    if (origin.a < 0 || origin.b < 0) return true;
+    const double cosine = glm::dot(axis_of(a, origin.a), axis_of(b, origin.b));
+    return 1 - cosine * cosine >= mobb::kShortestEdgeAxis * mobb::kShortestEdgeAxis;
+}
+
+glm::dvec3 test_axis(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis) {
+    const AxisOrigin origin = axis_origin(test, axis);
+    if (origin.a < 0 && origin.b < 0) return axis == 0 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    if (origin.b < 0) return axis_of(a, origin.a);
+    if (origin.a < 0) return axis_of(b, origin.b);
+    return glm::normalize(glm::cross(axis_of(a, origin.a), axis_of(b, origin.b)));
+}
+
+std::string axis_word(const mobb::Box& box, mobb::TestKind test, int axis) {
+    const int axes = own_axes(test);
+    int longer = 0;
+    for (int i = 0; i < axes; ++i) {
+        longer += box.half[i] > box.half[axis] || (box.half[i] == box.half[axis] && i < axis) ? 1 : 0;
+    }
+    const std::array<const char*, 3> names{"long", axes == 2 ? "short" : "middle", "short"};
+    return names[static_cast<std::size_t>(longer)];
+}
+
+BoxPair at_nearest_moment(const BoxPair& boxes, glm::dvec3 axis) {
+    const mobb::Box& a = boxes.a;
+    const mobb::Box& b = boxes.b;
+    const double begin = std::max(a.center.z - a.half.z, b.center.z - b.half.z);
+    const double end = std::max(begin, std::min(a.center.z + a.half.z, b.center.z + b.half.z));
+    const auto at = [&](double wt) { return BoxPair{rectangle_at(a, wt), rectangle_at(b, wt)}; };
+    const auto apart = [&](double wt) {
+        const BoxPair pair = at(wt);
+        return glm::dot(pair.b.center - pair.a.center, axis);
+    };
+    const double first = apart(begin);
+    const double last = apart(end);
+    if ((first < 0) != (last < 0)) return at(begin + (end - begin) * (first / (first - last)));
+    return at(std::abs(first) <= std::abs(last) ? begin : end);
+}
+
+}  // namespace mobbscope

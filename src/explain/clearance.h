@@ -1,0 +1,40 @@
+/// How near two placed clips come to each other, moment by moment.
+#pragma once
+
+#include <mobb/query.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace mobbscope {
+
+/// A pair of samples that share time. Between two events of the clips nothing moves, so its clearance is constant.
+struct ClearancePiece {
+    double t0 = 0;  ///< what they share, global seconds [t0, t1)
+    double t1 = 0;
+    double clearance = 0;  ///< metres between the disks; below 0 exactly where the pair collides
+    int a_sample = 0;
+    int b_sample = 0;
+};
+
+struct Clearance {
+    std::vector<ClearancePiece> pieces;  ///< in order of time, every pair that the direct search would measure
+    std::optional<std::size_t> least;    ///< the piece that is nearest, the earliest of equals; none without pieces
+    std::optional<std::size_t> contact;  ///< the first piece that collides
+};
+
+/// Takes time linear in the samples that share time.
+Clearance clearance_over_time(const mobb::PlacedClip& a, const mobb::PlacedClip& b);
+
+/// What one pixel column of a chart shows: the range of clearances in it.
+struct ClearanceColumn {
+    double least = 0;
+    double most = 0;
+    bool any = false;  ///< false: the clips share none of its time
+};
+
+/// [t0, t1) in so many columns of equal width; no minimum is lost, however narrow. t1 > t0, columns >= 1.
+std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns);
+
+}  // namespace mobbscope

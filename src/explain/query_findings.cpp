@@ -1,0 +1,98 @@
+#include <explain/query_findings.h>
+#include <explain/query_sentence.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+/// Where two neighbours in time touch, rounding is no gap.
+constexpr double kTouching = 1e-9;
+
+std::string no_common_time(std::span<const DrawnAgent> sides) {
+    const DrawnAgent* first = &sides[0];
+    const DrawnAgent* second = &sides[1];
+    if (second->end() < first->end()) std::swap(first, second);
+    const double gap = second->begin() - first->end();
+    if (gap <= kTouching) return "They share no time: " + second->label + " begins when " + first->label + " ends.";
+    return "They share no time: " + second->label + " begins " + with_unit(gap, "s") + " after " + first->label +
+           " ends.";
+}
+
+std::string on_the_floor(std::span<const DrawnAgent> sides, const FloorPaths& floor) {
+    if (!floor.meeting) {
+        return "Their paths stay " + with_unit(floor.apart, "m") + " apart on the floor, whatever the time.";
+    }
+    const DrawnAgent& first = sides[floor.meeting->a_first ? 0 : 1];
+    const DrawnAgent& second = sides[floor.meeting->a_first ? 1 : 0];
+    if (floor.meeting->gap <= kTouching) {
+        return "Their paths cross on the floor, but not in time: " + second.label + " comes the moment " + first.label +
+               " leaves.";
+    }
+    return "Their paths cross on the floor, but not in time: at the closest, " + second.label + " comes " +
+           with_unit(floor.meeting->gap, "s") + " after " + first.label + " has gone.";
+}
+
+}  // namespace
+
+QueryFindings find_out(const FittedScene& fitted, const ViewState& view, const RecordedQuery& recorded) {
+    QueryFindings out;
+    out.sides = drawn_agents(fitted, view);
+    const mobb::PlacedTree& a = out.sides[0].placed;
+    const mobb::PlacedTree& b = out.sides[1].placed;
+    out.clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
+    if (!out.clearance.contact) out.floor = floor_paths(a.placed_clip(), b.placed_clip());
+    out.recursion = recursion_of(recorded.trace, a, b);
+    return out;
+}
+
+std::string answer_words(std::span<const DrawnAgent> sides, const Clearance& clearance) {
+    if (!clearance.contact) return sides[0].label + " and " + sides[1].label + " never collide";
+    return "They collide at " + with_unit(clearance.pieces[*clearance.contact].t0, "s");
+}
+
+std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clearance& clearance,
+                                   const FloorPaths& floor) {
+    std::vector<std::string> out;
+    if (clearance.contact) {
+        const ClearancePiece& piece = clearance.pieces[*clearance.contact];
+        out.push_back("Sample " + std::to_string(piece.a_sample) + " of " + sides[0].label + " and sample " +
+                      std::to_string(piece.b_sample) + " of " + sides[1].label + " overlap by " +
+                      with_unit(-piece.clearance, "m") + ".");
+        const ClearancePiece& deepest = clearance.pieces[*clearance.least];
+        if (*clearance.least != *clearance.contact) {
+            out.push_back("Deepest at " + with_unit(deepest.t0, "s") + ": " + with_unit(-deepest.clearance, "m") + ".");
+        }
+        return out;
+    }
+    if (floor.known) out.push_back(on_the_floor(sides, floor));
+    if (!clearance.least) {
+        out.insert(out.begin(), no_common_time(sides));
+    } else {
+        const ClearancePiece& nearest = clearance.pieces[*clearance.least];
+        out.push_back("They come nearest at " + with_unit(nearest.t0, "s") + ": " + with_unit(nearest.clearance, "m") +
+                      " apart.");
+    }
+    return out;
+}
+
+std::int64_t direct_pairs(const Clearance& clearance) {
+    return static_cast<std::int64_t>(clearance.contact ? *clearance.contact + 1 : clearance.pieces.size());
+}
+
+std::string gain_words(const mobb::TestCounts& tests, const Clearance& clearance) {
+    const std::int64_t pairs = direct_pairs(clearance);
+    const std::int64_t all = tests.time + tests.boxes() + tests.samples;
+    std::string out = "The direct search would measure " + std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
+                      " of samples; this took " + std::to_string(all) + (all == 1 ? " test" : " tests");
+    if (all > 0 && pairs > all) {
+        char times[32];
+        std::snprintf(times, sizeof times, "%.3g", static_cast<double>(pairs) / static_cast<double>(all));
+        return out + ", " + times + " times fewer.";
+    }
+    return out + (pairs == all ? ", as many." : ": here the trees gain nothing.");
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,33 @@
+/// What a query has found out up to a step of its trace.
+#pragma once
+
+#include <mobb/trace.h>
+#include <scene/view_state.h>
+
+#include <array>
+#include <vector>
+
+namespace mobbscope {
+
+/// The event that a step means. Throws std::invalid_argument if the trace has none such.
+int event_of(const Step& step, const mobb::Trace& trace);
+
+/// What is known of a node that has been tested.
+struct NodeProgress {
+    int node = 0;
+    int event = 0;                                   ///< its latest test
+    mobb::Outcome outcome = mobb::Outcome::overlap;  ///< ... and how that ended
+    bool open = false;                               ///< the pair under test lies below it
+    bool refined = false;                            ///< children of it have been tested since
+};
+
+struct QueryProgress {
+    int step = 0;
+    mobb::Trace::Event event;                        ///< the test under way; refers to the trace
+    std::array<std::vector<NodeProgress>, 2> nodes;  ///< of A and of B, by index, without those of the pair under test
+};
+
+/// 0 <= step < trace.size().
+QueryProgress progress_at(const mobb::Trace& trace, int step);
+
+}  // namespace mobbscope

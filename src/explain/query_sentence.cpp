@@ -1,0 +1,136 @@
+#include <base/text.h>
+#include <explain/axis_intervals.h>
+#include <explain/query_sentence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace mobbscope {
+
+namespace {
+
+std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
+        return side.label + "'s " + axis_word(side.placed.node(node).box, event.test, axis) + " axis";
+    };
+    if (event.test == mobb::TestKind::aabb) return event.axis == 0 ? "along x" : "along y";
+    const AxisOrigin origin = axis_origin(event.test, event.axis);
+    if (origin.b < 0) return "along " + axis_of(sides[0], event.a, origin.a);
+    if (origin.a < 0) return "along " + axis_of(sides[1], event.b, origin.b);
+    return "across " + axis_of(sides[0], event.a, origin.a) + " and " + axis_of(sides[1], event.b, origin.b);
+}
+
+std::string what_next(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    const bool leaf_a = sides[0].placed.node(event.a).is_leaf();
+    const bool leaf_b = sides[1].placed.node(event.b).is_leaf();
+    return leaf_a && leaf_b ? "on to their samples" : "on to their children";
+}
+
+std::string time_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    const mobb::PlacedTree& a = sides[0].placed;
+    const mobb::PlacedTree& b = sides[1].placed;
+    const double shared = std::min(a.end(a.node(event.a)), b.end(b.node(event.b))) -
+                          std::max(a.begin(a.node(event.a)), b.begin(b.node(event.b)));
+    if (event.outcome == mobb::Outcome::disjoint_in_time) {
+        // Neighbours in time only touch; rounding is no gap.
+        return shared > -1e-9 ? "they only touch in time" : "apart in time by " + with_unit(-shared, "s");
+    }
+    return "they share " + with_unit(shared, "s");
+}
+
+std::string sample_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    const mobb::PlacedClip& a = sides[0].clip();
+    const mobb::PlacedClip& b = sides[1].clip();
+    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {
+        const mobb::Contact contact = mobb::contact_of(a, event.pairs.back().i, b, event.pairs.back().j);
+        return "samples " + std::to_string(contact.a_sample) + " and " + std::to_string(contact.b_sample) + " hit at " +
+               with_unit(contact.time, "s") + ", " + with_unit(contact.radii - contact.distance, "m") + " deep";
+    }
+    const std::string count = std::to_string(event.pairs.size());
+    if (event.pairs.empty()) return "no pair of samples overlaps in time";
+    double clearance = std::numeric_limits<double>::max();
+    for (const mobb::MeasuredPair& pair : event.pairs) {
+        clearance = std::min(clearance, pair.distance - a.disk(pair.i).r - b.disk(pair.j).r);
+    }
+    return "no hit in " + count + (event.pairs.size() == 1 ? " pair" : " pairs") + " of samples, the nearest " +
+           with_unit(clearance, "m") + " apart";
+}
+
+}  // namespace
+
+std::string with_unit(double value, const char* unit) {
+    const double size = std::abs(value);
+    const int digits = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
+    // Below a millimetre more decimals are needed to say anything, above 10 fewer.
+    const int decimals = std::clamp(size >= 10 ? 2 : digits < -3 ? 2 - digits : 3, 0, 12);
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f %s", decimals, value, unit);
+    return text;
+}
+
+std::string node_name(const DrawnAgent& agent, int node) {
+    const mobb::Tree& tree = agent.placed.tree();
+    const int level = agent.placed.node(node).level;
+    return agent.label + ' ' + std::to_string(level) + '.' + std::to_string(tree.place_in_level(node));
+}
+
+std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
+    switch (event.test) {
+        case mobb::TestKind::time:
+            return time_outcome(sides, event);
+        case mobb::TestKind::samples:
+            return sample_outcome(sides, event);
+        case mobb::TestKind::obb2d:
+        case mobb::TestKind::obb3d:
+        case mobb::TestKind::moving:
+        case mobb::TestKind::aabb:
+            break;
+    }
+    if (event.outcome == mobb::Outcome::separated) {
+        const char* when = event.test == mobb::TestKind::moving ? " at the nearest" : "";
+        return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m") + when;
+    }
+    return "the boxes overlap, " + what_next(sides, event);
+}
+
+std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
+    const mobb::Trace::Event event = trace[step];
+    return "step " + std::to_string(step) + " / " + std::to_string(trace.size() - 1) + ": " +
+           node_name(sides[0], event.a) + " against " + node_name(sides[1], event.b) + ": " +
+           outcome_text(sides, event);
+}
+
+std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
+    std::vector<std::string> out{step_sentence(sides, trace, step)};
+    std::vector<DrawnAgent> terse(sides.begin(), sides.end());
+    for (DrawnAgent& side : terse) side.label = shortened(side.label, 10);
+    // Too short to tell them apart, the colours and the legend still do.
+    if (terse[0].label == terse[1].label) {
+        terse[0].label = "A";
+        terse[1].label = "B";
+    }
+    out.push_back(step_sentence(terse, trace, step));
+    const std::string number = "step " + std::to_string(step) + ": ";
+    terse[0].label = "A";
+    terse[1].label = "B";
+    out.push_back(number + outcome_text(terse, trace[step]));
+    out.push_back(outcome_text(terse, trace[step]));
+    return out;
+}
+
+std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQuery& recorded) {
+    const std::string pair = sides[0].label + " and " + sides[1].label;
+    const mobb::TestCounts& tests = recorded.tests;
+    std::string text =
+        recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s") : pair + " never collide";
+    text += "; " + counted(tests.time, "time test", "time tests");
+    if (tests.obb2d > 0) text += ", " + counted(tests.obb2d, "2D box test", "2D box tests");
+    if (tests.obb3d > 0) text += ", " + counted(tests.obb3d, "3D box test", "3D box tests");
+    if (tests.moving > 0) text += ", " + counted(tests.moving, "moving box test", "moving box tests");
+    if (tests.aabb > 0) text += ", " + counted(tests.aabb, "AABB test", "AABB tests");
+    return text + ", " + counted(tests.samples, "pair of samples", "pairs of samples");
+}
+
+}  // namespace mobbscope

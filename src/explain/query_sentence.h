@@ -1,0 +1,31 @@
+/// Queries in words.
+#pragma once
+
+#include <mobb/trace.h>
+#include <scene/drawn_agent.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// A node as "<name> <level>.<place in the level>", counted from 0: "A 2.1".
+std::string node_name(const DrawnAgent& agent, int node);
+
+/// What a test found: "separated along B's long axis by 0.183 m".
+std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
+
+/// What a step shows: "step 14 / 61: A 2.1 against B 2.3: separated along B's long axis by 0.183 m".
+std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step);
+
+/// The same in fewer and fewer words, for pictures with less room; all tell the whole outcome. Never empty.
+std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step);
+
+/// The query's answer and what it cost.
+std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQuery& recorded);
+
+/// "0.183 m", "0.42 s": three digits or millimetres, whichever is more.
+std::string with_unit(double value, const char* unit);
+
+}  // namespace mobbscope

@@ -1,0 +1,88 @@
+#include <explain/recursion.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+void count(mobb::TestCounts& counts, const mobb::Trace::Event& event) {
+    switch (event.test) {
+        case mobb::TestKind::time:
+            ++counts.time;
+            break;
+        case mobb::TestKind::obb2d:
+            ++counts.obb2d;
+            break;
+        case mobb::TestKind::obb3d:
+            ++counts.obb3d;
+            break;
+        case mobb::TestKind::moving:
+            ++counts.moving;
+            break;
+        case mobb::TestKind::aabb:
+            ++counts.aabb;
+            break;
+        case mobb::TestKind::samples:
+            counts.samples += static_cast<std::int64_t>(event.pairs.size());
+            break;
+    }
+}
+
+}  // namespace
+
+Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b) {
+    Recursion out;
+    const auto size = static_cast<std::size_t>(trace.size());
+    out.pair_of.resize(size);
+    out.so_far.resize(size);
+    mobb::TestCounts tests;
+    for (int step = 0; step < trace.size(); ++step) {
+        const mobb::Trace::Event event = trace[step];
+        const int parent = event.parent < 0 ? -1 : out.pair_of[static_cast<std::size_t>(event.parent)];
+        // A pair's own tests stand together: what it calls comes behind them.
+        const bool same = !out.pairs.empty() && out.pairs.back().a == event.a && out.pairs.back().b == event.b &&
+                          out.pairs.back().parent == parent && out.pairs.back().depth == event.depth;
+        if (!same) {
+            const mobb::Node& node_a = a.node(event.a);
+            const mobb::Node& node_b = b.node(event.b);
+            RecursionPair pair;
+            pair.a = event.a;
+            pair.b = event.b;
+            pair.parent = parent;
+            pair.depth = event.depth;
+            pair.first = step;
+            pair.time_a = {a.begin(node_a), a.end(node_a)};
+            pair.time_b = {b.begin(node_b), b.end(node_b)};
+            out.pairs.push_back(pair);
+            out.depth = std::max(out.depth, event.depth + 1);
+        }
+        RecursionPair& pair = out.pairs.back();
+        pair.last = step;
+        pair.end = step + 1;
+        pair.outcome = event.outcome;
+        pair.hit = event.outcome == mobb::Outcome::hit;
+        out.pair_of[static_cast<std::size_t>(step)] = static_cast<int>(out.pairs.size()) - 1;
+        count(tests, event);
+        out.so_far[static_cast<std::size_t>(step)].tests = tests;
+    }
+    for (std::size_t i = out.pairs.size(); i-- > 0;) {
+        const RecursionPair& pair = out.pairs[i];
+        if (pair.parent < 0) continue;
+        RecursionPair& above = out.pairs[static_cast<std::size_t>(pair.parent)];
+        above.end = std::max(above.end, pair.end);
+        above.hit = above.hit || pair.hit;
+    }
+    for (int step = 0; step < trace.size(); ++step) {
+        const RecursionPair& pair = out.pairs[static_cast<std::size_t>(out.pair_of[static_cast<std::size_t>(step)])];
+        const mobb::Trace::Event event = trace[step];
+        if (!is_box_test(event.test) || event.outcome != mobb::Outcome::overlap || pair.hit) continue;
+        ++out.so_far[static_cast<std::size_t>(pair.end) - 1].wasted;
+    }
+    std::int64_t wasted = 0;
+    for (StepCounts& counts : out.so_far) counts.wasted = wasted += counts.wasted;
+    return out;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,52 @@
+/// The recursion of a query as pairs of nodes: what the recursion square, the icicle and the counters show.
+#pragma once
+
+#include <mobb/placed_tree.h>
+#include <mobb/query.h>
+#include <mobb/trace.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mobbscope {
+
+/// A pair of nodes that was tested: a rectangle of A's time by B's, and a range of the trace.
+struct RecursionPair {
+    int a = 0;  ///< node indices
+    int b = 0;
+    int parent = -1;  ///< index of the pair that called it; -1 at the root
+    int depth = 0;
+    int first = 0;  ///< its own tests are the events first .. last
+    int last = 0;
+    int end = 0;                                     ///< it and all below it are the events first .. end - 1
+    mobb::Outcome outcome = mobb::Outcome::overlap;  ///< of its last test
+    bool hit = false;                                ///< a hit was found in it or below it
+    mobb::Interval time_a;                           ///< of the nodes, global seconds
+    mobb::Interval time_b;
+
+    bool has_children() const { return end > last + 1; }
+};
+
+/// What had been counted after an event.
+struct StepCounts {
+    mobb::TestCounts tests;
+    /// Box tests that found an overlap which led to no hit. One counts from the end of its pair on: until then it may
+    /// still lead to one.
+    std::int64_t wasted = 0;
+};
+
+struct Recursion {
+    std::vector<RecursionPair> pairs;  ///< in the order of their first tests: parents before children
+    std::vector<int> pair_of;          ///< by event: index of its pair
+    std::vector<StepCounts> so_far;    ///< by event
+    int depth = 0;                     ///< number of levels; 0 for an empty trace
+
+    /// The whole query's; zero for an empty trace.
+    StepCounts total() const { return so_far.empty() ? StepCounts{} : so_far.back(); }
+};
+
+/// `trace` must be that of a query of these two. Takes time linear in the trace.
+Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b);
+
+}  // namespace mobbscope

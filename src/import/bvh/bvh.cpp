@@ -1,0 +1,248 @@
+#include <base/text.h>
+#include <import/bvh/bvh.h>
+#include <import/bvh/bvh_scanner.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kMaxFrameTime = 60;         // seconds; a slower capture is none
+constexpr std::size_t kMaxJoints = 100'000;  // a file of nothing but names would take many times its size
+constexpr std::array<std::string_view, kMaxBvhChannels> kChannels{"xposition", "yposition", "zposition",
+                                                                  "xrotation", "yrotation", "zrotation"};
+
+/// A joint whose } has not come yet.
+struct OpenJoint {
+    std::size_t index;
+    int line;  ///< where it begins
+    bool has_offset = false;
+    bool has_channels = false;
+};
+
+/// One pass over the text of a file.
+class BvhParser {
+  public:
+    BvhParser(std::string_view text, const std::string& file) : in_(text, file) {}
+
+    BvhData parse() {
+        in_.begin();
+        read_hierarchy();
+        read_motion_header();
+        read_rows();
+        return std::move(data_);
+    }
+
+  private:
+    // ---- HIERARCHY ----
+
+    void read_hierarchy() {
+        const std::string_view first = in_.next_word();
+        if (!is_keyword(first, "hierarchy")) {
+            in_.fail("a BVH begins with HIERARCHY, but " + found(first) + "; is this another kind of file?");
+        }
+        for (std::string_view word = in_.next_word(); !is_keyword(word, "motion"); word = in_.next_word()) {
+            if (is_keyword(word, "root")) {
+                read_root();
+            } else if (word == "}") {
+                in_.fail("this } closes nothing; remove it");
+            } else {
+                in_.fail("ROOT or MOTION must stand here, but " + found(word));
+            }
+        }
+        if (data_.joints.empty()) in_.fail("there is no ROOT before MOTION");
+        if (data_.row_length == 0) in_.fail("no joint has a channel, so nothing moves; give CHANNELS to one");
+    }
+
+    /// A ROOT and all below it. Without recursion: a file may nest as deep as it likes.
+    void read_root() {
+        std::vector<OpenJoint> open{begin_joint("ROOT", -1)};
+        while (!open.empty()) {
+            OpenJoint& joint = open.back();
+            const int index = static_cast<int>(joint.index);
+            const bool is_tip = data_.joints[joint.index].end_site;
+            const std::string_view word = in_.next_word();
+            if (word == "}") {
+                if (!joint.has_offset) in_.fail(described(joint) + " has no OFFSET; give it one");
+                open.pop_back();
+            } else if (is_keyword(word, "offset")) {
+                read_offset(joint);
+            } else if (!is_tip && is_keyword(word, "channels")) {
+                read_channels(joint);
+            } else if (!is_tip && is_keyword(word, "joint")) {
+                open.push_back(begin_joint("JOINT", index));
+            } else if (!is_tip && is_keyword(word, "end")) {
+                open.push_back(begin_end_site(index));
+            } else {
+                in_.fail("in " + described(joint) +
+                         (is_tip ? ", OFFSET or }" : ", OFFSET, CHANNELS, JOINT, End Site or }") +
+                         " must stand here, but " + found(word));
+            }
+        }
+    }
+
+    std::string described(const OpenJoint& open) const {
+        const Joint& joint = data_.joints[open.index];
+        return (joint.end_site ? "the End Site" : in_quotes(joint.name)) + " of line " + std::to_string(open.line);
+    }
+
+    OpenJoint begin_joint(const std::string& keyword, int parent) {
+        const std::string_view name = in_.rest_before_brace();
+        if (name.empty()) in_.fail(keyword + " needs a name on its line");
+        return open_joint({std::string(name), parent, false});
+    }
+    OpenJoint begin_end_site(int parent) {
+        in_.rest_before_brace();  // "Site", and whatever a program adds
+        return open_joint({"", parent, true});
+    }
+    OpenJoint open_joint(Joint joint) {
+        if (data_.joints.size() == kMaxJoints) in_.fail("there are more than 100000 joints; the file is damaged");
+        const OpenJoint open{data_.joints.size(), in_.line()};
+        data_.joints.push_back(std::move(joint));
+        data_.moves.emplace_back().first_value = data_.row_length;
+        const std::string_view word = in_.next_word();
+        if (word != "{") in_.fail("a { must follow " + described(open) + ", but " + found(word));
+        return open;
+    }
+
+    void read_offset(OpenJoint& joint) {
+        if (joint.has_offset) in_.fail("a second OFFSET in " + described(joint) + "; remove one");
+        joint.has_offset = true;
+        for (int i = 0; i < 3; ++i) {
+            in_.skip_blanks();
+            if (in_.at_line_end()) in_.fail("OFFSET needs three numbers, but has " + std::to_string(i));
+            data_.moves[joint.index].offset[i] = in_.number();
+        }
+        end_statement("OFFSET takes three numbers");
+    }
+
+    void read_channels(OpenJoint& joint) {
+        if (joint.has_channels) in_.fail("a second CHANNELS in " + described(joint) + "; remove one");
+        joint.has_channels = true;
+        const std::string_view number = in_.next_word();
+        const std::optional<int> count = parse_int(number);
+        if (!count || *count < 0 || *count > static_cast<int>(kMaxBvhChannels)) {
+            in_.fail("CHANNELS needs their number, 0 to " + std::to_string(kMaxBvhChannels) + ", but " + found(number));
+        }
+        BvhJoint& move = data_.moves[joint.index];
+        move.first_value = data_.row_length;
+        for (int i = 0; i < *count; ++i) {
+            in_.skip_blanks();
+            if (in_.at_line_end()) {
+                in_.fail("CHANNELS says " + std::to_string(*count) + ", but names only " + std::to_string(i));
+            }
+            add_channel(move, in_.next_word());
+        }
+        end_statement("CHANNELS says " + std::to_string(*count) + ", but names more");
+        data_.row_length += move.channel_count;
+    }
+
+    void add_channel(BvhJoint& move, std::string_view word) const {
+        const auto known = std::find_if(kChannels.begin(), kChannels.end(),
+                                        [word](std::string_view channel) { return is_keyword(word, channel); });
+        if (known == kChannels.end()) {
+            in_.fail(in_quotes(word) +
+                     " is no channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
+        }
+        const auto channel = static_cast<BvhChannel>(known - kChannels.begin());
+        const auto given = std::span(move.channels).first(move.channel_count);
+        // Turning about one axis twice is an Euler order like XYX; a coordinate given twice is a mistake.
+        if (channel <= BvhChannel::z_position && std::find(given.begin(), given.end(), channel) != given.end()) {
+            in_.fail(in_quotes(word) + " stands twice in CHANNELS; remove one");
+        }
+        move.channels[move.channel_count++] = channel;
+    }
+
+    void end_statement(const std::string& complaint) {
+        in_.skip_blanks();
+        if (in_.at_line_end()) return;
+        const std::string_view word = in_.next_word();
+        if (word != "}") in_.fail(complaint + "; there is " + in_quotes(word));
+        in_.put_back(word);
+    }
+
+    // ---- MOTION ----
+
+    /// The text after "Frames:" or "Frame Time:". `words` are those of the key in lower case.
+    std::string_view setting(const char* key, std::initializer_list<std::string_view> words) {
+        in_.skip_space();
+        const std::string_view line = in_.rest_of_line();
+        const std::size_t colon = line.find(':');
+        bool matches = colon != std::string_view::npos;
+        std::string_view rest = line.substr(0, colon);
+        for (const std::string_view word : words) {
+            matches = matches && is_keyword(rest.substr(0, word.size()), word);
+            rest = trimmed(rest.substr(std::min(word.size(), rest.size())));
+        }
+        if (!matches || !rest.empty()) {
+            in_.fail("'" + std::string(key) + ": <number>' must stand here, but " + found(line));
+        }
+        return trimmed(line.substr(colon + 1));
+    }
+
+    void read_motion_header() {
+        const std::string_view frames = setting("Frames", {"frames"});
+        const std::optional<int> count = parse_int(frames);
+        if (!count || *count < 1) in_.fail("Frames needs a whole number from 1 up, but has " + in_quotes(frames));
+        frames_ = static_cast<std::size_t>(*count);
+        frames_line_ = in_.line();
+
+        const std::string_view time = setting("Frame Time", {"frame", "time"});
+        const std::optional<double> seconds = parse_double(time);
+        if (!seconds || !(*seconds > 0) || *seconds > kMaxFrameTime) {
+            in_.fail("Frame Time needs seconds, over 0 and at most " + std::to_string(static_cast<int>(kMaxFrameTime)) +
+                     ", such as 0.033333, but has " + in_quotes(time));
+        }
+        data_.frame_time = *seconds;
+    }
+
+    [[noreturn]] void fail_frames(const std::string& finding) const {
+        in_.fail(frames_line_, "Frames says " + std::to_string(frames_) + ", but " + finding +
+                                   "; correct the number, or fetch the file again if it was cut off");
+    }
+
+    void read_rows() {
+        // A value takes two bytes at least, so the file's size bounds the memory, whatever Frames says.
+        const std::size_t most = (in_.bytes_left() + 1) / 2 / data_.row_length;
+        if (frames_ > most) {
+            fail_frames("what follows has no room for more than " + counted(most, "row", "rows") + " of " +
+                        counted(data_.row_length, "value", "values"));
+        }
+        data_.values.reserve(frames_ * data_.row_length);
+        std::size_t rows = 0;
+        for (in_.skip_space(); !in_.at_end(); in_.skip_space(), ++rows) {
+            if (rows < frames_) {
+                read_row();
+            } else {
+                in_.rest_of_line();
+            }
+        }
+        if (rows != frames_) fail_frames(counted(rows, "row", "rows") + (rows == 1 ? " follows" : " follow"));
+    }
+
+    void read_row() {
+        std::size_t count = 0;
+        for (; !in_.at_line_end(); in_.skip_blanks(), ++count) {
+            const double value = in_.number();
+            if (count < data_.row_length) data_.values.push_back(value);
+        }
+        if (count == data_.row_length) return;
+        in_.fail("the row has " + counted(count, "value", "values") + ", but there are " +
+                 counted(data_.row_length, "channel", "channels") +
+                 (in_.at_end() ? "; the file is cut off" : "; correct the row"));
+    }
+
+    BvhScanner in_;
+    std::size_t frames_ = 0;  ///< as the file says
+    int frames_line_ = 0;
+    BvhData data_;
+};
+
+}  // namespace
+
+BvhData parse_bvh(std::string_view text, const std::string& file) { return BvhParser(text, file).parse(); }
+
+}  // namespace mobbscope

@@ -1,0 +1,44 @@
+/// BVH, the motion capture format of Biovision: a hierarchy of joints, then one row of channel values a frame.
+#pragma once
+
+#include <import/skeleton/motion.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace mobbscope {
+
+enum class BvhChannel : std::uint8_t { x_position, y_position, z_position, x_rotation, y_rotation, z_rotation };
+
+inline constexpr std::size_t kMaxBvhChannels = 6;  ///< of one joint
+
+/// How the values of a row move one joint. Beside the Joint of the same index.
+struct BvhJoint {
+    glm::dvec3 offset{0, 0, 0};  ///< from the parent, file units; a position channel replaces its coordinate
+    std::array<BvhChannel, kMaxBvhChannels> channels{};  ///< in the order of the file, which is that of rotations
+    std::size_t channel_count = 0;
+    std::size_t first_value = 0;  ///< of its channels in a row
+};
+
+/// A file as it stands. Rotations in degrees, lengths in file units.
+struct BvhData {
+    std::vector<Joint> joints;  ///< parents before children; the first is the first ROOT
+    std::vector<BvhJoint> moves;
+    std::size_t row_length = 0;  ///< values in a row, > 0
+    double frame_time = 0;       ///< seconds, > 0
+    std::vector<double> values;  ///< row after row; at least one row
+
+    std::size_t frames() const { return values.size() / row_length; }
+};
+
+/// Reads the text of a file; `file` stands for it in messages. Takes any channel order, position channels on any
+/// joint, several roots, names with blanks, any kind of line end, keywords in any case. The memory it takes is bounded
+/// by the size of the text, whatever counts stand in it. Throws InputError naming the line.
+BvhData parse_bvh(std::string_view text, const std::string& file);
+
+/// The one animation of a file.
+std::unique_ptr<MotionFile> bvh_motion(BvhData data);
+
+}  // namespace mobbscope

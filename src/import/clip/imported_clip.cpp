@@ -1,0 +1,63 @@
+#include <base/text.h>
+#include <import/clip/imported_clip.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kMaxFps = 1e6;
+constexpr double kMaxUnit = 1e6;
+constexpr std::array<std::pair<std::string_view, Origin>, 3> kOrigins{
+    {{"keep", Origin::keep}, {"start", Origin::start}, {"start_heading", Origin::start_heading}}};
+
+void require(bool in_range, const std::string& message) {
+    if (!in_range) throw std::invalid_argument(message);
+}
+
+bool is_unit(const std::string& text) {
+    const std::optional<double> scale = metres_per_unit(text);
+    return text == "auto" || (scale && *scale > 0 && *scale <= kMaxUnit);
+}
+
+}  // namespace
+
+void check(const ImportOptions& options) {
+    // Written so that NaN fails each of them.
+    require(!options.fps || (*options.fps > 0 && *options.fps <= kMaxFps), "fps must be over 0 and at most 1000000");
+    require(!options.unit || is_unit(*options.unit),
+            "unit must be m, cm, in, auto or metres per file unit (over 0, at most 1000000)");
+    require(!options.up || *options.up == "y" || *options.up == "z", "up must be y or z");
+    require(!options.trim || (options.trim->first >= 0 && options.trim->first < options.trim->second &&
+                              options.trim->second <= mobb::kMaxTime),
+            "trim must be two times A and B in seconds, 0 <= A < B <= " + short_double(mobb::kMaxTime));
+    require(!options.radius || (*options.radius >= 0 && *options.radius <= mobb::kMaxLength),
+            "radius must be from 0 to " + short_double(mobb::kMaxLength) + " metres");
+    require(!options.dt || (*options.dt >= mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
+            "dt must be from " + short_double(mobb::kLeastDt) + " to " + short_double(mobb::kMaxTime) + " seconds");
+}
+
+std::optional<double> metres_per_unit(const std::string& unit) {
+    if (unit == "m") return 1;
+    if (unit == "cm") return 0.01;
+    if (unit == "in") return 0.0254;
+    return parse_double(unit);
+}
+
+std::string_view name(Origin origin) {
+    for (const auto& [text, value] : kOrigins) {
+        if (value == origin) return text;
+    }
+    return "";
+}
+
+std::optional<Origin> origin_from_name(std::string_view name) {
+    for (const auto& [text, value] : kOrigins) {
+        if (text == name) return value;
+    }
+    return std::nullopt;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,68 @@
+/// From stored frames to samples at a uniform spacing (contract, section 2), and where a path is put.
+#pragma once
+
+#include <import/clip/imported_clip.h>
+#include <mobb/clip.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace mobbscope {
+
+/// A stored frame: a disk and its time in seconds.
+struct TimedDisk {
+    double t = 0;
+    mobb::Disk disk;
+};
+
+/// A time within so many frames of a stored frame is that frame: rounded times in files lose nothing.
+inline constexpr double kFrameTolerance = 0.02;
+
+/// A sampling time so many samples after the last key is still at it. Less than kFrameTolerance: a last key that comes
+/// that much earlier was meant to.
+inline constexpr double kEndTolerance = 0.001;
+
+/// The most samples that a file may become.
+inline constexpr std::size_t kMaxSamples = 10'000'000;
+
+/// The first frame whose time is not t0 + i*dt within kFrameTolerance frames, with dt = span/(N-1); none if all are.
+/// Needs two frames at least.
+std::optional<std::size_t> first_out_of_step(std::span<const TimedDisk> frames);
+
+/// True if no frame is out of step.
+inline bool is_uniform(std::span<const TimedDisk> frames) { return !first_out_of_step(frames); }
+
+/// How many samples lie at begin, begin + step, ... up to and including `end`; at least 1. A frame is `step` long. The
+/// result is a double, as absurd inputs give absurd counts.
+double sample_count(double begin, double end, double step);
+
+/// Sampling times begin + k*step in seconds, k in [0, count).
+struct SampleGrid {
+    double begin = 0;
+    double step = 1;
+    std::size_t count = 1;
+
+    double time(std::size_t k) const { return begin + static_cast<double>(k) * step; }
+};
+
+/// The times at which a file with keys from `first` to `last` is sampled, or the part of it that `trim` takes. Throws
+/// std::invalid_argument if trim begins after the end, or for more than `most` samples.
+SampleGrid sample_grid(double first, double last, const std::optional<std::pair<double, double>>& trim, double step,
+                       std::size_t most);
+
+/// Disks at the times of the grid; between stored frames x, y and r are interpolated, beyond them they stay. A frame,
+/// to be within kFrameTolerance of, is as long as the gap between the stored ones or as the grid's step, the shorter.
+/// The frames' times increase.
+std::vector<mobb::Disk> sample(std::span<const TimedDisk> frames, const SampleGrid& grid);
+
+/// Between two disks: x, y and r are interpolated.
+mobb::Disk mix(const mobb::Disk& a, const mobb::Disk& b, double share);
+
+/// Moves and turns the path as `origin` says. A path that stays within 0.1 m of its start keeps its heading. Gives how
+/// it was turned.
+mobb::Rotation put_at_origin(std::vector<mobb::Disk>& samples, Origin origin);
+
+}  // namespace mobbscope

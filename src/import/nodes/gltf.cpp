@@ -1,0 +1,328 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <import/nodes/gltf.h>
+#include <import/nodes/gltf_accessor.h>
+#include <import/nodes/gltf_json.h>
+#include <import/nodes/node_scene.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kTolerance = 1e-6;
+
+std::string name_of(const tinygltf::Model& model, int node) {
+    const std::string& name = model.nodes[as_index(node)].name;
+    return name.empty() ? "node" + std::to_string(node) : name;
+}
+
+std::string place_of_node(const tinygltf::Model& model, int node) {
+    return "node " + std::to_string(node) + " " + in_quotes(name_of(model, node));
+}
+
+/// The files that hold buffers, for tinygltf's callbacks: it knows them by their buffer's index.
+struct BufferFiles {
+    std::map<std::string, std::string> bytes;
+
+    static std::string key(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+    static bool exists(const std::string& path, void* self) {
+        return static_cast<BufferFiles*>(self)->bytes.contains(key(path));
+    }
+    static std::string expand(const std::string& path, void*) { return path; }
+    static bool read(std::vector<unsigned char>* out, std::string*, const std::string& path, void* self) {
+        const std::string& bytes = static_cast<BufferFiles*>(self)->bytes[key(path)];
+        out->assign(bytes.begin(), bytes.end());
+        return true;
+    }
+    static bool write(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+    static bool size(std::size_t* out, std::string*, const std::string& path, void* self) {
+        *out = static_cast<BufferFiles*>(self)->bytes[key(path)].size();
+        return true;
+    }
+};
+
+/// tinygltf 2.9 takes all callbacks or none, and one more than 2.7, which has no such member: hence a template.
+template <class FsCallbacks>
+FsCallbacks callbacks(BufferFiles& files) {
+    FsCallbacks out{};
+    out.FileExists = &BufferFiles::exists;
+    out.ExpandFilePath = &BufferFiles::expand;
+    out.ReadWholeFile = &BufferFiles::read;
+    out.WriteWholeFile = &BufferFiles::write;
+    if constexpr (requires { out.GetFileSizeInBytes; }) out.GetFileSizeInBytes = &BufferFiles::size;
+    out.user_data = &files;
+    return out;
+}
+
+BufferFiles read_buffer_files(const std::vector<GltfBufferFile>& files, const std::filesystem::path& gltf) {
+    BufferFiles out;
+    for (const GltfBufferFile& file : files) {
+        if (file.path.empty()) {
+            out.bytes[std::to_string(file.buffer)] = std::string(file.byte_length, '\0');
+            continue;
+        }
+        const std::string place = "buffer " + std::to_string(file.buffer);
+        std::string bytes;
+        try {
+            bytes = read_file(gltf.parent_path() / file.path);
+        } catch (const InputError& error) {
+            throw InputError(gltf.string(), place, error.what());
+        }
+        if (bytes.size() < file.byte_length) {
+            throw InputError(gltf.string(), place,
+                             (gltf.parent_path() / file.path).string() + " holds " + std::to_string(bytes.size()) +
+                                 " bytes of " + std::to_string(file.byte_length) + "; export or copy it again");
+        }
+        bytes.resize(file.byte_length);
+        out.bytes[std::to_string(file.buffer)] = std::move(bytes);
+    }
+    return out;
+}
+
+tinygltf::Model load_model(std::string_view bytes, const std::filesystem::path& file) {
+    const GltfParts parts = split_gltf(bytes, lower_extension(file) == ".glb", file.string());
+    const GltfText text = checked_gltf_text(parts, file.string());
+    BufferFiles buffer_files = read_buffer_files(text.buffer_files, file);
+
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(callbacks<tinygltf::FsCallbacks>(buffer_files));
+    tinygltf::Model model;
+    std::string error;
+    std::string warning;
+    bool is_loaded = false;
+    try {
+        if (parts.is_glb) {
+            const std::string glb = join_glb(text.json, parts.binary.value_or(""));
+            is_loaded = loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                    reinterpret_cast<const unsigned char*>(glb.data()),
+                                                    static_cast<unsigned int>(glb.size()));
+        } else {
+            is_loaded = loader.LoadASCIIFromString(&model, &error, &warning, text.json.data(),
+                                                   static_cast<unsigned int>(text.json.size()), "");
+        }
+    } catch (const std::exception& thrown) {
+        error = thrown.what();
+    }
+    if (!is_loaded) {
+        // What remains after our checks are data URIs; tinygltf's message would repeat all of it.
+        const bool is_uri = error.starts_with("Failed to decode 'uri'");
+        throw InputError(file.string(), is_uri ? "buffer " + std::to_string(model.buffers.size()) : "",
+                         is_uri ? "its data URI does not hold byteLength bytes in base64; export the file again"
+                                : "cannot be read as glTF: " + in_quotes(error.substr(0, error.find('\n'))));
+    }
+    return model;
+}
+
+glm::dvec3 vec3(const std::vector<double>& v, const glm::dvec3& otherwise) {
+    return v.size() == 3 ? glm::dvec3{v[0], v[1], v[2]} : otherwise;
+}
+
+/// Fills a scene from a model whose indices exist.
+class SceneBuilder {
+  public:
+    SceneBuilder(const tinygltf::Model& model, const std::string& file) : model_(model), accessors_(model, file) {
+        scene_.file = file;
+        scene_.format = "gltf";
+        scene_.unit = 1;  // the specification: metres
+    }
+
+    NodeScene build() {
+        add_nodes();
+        link_parents();
+        scene_.skins = static_cast<int>(model_.skins.size());
+        scene_.has_skin = !model_.skins.empty();
+        if (scene_.has_skin) scene_.skin_joints = model_.skins[0].joints;
+        if (model_.animations.empty()) {
+            throw InputError(scene_.file, "", "holds no animation; export the clip with its animation");
+        }
+        for (std::size_t i = 0; i < model_.animations.size(); ++i) add_animation(i);
+        return std::move(scene_);
+    }
+
+  private:
+    [[noreturn]] void fail_node(int node, const std::string& message) const {
+        throw InputError(scene_.file, place_of_node(model_, node), message);
+    }
+
+    void add_nodes() {
+        for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i) {
+            const tinygltf::Node& from = model_.nodes[as_index(i)];
+            Node node;
+            node.name = name_of(model_, i);
+            if (!from.matrix.empty()) {
+                node.matrix = matrix_of(i);
+            } else {
+                node.rest.translation = vec3(from.translation, glm::dvec3(0));
+                node.rest.scale = vec3(from.scale, glm::dvec3(1));
+                if (!from.rotation.empty()) node.rest.rotation = rotation_of(i);
+                node.matrix = node.rest.affine();
+            }
+            scene_.nodes.push_back(std::move(node));
+        }
+    }
+
+    Affine matrix_of(int node) const {
+        const std::vector<double>& m = model_.nodes[as_index(node)].matrix;  // column after column
+        const bool is_affine = std::abs(m[3]) <= kTolerance && std::abs(m[7]) <= kTolerance &&
+                               std::abs(m[11]) <= kTolerance && std::abs(m[15] - 1) <= kTolerance;
+        if (!is_affine) fail_node(node, "its matrix must end in a row of 0 0 0 1; export the file again");
+        return {{m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+    }
+
+    glm::dquat rotation_of(int node) const {
+        const std::vector<double>& r = model_.nodes[as_index(node)].rotation;
+        const glm::dquat q{r[3], r[0], r[1], r[2]};
+        const double length = glm::length(q);
+        if (!(length > kTolerance) || !std::isfinite(length)) {
+            fail_node(node, "its rotation is no unit quaternion; correct it");
+        }
+        return q / length;
+    }
+
+    void link_parents() {
+        for (int parent = 0; parent < static_cast<int>(model_.nodes.size()); ++parent) {
+            for (const int child : model_.nodes[as_index(parent)].children) {
+                int& known = scene_.nodes[as_index(child)].parent;
+                if (known >= 0) {
+                    fail_node(child, "is a child of both " + place_of_node(model_, known) + " and " +
+                                         place_of_node(model_, parent) + "; give it one parent");
+                }
+                known = parent;
+            }
+        }
+        // With one parent at most, what no root leads to hangs on a cycle.
+        const std::vector<int> order = parents_first(scene_.nodes);
+        if (order.size() == scene_.nodes.size()) return;
+        std::vector<bool> is_reached(scene_.nodes.size());
+        for (const int node : order) is_reached[as_index(node)] = true;
+        const auto lost = std::find(is_reached.begin(), is_reached.end(), false) - is_reached.begin();
+        fail_node(static_cast<int>(lost), "is its own ancestor, or below a node that is; break the cycle");
+    }
+
+    void add_animation(std::size_t index) {
+        const tinygltf::Animation& from = model_.animations[index];
+        NodeAnimation animation;
+        animation.name = from.name.empty() ? "#" + std::to_string(index) : from.name;
+        const std::string place = "animation " + in_quotes(animation.name);
+        std::vector<Numbers> times;
+        std::set<std::pair<int, std::string>> targets;
+        for (const tinygltf::AnimationChannel& channel : from.channels) {
+            const std::string& path = channel.target_path;
+            if (path == "pointer") continue;  // KHR_animation_pointer: it has no node to move
+            if (!targets.emplace(channel.target_node, path).second) {
+                throw InputError(scene_.file, place,
+                                 "has two channels for " + in_quotes(path) + " of " +
+                                     place_of_node(model_, channel.target_node) + "; keep one");
+            }
+            const tinygltf::AnimationSampler& sampler = from.samplers[as_index(channel.sampler)];
+            times.push_back(times_of(sampler.input));
+            if (path == "weights") {
+                animation.has_morph_channels = true;
+            } else {
+                animation.channels.push_back(channel_of(channel, sampler, times.back(), place));
+            }
+        }
+        animation.times = key_times(times);
+        scene_.animations.push_back(std::move(animation));
+    }
+
+    Numbers times_of(int accessor) {
+        Numbers times = accessors_.read(accessor, GltfShape::scalar);
+        if (!checked_times_.insert(accessor).second) return times;
+        if (model_.accessors[as_index(accessor)].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+            accessors_.fail(accessor, "key times must be floats; export the file again");
+        }
+        const auto fall = std::adjacent_find(times->begin(), times->end(), [](double a, double b) { return !(a < b); });
+        if (fall != times->end()) {
+            accessors_.fail(accessor, "key time " + std::to_string(fall - times->begin() + 1) +
+                                          " is not after the one before it; sort the keys");
+        }
+        return times;
+    }
+
+    Channel channel_of(const tinygltf::AnimationChannel& from, const tinygltf::AnimationSampler& sampler,
+                       const Numbers& times, const std::string& place) {
+        Channel channel;
+        channel.node = from.target_node;
+        channel.times = times;
+        if (from.target_path == "translation") {
+            channel.property = NodeProperty::translation;
+        } else if (from.target_path == "rotation") {
+            channel.property = NodeProperty::rotation;
+        } else if (from.target_path == "scale") {
+            channel.property = NodeProperty::scale;
+        } else {
+            throw InputError(
+                scene_.file, place,
+                "channel path " + in_quotes(from.target_path) + " must be translation, rotation, scale or weights");
+        }
+        if (!model_.nodes[as_index(channel.node)].matrix.empty()) {
+            fail_node(channel.node, "is animated, so it needs translation, rotation and scale in place of its matrix");
+        }
+        if (sampler.interpolation == "LINEAR") {
+            channel.interpolation = Interpolation::linear;
+        } else if (sampler.interpolation == "STEP") {
+            channel.interpolation = Interpolation::step;
+        } else if (sampler.interpolation == "CUBICSPLINE") {
+            channel.interpolation = Interpolation::cubic_spline;
+        } else {
+            throw InputError(
+                scene_.file, place,
+                "interpolation " + in_quotes(sampler.interpolation) + " must be LINEAR, STEP or CUBICSPLINE");
+        }
+        const bool is_rotation = channel.property == NodeProperty::rotation;
+        const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
+        const std::size_t width = is_rotation ? 4 : 3;
+        channel.values = accessors_.read(sampler.output, is_rotation ? GltfShape::vec4 : GltfShape::vec3);
+        const std::size_t expected = times->size() * (is_cubic ? 3 : 1);
+        if (channel.values->size() != expected * width) {
+            accessors_.fail(sampler.output, "has " + std::to_string(channel.values->size() / width) +
+                                                " elements, but " + std::to_string(times->size()) + " keys of " +
+                                                sampler.interpolation + " need " + std::to_string(expected) +
+                                                "; export the file again");
+        }
+        if (is_rotation) check_rotations(sampler.output, *channel.values, is_cubic);
+        return channel;
+    }
+
+    void check_rotations(int accessor, const std::vector<double>& values, bool is_cubic) {
+        if (!checked_rotations_.emplace(accessor, is_cubic).second) return;
+        if (!accessors_.is_real(accessor)) {
+            accessors_.fail(accessor, "rotations must be floats or normalized integers; export the file again");
+        }
+        const std::size_t keys = values.size() / (is_cubic ? 12 : 4);
+        for (std::size_t key = 0; key < keys; ++key) {
+            const double* q = values.data() + (is_cubic ? 12 * key + 4 : 4 * key);
+            if (!(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) > kTolerance)) {
+                accessors_.fail(accessor, "the rotation of key " + std::to_string(key) + " is zero; correct it");
+            }
+        }
+    }
+
+    const tinygltf::Model& model_;
+    NodeScene scene_;
+    GltfAccessors accessors_;
+    std::set<int> checked_times_;
+    std::set<std::pair<int, bool>> checked_rotations_;
+};
+
+}  // namespace
+
+std::unique_ptr<MotionFile> parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
+    const tinygltf::Model model = load_model(bytes, file);
+    const std::string name = file.string();
+    return node_motion_file(SceneBuilder(model, name).build());
+}
+
+std::unique_ptr<MotionFile> read_gltf(const std::filesystem::path& file) { return parse_gltf(read_file(file), file); }
+
+}  // namespace mobbscope

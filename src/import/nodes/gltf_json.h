@@ -1,0 +1,35 @@
+/// The JSON of a glTF file, checked value by value before tinygltf sees it: that library wraps integers, drops what it
+/// cannot read and follows extras as deep as they go.
+#pragma once
+
+#include <import/nodes/gltf_container.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+/// A buffer that lies in a file of its own, or nowhere: the specification allows that, and meshes that an extension
+/// compresses come so.
+struct GltfBufferFile {
+    std::size_t buffer = 0;       ///< index in the glTF file
+    std::string path;             ///< relative to the glTF file, decoded; never leads out of its folder. "": nowhere
+    std::size_t byte_length = 0;  ///< how much of it is used; at least 1
+};
+
+/// The name of a buffer that lies nowhere. It holds one byte, as tinygltf refuses to have none.
+inline constexpr std::string_view kNowhere = "nowhere";
+
+/// What is left of the text: nodes, skins, animations and what they refer to.
+struct GltfText {
+    std::string json;
+    std::vector<GltfBufferFile> buffer_files;  ///< the URI of each became the index of its buffer
+};
+
+/// Every index in the text that remains exists, every integer fits and every value has its type. Throws InputError
+/// naming the JSON pointer.
+GltfText checked_gltf_text(const GltfParts& parts, const std::string& file);
+
+}  // namespace mobbscope

@@ -1,0 +1,204 @@
+#include <base/error.h>
+#include <base/text.h>
+#include <import/clip/sampling.h>
+#include <import/skeleton/disk_sampler.h>
+#include <import/skeleton/grounded_motion.h>
+#include <import/skeleton/motion_clips.h>
+#include <import/skeleton/motion_warnings.h>
+#include <import/skeleton/root_joint.h>
+#include <import/skeleton/skeleton.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kBodyHeight = 1.7;  // metres: the contract's, for the unit "auto"
+// The units that motion capture comes in; the last is that of CMU's ASF/AMC files.
+constexpr std::array<double, 5> kBodyUnits{1, 0.01, 0.001, 0.0254, 0.0564444};
+// More samples of a body than that are a wrong time, and would take minutes to pose.
+constexpr std::size_t kMaxMotionSamples = 1'000'000;
+// Joints times frames or samples. A file of real captures has no room for more; one of names and zeros would take
+// hours.
+constexpr std::size_t kMaxJointPoses = 100'000'000;
+constexpr std::size_t kMaxSkeletonPositions = 8'000'000;  // 96 MB; longer clips go without a skeleton
+
+/// The unit that makes a body of that height, in file units, most nearly 1.7 m tall.
+double body_unit(double height) {
+    return *std::min_element(kBodyUnits.begin(), kBodyUnits.end(), [height](double a, double b) {
+        return std::abs(a * height - kBodyHeight) < std::abs(b * height - kBodyHeight);
+    });
+}
+
+/// One animation to one clip; messages are for import of one file.
+class MotionImport {
+  public:
+    MotionImport(const Motion& motion, std::optional<double> file_unit, const ImportOptions& options)
+        : motion_(motion),
+          grounded_(motion, options.up == "z" ? UpAxis::z : UpAxis::y),
+          file_unit_(file_unit),
+          options_(options) {}
+
+    ImportedClip make(std::string format) {
+        const MotionTimes& times = motion_.times();
+        const SampleGrid grid = sample_grid(times.first, times.last, options_.trim,
+                                            1 / options_.fps.value_or(kDefaultFps), kMaxMotionSamples);
+        const std::size_t frames = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
+        if (std::max(grid.count, frames) > kMaxJointPoses / motion_.joints().size()) {
+            throw std::invalid_argument("has " + std::to_string(motion_.joints().size()) +
+                                        " joints, too many for so many frames; check the file, or lower fps");
+        }
+        const int root = options_.root ? root_by_name(motion_.joints(), *options_.root) : default_root(grounded_);
+
+        ImportedClip out;
+        SourceFacts& facts = out.facts;
+        facts.format = std::move(format);
+        facts.frames = times.frames;
+        facts.dt = times.dt;
+        facts.duration = times.last - times.first;
+        facts.root = motion_.joints()[static_cast<std::size_t>(root)].name;
+        facts.joints = joints_below(root);
+        choose_unit(root, facts);
+        facts.warnings = motion_.warnings();
+
+        auto skeleton = std::make_shared<Skeleton>();
+        std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, *skeleton);
+        if (options_.radius) {
+            for (mobb::Disk& disk : samples) disk.r = *options_.radius;
+        }
+        const mobb::Rotation turn = put_at_origin(samples, options_.origin.value_or(Origin::keep));
+        for (glm::vec3& p : skeleton->positions) {
+            const glm::dvec2 turned = turn({p.x, p.y});
+            p = {turned.x, turned.y, p.z};
+        }
+        out.clip = std::make_shared<mobb::Clip>(grid.step, std::move(samples));
+        if (!skeleton->positions.empty()) out.skeleton = std::move(skeleton);
+        const auto cut_at = options_.trim ? std::optional(options_.trim->first) : std::nullopt;
+        add_motion_warnings(*out.clip, cut_at, out.skeleton.get(), facts);
+        return out;
+    }
+
+  private:
+    int joints_below(int root) const {
+        const std::vector<bool> inside = subtree(motion_.joints(), root);
+        int count = 0;
+        for (std::size_t i = 0; i < inside.size(); ++i) count += inside[i] && !motion_.joints()[i].end_site ? 1 : 0;
+        return count;
+    }
+
+    void choose_unit(int root, SourceFacts& facts) const {
+        if (options_.unit && *options_.unit != "auto") {
+            facts.unit = *metres_per_unit(*options_.unit);
+        } else if (!options_.unit && file_unit_) {
+            facts.unit = *file_unit_;
+        } else {
+            const double height = median_height(grounded_, root);
+            facts.unit = body_unit(height);
+            facts.guessed_from_height = height * facts.unit;
+        }
+    }
+
+    /// The disks in metres; fills the skeleton if it is not too much.
+    std::vector<mobb::Disk> sample(const SampleGrid& grid, int root, double unit, Skeleton& skeleton) {
+        const std::span<const Joint> joints = motion_.joints();
+        const bool keep_skeleton = grid.count <= kMaxSkeletonPositions / joints.size();
+        if (keep_skeleton) {
+            skeleton.joints.assign(joints.begin(), joints.end());
+            skeleton.root = root;
+            skeleton.positions.reserve(grid.count * joints.size());
+        }
+        DiskSampler sampler(grounded_, root);
+        PosedDisk posed;
+        std::vector<mobb::Disk> samples;
+        samples.reserve(grid.count);
+        for (std::size_t k = 0; k < grid.count; ++k) {
+            sampler.sample(grid.time(k), posed);
+            samples.push_back({posed.disk.x * unit, posed.disk.y * unit, posed.disk.r * unit});
+            if (!keep_skeleton) continue;
+            const glm::dvec3 centre{posed.disk.x, posed.disk.y, 0};
+            for (const glm::dvec3& p : posed.positions) skeleton.positions.emplace_back((p - centre) * unit);
+        }
+        return samples;
+    }
+
+    const Motion& motion_;
+    GroundedMotion grounded_;
+    std::optional<double> file_unit_;
+    const ImportOptions& options_;
+};
+
+/// Which animations are asked for.
+std::vector<std::size_t> chosen_animations(const std::vector<std::string>& names,
+                                           const std::optional<std::string>& wanted) {
+    std::vector<std::size_t> out;
+    if (const std::optional<int> index = wanted ? parse_int(*wanted) : std::nullopt) {
+        if (*index < 0 || static_cast<std::size_t>(*index) >= names.size()) {
+            throw std::invalid_argument("there is no animation " + *wanted + "; it has " +
+                                        std::to_string(names.size()) + ", counted from 0");
+        }
+        return {static_cast<std::size_t>(*index)};
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (!wanted || names[i] == *wanted) out.push_back(i);
+    }
+    if (out.empty()) {
+        throw std::invalid_argument("there is no animation " + in_quotes(*wanted) + "; it has " +
+                                    std::to_string(names.size()) + ", the nearest is " +
+                                    in_quotes(nearest(*wanted, names)));
+    }
+    if (wanted && out.size() > 1) {
+        throw std::invalid_argument("there are " + std::to_string(out.size()) + " animations named " +
+                                    in_quotes(*wanted) + "; give the index, such as " + std::to_string(out.front()));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::filesystem::path& file,
+                                       const ImportOptions& options) {
+    const std::string path = file.string();
+    const auto refuse = [&](bool given, const char* option) {
+        if (given)
+            throw InputError(path, "",
+                             std::string(option) + " applies to tracks (CSV, trajectories) alone; leave it out");
+    };
+    refuse(options.id.has_value(), "id");
+    refuse(options.dt.has_value(), "dt");
+
+    const std::vector<std::string> names = motions.animations();
+    const auto in_animation = [&](std::size_t i) {
+        return names.size() > 1 ? "animation " + in_quotes(names[i]) : std::string();
+    };
+    std::vector<std::size_t> chosen;
+    try {
+        chosen = chosen_animations(names, options.animation);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(path, "", error.what());
+    }
+    std::vector<ImportedClip> clips;
+    for (const std::size_t i : chosen) {
+        try {
+            const std::shared_ptr<const Motion> motion = motions.motion(i);
+            clips.push_back(MotionImport(*motion, motions.unit(), options).make(motions.format()));
+        } catch (const std::invalid_argument& error) {
+            throw InputError(path, in_animation(i), error.what());
+        }
+        ImportedClip& clip = clips.back();
+        clip.facts.animation = names[i];
+        clip.name = names.size() > 1 ? names[i] : file.stem().string();
+        if (names.size() == 1) continue;
+        // A name that others share, or that is a number and so an index, does not lead back here.
+        const bool is_key = std::count(names.begin(), names.end(), names[i]) == 1 && !parse_int(names[i]);
+        clip.animation = is_key ? names[i] : std::to_string(i);
+        if (!is_key) clip.name += " #" + std::to_string(i);
+    }
+    return clips;
+}
+
+}  // namespace mobbscope

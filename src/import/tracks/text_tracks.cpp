@@ -1,0 +1,307 @@
+// Trajectories in columns: which of four formats a text is, and its rows.
+#include <base/text.h>
+#include <base/text_lines.h>
+#include <import/tracks/tracks.h>
+#include <mobb/clip.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kAnnotationRate = 2.5;  // per second: UCY, ETH and TrajNet, whatever the camera's rate
+constexpr double kHermesRate = 16;       // frames per second of the Hermes recordings, which come without a header
+constexpr double kDroneRate = 30;        // frames per second of the Stanford Drone Dataset
+// Heads are so high, in metres; standing children and adults on stairs included.
+constexpr double kLowestHead = 0.8;
+constexpr double kHighestHead = 2.5;
+constexpr double kHeadHeight = 1.7;  // metres: the contract's, for the unit "auto"
+
+/// How comments say the unit of the columns.
+constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{
+    {{"x/m", 1}, {"in m", 1}, {"x/cm", 0.01}, {"in cm", 0.01}, {"x/mm", 0.001}, {"in mm", 0.001}}};
+
+/// Which column is which, from 0; -1: there is none.
+struct Columns {
+    std::string format;
+    std::size_t count = 0;  ///< in a row
+    int id = -1, frame = -1, x = -1, y = -1, z = -1;
+};
+
+/// The corners of a box in the image, and whether the annotators had lost it.
+enum SddColumn { kXMin = 1, kYMin, kXMax, kYMax, kSddFrame, kLost };
+
+const Columns kObsmat{"obsmat", 8, 1, 0, 2, 4};
+const Columns kTrajnet{"trajnet", 4, 1, 0, 2, 3};
+const Columns kPetrack{"petrack", 5, 0, 1, 2, 3, 4};
+const Columns kPetrackFlat{"petrack", 4, 0, 1, 2, 3};
+const Columns kSdd{"sdd", 10, 0, kSddFrame};
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    return out;
+}
+
+/// Words between blanks; one in double quotes may hold blanks. More than `limit` + 1 are not looked for.
+void split(std::string_view line, std::size_t limit, std::vector<std::string_view>& words) {
+    words.clear();
+    while (words.size() <= limit) {
+        line = trimmed(line);
+        if (line.empty()) return;
+        std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+        if (line[0] == '"') end = std::min(line.find('"', 1), line.size() - 1) + 1;
+        words.push_back(line.substr(0, end));
+        line.remove_prefix(end);
+    }
+}
+
+class TextTracksParser {
+  public:
+    TextTracksParser(std::string_view text, const std::string& file) : lines_(text, file), file_(file) {}
+
+    TrackFile parse() {
+        while (lines_.next()) {
+            if (lines_.line()[0] == '#') {
+                if (tracks_.empty()) read_comment(lines_.line().substr(1));
+                continue;
+            }
+            split(lines_.line(), kMaxColumns, words_);
+            if (!seen_row_) choose_columns();
+            if (words_.size() != columns_.count) {
+                lines_.fail("has " + columns(words_.size()) + " but the rows before it have " +
+                            std::to_string(columns_.count) + "; give every row all of them");
+            }
+            columns_.format == kSdd.format ? read_box() : read_point();
+        }
+        if (tracks_.empty()) lines_.fail("the file has no row; " + std::string(kFormats));
+        TrackFile out;
+        out.format = columns_.format;
+        out.tracks = tracks_.take(file_);
+        tell_rate(out);
+        tell_unit(out);
+        if (lost_ > 0) {
+            out.warnings.push_back(counted(lost_, "row is", "rows are") + " marked as lost from view and left out");
+        }
+        return out;
+    }
+
+  private:
+    static constexpr std::string_view kFormats =
+        "a .txt can be TrajNet (4 columns: frame ped x y), PeTrack (5: id frame x y z, or as a comment names them: # "
+        "id frame x y), UCY or ETH obsmat (8: frame id x z y vx vz vy) or SDD (9 numbers and a label in quotes)";
+
+    static std::string columns(std::size_t count) {
+        if (count > kMaxColumns) return "more than " + std::to_string(kMaxColumns) + " columns";
+        return counted(static_cast<long long>(count), "column", "columns");
+    }
+
+    /// A comment ahead of the rows may tell the frame rate, the unit and the columns.
+    void read_comment(std::string_view comment) {
+        const std::string text = lower(comment);
+        for (const std::string_view key : {"framerate", "frame rate"}) {
+            const std::size_t at = text.find(key);
+            if (at == std::string::npos) continue;
+            const std::size_t begin = std::min(text.find_first_not_of(" \t:=", at + key.size()), text.size());
+            const std::string_view value = std::string_view(text).substr(begin);
+            std::string_view word = value.substr(0, value.find_first_of(" \t"));
+            if (word.ends_with("fps")) word.remove_suffix(3);
+            const std::optional<double> rate = parse_double(word);
+            if (!rate || !(*rate > 0 && *rate <= kMaxFrameRate)) {
+                lines_.fail("the frame rate " + in_quotes(word) + " is no number over 0 and up to 1000000");
+            }
+            rate_ = rate;
+        }
+        for (const auto& [said, unit] : kUnits) {
+            const std::size_t at = text.find(said);
+            if (at == std::string::npos) continue;
+            const std::size_t end = at + said.size();
+            // "in m", but not "in motion".
+            if (end == text.size() || text[end] < 'a' || text[end] > 'z') unit_ = unit;
+        }
+        read_names(text);
+    }
+
+    /// "id frame x/m y/m z/m" and the like name the columns; anything else is a remark.
+    void read_names(const std::string& comment) {
+        split(comment, kMaxColumns, words_);
+        Columns named{"petrack", words_.size()};
+        for (std::size_t i = 0; i < words_.size(); ++i) {
+            const std::string_view word = words_[i].substr(0, words_[i].find('/'));
+            const auto is_one_of = [word](std::initializer_list<std::string_view> names) {
+                return std::find(names.begin(), names.end(), word) != names.end();
+            };
+            int* column = is_one_of({"id", "persid", "pedid", "ped", "person", "agent"}) ? &named.id
+                          : is_one_of({"frame", "fr"})                                   ? &named.frame
+                          : word == "x"                                                  ? &named.x
+                          : word == "y"                                                  ? &named.y
+                          : word == "z"                                                  ? &named.z
+                                                                                         : nullptr;
+            if (!column) continue;
+            if (*column >= 0) return;
+            *column = static_cast<int>(i);
+        }
+        if (named.id < 0 || named.frame < 0 || named.x < 0 || named.y < 0 || words_.size() > kMaxColumns) return;
+        columns_ = named;
+    }
+
+    /// Decides by the first row which format this is.
+    void choose_columns() {
+        seen_row_ = true;
+        if (columns_.count > 0) {
+            if (words_.size() == columns_.count) return;
+            lines_.fail("has " + columns(words_.size()) + " but a comment names " + std::to_string(columns_.count) +
+                        "; give every row all of them");
+        }
+        const bool labelled = words_.size() == kSdd.count && words_.back().front() == '"';
+        const auto numbers = std::count_if(words_.begin(), words_.end(),
+                                           [](std::string_view word) { return parse_double(word).has_value(); });
+        const bool all_numbers = numbers == std::ssize(words_);
+        if (labelled && numbers == std::ssize(words_) - 1) {
+            columns_ = kSdd;
+        } else if (all_numbers && words_.size() == kObsmat.count) {
+            columns_ = kObsmat;
+        } else if (all_numbers && words_.size() == kPetrack.count) {
+            columns_ = kPetrack;
+        } else if (all_numbers && words_.size() == kTrajnet.count) {
+            columns_ = rate_ ? kPetrackFlat : kTrajnet;
+        } else {
+            const std::string found = all_numbers ? "numbers in " + columns(words_.size())
+                                                  : columns(words_.size()) + ", not all of them numbers";
+            lines_.fail("is no row of a trajectory file (" + found + "); " + std::string(kFormats));
+        }
+    }
+
+    double number(int column, double largest) const {
+        const std::string_view word = words_[static_cast<std::size_t>(column)];
+        const std::optional<double> value = parse_double(word);
+        if (!value) fail(column, in_quotes(word) + " is no finite number; write it like 0.25");
+        if (std::abs(*value) > largest)
+            fail(column, in_quotes(word) + " is beyond " + short_double(largest) + "; check the row");
+        return *value;
+    }
+
+    double whole_number(int column) const {
+        const double value = number(column, kMaxFrame);
+        if (value != std::floor(value)) {
+            fail(column, in_quotes(words_[static_cast<std::size_t>(column)]) +
+                             " is no whole number, as ids and frames of this format (" + columns_.format +
+                             ") are; check the columns");
+        }
+        return value;
+    }
+
+    [[noreturn]] void fail(int column, const std::string& message) const {
+        lines_.fail("column " + std::to_string(column + 1) + ": " + message);
+    }
+
+    void add(double x, double y) {
+        const double frame = whole_number(columns_.frame);
+        const double id = whole_number(columns_.id);
+        tracks_.add(std::to_string(static_cast<long long>(id)), {frame, x, y, lines_.number()});
+    }
+
+    void read_point() {
+        add(number(columns_.x, mobb::kMaxLength), number(columns_.y, mobb::kMaxLength));
+        if (columns_.z >= 0) heights_.push_back(number(columns_.z, mobb::kMaxLength));
+    }
+
+    void read_box() {
+        if (number(kLost, 1) == 1) {
+            ++lost_;
+            return;
+        }
+        const auto centre = [this](int low, int high) {
+            return (number(low, mobb::kMaxLength) + number(high, mobb::kMaxLength)) / 2;
+        };
+        add(centre(kXMin, kXMax), centre(kYMin, kYMax));
+    }
+
+    void tell_rate(TrackFile& out) const {
+        if (rate_) {
+            out.rate = *rate_;
+        } else if (columns_.format == kSdd.format) {
+            out.rate = kDroneRate;
+            out.rate_assumption =
+                "30 frames a second are assumed, as in the Stanford Drone Dataset; give dt (seconds "
+                "a frame) if that is wrong";
+        } else if (columns_.format == kPetrack.format) {
+            out.rate = kHermesRate;
+            out.rate_assumption =
+                "the file does not say its frame rate: 16 a second are assumed, as in the Hermes "
+                "recordings; give dt (seconds a frame) if that is wrong";
+        } else {
+            out.rate = kAnnotationRate;
+            out.rate_of_steps = true;
+            out.least_step = 10;
+            out.rate_assumption =
+                "the file does not say its frame rate: 2.5 points a second are assumed, as in UCY, "
+                "ETH and TrajNet recordings; give dt (seconds a frame) if that is wrong";
+        }
+    }
+
+    /// PeTrack has heads in the third column of space, whose height tells metres from centimetres.
+    void tell_unit(TrackFile& out) {
+        if (columns_.format == kSdd.format) {
+            out.unit_assumption =
+                "lengths are in pixels of the image, y down: one pixel counts as one metre; give "
+                "unit (metres a pixel)";
+        }
+        if (columns_.format != kPetrack.format) return;
+        if (unit_) {
+            out.unit = *unit_;
+            return;
+        }
+        const std::string otherwise = " give unit if that is wrong";
+        if (!heights_.empty()) {
+            const auto middle = heights_.begin() + std::ssize(heights_) / 2;
+            std::nth_element(heights_.begin(), middle, heights_.end());
+            const std::array<double, 3> units{1, 0.01, 0.001};
+            const double unit = *std::min_element(units.begin(), units.end(), [&](double a, double b) {
+                return std::abs(a * *middle - kHeadHeight) < std::abs(b * *middle - kHeadHeight);
+            });
+            const double height = unit * *middle;
+            if (height >= kLowestHead && height <= kHighestHead) {
+                out.unit = unit;
+                out.guessed_height = height;
+                out.unit_assumption = "the file does not say its unit: " +
+                                      std::string(unit == 1      ? "metres"
+                                                  : unit == 0.01 ? "centimetres"
+                                                                 : "millimetres") +
+                                      " are assumed, as heads are " + brief(std::round(height * 100) / 100) +
+                                      " m high then;" + otherwise;
+                return;
+            }
+        }
+        out.unit_assumption =
+            "the file does not say its unit, and has no heights of heads that would tell: metres are "
+            "assumed;" +
+            otherwise;
+    }
+
+    TextLines lines_;
+    const std::string& file_;
+    std::vector<std::string_view> words_;  ///< of the line in hand
+    Columns columns_;
+    bool seen_row_ = false;
+    std::optional<double> rate_;
+    std::optional<double> unit_;
+    TrackCollector tracks_;
+    std::vector<double> heights_;
+    int lost_ = 0;
+};
+
+}  // namespace
+
+TrackFile parse_text_tracks(std::string_view text, const std::string& file) {
+    return TextTracksParser(text, file).parse();
+}
+
+}  // namespace mobbscope

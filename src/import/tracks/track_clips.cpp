@@ -1,0 +1,245 @@
+#include <base/error.h>
+#include <base/text.h>
+#include <base/text_lines.h>
+#include <import/clip/sampling.h>
+#include <import/tracks/track_clips.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+// A damaged frame number leaves a gap of any length: what fills gaps may be so many times what the file holds.
+constexpr std::size_t kMaxFill = 100;
+constexpr std::size_t kAlwaysFilled = 10'000;
+// Frames of a plan may be fractions: they are in step to so many of a step.
+constexpr double kStepTolerance = 1e-6;
+
+/// Frames from each point to the next.
+void append_steps(std::span<const TrackPoint> points, std::vector<double>& steps) {
+    for (std::size_t i = 1; i < points.size(); ++i) steps.push_back(points[i].frame - points[i - 1].frame);
+}
+
+/// The most frequent step, the shorter of equals; none for none.
+std::optional<double> usual(std::vector<double> steps) {
+    std::sort(steps.begin(), steps.end());
+    std::optional<double> found;
+    std::ptrdiff_t most = 0;
+    for (auto at = steps.begin(); at != steps.end();) {
+        const auto end = std::upper_bound(at, steps.end(), *at);
+        if (end - at > most) {
+            most = end - at;
+            found = *at;
+        }
+        at = end;
+    }
+    return found;
+}
+
+/// Frame numbers to seconds.
+class FrameClock {
+  public:
+    FrameClock(const TrackFile& file, const ImportOptions& options) : dt_(options.dt) {
+        std::vector<double> steps;
+        first_ = file.tracks.front().points.front().frame;
+        last_ = first_;
+        for (const Track& track : file.tracks) {
+            append_steps(track.points, steps);
+            first_ = std::min(first_, track.points.front().frame);
+            last_ = std::max(last_, track.points.back().frame);
+        }
+        step_ = usual(std::move(steps)).value_or(file.least_step);
+        rate_ = file.rate_of_steps ? file.rate * step_ : file.rate;
+    }
+
+    /// Dividing by the rate gives the nearest double, which multiplying by its inverse does not.
+    double seconds(double frames) const { return dt_ ? frames * *dt_ : frames / rate_; }
+    /// Since the file's first frame.
+    double time(const TrackPoint& point) const { return seconds(point.frame - first_); }
+    double duration() const { return seconds(last_ - first_); }
+    double usual_step() const { return step_; }  ///< frames
+
+  private:
+    std::optional<double> dt_;
+    double rate_ = 1;
+    double first_ = 0;
+    double last_ = 0;
+    double step_ = 1;
+};
+
+class TrackClipMaker {
+  public:
+    TrackClipMaker(const TrackFile& file, const ImportOptions& options)
+        : options_(options), clock_(file, options), common_{file.format, file.unit, 0, std::nullopt, 0, file.warnings} {
+        std::size_t points = 0;
+        for (const Track& track : file.tracks) points += track.points.size();
+        most_ = options.fps ? kMaxSamples : std::min(kMaxSamples, kMaxFill * points + kAlwaysFilled);
+        if (!(clock_.duration() <= mobb::kMaxTime)) {
+            throw std::invalid_argument("its frames last " + brief(clock_.duration()) + " s, over " +
+                                        short_double(mobb::kMaxTime) + "; check them");
+        }
+        if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back(file.rate_assumption);
+        if (options.unit && *options.unit != "auto") {
+            common_.unit = *metres_per_unit(*options.unit);
+        } else if (!file.unit_assumption.empty()) {
+            common_.warnings.push_back(file.unit_assumption);
+            common_.guessed_from_height = file.guessed_height;
+        }
+        if (!options.radius) {
+            common_.warnings.push_back("the file has no radii: " + brief(kDefaultTrackRadius) +
+                                       " m are taken; give radius if that is wrong");
+        }
+        if (options.trim && options.trim->second > clock_.duration() + clock_.seconds(clock_.usual_step())) {
+            common_.warnings.push_back("trim ends at " + brief(options.trim->second) + " s, but the file lasts " +
+                                       brief(clock_.duration()) + " s; all to the end is taken");
+        }
+    }
+
+    double duration() const { return clock_.duration(); }
+
+    /// Nothing if the track is not there in the time that is taken.
+    std::optional<ImportedClip> make(const Track& track) {
+        const std::span<const TrackPoint> points = trimmed(track);
+        if (points.empty()) return std::nullopt;
+        std::vector<double> steps;
+        append_steps(points, steps);
+        const double step = usual(steps).value_or(clock_.usual_step());
+        const double dt = clock_.seconds(step);
+
+        SourceFacts facts = common_;
+        facts.frames = static_cast<int>(track.points.size());
+        facts.duration = clock_.seconds(track.points.back().frame - track.points.front().frame);
+        if (!in_step(steps, step)) {
+            const double fps = options_.fps.value_or(kDefaultFps);
+            facts.warnings.push_back("the points are not uniform in time; the path is resampled at " + brief(fps) +
+                                     " fps");
+        } else if (uniform(steps, step)) {
+            facts.dt = dt;
+        } else {
+            const double missing =
+                (points.back().frame - points.front().frame) / step - static_cast<double>(steps.size());
+            facts.warnings.push_back(counted(std::llround(missing), "frame is", "frames are") +
+                                     " missing within the track; the path is interpolated there");
+        }
+        const double sample_dt = options_.fps || !in_step(steps, step) ? 1 / options_.fps.value_or(kDefaultFps) : dt;
+
+        ImportedClip out;
+        out.id = track.id;
+        out.start = clock_.time(points.front()) - (options_.trim ? options_.trim->first : 0);
+        out.clip = std::make_shared<mobb::Clip>(sample_dt, samples(points, sample_dt, facts.dt == sample_dt));
+        out.facts = std::move(facts);
+        return out;
+    }
+
+  private:
+    /// The points within the time that is taken.
+    std::span<const TrackPoint> trimmed(const Track& track) const {
+        std::span<const TrackPoint> points = track.points;
+        if (!options_.trim) return points;
+        const double near = kFrameTolerance * clock_.seconds(clock_.usual_step());
+        const auto begin = std::find_if(points.begin(), points.end(), [&](const TrackPoint& point) {
+            return clock_.time(point) >= options_.trim->first - near;
+        });
+        const auto end = std::find_if(begin, points.end(), [&](const TrackPoint& point) {
+            return clock_.time(point) > options_.trim->second + near;
+        });
+        return {begin, end};
+    }
+
+    static bool uniform(std::span<const double> steps, double step) {
+        return std::all_of(steps.begin(), steps.end(),
+                           [step](double s) { return std::abs(s - step) <= kStepTolerance * step; });
+    }
+
+    /// Whether only whole steps are missing.
+    static bool in_step(std::span<const double> steps, double step) {
+        return std::all_of(steps.begin(), steps.end(), [step](double s) {
+            return std::abs(s / step - std::round(s / step)) <= kStepTolerance && s > 0.5 * step;
+        });
+    }
+
+    std::vector<mobb::Disk> samples(std::span<const TrackPoint> points, double dt, bool as_stored) {
+        std::vector<TimedDisk> stored;
+        stored.reserve(points.size());
+        const double radius = options_.radius.value_or(kDefaultTrackRadius);
+        for (const TrackPoint& point : points) {
+            stored.push_back({clock_.seconds(point.frame - points.front().frame),
+                              {point.x * common_.unit, point.y * common_.unit, radius}});
+        }
+        std::vector<mobb::Disk> out;
+        if (as_stored) {
+            for (const TimedDisk& point : stored) out.push_back(point.disk);
+        } else {
+            const std::size_t left = most_ - std::min(count_, most_);
+            out = sample(stored, sample_grid(0, stored.back().t, std::nullopt, dt, left));
+        }
+        count_ += out.size();
+        put_at_origin(out, options_.origin.value_or(Origin::keep));
+        return out;
+    }
+
+    const ImportOptions& options_;
+    FrameClock clock_;
+    SourceFacts common_;     ///< what holds for every track
+    std::size_t most_ = 0;   ///< samples that the file may become
+    std::size_t count_ = 0;  ///< made so far
+};
+
+}  // namespace
+
+std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
+                                      const ImportOptions& options) {
+    const std::string name = file.string();
+    const auto refuse = [&](bool given, const char* option) {
+        if (given) throw InputError(name, "", std::string(option) + " does not apply to trajectories; leave it out");
+    };
+    refuse(options.animation.has_value(), "animation");
+    refuse(options.root.has_value(), "root");
+    refuse(options.up.has_value(), "up");
+
+    std::vector<ImportedClip> clips;
+    std::vector<std::string> ids;
+    bool found = false;
+    double duration = 0;
+    try {
+        TrackClipMaker maker(tracks, options);
+        duration = maker.duration();
+        for (const Track& track : tracks.tracks) {
+            ids.push_back(track.id);
+            if (options.id && track.id != *options.id) continue;
+            found = true;
+            try {
+                std::optional<ImportedClip> clip = maker.make(track);
+                if (!clip) continue;
+                clip->name = tracks.tracks.size() > 1 ? track.id : file.stem().string();
+                clips.push_back(std::move(*clip));
+            } catch (const std::invalid_argument& error) {
+                throw InputError(name, at_line(track.points.front().line) + ", track " + in_quotes(track.id),
+                                 error.what());
+            }
+        }
+    } catch (const std::invalid_argument& error) {
+        throw InputError(name, "", error.what());
+    }
+    if (!found) {
+        throw InputError(name, "",
+                         "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
+                             std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
+    }
+    if (clips.empty()) {
+        throw InputError(name, "",
+                         (options.id ? "track " + in_quotes(*options.id) + " has no point" : "nobody is there") +
+                             " between " + brief(options.trim->first) + " and " + brief(options.trim->second) +
+                             " s of trim; the file lasts " + brief(duration) + " s");
+    }
+    return clips;
+}
+
+}  // namespace mobbscope

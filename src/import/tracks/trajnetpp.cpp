@@ -1,0 +1,120 @@
+// TrajNet++: a JSON object a line (vita-epfl/trajnetplusplustools, "Data format").
+#include <base/error.h>
+#include <base/text.h>
+#include <base/text_lines.h>
+#include <import/tracks/tracks.h>
+#include <mobb/clip.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace mobbscope {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kUsualRate = 2.5;  // points per second of TrajNet++
+
+class TrajnetppParser {
+  public:
+    TrajnetppParser(std::string_view text, const std::string& file) : lines_(text, file), file_(file) {}
+
+    TrackFile parse() {
+        while (lines_.next()) read_line();
+        if (tracks_.empty())
+            lines_.fail(R"(the file has no track; give lines such as {"track": {"f": 0, "p": 1, "x": 0.5, "y": 2}})");
+        TrackFile out;
+        out.format = "trajnetpp";
+        out.tracks = tracks_.take(file_);
+        out.rate = rate_.value_or(kUsualRate);
+        out.rate_of_steps = true;
+        out.least_step = 10;
+        if (!rate_) {
+            out.rate_assumption =
+                "no scene says its fps: 2.5 points a second are assumed; give dt (seconds a frame) if that is wrong";
+        }
+        if (predictions_ > 0) {
+            out.warnings.push_back(counted(predictions_, "predicted point is", "predicted points are") +
+                                   " passed over; only what was recorded is taken");
+        }
+        return out;
+    }
+
+  private:
+    void read_line() {
+        const Json line = Json::parse(lines_.line(), nullptr, false);
+        if (line.is_discarded()) lines_.fail("is no JSON; give one object a line");
+        if (line.is_object() && line.contains("track")) {
+            read_track(object(line, "track"));
+        } else if (line.is_object() && line.contains("scene")) {
+            read_scene(object(line, "scene"));
+        } else {
+            lines_.fail(R"(is neither {"scene": {...}} nor {"track": {...}}; remove it)");
+        }
+    }
+
+    const Json& object(const Json& line, const char* key) const {
+        const Json& value = line[key];
+        if (!value.is_object()) lines_.fail(in_quotes(key) + " must be an object");
+        return value;
+    }
+
+    void read_scene(const Json& scene) {
+        if (!scene.contains("fps")) return;
+        const double fps = number(scene, "fps", kMaxFrameRate);
+        if (fps <= 0) lines_.fail("fps must be over 0");
+        if (rate_ && *rate_ != fps) {
+            lines_.fail("the scene has " + brief(fps) + " points a second, those before it " + brief(*rate_) +
+                        "; put them in files of their own");
+        }
+        rate_ = fps;
+    }
+
+    void read_track(const Json& track) {
+        if (track.contains("prediction_number") && !track["prediction_number"].is_null()) {
+            ++predictions_;
+            return;
+        }
+        const double frame = number(track, "f", kMaxFrame);
+        if (frame != std::floor(frame)) lines_.fail("f is no whole number; frames are");
+        tracks_.add(person(track), {frame, number(track, "x", mobb::kMaxLength), number(track, "y", mobb::kMaxLength),
+                                    lines_.number()});
+    }
+
+    /// Who it is: a whole number, or a name.
+    std::string person(const Json& track) const {
+        if (track.contains("p") && track["p"].is_string() && !track["p"].get_ref<const std::string&>().empty())
+            return track["p"].get<std::string>();
+        const double id = number(track, "p", kMaxFrame);
+        if (id != std::floor(id)) lines_.fail("p is no whole number; give one, or a name in quotes");
+        return std::to_string(static_cast<long long>(id));
+    }
+
+    double number(const Json& object, const char* key, double largest) const {
+        const auto at = object.find(key);
+        if (at == object.end()) lines_.fail("there is no " + std::string(key) + "; add it");
+        if (!at->is_number()) lines_.fail(std::string(key) + " must be a number");
+        const double value = at->get<double>();
+        if (!(std::abs(value) <= largest))
+            lines_.fail(std::string(key) + " is beyond " + short_double(largest) + "; check it");
+        return value;
+    }
+
+    TextLines lines_;
+    const std::string& file_;
+    TrackCollector tracks_;
+    std::optional<double> rate_;
+    int predictions_ = 0;
+};
+
+}  // namespace
+
+TrackFile parse_trajnetpp(std::string_view text, const std::string& file) {
+    return TrajnetppParser(text, file).parse();
+}
+
+}  // namespace mobbscope

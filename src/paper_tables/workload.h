@@ -1,0 +1,59 @@
+/// The questions of a table: pairs of placed clips.
+#pragma once
+
+#include <crowd/simulation/simulate.h>
+#include <mobb/clip.h>
+#include <scene/scene.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+struct WorkloadQuery {
+    int clip_a = 0;  ///< index into Workload::clips
+    int clip_b = 0;
+    mobb::Placement a, b;
+};
+
+struct Workload {
+    std::string name;                  ///< "table1" or "table2"
+    std::string description;           ///< what it was made of, for people
+    std::vector<mobb::ClipPtr> clips;  ///< at least one
+    std::vector<WorkloadQuery> queries;
+    mobb::FitOptions fit{};  ///< the scene's, for what is not asked for otherwise
+};
+
+/// The queries of a scene, such as those that a simulation recorded. At most kMaxQueries of them are taken.
+Workload workload_of_scene(const Scene& scene);
+
+/// More queries than this would measure nothing new, and fill the memory.
+inline constexpr int kMaxQueries = 10'000'000;
+
+/// Seconds; 0 without clips.
+double mean_duration(const Workload& workload);
+
+/// With these the queries are like the paper's: some 80 % end at the roots, and 0.45 test their boxes. More than half
+/// are apart in time, so its agents knew more of each other than what plays now.
+inline constexpr double kAskedWithin = 1;  ///< metres: how near a committed motion comes to a candidate's, at any time
+inline constexpr double kChosenAhead = 2.5;  ///< seconds before its begin at which a move is chosen
+
+/// Lets a crowd play the scene's graph, or without one its clips whole and back to back, and takes a sample of
+/// `queries` of the pairs of a candidate and another agent's committed motion within kAskedWithin (0: all of them).
+/// `options.ahead` becomes kChosenAhead. Throws InputError as simulate does.
+Workload crowd_queries(Scene scene, SimulateOptions options, int queries, const SimulationProgress& progress = {});
+
+/// How far apart the two clips of a query may be. The defaults give the paper's 0.83 box tests of the roots a query:
+/// with offsets of up to `offset` clip lengths, 1 / offset of the queries overlap in time.
+struct QueryDraw {
+    double translation = 3.5;  ///< metres: each coordinate within +-this; of real long clips some 28 % then collide
+    double offset = 1.2;       ///< clip lengths, >= 1: B begins within this many of its own before A, or of A's after
+    std::uint64_t seed = 1;
+};
+
+/// `count` queries: A is at the origin from time 0; B is turned by any angle about the middle of the rectangle that its
+/// path spans, which then is within `translation` of the middle of A's. The same for the same seed on every machine.
+std::vector<WorkloadQuery> random_queries(const std::vector<mobb::ClipPtr>& clips, int count, const QueryDraw& draw);
+
+}  // namespace mobbscope

@@ -1,0 +1,231 @@
+#include <base/text.h>
+#include <picture_tests/markup.h>
+#include <picture_tests/reports.h>
+#include <render/image/png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace report_assets {
+std::string_view embedded(std::string_view name);
+}
+
+namespace mobbscope::picture_tests {
+
+namespace {
+
+using Results = std::vector<const CaseResult*>;
+
+Results of(std::span<const CaseResult> results, CaseOutcome outcome) {
+    Results out;
+    for (const CaseResult& result : results) {
+        if (result.outcome == outcome) out.push_back(&result);
+    }
+    return out;
+}
+
+std::string headline(const Summary& sum, std::size_t cases) {
+    const int bad = sum.different + sum.missing + sum.failed;
+    const std::string all = counted(static_cast<long long>(cases), "picture test", "picture tests");
+    if (bad > 0) return std::to_string(bad) + " of " + all + " did not pass";
+    if (sum.passed == 0) return "No picture was compared";
+    return counted(sum.passed, "picture test", "picture tests") + " passed" +
+           (sum.skipped > 0 ? ", " + std::to_string(sum.skipped) + " skipped" : "");
+}
+
+/// What an outcome is called, with a mark that needs no colour.
+std::string badge(CaseOutcome outcome) {
+    struct TextBudget {
+        const char *mark, *kind, *text;
+    };
+    constexpr std::array<TextBudget, 5> kWords{{{"✓", "good", "passed"},
+                                                {"≠", "bad", "different"},
+                                                {"∅", "bad", "no golden"},
+                                                {"✕", "bad", "failed"},
+                                                {"–", "quiet", "skipped"}}};
+    const TextBudget& words = kWords[static_cast<std::size_t>(outcome)];
+    return std::string("<span class=\"badge ") + words.kind + "\">" + words.mark + ' ' + words.text + "</span>";
+}
+
+/// A line for a shell, with a button that copies it.
+void write_command(std::ostream& out, const char* purpose, const std::string& command) {
+    out << "<p class=\"command\">" << purpose << " <code>" << escaped(command)
+        << "</code> <button type=\"button\" class=\"copy\" hidden>Copy</button></p>\n";
+}
+
+void write_image(std::ostream& out, const Image& image, const std::string& what) {
+    out << "<img width=\"" << image.width << "\" height=\"" << image.height << "\" alt=\"" << escaped(what)
+        << "\" src=\"data:image/png;base64," << base64(png_bytes(image)) << "\">";
+}
+
+std::string size_of(const Image& image) { return std::to_string(image.width) + " x " + std::to_string(image.height); }
+
+void write_figure(std::ostream& out, const char* kind, const char* title, const Image& image, const std::string& name,
+                  const std::optional<PixelRect>& bounds = {}) {
+    out << "<figure class=\"" << kind << "\"><figcaption>" << title << " <small>" << size_of(image)
+        << "</small></figcaption><div class=\"paper\">";
+    write_image(out, image, std::string(title) + ": " + name);
+    if (bounds) {
+        out << "<svg viewBox=\"0 0 " << image.width << ' ' << image.height << "\" aria-hidden=\"true\"><rect x=\""
+            << bounds->x << "\" y=\"" << bounds->y << "\" width=\"" << bounds->width << "\" height=\"" << bounds->height
+            << "\"/></svg>";
+    }
+    out << "</div></figure>\n";
+}
+
+/// Ways to look at two pictures; without scripts they stand side by side.
+void write_modes(std::ostream& out) {
+    out << "<div class=\"modes\" role=\"group\" aria-label=\"How to compare\" hidden>"
+        << "<button type=\"button\" data-mode=\"side\" aria-pressed=\"true\">Side by side <kbd>1</kbd></button>"
+        << "<button type=\"button\" data-mode=\"blink\" aria-pressed=\"false\">Blink <kbd>2</kbd></button>"
+        << "<button type=\"button\" data-mode=\"slide\" aria-pressed=\"false\">Slide <kbd>3</kbd></button>"
+        << "<button type=\"button\" class=\"swap\" hidden>Swap by hand <kbd>S</kbd></button>"
+        << "<label class=\"slider\" hidden>Actual <input type=\"range\" min=\"0\" max=\"100\" value=\"50\"> "
+           "Golden</label></div>\n";
+}
+
+/// How many pixels differ by how much; the bars' lengths grow with the logarithm, so that a single pixel is seen.
+void write_histogram(std::ostream& out, const ImageDiff& diff, double tolerance) {
+    constexpr std::array<std::pair<int, int>, 8> kRows{
+        {{0, 0}, {1, 3}, {4, 8}, {9, 16}, {17, 32}, {33, 64}, {65, 128}, {129, 255}}};
+    out << "<table class=\"histogram\"><caption>Pixels by their difference</caption><tbody>\n";
+    for (const auto& [first, last] : kRows) {
+        std::int64_t count = 0;
+        for (int i = first; i <= last; ++i) count += diff.histogram[static_cast<std::size_t>(i)];
+        const double length = std::log1p(static_cast<double>(count)) / std::log1p(static_cast<double>(diff.pixels));
+        out << "<tr" << (first > tolerance ? " class=\"beyond\"" : "") << "><th scope=\"row\">" << first;
+        if (last > first) out << "–" << last;
+        out << "</th><td><svg width=\"120\" height=\"10\" aria-hidden=\"true\"><rect width=\""
+            << std::lround(120 * length) << "\" height=\"10\"/></svg></td><td class=\"number\">" << count
+            << "</td></tr>\n";
+    }
+    out << "</tbody></table>\n";
+}
+
+void write_numbers(std::ostream& out, const CaseResult& result) {
+    const ImageDiff& diff = *result.image;
+    const DiffOptions& allowed = result.image->options;
+    out << "<div class=\"numbers\"><dl>\n<dt>Failing pixels</dt><dd>" << diff.differing << " of " << diff.pixels << ", "
+        << brief(100 * diff.fraction()) << " %</dd>\n<dt>Allowed</dt><dd>" << brief(100 * allowed.pixel_fraction)
+        << " % beyond " << brief(allowed.channel_tolerance) << " of 255 (" << name(result.tolerance)
+        << ")</dd>\n<dt>Maximum</dt><dd>" << diff.largest << " of 255</dd>\n<dt>Mean</dt><dd>" << brief(diff.mean)
+        << " of 255</dd>\n<dt>Where</dt><dd>";
+    if (diff.bounds) {
+        out << diff.bounds->width << " x " << diff.bounds->height << " pixels at (" << diff.bounds->x << ", "
+            << diff.bounds->y << ")";
+    } else {
+        out << "nowhere";
+    }
+    out << "</dd>\n</dl>\n";
+    write_histogram(out, diff, allowed.channel_tolerance);
+    out << "</div>\n";
+}
+
+void write_pictures(std::ostream& out, const CaseResult& result) {
+    const bool actual = !result.actual.rgba.empty();
+    const bool golden = !result.golden.rgba.empty();
+    if (!actual && !golden) return;
+    const std::string& name = result.file.name;
+    if (actual && golden) write_modes(out);
+    out << "<div class=\"pictures\" data-mode=\"side\">\n";
+    if (golden) write_figure(out, "golden", "Golden", result.golden, name);
+    if (actual) write_figure(out, "actual", "Actual", result.actual, name);
+    if (result.image && result.image->same_size) {
+        write_figure(out, "difference", "Difference", result.image->heat, name, result.image->bounds);
+    }
+    out << "</div>\n";
+    if (result.image && result.image->same_size) write_numbers(out, result);
+}
+
+void write_case(std::ostream& out, const RunFacts& facts, const CaseResult& result, std::size_t number) {
+    out << "<section class=\"case\" id=\"case" << number << "\" tabindex=\"-1\">\n<h2>" << badge(result.outcome) << ' '
+        << escaped(result.file.name) << "</h2>\n<p class=\"message\">" << escaped(result.message) << "</p>\n";
+    write_pictures(out, result);
+    if (can_be_taken(result)) {
+        const std::string_view names[] = {result.file.name};
+        write_command(out, "If the picture is right:", update_command(facts, names));
+    }
+    out << "</section>\n";
+}
+
+void write_contents(std::ostream& out, const Results& open) {
+    if (open.size() < 2) return;
+    out << "<nav aria-label=\"Cases that did not pass\"><ol>\n";
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        out << "<li>" << badge(open[i]->outcome) << " <a href=\"#case" << i << "\">" << escaped(open[i]->file.name)
+            << "</a></li>\n";
+    }
+    out << "</ol></nav>\n";
+}
+
+void write_header(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results, const Results& open) {
+    const Summary sum = summary(results);
+    out << "<header>\n<h1>" << headline(sum, results.size()) << "</h1>\n<dl class=\"facts\">\n<dt>Result</dt><dd>"
+        << sum_of(sum) << "</dd>\n<dt>Folder</dt><dd>" << escaped(facts.folder) << "</dd>\n<dt>Drawn by</dt><dd>"
+        << escaped(drawn_by(facts)) << "</dd>\n";
+    for (const std::string& sentence : not_compared(results)) {
+        out << "<dt>Not compared</dt><dd>" << escaped(sentence) << "</dd>\n";
+    }
+    out << "</dl>\n";
+    write_contents(out, open);
+    std::vector<std::string_view> names;
+    for (const CaseResult* result : open) {
+        if (can_be_taken(*result)) names.push_back(result->file.name);
+    }
+    if (names.size() > 1) write_command(out, "If all of these pictures are right:", update_command(facts, names));
+    if (!open.empty()) {
+        out << "<p class=\"keys\" hidden><kbd>J</kbd> next case, <kbd>K</kbd> the one before; <kbd>1</kbd> side by "
+               "side, <kbd>2</kbd> blink, <kbd>3</kbd> slide; <kbd>S</kbd> swaps while blinking</p>\n";
+    }
+    out << "</header>\n";
+}
+
+void write_passed(std::ostream& out, const Results& passed) {
+    if (passed.empty()) return;
+    out << "<details class=\"passed\"><summary>" << badge(CaseOutcome::passed) << ' ' << passed.size()
+        << "</summary>\n<div class=\"thumbnails\">\n";
+    for (const CaseResult* result : passed) {
+        out << "<figure><button type=\"button\" class=\"thumbnail\" aria-pressed=\"false\">";
+        write_image(out, result->actual, result->file.name);
+        out << "</button><figcaption>" << escaped(result->file.name) << "</figcaption></figure>\n";
+    }
+    out << "</div></details>\n";
+}
+
+void write_skipped(std::ostream& out, const Results& skipped) {
+    if (skipped.empty()) return;
+    out << "<details class=\"skipped\"><summary>" << badge(CaseOutcome::skipped) << ' ' << skipped.size()
+        << "</summary>\n<dl>\n";
+    for (const CaseResult* result : skipped) {
+        out << "<dt>" << escaped(result->file.name) << "</dt><dd>" << escaped(result->message) << "</dd>\n";
+    }
+    out << "</dl></details>\n";
+}
+
+}  // namespace
+
+void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results) {
+    Results open = of(results, CaseOutcome::failed);
+    for (const CaseOutcome outcome : {CaseOutcome::different, CaseOutcome::missing_golden}) {
+        const Results more = of(results, outcome);
+        open.insert(open.end(), more.begin(), more.end());
+    }
+    // The policy keeps a browser from loading anything, whatever a name in the page holds.
+    out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+           "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+        << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        << "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" << headline(summary(results), results.size())
+        << " - " << escaped(facts.folder) << "</title>\n<style>\n"
+        << report_assets::embedded("report.css") << "</style>\n</head>\n<body>\n";
+    write_header(out, facts, results, open);
+    out << "<main>\n";
+    for (std::size_t i = 0; i < open.size(); ++i) write_case(out, facts, *open[i], i);
+    write_skipped(out, of(results, CaseOutcome::skipped));
+    write_passed(out, of(results, CaseOutcome::passed));
+    out << "</main>\n<script>\n" << report_assets::embedded("report.js") << "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace mobbscope::picture_tests

@@ -1,0 +1,45 @@
+/// What a run of cases found: for people, scripts, CI servers and browsers.
+#pragma once
+
+#include <picture_tests/run_cases.h>
+
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::picture_tests {
+
+/// Of a whole run.
+struct RunFacts {
+    std::string folder;    ///< of the cases, as given
+    std::string backend;   ///< "osmesa", "egl"; empty without OpenGL
+    std::string renderer;  ///< what OpenGL calls itself
+};
+
+/// A line for each case that did not pass, and the sum.
+void write_text(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
+/// {"folder", "backend", "renderer", "summary": {...}, "cases": [{"name", "outcome", "message", "seconds", "tolerance",
+/// "diff": {...} or null}]}; `diff` as in `mobbscope diff --json`. Where goldens are from elsewhere (reference.h),
+/// "not_compared": why pixels of text are not, a sentence for each folder.
+void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
+/// JUnit's XML: a failed picture is a failure, one that could not be drawn an error.
+void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
+/// One page that needs nothing else: actual picture, golden, difference, and the two in turn.
+void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
+
+/// "osmesa (llvmpipe)", or that nothing was drawn.
+std::string drawn_by(const RunFacts& facts);
+
+/// "1 passed, 2 different, 3 without a golden, 4 failed, 5 skipped"; what there is none of is left out.
+std::string sum_of(const Summary& summary);
+
+/// For each folder whose goldens are from elsewhere (reference.h) a sentence: that pixels of text are not compared, and
+/// what is other here.
+std::vector<std::string> not_compared(std::span<const CaseResult> results);
+
+/// The command line that takes the pictures of these cases as their goldens, ready for a shell.
+std::string update_command(const RunFacts& facts, std::span<const std::string_view> names);
+
+}  // namespace mobbscope::picture_tests

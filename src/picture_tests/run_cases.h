@@ -1,0 +1,67 @@
+/// Draws cases and holds them against their goldens.
+#pragma once
+
+#include <picture_tests/case_file.h>
+#include <picture_tests/picture_maker.h>
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::picture_tests {
+
+enum class CaseOutcome {
+    passed,
+    different,       ///< the picture, or what is drawn, is not the golden's
+    missing_golden,  ///< there is a picture, but nothing to hold it against
+    failed,          ///< no picture: the case cannot be read or drawn
+    skipped,         ///< by the case, or as there is no OpenGL
+};
+std::string_view name(CaseOutcome outcome);
+
+/// A golden as it would be if what is drawn now is right.
+struct FreshGolden {
+    std::filesystem::path file;
+    std::string bytes;
+};
+
+struct CaseResult {
+    CaseFile file;
+    CaseOutcome outcome = CaseOutcome::passed;
+    std::string message;  ///< one line: why it did not pass; empty for one that did
+    double seconds = 0;   ///< drawing and comparing
+    Tolerance tolerance = Tolerance::tight;
+    Image actual;                    ///< empty where there is none; without text if only that picture is different
+    Image golden;                    ///< likewise, and of a case that passed
+    std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
+    std::vector<FreshGolden>
+        fresh;  ///< of a case that is different or lacks a golden: the files to write if it is accepted
+    /// What is other here than where the goldens are from, which is why pixels of text are not held against them; empty
+    /// if they are.
+    std::string other_here;
+};
+
+/// What the goldens of a run are held to be from.
+enum class Origin {
+    reference,  ///< what the reference.json of their folder says, or here if there is none
+    here,       ///< here, whatever it says: this becomes the reference
+};
+
+/// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
+/// throws for what is wrong with a case.
+CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
+                    Origin origin = Origin::reference);
+
+/// Whether there is a picture that is not the golden's, and goldens are taken here.
+bool can_be_taken(const CaseResult& result);
+
+struct Summary {
+    int passed = 0, different = 0, missing = 0, failed = 0, skipped = 0;
+    bool ok() const { return different + missing + failed == 0; }
+};
+Summary summary(std::span<const CaseResult> results);
+
+}  // namespace mobbscope::picture_tests

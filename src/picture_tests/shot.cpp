@@ -1,0 +1,162 @@
+#include <picture_tests/shot.h>
+
+#include <base/file.h>
+#include <base/text.h>
+#include <render/drawlist/metrics.h>
+#include <render/pictures/render.h>
+#include <scene/fit_json.h>
+#include <scene/view_json.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope::picture_tests {
+
+namespace {
+
+constexpr int kMostColumns = 64;
+
+/// A file that a case names. Throws InputError if it is none that could be.
+std::filesystem::path read_path(const JsonPlace& place, const std::filesystem::path& folder) {
+    const std::string& name = place.string();
+    try {
+        check_file_name(name);
+    } catch (const InputError& error) {
+        place.fail(error.what());
+    }
+    return folder / name;
+}
+
+/// What a named file says, or what is wrong with it, at the place that names it.
+template <class Read>
+auto read_named(const JsonPlace& place, const Read& read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        place.fail(error.what());
+    }
+}
+
+/// A scene under several fits; equal ones are shared.
+class Fits {
+  public:
+    explicit Fits(Scene scene) : scene_(std::move(scene)) {}
+
+    const Scene& scene() const { return scene_; }
+    std::shared_ptr<const FittedScene> with(const mobb::FitOptions& options) {
+        for (const auto& fitted : made_) {
+            if (fitted->options() == options) return fitted;
+        }
+        return made_.emplace_back(std::make_shared<const FittedScene>(scene_, options));
+    }
+
+  private:
+    Scene scene_;
+    std::vector<std::shared_ptr<const FittedScene>> made_;
+};
+
+/// What `view` and `fit` of an object say, over what is so already.
+struct Look {
+    mobb::FitOptions fit;
+    ViewState view;
+
+    Look over(const JsonPlace& place) const {
+        Look out = *this;
+        if (const auto fit_place = place.find("fit")) out.fit = read_fit(*fit_place, fit);
+        if (const auto view_place = place.find("view")) out.view = read_view(*view_place, view);
+        return out;
+    }
+};
+
+std::vector<Panel> read_panels(const JsonPlace& place, const Look& common, Fits& fits) {
+    if (place.size() == 0) place.fail("there are no panels; give one or more, or leave the key out");
+    std::vector<Panel> panels;
+    for (int i = 0; i < place.size(); ++i) {
+        const JsonPlace one = place[i];
+        one.allow_only({"title", "view", "fit"});
+        const Look look = common.over(one);
+        Panel panel{{}, fits.with(look.fit), look.view};
+        if (const auto title = one.find("title")) panel.title = title->string();
+        panels.push_back(std::move(panel));
+    }
+    return panels;
+}
+
+WindowShot read_window(const JsonPlace& place, const std::filesystem::path& folder) {
+    place.allow_only({"script", "scale"});
+    WindowShot window;
+    if (const auto script = place.find("script")) {
+        const std::filesystem::path file = read_path(*script, folder);
+        window.script = read_named(
+            *script, [&] { return app::Script::parse(read_file(file), file.string(), app::ScriptOutput::refused); });
+    }
+    if (const auto scale = place.find("scale")) window.scale = scale->number(app::kLeastUiScale, app::kMostUiScale);
+    return window;
+}
+
+/// As the option of `render` reads it.
+template <class Parse>
+auto read_option(const JsonPlace& place, const Parse& parse, const std::string& text) {
+    try {
+        return parse(text);
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+}
+
+PictureOptions read_picture_options(const JsonPlace& place) {
+    PictureOptions picture;
+    if (const auto size = place.find("size")) picture.size = read_option(*size, parse_size, size->string());
+    if (const auto scale = place.find("scale")) picture.scale = scale->number(kLeastScale, kMostScale);
+    if (const auto samples = place.find("samples")) {
+        picture.samples = read_option(*samples, parse_samples, std::to_string(samples->integer(1, 8)));
+    }
+    if (const auto background = place.find("background")) {
+        picture.background = read_option(*background, parse_background, background->string());
+    }
+    return picture;
+}
+
+/// Where a window is drawn, no panels are.
+void refuse_with_window(const JsonPlace& place) {
+    for (const char* key : {"panels", "columns", "scale", "samples", "background"}) {
+        if (const auto found = place.find(key)) found->fail("a picture of the window has no such key; remove it");
+    }
+}
+
+}  // namespace
+
+Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
+    const JsonPlace scene = place.require("scene");
+    Shot shot;
+    shot.scene_file = read_path(scene, folder).lexically_normal();
+    shot.picture = read_picture_options(place);
+    if (const auto window = place.find("window")) {
+        refuse_with_window(place);
+        shot.window = read_window(*window, folder);
+    }
+
+    Fits fits(read_named(scene, [&] { return load_scene(shot.scene_file); }));
+    const Look common = Look{fits.scene().fit, fits.scene().view}.over(place);
+    if (const auto panels = place.find("panels")) {
+        shot.panels = read_panels(*panels, common, fits);
+    } else {
+        shot.panels.push_back({{}, fits.with(common.fit), common.view});
+    }
+    shot.columns = static_cast<int>(shot.panels.size());
+    if (const auto columns = place.find("columns")) {
+        shot.columns = std::min(shot.columns, columns->integer(1, kMostColumns));
+    }
+    return shot;
+}
+
+Shot without_text(Shot shot) {
+    for (Panel& panel : shot.panels) {
+        panel.title.clear();
+        panel.view.labels = false;
+    }
+    return shot;
+}
+
+}  // namespace mobbscope::picture_tests

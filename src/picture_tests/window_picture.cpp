@@ -1,0 +1,103 @@
+#include <picture_tests/window_picture.h>
+
+#include <app/script/state_json.h>
+#include <app/window/headless_window.h>
+#include <picture_tests/picture_maker.h>
+#include <render/pictures/build_draw_list.h>
+
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace mobbscope::picture_tests {
+
+namespace {
+
+/// While it lives, relative names of files are relative to a folder.
+class WorkingFolder {
+  public:
+    explicit WorkingFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
+        std::filesystem::current_path(folder);
+    }
+    ~WorkingFolder() {
+        std::error_code ignored;
+        std::filesystem::current_path(before_, ignored);
+    }
+    WorkingFolder(const WorkingFolder&) = delete;
+    WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+  private:
+    std::filesystem::path before_;
+};
+
+/// A window that a script has worked.
+class WorkedWindow {
+  public:
+    WorkedWindow(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file, Backend backend,
+                 PictureSize size, double scale, const app::Script* script)
+        // Dialogs show the names of folders: the window must not see from where the program runs.
+        : folder_(file.parent_path().empty() ? "." : file.parent_path()), session_(false) {
+        Scene scene = fitted.scene();
+        scene.file = "." / file.filename();
+        scene.fit = fitted.options();
+        scene.view = view;
+        session_.may_write = false;
+        session_.open_scene(scene, {scene.file});
+        std::unique_ptr<GlContext> context = GlContext::open(backend);
+        const GlContext& drawn_in = *context;
+        window_.emplace(std::move(context), session_, size, scale);
+        if (script) {
+            std::ostringstream nothing;
+            script->run(session_, *window_, nothing);
+        }
+        window_->settle();
+        refuse_warnings(drawn_in.name(), drawn_in.warnings());
+    }
+
+    const app::Session& session() const { return session_; }
+    Image read_back() { return window_->shell().read_back(); }
+
+  private:
+    WorkingFolder folder_;
+    app::Session session_;
+    std::optional<app::HeadlessWindow> window_;
+};
+
+/// What the viewport draws, without text.
+DrawList scene_without_text(const app::Session& session, PictureSize size) {
+    ViewState view = session.view();
+    view.labels = false;
+    const PictureOptions options{.size = size};
+    if (session.empty()) {
+        DrawList nothing;
+        nothing.size = size;
+        nothing.palette = palette_for(view.theme, options);
+        return nothing;
+    }
+    return build_draw_list(session.fitted(), view, options, view.candidates ? session.choice() : nullptr);
+}
+
+}  // namespace
+
+Image window_picture(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
+                     Backend backend, PictureSize size, double scale, const app::Script* script) {
+    return WorkedWindow(fitted, view, file, backend, size, scale, script).read_back();
+}
+
+WindowContents window_contents(const FittedScene& fitted, const ViewState& view, const std::filesystem::path& file,
+                               Backend backend, PictureSize size, double scale, PictureSize picture,
+                               const app::Script* script) {
+    // Without text from the beginning: where the scene is framed by itself, the words move the camera.
+    ViewState plain = view;
+    plain.labels = false;
+    const WorkedWindow window(fitted, plain, file, backend, size, scale, script);
+    return {scene_without_text(window.session(), picture),
+            app::state_text(app::state_json(window.session()), 1) + '\n'};
+}
+
+}  // namespace mobbscope::picture_tests

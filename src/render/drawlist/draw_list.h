@@ -1,0 +1,167 @@
+/// Everything that a picture shows, as plain numbers: what the view is turned into, and all that the renderer is told.
+#pragma once
+
+#include <render/drawlist/drawn_space.h>
+#include <render/drawlist/font.h>
+#include <render/drawlist/object_id.h>
+#include <render/drawlist/palette.h>
+#include <render/drawlist/view_projection.h>
+#include <render/image/image.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// A line pattern in pixels: on, off, on, off. All zero: solid.
+using Dash = glm::vec4;
+inline constexpr Dash kSolid{0, 0, 0, 0};
+
+/// Where an instance stands among its like: what is drawn first where two are equally deep. Made from level and index,
+/// so the picture does not depend on the order of the lists.
+struct DrawOrder {
+    int layer = 0;  ///< 0 the surroundings, then levels or states, last the annotations
+    int level = 0;  ///< of the node; the sample's is 0
+    std::int64_t index = 0;
+    friend auto operator<=>(const DrawOrder&, const DrawOrder&) = default;
+};
+
+/// One sample: a short upright cylinder over the time that it holds.
+struct DiskInstance {
+    glm::vec3 base{0};  ///< centre of the lower face, drawn space
+    float radius = 0;
+    float height = 0;
+    Rgba color{1};  ///< opacity below 1 steps back towards the background; the disk still hides what is behind it
+    ObjectId id;
+    DrawOrder order;
+};
+
+/// What a box stands for: each state has its own colour and line.
+enum class BoxState { level, under_test, apart_in_time, separated, overlap, hit, annotation };
+
+/// A box as it is drawn: a parallelepiped.
+struct BoxInstance {
+    glm::vec3 center{0};                 ///< drawn space
+    std::array<glm::vec3, 3> extents{};  ///< half edges
+    BoxState state = BoxState::level;
+    Rgba fill{0};     ///< of the faces; opacity 0: edges only
+    Rgba edge{1};     ///< opacity 0: faces only
+    float width = 1;  ///< of the edges, pixels
+    Dash dash = kSolid;
+    ObjectId id;
+    bool pickable = true;  ///< stands for what `id` names: a node, or as a cylinder's wall a sample
+    DrawOrder order;
+};
+
+/// A straight line with a constant width on the screen.
+struct LineInstance {
+    glm::vec3 from{0};
+    glm::vec3 to{0};
+    Rgba color{1};
+    float width = 1;  ///< pixels
+    Dash dash = kSolid;
+    float hidden = 0;  ///< opacity kept behind disks, 0..1
+    float cap = 0;     ///< pixels drawn beyond both ends
+    DrawOrder order;
+};
+
+/// An axis-aligned rectangle on the screen, pixels from the upper left corner.
+struct Rect {
+    glm::vec2 min{0};
+    glm::vec2 max{0};
+    glm::vec2 size() const { return max - min; }
+    glm::vec2 center() const { return (min + max) * 0.5f; }
+    bool overlaps(const Rect& o) const {
+        return min.x < o.max.x && o.min.x < max.x && min.y < o.max.y && o.min.y < max.y;
+    }
+    bool contains(const Rect& o) const {
+        return min.x <= o.min.x && min.y <= o.min.y && max.x >= o.max.x && max.y >= o.max.y;
+    }
+    Rect grown(float by) const { return {min - by, max + by}; }
+};
+
+/// A filled rectangle with round corners over the picture; a radius of half its side makes a disk.
+struct Panel {
+    Rect rect;
+    float radius = 0;
+    Rgba fill{0};
+    Rgba border{0};
+    float border_width = 0;
+};
+
+/// A line over the picture, in pixels.
+struct OverlayLine {
+    glm::vec2 from{0};
+    glm::vec2 to{0};
+    Rgba color{1};
+    float width = 1;
+    Dash dash = kSolid;
+};
+
+/// One line of text over the picture.
+struct TextRun {
+    std::string text;  ///< UTF-8
+    FontFace face = FontFace::text;
+    float size = 12;        ///< pixels
+    glm::vec2 baseline{0};  ///< left end, pixels from the upper left corner
+    Rgba color{1};
+    Rect box;  ///< what it covers
+};
+
+/// A line of the legend: what a colour and line style stand for.
+struct LegendEntry {
+    enum class Mark { disk, ring, double_ring, box, line, remark };
+    Mark mark = Mark::line;
+    Rgba color{1};
+    Rgba fill{0};
+    float width = 1.5f;
+    Dash dash = kSolid;
+    std::string text;
+};
+
+struct DrawList {
+    PictureSize size;
+    Palette palette;
+    /// Behind everything; none: the palette's, which is what steps back does so towards. With opacity below 1 the
+    /// picture is seen through where nothing is drawn.
+    std::optional<Rgba> background;
+    DrawnSpace space;
+    ViewProjection projection;
+    Frame frame;  ///< the part of the picture that is left for the scene; a camera with a target need not keep to it
+    std::optional<double> moment;           ///< global seconds: heights are metres and no times, for the floor then
+    std::vector<std::string> participants;  ///< names of what ObjectId::participant counts
+
+    std::vector<DiskInstance> disks;
+    std::vector<BoxInstance> boxes;
+    std::vector<LineInstance> lines;
+
+    std::string headline;  ///< the sentence at the top
+    std::vector<LegendEntry> legend;
+    std::vector<Panel> panels;               ///< over the scene, in this order
+    std::vector<OverlayLine> overlay_lines;  ///< over the panels
+    std::vector<Panel> marks;                ///< over the lines
+    std::vector<TextRun> texts;              ///< over all
+};
+
+/// By the sign along each axis: bit i of the index is set where it is positive along extent i.
+inline std::array<glm::vec3, 8> box_corners(const BoxInstance& box) {
+    std::array<glm::vec3, 8> out;
+    for (unsigned bits = 0; bits < 8; ++bits) {
+        out[bits] = box.center;
+        for (unsigned axis = 0; axis < 3; ++axis) out[bits] += box.extents[axis] * ((bits >> axis) & 1u ? 1.0f : -1.0f);
+    }
+    return out;
+}
+
+/// The pairs of corners that an edge joins.
+inline constexpr std::array<std::array<unsigned, 2>, 12> kBoxEdges{
+    {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+
+}  // namespace mobbscope

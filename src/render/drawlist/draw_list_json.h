@@ -1,0 +1,51 @@
+/// A draw list as JSON, for exact checks of what a picture shows: every disk, box, line and text with its numbers.
+///
+///     {"size": [w, h], "background": "#RRGGBBAA", "participants": ["A", ...],
+///      "camera": {"eye", "right", "up", "back", "perspective", "clip_from_world": [16, by column]},
+///      "disks":  [{"id", "participant", "sample", "base", "radius", "height", "color", "on_screen", "pixels"}],
+///      "boxes":  [{"id", "participant", "node", "level", "state", "center", "extents", "fill", "edge", "width",
+///      "dash",
+///                  "on_screen", "pixels"}],
+///      "lines":  [{"layer", "from", "to", "color", "width", "dash", "cap", "hidden", "on_screen"}],
+///      "headline", "legend": [{"mark", "color", "text"}],
+///      "panels": [{"min", "max", "radius", "fill", "border", "border_width"}],
+///      "overlay_lines": [{"from", "to", "color", "width", "dash"}], "marks": [as panels],
+///      "texts":  [{"text", "at", "size", "face", "color", "on_screen"}]}
+///
+/// Positions are in drawn metres, places on the screen in pixels from the upper left corner, colours "#RRGGBBAA";
+/// numbers have six significant digits. Disks and boxes are sorted by what they stand for and lines by their place in
+/// the order of drawing, so that the order of the list does not show; what is over the scene stays in its order, the
+/// last on top.
+///
+/// `id` is the number that a pixel of the id picture has: red * 65536 + green * 256 + blue. Numbers go from 1, by
+/// participant, disks before boxes, index; 0 is nothing. `id` and `participant` of a box that stands for no node are 0
+/// and null, likewise `node`. `on_screen` is false for what lies wholly beside the picture or nearer than anything is
+/// drawn. `pixels`, with an id picture only, is how many of its pixels the object has: 0 is hidden, null is in no id
+/// picture.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/object_id.h>
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+namespace mobbscope {
+
+/// `ids`: the id picture of the list, or null.
+void write_draw_list(std::ostream& out, const DrawList& list, const IdImage* ids = nullptr);
+
+/// The id picture as a picture: each pixel's number in its colour, opaque. Throws std::invalid_argument if the list has
+/// 2^24 objects or more.
+Image id_picture(const DrawList& list, const IdImage& ids);
+
+/// The first difference of two draw lists as JSON texts, "/boxes/3/extents/0/2: 1.02 instead of 1", or nothing; that
+/// something is missing comes before what differs. Numbers agree within 1e-4 of their size or 1e-4, numbers of pixels
+/// within 1 % or 16, as rasterisers differ by that. Throws InputError if a text is no JSON; the names stand for the
+/// files.
+std::optional<std::string> first_difference(std::string_view actual, const std::string& actual_name,
+                                            std::string_view golden, const std::string& golden_name);
+
+}  // namespace mobbscope

@@ -1,0 +1,191 @@
+#include <render/drawlist/font.h>
+
+#include <stb_truetype.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace render_assets {
+std::string_view embedded(std::string_view name);
+}
+
+namespace mobbscope {
+
+namespace {
+
+/// The glyph of what a font has no glyph for.
+constexpr int kMissing = 0;
+
+constexpr char32_t kEllipsis = 0x2026;
+
+/// A frame of one pixel. Fonts bring one of their own, but so heavy that a row of them looks like a censor's bar.
+GlyphBitmap hollow_box(float advance, float size) {
+    const int side = std::max(1, static_cast<int>(advance * 0.14f));
+    const int width = std::max(3, static_cast<int>(advance) - 2 * side);
+    const int height = std::max(3, static_cast<int>(size * 0.7f));
+    GlyphBitmap box{width, height, side, -height, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const bool edge = x == 0 || y == 0 || x == width - 1 || y == height - 1;
+            box.coverage.push_back(edge ? 255 : 0);
+        }
+    }
+    return box;
+}
+
+/// The code point that begins at `at`, which moves behind it.
+char32_t read_code_point(std::string_view utf8, std::size_t& at) {
+    constexpr char32_t kMalformed = 0xFFFD;
+    const auto lead = static_cast<unsigned char>(utf8[at++]);
+    const int following = lead < 0x80 ? 0 : (lead >> 5) == 6 ? 1 : (lead >> 4) == 14 ? 2 : (lead >> 3) == 30 ? 3 : -1;
+    if (following < 0) return kMalformed;
+    char32_t code = following == 0 ? lead : lead & (0x3Fu >> following);
+    for (int k = 0; k < following; ++k) {
+        if (at >= utf8.size() || (static_cast<unsigned char>(utf8[at]) >> 6) != 2) return kMalformed;
+        code = (code << 6) | (static_cast<unsigned char>(utf8[at++]) & 0x3Fu);
+    }
+    return code;
+}
+
+}  // namespace
+
+Font::Font(std::string_view data) {
+    const auto info = std::make_shared<stbtt_fontinfo>();
+    const auto* bytes = reinterpret_cast<const unsigned char*>(data.data());
+    if (data.empty() || !stbtt_InitFont(info.get(), bytes, stbtt_GetFontOffsetForIndex(bytes, 0))) {
+        throw std::logic_error("an embedded font cannot be read");
+    }
+    info_ = info;
+}
+
+std::string_view Font::file(FontFace face) { return render_assets::embedded(file_name(face)); }
+
+std::string_view Font::file_name(FontFace face) {
+    return face == FontFace::text ? MOBBSCOPE_FONT_TEXT_NAME : MOBBSCOPE_FONT_MONO_NAME;
+}
+
+std::string_view Font::file_sha256(FontFace face) {
+    return face == FontFace::text ? MOBBSCOPE_FONT_TEXT_SHA256 : MOBBSCOPE_FONT_MONO_SHA256;
+}
+
+const Font& Font::of(FontFace face) {
+    static const Font text(file(FontFace::text));
+    static const Font mono(file(FontFace::mono));
+    return face == FontFace::text ? text : mono;
+}
+
+int Font::glyph(char32_t code) const {
+    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    return stbtt_FindGlyphIndex(info_.get(), control ? ' ' : static_cast<int>(code));
+}
+
+bool Font::has(char32_t code) const { return glyph(code) != kMissing; }
+
+float Font::advance(char32_t code, char32_t next, float size) const {
+    int advance = 0;
+    int bearing = 0;
+    const int here = glyph(code);
+    stbtt_GetGlyphHMetrics(info_.get(), here, &advance, &bearing);
+    if (next != 0) advance += stbtt_GetGlyphKernAdvance(info_.get(), here, glyph(next));
+    return static_cast<float>(advance) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
+}
+
+float Font::width(std::string_view utf8, float size) const {
+    const std::vector<char32_t> codes = code_points(utf8);
+    float width = 0;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        width += advance(codes[i], i + 1 < codes.size() ? codes[i + 1] : 0, size);
+    }
+    return width;
+}
+
+float Font::ascent(float size) const {
+    int ascent = 0;
+    int descent = 0;
+    int gap = 0;
+    stbtt_GetFontVMetrics(info_.get(), &ascent, &descent, &gap);
+    return static_cast<float>(ascent) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
+}
+
+float Font::descent(float size) const {
+    int ascent = 0;
+    int descent = 0;
+    int gap = 0;
+    stbtt_GetFontVMetrics(info_.get(), &ascent, &descent, &gap);
+    return static_cast<float>(-descent) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
+}
+
+GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
+    const float scale = stbtt_ScaleForMappingEmToPixels(info_.get(), size);
+    const int index = glyph(code);
+    if (index == kMissing) return hollow_box(advance(code, 0, size), size);
+    int x0 = 0;
+    int y0 = 0;
+    int x1 = 0;
+    int y1 = 0;
+    stbtt_GetGlyphBitmapBoxSubpixel(info_.get(), index, scale, scale, shift, 0, &x0, &y0, &x1, &y1);
+    GlyphBitmap bitmap{x1 - x0, y1 - y0, x0, y0, {}};
+    bitmap.coverage.resize(static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height));
+    if (!bitmap.coverage.empty()) {
+        stbtt_MakeGlyphBitmapSubpixel(info_.get(), bitmap.coverage.data(), bitmap.width, bitmap.height, bitmap.width,
+                                      scale, scale, shift, 0, index);
+    }
+    return bitmap;
+}
+
+std::vector<char32_t> code_points(std::string_view utf8) {
+    std::vector<char32_t> out;
+    for (std::size_t at = 0; at < utf8.size();) out.push_back(read_code_point(utf8, at));
+    return out;
+}
+
+std::string fit_text(const std::string& text, FontFace face, float size, float width) {
+    if (text.empty()) return text;
+    const Font& font = Font::of(face);
+    const float ellipsis = font.advance(kEllipsis, 0, size);
+    std::size_t at = 0;
+    std::size_t kept = 0;  // bytes after which there is room for the ellipsis
+    float pen = 0;
+    char32_t code = read_code_point(text, at);
+    for (;;) {
+        const std::size_t end = at;
+        const bool last = end == text.size();
+        const char32_t next = last ? 0 : read_code_point(text, at);
+        if (pen + font.advance(code, kEllipsis, size) + ellipsis <= width) kept = end;
+        pen += font.advance(code, next, size);
+        if (pen > width) return text.substr(0, kept) + "\u2026";
+        if (last) return text;
+        code = next;
+    }
+}
+
+std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width) {
+    const Font& font = Font::of(face);
+    const float space = font.advance(' ', 0, size);
+    std::vector<std::string> lines;
+    std::string line;
+    float line_width = 0;
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        const float word_width = font.width(word, size);
+        if (line.empty()) {
+            line = word;
+            line_width = word_width;
+        } else if (line_width + space + word_width > width) {
+            lines.push_back(line);
+            line = word;
+            line_width = word_width;
+        } else {
+            line += ' ' + word;
+            line_width += space + word_width;
+        }
+        begin = end + 1;
+    }
+    if (!line.empty()) lines.push_back(line);
+    return lines;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,158 @@
+#include <render/drawlist/pick.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mobbscope {
+
+namespace {
+
+/// By how much the shader of faces draws them nearer, in OpenGL's normalised depth.
+constexpr double kFacesNearer = 4e-4;
+
+/// Surfaces no farther apart than this in normalised depth are equally deep; what is drawn first wins.
+constexpr double kEquallyDeep = 1e-6;
+
+/// Of a box whose edges in one direction have no length: so much of the longest, to have an inside.
+constexpr double kThin = 1e-9;
+
+/// The part of a line inside a convex shape, as distances along it; empty if enter > leave.
+struct Span {
+    double enter = -std::numeric_limits<double>::infinity();
+    double leave = std::numeric_limits<double>::infinity();
+
+    /// Keeps what is between two parallel planes: where |at + t * rate| <= half.
+    void clip(double at, double rate, double half) {
+        if (rate == 0) {
+            if (std::abs(at) > half) leave = -std::numeric_limits<double>::infinity();
+            return;
+        }
+        const double a = (-half - at) / rate;
+        const double b = (half - at) / rate;
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    bool empty() const { return !(enter <= leave); }
+};
+
+Span inside(const DiskInstance& disk, const Ray& ray) {
+    const double half = 0.5 * static_cast<double>(disk.height);
+    const glm::dvec3 from = ray.origin - (glm::dvec3(disk.base) + glm::dvec3(0, 0, half));
+    const glm::dvec2 at(from);
+    const glm::dvec2 rate(ray.direction);
+    const double r = disk.radius;
+    // Against the circle: |at + t * rate|^2 <= r^2. The distance of the line from the centre loses no digits far away.
+    const double speed = glm::length(rate);
+    Span span;
+    if (speed > 0) {
+        const double aside = (at.x * rate.y - at.y * rate.x) / speed;
+        if (std::abs(aside) > r) return {1, 0};
+        const double nearest = -glm::dot(at, rate) / (speed * speed);
+        const double reach = std::sqrt(r * r - aside * aside) / speed;
+        span = {nearest - reach, nearest + reach};
+    } else if (glm::dot(at, at) > r * r) {
+        return {1, 0};
+    }
+    span.clip(from.z, ray.direction.z, half);
+    return span;
+}
+
+Span inside(const BoxInstance& box, const Ray& ray) {
+    const glm::dvec3 from = ray.origin - glm::dvec3(box.center);
+    glm::dmat3 edges(box.extents[0], box.extents[1], box.extents[2]);
+    // Most boxes are missed by a wide margin.
+    const double reach = glm::length(edges[0]) + glm::length(edges[1]) + glm::length(edges[2]);
+    const glm::dvec3 aside = from - ray.direction * glm::dot(from, ray.direction);
+    if (glm::dot(aside, aside) > reach * reach) return {1, 0};
+    for (int i = 0; i < 3; ++i) {
+        if (edges[i] != glm::dvec3(0)) continue;
+        const glm::dvec3 normal = glm::cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
+        // A box without an area has no faces.
+        if (normal == glm::dvec3(0)) return {1, 0};
+        edges[i] = glm::normalize(normal) * (kThin * reach);
+    }
+    const glm::dmat3 to_local = glm::inverse(edges);
+    const glm::dvec3 at = to_local * from;
+    const glm::dvec3 rate = to_local * ray.direction;
+    Span span;
+    for (int i = 0; i < 3; ++i) span.clip(at[i], rate[i], 1);
+    return span;
+}
+
+struct Found {
+    Pick pick;
+    double normalised_depth = 0;
+    DrawOrder order;
+};
+
+/// Nearer surfaces first; equally deep ones as they are drawn, disks before boxes.
+std::vector<Pick> pick_order(std::vector<Found> found) {
+    std::sort(found.begin(), found.end(),
+              [](const Found& a, const Found& b) { return a.normalised_depth < b.normalised_depth; });
+    const auto drawn_before = [](const Found& a, const Found& b) {
+        if (a.pick.id.kind != b.pick.id.kind) return a.pick.id.kind == ObjectId::Kind::disk;
+        return a.order < b.order;
+    };
+    for (auto first = found.begin(); first != found.end();) {
+        auto end = first + 1;
+        while (end != found.end() && end->normalised_depth - (end - 1)->normalised_depth <= kEquallyDeep) ++end;
+        std::sort(first, end, drawn_before);
+        first = end;
+    }
+    std::vector<Pick> out;
+    out.reserve(found.size());
+    for (const Found& one : found) out.push_back(one.pick);
+    return out;
+}
+
+}  // namespace
+
+std::vector<Pick> pick(const DrawList& list, glm::vec2 pixel) {
+    const ViewProjection& projection = list.projection;
+    const Ray ray = projection.ray(pixel);
+    const double near_depth = projection.near_depth;
+    const double far_depth = projection.far_depth;
+    // Depth grows by `ahead` with each metre along the line of sight.
+    const double ahead = -glm::dot(ray.direction, glm::dvec3(projection.back));
+    const double depth_at_origin = glm::dot(glm::dvec3(projection.eye) - ray.origin, glm::dvec3(projection.back));
+    const double nearest = (near_depth - depth_at_origin) / ahead;
+    const auto normalised = [&](double depth) {
+        const double range = far_depth - near_depth;
+        const double sum = far_depth + near_depth;
+        return projection.perspective ? (sum - 2 * far_depth * near_depth / depth) / range : (2 * depth - sum) / range;
+    };
+    std::vector<Found> found;
+    const auto add = [&](ObjectId id, DrawOrder order, double distance, double nearer) {
+        const double depth = depth_at_origin + ahead * distance;
+        found.push_back(
+            {{id, list.space.place(ray.at(distance)), static_cast<float>(depth)}, normalised(depth) - nearer, order});
+    };
+    for (const DiskInstance& disk : list.disks) {
+        const Span span = inside(disk, ray);
+        // From inside a disk nothing of it is drawn.
+        if (!span.empty() && span.enter >= nearest) add(disk.id, disk.order, span.enter, 0);
+    }
+    for (const BoxInstance& box : list.boxes) {
+        if (!box.pickable) continue;
+        const Span span = inside(box, ray);
+        if (span.empty() || span.leave < nearest) continue;
+        add(box.id, box.order, span.enter >= nearest ? span.enter : span.leave, kFacesNearer);
+    }
+    return pick_order(std::move(found));
+}
+
+std::optional<glm::dvec2> floor_at(const DrawList& list, glm::vec2 pixel, double time) {
+    const Ray ray = list.projection.ray(pixel);
+    if (std::abs(ray.direction.z) < 1e-9) return std::nullopt;
+    const double height = (time - list.space.origin.z) * list.space.time_height;
+    const double distance = (height - ray.origin.z) / ray.direction.z;
+    if (list.projection.perspective && distance <= 0) return std::nullopt;
+    const glm::dvec3 place = list.space.place(ray.at(distance));
+    return glm::dvec2(place);
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,36 @@
+#include <base/text.h>
+#include <render/drawlist/picture_options.h>
+
+#include <charconv>
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+
+namespace mobbscope {
+
+Palette palette_for(Theme theme, const PictureOptions& options) {
+    Palette out = palette(theme);
+    if (options.background && options.background->a >= 1) out.background = *options.background;
+    return out;
+}
+
+int parse_samples(const std::string& text) {
+    const int samples = parse_int(text).value_or(0);
+    if (samples == 1 || samples == 2 || samples == 4 || samples == 8) return samples;
+    throw std::invalid_argument(in_quotes(text) + " is no number of samples: give 1, 2, 4 or 8");
+}
+
+Rgba parse_background(const std::string& text) {
+    if (text == "transparent") return Rgba(0);
+    const std::string_view digits = std::string_view(text).substr(text.starts_with('#') ? 1 : 0);
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    const bool whole = error == std::errc() && end == digits.data() + digits.size();
+    if (!text.starts_with('#') || !whole || (digits.size() != 6 && digits.size() != 8)) {
+        throw std::invalid_argument(in_quotes(text) + " is no background: give #RRGGBB, #RRGGBBAA or transparent");
+    }
+    if (digits.size() == 6) value = value << 8 | 255u;
+    return Rgba(value >> 24, value >> 16 & 255u, value >> 8 & 255u, value & 255u) / 255.0f;
+}
+
+}  // namespace mobbscope

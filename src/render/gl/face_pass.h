@@ -1,0 +1,42 @@
+/// Draws the faces of boxes: transparent, in no particular order.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/gl/gl_objects.h>
+
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+class FacePass {
+  public:
+    explicit FacePass(GlContext& context);
+
+    /// True if the list has faces to blend.
+    static bool needed(const DrawList& list);
+
+    /// Sums the faces into the bound framebuffer (see Targets::faces), which need not be cleared.
+    void accumulate(const DrawList& list);
+    /// Blends the sums of the last accumulate over the bound framebuffer.
+    void composite(const Texture& sums, const Texture& weights, PictureSize size);
+    /// Writes the ids of node boxes, faces drawn or not, to output 2, nearest first.
+    void draw_ids(const DrawList& list);
+
+  private:
+    void clear(const DrawList& list);
+    void draw(const DrawList& list, bool ids);
+
+    ShaderProgram faces_;
+    ShaderProgram composite_;
+    VertexArray array_;
+    Buffer instances_;
+    VertexArray tile_array_;
+    Buffer tiles_;
+    GLsizei tile_count_ = 0;
+};
+
+/// Disjoint rectangles in whole pixels, inside the picture, that together cover all these boxes.
+std::vector<Rect> covering_tiles(std::span<const BoxInstance> boxes, const ViewProjection& projection);
+
+}  // namespace mobbscope

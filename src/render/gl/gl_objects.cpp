@@ -1,0 +1,162 @@
+namespace render_assets {
+std::string_view embedded(std::string_view name);
+}
+
+#include <base/error.h>
+#include <render/gl/gl_objects.h>
+
+#include <glad/gl.h>
+
+#include <algorithm>
+
+namespace mobbscope {
+
+namespace {
+
+/// What the compiler says of a shader, or the linker of a program, is an error if it failed and else a warning.
+void judge(GlContext& context, const std::string& what, bool done, std::string log) {
+    while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) log.pop_back();
+    if (!done) throw MachineError(std::string(context.name()) + ", compiling shaders: " + what + ": " + log);
+    if (!log.empty()) context.warn(what + ": " + log);
+}
+
+void compile(GlContext& context, GLuint shader, const std::string& file, std::string_view text) {
+    const GLchar* source = text.data();
+    const GLint size = static_cast<GLint>(text.size());
+    glShaderSource(shader, 1, &source, &size);
+    glCompileShader(shader);
+    GLint done = GL_FALSE;
+    GLint length = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    judge(context, file, done == GL_TRUE, log);
+}
+
+constexpr GLenum kOff[] = {GL_BLEND,
+                           GL_CULL_FACE,
+                           GL_DEPTH_TEST,
+                           GL_SCISSOR_TEST,
+                           GL_STENCIL_TEST,
+                           GL_COLOR_LOGIC_OP,
+                           GL_DEPTH_CLAMP,
+                           GL_FRAMEBUFFER_SRGB,
+                           GL_POLYGON_OFFSET_FILL,
+                           GL_POLYGON_SMOOTH,
+                           GL_PRIMITIVE_RESTART,
+                           GL_RASTERIZER_DISCARD,
+                           GL_SAMPLE_ALPHA_TO_COVERAGE,
+                           GL_SAMPLE_ALPHA_TO_ONE,
+                           GL_SAMPLE_COVERAGE,
+                           GL_SAMPLE_MASK};
+
+/// Of how pixels lie in memory.
+constexpr GLenum kZero[] = {GL_PACK_SWAP_BYTES,  GL_PACK_LSB_FIRST,    GL_PACK_ROW_LENGTH,  GL_PACK_SKIP_ROWS,
+                            GL_PACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST, GL_UNPACK_ROW_LENGTH,
+                            GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS};
+
+}  // namespace
+
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text ? reinterpret_cast<const char*>(text) : "";
+}
+
+GLuint BufferKind::create() {
+    GLuint name = 0;
+    glGenBuffers(1, &name);
+    return name;
+}
+void BufferKind::destroy(GLuint name) { glDeleteBuffers(1, &name); }
+
+GLuint VertexArrayKind::create() {
+    GLuint name = 0;
+    glGenVertexArrays(1, &name);
+    return name;
+}
+void VertexArrayKind::destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
+
+GLuint TextureKind::create() {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    return name;
+}
+void TextureKind::destroy(GLuint name) { glDeleteTextures(1, &name); }
+
+GLuint RenderbufferKind::create() {
+    GLuint name = 0;
+    glGenRenderbuffers(1, &name);
+    return name;
+}
+void RenderbufferKind::destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
+
+GLuint FramebufferKind::create() {
+    GLuint name = 0;
+    glGenFramebuffers(1, &name);
+    return name;
+}
+void FramebufferKind::destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
+
+GLuint ProgramKind::create() { return glCreateProgram(); }
+void ProgramKind::destroy(GLuint name) { glDeleteProgram(name); }
+
+ShaderProgram::ShaderProgram(GlContext& context, const std::string& name) : ShaderProgram(context, name, name) {}
+
+ShaderProgram::ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment)
+    : ShaderProgram(context, fragment, render_assets::embedded(vertex + ".vert"),
+                    render_assets::embedded(fragment + ".frag")) {}
+
+ShaderProgram::ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex,
+                             std::string_view fragment) {
+    const GlObject<ShaderKind<GL_VERTEX_SHADER>> vertex_shader;
+    const GlObject<ShaderKind<GL_FRAGMENT_SHADER>> fragment_shader;
+    compile(context, vertex_shader.name(), name + ".vert", vertex);
+    compile(context, fragment_shader.name(), name + ".frag", fragment);
+    glAttachShader(program_.name(), vertex_shader.name());
+    glAttachShader(program_.name(), fragment_shader.name());
+    glLinkProgram(program_.name());
+    GLint done = GL_FALSE;
+    GLint length = 0;
+    glGetProgramiv(program_.name(), GL_LINK_STATUS, &done);
+    glGetProgramiv(program_.name(), GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetProgramInfoLog(program_.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+    judge(context, name, done == GL_TRUE, log);
+}
+
+void ShaderProgram::use() const { glUseProgram(program_.name()); }
+
+GLint ShaderProgram::uniform(const char* uniform_name) const {
+    return glGetUniformLocation(program_.name(), uniform_name);
+}
+
+void reset_state() {
+    for (const GLenum off : kOff) glDisable(off);
+    for (GLenum plane = 0; plane < 8; ++plane) glDisable(GL_CLIP_DISTANCE0 + plane);
+    glEnable(GL_DITHER);
+    glEnable(GL_MULTISAMPLE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glDepthRange(0, 1);
+    glBlendEquation(GL_FUNC_ADD);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+    for (GLuint unit = 0; unit < 2; ++unit) glBindSampler(unit, 0);
+
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    for (const GLenum zero : kZero) glPixelStorei(zero, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+void blend_over() {
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+}
+
+}  // namespace mobbscope

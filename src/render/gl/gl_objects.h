@@ -1,0 +1,100 @@
+/// OpenGL objects that free themselves. All need a current context, also when they are destroyed.
+#pragma once
+
+#include <render/gl/gl_context.h>
+
+#include <glad/gl.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mobbscope {
+
+/// What the current context says of itself, as GL_VERSION; empty if nothing.
+std::string gl_string(GLenum name);
+
+/// Owns one OpenGL name; 0 is none.
+template <class Kind>
+class GlObject {
+  public:
+    GlObject() : name_(Kind::create()) {}
+    ~GlObject() {
+        if (name_ != 0) Kind::destroy(name_);
+    }
+    GlObject(GlObject&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    GlObject& operator=(GlObject&& other) noexcept {
+        std::swap(name_, other.name_);
+        return *this;
+    }
+
+    GLuint name() const { return name_; }
+
+  private:
+    GLuint name_;
+};
+
+struct BufferKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct VertexArrayKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct TextureKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct RenderbufferKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+struct FramebufferKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+
+template <GLenum floor_extent>
+struct ShaderKind {
+    static GLuint create() { return glCreateShader(floor_extent); }
+    static void destroy(GLuint name) { glDeleteShader(name); }
+};
+struct ProgramKind {
+    static GLuint create();
+    static void destroy(GLuint name);
+};
+
+using Buffer = GlObject<BufferKind>;
+using VertexArray = GlObject<VertexArrayKind>;
+using Texture = GlObject<TextureKind>;
+using Renderbuffer = GlObject<RenderbufferKind>;
+using Framebuffer = GlObject<FramebufferKind>;
+
+/// A linked pair of shaders. What the compiler remarks goes to the context's warnings.
+class ShaderProgram {
+  public:
+    /// From shaders/<name>.vert and .frag, which are part of the program. Throws MachineError with what the compiler
+    /// says if it does not take them.
+    ShaderProgram(GlContext& context, const std::string& name);
+    /// The same from two shaders of different names.
+    ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment);
+    ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex, std::string_view fragment);
+
+    void use() const;
+    /// The uniform's location; -1, which OpenGL ignores, where the compiler dropped it.
+    GLint uniform(const char* uniform_name) const;
+
+  private:
+    GlObject<ProgramKind> program_;
+};
+
+/// As in a new context, except that rows of pixels are packed without gaps: whatever else draws in the context, a
+/// picture begins with the same state. Passes set depth test, blending and culling as they need them; the rest stays as
+/// it is here.
+void reset_state();
+
+/// Colours over what is there, by their opacity. What is there is opaque and stays so.
+void blend_over();
+
+}  // namespace mobbscope

@@ -1,0 +1,30 @@
+/// Draws panels and text over the picture.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/gl/gl_objects.h>
+#include <render/gl/glyph_atlas.h>
+
+namespace mobbscope {
+
+class OverlayPass {
+  public:
+    explicit OverlayPass(GlContext& context);
+
+    void draw_panels(const DrawList& list);
+    /// What lies over the lines: marks, then texts.
+    void draw_texts(const DrawList& list);
+
+  private:
+    struct Instance;
+    void draw(const std::vector<Instance>& instances, PictureSize size);
+    void draw(const std::vector<Panel>& panels, PictureSize size);
+
+    ShaderProgram program_;
+    VertexArray array_;
+    Buffer instances_;
+    Texture atlas_;
+    GlyphCache glyphs_;
+};
+
+}  // namespace mobbscope

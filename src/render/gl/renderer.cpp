@@ -1,0 +1,201 @@
+#include <render/gl/renderer.h>
+
+#include <base/error.h>
+#include <render/gl/disk_pass.h>
+#include <render/gl/face_pass.h>
+#include <render/gl/gl_objects.h>
+#include <render/gl/line_pass.h>
+#include <render/gl/overlay_pass.h>
+#include <render/gl/targets.h>
+#include <render/image/transparent_background.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+/// OpenGL's first row is the lowest.
+template <class T>
+void flip_rows(std::vector<T>& values, int width, int height, int per_pixel) {
+    const auto row = static_cast<std::ptrdiff_t>(width) * per_pixel;
+    for (std::ptrdiff_t low = 0, high = height - 1; low < high; ++low, --high) {
+        std::swap_ranges(values.begin() + low * row, values.begin() + (low + 1) * row, values.begin() + high * row);
+    }
+}
+
+/// By the names of Mesa's, Google's and Microsoft's software renderers.
+bool draws_in_software(std::string_view device) {
+    for (const char* software :
+         {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR", "GDI"}) {
+        if (device.find(software) != std::string_view::npos) return true;
+    }
+    return false;
+}
+
+Rgba ground_of(const DrawList& list) { return list.background.value_or(list.palette.background); }
+
+bool is_seen_through(const DrawList& list) { return ground_of(list).a < 1; }
+
+std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
+    context->make_current();
+    return context;
+}
+
+}  // namespace
+
+/// The context is the first member, so that it outlives everything made in it.
+struct Renderer::State {
+    explicit State(std::unique_ptr<GlContext> drawn_in)
+        : context(made_current(std::move(drawn_in))),
+          device(gl_string(GL_RENDERER)),
+          version(gl_string(GL_VERSION)),
+          software(draws_in_software(device)),
+          disks(*context),
+          faces(*context),
+          lines(*context),
+          overlay(*context) {
+        context->check("compiling shaders");
+    }
+
+    void begin(PictureSize size) {
+        context->make_current();
+        reset_state();
+        glViewport(0, 0, size.width, size.height);
+    }
+
+    void draw_scene(const DrawList& list, Rgba ground) {
+        glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
+        glClearColor(ground.r, ground.g, ground.b, 1);
+        glClearDepth(1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        disks.draw(list, targets->samples() > 1 ? Detail::fine : Detail::coarse);
+        if (FacePass::needed(list)) {
+            targets->share_depth();
+            glBindFramebuffer(GL_FRAMEBUFFER, targets->faces().name());
+            faces.accumulate(list);
+            glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
+            faces.composite(targets->sums(), targets->weights(), list.size);
+        }
+        lines.draw_scene(list);
+    }
+
+    /// Into the result's framebuffer, on a ground that is taken for opaque.
+    void paint(const DrawList& list, int samples, Rgba ground) {
+        begin(list.size);
+        check_samples(samples);
+        if (!targets || targets->size() != list.size || targets->samples() != samples) {
+            targets.reset();
+            targets.emplace(list.size, samples);
+        }
+        draw_scene(list, ground);
+        targets->resolve();
+        glBindFramebuffer(GL_FRAMEBUFFER, targets->result().name());
+        overlay.draw_panels(list);
+        lines.draw_overlay(list);
+        overlay.draw_texts(list);
+        context->check("drawing");
+    }
+
+    Image draw(const DrawList& list, int samples, Rgba ground) {
+        paint(list, samples, ground);
+        Image image(list.size.width, list.size.height);
+        glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+        context->check("reading the picture");
+        flip_rows(image.rgba, image.width, image.height, 4);
+        return image;
+    }
+
+    void check_samples(int samples) const {
+        GLint most = 1;
+        glGetIntegerv(GL_MAX_SAMPLES, &most);
+        if (samples <= std::max(most, 1)) return;
+        throw MachineError("this OpenGL (" + std::string(context->name()) + ") draws at most " + std::to_string(most) +
+                           " samples a pixel, not " + std::to_string(samples));
+    }
+
+    std::unique_ptr<GlContext> context;
+    std::string device;
+    std::string version;
+    bool software;
+    DiskPass disks;
+    FacePass faces;
+    LinePass lines;
+    OverlayPass overlay;
+    std::optional<Targets> targets;
+};
+
+Renderer::Renderer(Backend backend) : Renderer(GlContext::open(backend)) {}
+
+Renderer::Renderer(std::unique_ptr<GlContext> context) : state_(std::make_unique<State>(std::move(context))) {}
+
+Renderer::~Renderer() {
+    if (state_->context->try_make_current()) return;
+    // The names would be deleted in whichever context is current; the context takes its objects along instead.
+    const std::unique_ptr<GlContext> context = std::move(state_->context);
+    static_cast<void>(state_.release());
+}
+
+std::string_view Renderer::backend() const { return state_->context->name(); }
+
+const std::string& Renderer::device() const { return state_->device; }
+
+const std::string& Renderer::version() const { return state_->version; }
+
+GlContext& Renderer::context() { return *state_->context; }
+
+bool Renderer::is_software() const { return state_->software; }
+
+const std::vector<std::string>& Renderer::warnings() const { return state_->context->warnings(); }
+
+void Renderer::check_samples(int samples) {
+    state_->context->make_current();
+    state_->check_samples(samples);
+}
+
+const Texture& Renderer::paint(const DrawList& list, int samples) {
+    state_->paint(list, samples, is_seen_through(list) ? list.palette.background : ground_of(list));
+    return state_->targets->picture();
+}
+
+Image Renderer::draw(const DrawList& list, int samples) {
+    if (!is_seen_through(list)) return state_->draw(list, samples, ground_of(list));
+    // What is drawn covers each pixel as much as it hides the difference of two grounds.
+    const Rgba ground = list.palette.background;
+    const Rgba other = list.palette.dark ? Rgba(1) : Rgba(0, 0, 0, 1);
+    const Image on_ground = state_->draw(list, samples, ground);
+    return with_transparent_background({on_ground, ground}, {state_->draw(list, samples, other), other},
+                                       *list.background);
+}
+
+IdImage Renderer::draw_ids(const DrawList& list) {
+    State& s = *state_;
+    s.begin(list.size);
+    const IdTarget target(list.size);
+    const std::array<GLuint, 4> nothing{0, 0, 0, 0};
+    const auto write_output = [](GLsizei output) {
+        std::array<GLenum, 3> outputs{GL_NONE, GL_NONE, GL_NONE};
+        outputs[static_cast<std::size_t>(output)] = GL_COLOR_ATTACHMENT0;
+        glDrawBuffers(output + 1, outputs.data());
+    };
+    write_output(0);
+    glClearBufferuiv(GL_COLOR, 0, nothing.data());
+    const GLfloat farthest = 1;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+    write_output(1);
+    s.disks.draw(list, Detail::fine);
+    write_output(2);
+    s.faces.draw_ids(list);
+
+    IdImage image{list.size.width, list.size.height, {}};
+    image.rg.resize(2 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    glReadPixels(0, 0, image.width, image.height, GL_RG_INTEGER, GL_UNSIGNED_INT, image.rg.data());
+    s.context->check("drawing object ids");
+    flip_rows(image.rg, image.width, image.height, 2);
+    return image;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,68 @@
+/// Turns draw lists into pixels.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/object_id.h>
+#include <render/drawlist/picture_options.h>
+#include <render/gl/gl_context.h>
+#include <render/gl/gl_objects.h>
+#include <render/image/image.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+/// The smallest and largest side of a picture, and the most pixels that it may have.
+inline constexpr int kMinSide = 64;
+inline constexpr int kMaxSide = 8192;
+inline constexpr int kMaxPixels = 7680 * 4320;
+
+/// Holds a context and what it keeps between pictures. Pictures depend on the draw list alone, and not on what others
+/// left switched on in the context; they leave it with a framebuffer of their own bound, and with state of their own.
+/// Not for several threads.
+class Renderer {
+  public:
+    /// Throws MachineError if there is no such context.
+    explicit Renderer(Backend backend = Backend::automatic);
+    /// Draws in a context that exists (not null). Throws MachineError if it is not OpenGL 3.3 core.
+    explicit Renderer(std::unique_ptr<GlContext> context);
+    ~Renderer();
+
+    /// The name of the context in use: "osmesa", "egl", or "window".
+    std::string_view backend() const;
+    /// What OpenGL calls what draws: "llvmpipe (LLVM 15.0.6, 256 bits)".
+    const std::string& device() const;
+    /// Its version of OpenGL, with the driver's where that names it: "3.3 (Core Profile) Mesa 22.3.6".
+    const std::string& version() const;
+    /// For what else draws in it.
+    GlContext& context();
+    /// Whether the processor draws, by the device's name. Then multisampling is dear.
+    bool is_software() const;
+
+    /// What the shader compiler remarked.
+    const std::vector<std::string>& warnings() const;
+
+    /// Throws MachineError, saying the most it can, if the context cannot draw so many samples per pixel.
+    void check_samples(int samples);
+
+    /// Draws without reading back. `samples` per pixel of the scene (>= 1; 1 is no multisampling, and its cost). The
+    /// texture is RGBA8 of the list's size, opaque, its first row the lowest; it holds the picture until the next paint
+    /// or draw. A background that is seen through is drawn as the palette's. Throws MachineError if OpenGL reports an
+    /// error or cannot do the samples.
+    const Texture& paint(const DrawList& list, int samples);
+
+    /// Paints and reads back; has alpha if the list's background is seen through. Throws MachineError as paint does.
+    Image draw(const DrawList& list, int samples = kPictureSamples);
+
+    /// What is nearest in each pixel: disks, and the boxes of nodes whether or not their faces are shown.
+    IdImage draw_ids(const DrawList& list);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace mobbscope

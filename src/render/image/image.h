@@ -1,0 +1,44 @@
+/// Pixels on the CPU.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// Width and height of a picture in pixels.
+struct PictureSize {
+    int width = 0;
+    int height = 0;
+    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+/// Rows from top to bottom, 4 bytes a pixel (RGBA, straight alpha).
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;
+
+    Image() = default;
+    Image(int w, int h) : width(w), height(h), rgba(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 4) {}
+
+    /// The four channels of pixel (x, y), which must lie in the image.
+    std::uint8_t* at(int x, int y) { return rgba.data() + offset(x, y); }
+    const std::uint8_t* at(int x, int y) const { return rgba.data() + offset(x, y); }
+
+  private:
+    std::size_t offset(int x, int y) const {
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4;
+    }
+};
+
+/// Three of the largest pictures that are read, and what is between them.
+inline constexpr long long kMostStripPixels = 500'000'000;
+
+/// From left to right, their upper edges level, a few grey pixels between them and below shorter ones; pictures keep
+/// their pixels. At least one. Throws std::invalid_argument if that is more than kMostStripPixels.
+Image make_strip(std::span<const Image* const> pictures);
+
+}  // namespace mobbscope

@@ -1,0 +1,22 @@
+/// PNG files.
+#pragma once
+
+#include <render/image/image.h>
+
+#include <filesystem>
+#include <string>
+
+namespace mobbscope {
+
+/// The bytes of a PNG file. Throws MachineError if libpng refuses, std::bad_alloc if there is no memory.
+std::string png_bytes(const Image& image);
+
+/// Whole or not at all, as write_file does; a pipe or a device that is there gets the bytes. Throws MachineError if
+/// that cannot be done.
+void write_png(const std::filesystem::path& file, const Image& image);
+
+/// Grey, palettes and 16 bits (their upper 8) become RGBA; what a file says of its colours' gamma is ignored. Throws
+/// InputError if the file is missing, no PNG, damaged, cut short or of more than 2^27 pixels.
+Image read_png(const std::filesystem::path& file);
+
+}  // namespace mobbscope

@@ -1,0 +1,103 @@
+#include <explain/query_sentence.h>
+#include <render/layout/annotations.h>
+#include <render/parts/paths.h>
+#include <render/query/separation_gap.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kMostNames = 12;
+
+/// A number at a place in the scene, if that can be seen.
+void note(std::vector<LabelRequest>& notes, const DrawList& list, glm::vec3 at, std::string text, Rgba color,
+          float text_size) {
+    const auto anchor = list.projection.project(at);
+    if (!anchor) return;
+    LabelRequest label;
+    label.text = std::move(text);
+    label.face = FontFace::mono;
+    label.size = text_size;
+    label.color = readable(color, list.palette);
+    label.border = color;
+    label.anchor = *anchor;
+    label.directions = {{1, -0.5f}, {-1, -0.5f}, {1, 0.5f}, {-1, 0.5f}, {0, -1}, {0, 1}};
+    label.distance = 4.5f * text_size;
+    label.pill = true;
+    notes.push_back(std::move(label));
+}
+
+void add_name(DrawList& list, LabelLayout& layout, const DrawnAgent& agent, float text_size) {
+    const mobb::PlacedClip& clip = agent.clip();
+    const mobb::Disk last = clip.disk(clip.count() - 1);
+    const glm::vec3 top = list.space.point(last.x, last.y, agent.end());
+    const auto anchor = list.projection.project(top);
+    if (!anchor) return;
+    LabelRequest label;
+    label.text = fit_text(agent.label, FontFace::text, text_size, 0.3f * static_cast<float>(list.size.width));
+    label.size = text_size;
+    label.color = readable(agent.color, list.palette);
+    label.anchor = *anchor;
+    label.directions = {{0, -1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}};
+    const float radius = static_cast<float>(last.r) * list.projection.pixels_per_metre(top);
+    label.pill = true;
+    label.border = with_alpha(list.palette.panel, 0);
+    label.distance = radius * std::max(std::abs(list.projection.back.z), 0.1f) + 0.4f * text_size;
+    layout.place(label, list);
+}
+
+}  // namespace
+
+void add_rings(DrawList& list, std::span<const DrawnAgent> agents, const Emphasis& emphasis, float scale) {
+    for (std::size_t i = 0; i < emphasis.at_cursor.size(); ++i) {
+        if (emphasis.at_cursor[i]) add_cursor_ring(list, agents[i], *emphasis.at_cursor[i], scale);
+    }
+    if (!emphasis.hits) return;
+    for (std::size_t side = 0; side < 2; ++side) add_hit_ring(list, agents[side], (*emphasis.hits)[side], scale);
+}
+
+std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
+                                       const QueryProgress& progress, const Metrics& metrics) {
+    std::vector<LabelRequest> notes;
+    const mobb::Trace::Event& event = progress.event;
+    if (const auto gap = separation_gap(sides, event)) {
+        const glm::vec3 at = add_separation_gap(list, *gap, sides[0].placed.time_scale(), metrics.scale);
+        note(notes, list, at, with_unit(event.gap, "m"), list.palette.separated, metrics.text);
+    }
+    if (const auto gap = time_gap(sides, event, list.space)) {
+        add_time_gap(list, *gap, metrics.scale);
+        note(notes, list, 0.5f * (gap->from + gap->to), gap->seconds > 1e-9 ? with_unit(gap->seconds, "s") : "0 s",
+             list.palette.apart_in_time, metrics.text);
+    }
+    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty() && recorded.contact) {
+        const mobb::PlacedClip& clip = sides[0].clip();
+        const int sample = event.pairs.back().i;
+        const mobb::Disk disk = clip.disk(sample);
+        note(notes, list, list.space.point(disk.x, disk.y, clip.time(sample)),
+             "hit at " + with_unit(recorded.contact->time, "s"), list.palette.hit, metrics.text);
+    }
+    return notes;
+}
+
+void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest> notes, float scale) {
+    for (const LabelRequest& label : notes) {
+        if (!layout.place(label, list)) continue;
+        const Rect& pill = list.panels.back().rect;
+        const glm::vec2 nearest = glm::clamp(label.anchor, pill.min, pill.max);
+        list.overlay_lines.push_back({label.anchor, nearest, with_alpha(label.border, 0.9f), scale, kSolid});
+    }
+}
+
+bool names_fit(std::size_t agents) { return agents <= kMostNames; }
+
+void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics) {
+    if (agents.size() < 2 || !names_fit(agents.size())) return;
+    for (const DrawnAgent& agent : agents) add_name(list, layout, agent, metrics.text);
+}
+
+}  // namespace mobbscope

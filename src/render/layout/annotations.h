@@ -1,0 +1,31 @@
+/// What a picture says about single places: rings, gaps with their numbers, names.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/metrics.h>
+#include <render/query/emphasis.h>
+#include <render/text/label_layout.h>
+#include <scene/drawn_agent.h>
+
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// Rings around the disks that matter.
+void add_rings(DrawList& list, std::span<const DrawnAgent> agents, const Emphasis& emphasis, float scale);
+
+/// The gap that the test under way found, and the hit; returns the numbers to stand beside them. Needs the projection.
+std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
+                                       const QueryProgress& progress, const Metrics& metrics);
+
+/// Places those numbers, each with a line to its place.
+void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest> notes, float scale);
+
+/// More names than this hide the scene and one another.
+bool names_fit(std::size_t agents);
+
+/// Names at the upper ends of paths; a single path is named by the legend.
+void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics);
+
+}  // namespace mobbscope

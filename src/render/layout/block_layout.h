@@ -1,0 +1,28 @@
+/// Where legend and floor map stand: in corners, clear of each other and, if possible, of the scene.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/metrics.h>
+#include <render/parts/floor_and_axes.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+struct Blocks {
+    std::optional<Rect> legend;
+    std::optional<Rect> map;
+    bool covers = false;  ///< one of them lies over some of the scene
+};
+
+/// Corners of `area` for blocks of these sizes (0: there is none). The two never overlap: where no corner is left the
+/// map is dropped, and a block larger than the area is. `busy`: what they had better not cover.
+Blocks place_blocks(const Rect& area, glm::vec2 legend, glm::vec2 map, std::span<const Rect> busy);
+
+/// Where the scene's paths, boxes and the labels around it are, as small rectangles. Needs the projection.
+std::vector<Rect> occupied(const DrawList& list, const FloorExtent& floor_extent, const ViewState& view,
+                           const Metrics& metrics);
+
+}  // namespace mobbscope

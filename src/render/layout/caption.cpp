@@ -1,0 +1,183 @@
+#include <explain/query_progress.h>
+#include <explain/query_sentence.h>
+#include <render/layout/annotations.h>
+#include <render/layout/caption.h>
+#include <render/parts/node_boxes.h>
+#include <render/query/query_boxes.h>
+#include <render/text/label_layout.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kMostDetails = 2;
+constexpr const char* kDot = "  \u00B7  ";
+
+struct Sizes {
+    float headline, detail, indent, between;
+    float legend, padding;  ///< the panel is like the legend's
+    explicit Sizes(float scale)
+        : headline(std::round(16 * scale)),
+          detail(std::round(12 * scale)),
+          indent(std::round(1.1f * headline)),
+          between(std::round(3 * scale)),
+          legend(std::round(11 * scale)),
+          padding(panel_padding(legend)) {}
+};
+
+/// The rest of too many lines is cut off visibly rather than run down the picture; so are words too long for a line.
+void cut(std::vector<std::string>& lines, std::size_t most, float text_size, float room) {
+    if (most > 0) {
+        for (std::size_t i = most; i < lines.size(); ++i) lines[most - 1] += ' ' + lines[i];
+    }
+    lines.resize(std::min(lines.size(), most));
+    for (std::string& line : lines) line = fit_text(line, FontFace::text, text_size, room);
+}
+
+/// "mobb" as "MOBB", "moving" as "moving boxes", "hybrid1" as it stands.
+std::string tree_title(mobb::TreeKind kind) {
+    if (kind == mobb::TreeKind::moving) return "moving boxes";
+    if (kind == mobb::TreeKind::aabb) return "AABB";
+    std::string text(mobb::name(kind));
+    if (text.find("mobb") != std::string::npos) {
+        std::transform(text.begin(), text.end(), text.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    }
+    return text;
+}
+
+std::string levels_text(const LevelRange& levels, int last) {
+    if (levels.leaves) return "leaves";
+    const int first = std::min(levels.first, last);
+    if (first == last) return "level " + std::to_string(first);
+    return "levels " + std::to_string(first) + " to " + std::to_string(last);
+}
+
+/// The boxes of one level can be compared by their volume; those of several levels contain one another.
+std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& levels) {
+    std::size_t count = 0;
+    double total = 0;
+    int last = 0;
+    for (const DrawnAgent& agent : agents) {
+        const mobb::Tree& tree = agent.placed.tree();
+        last = std::max(last, last_shown_level(tree, levels));
+        for (const int node : shown_nodes(tree, levels)) {
+            total += mobb::volume(agent.placed.node(node).box, tree.time_scale());
+            ++count;
+        }
+    }
+    std::string text = levels_text(levels, last) + ", " + std::to_string(count) + (count == 1 ? " box" : " boxes");
+    if (levels.leaves || std::min(levels.first, last) == last) {
+        char volume[48];
+        std::snprintf(volume, sizeof volume, total >= 1000 && total < 1e9 ? "%.0f" : "%.3g", total);
+        text += std::string(", ") + volume + " m\u00B2\u00B7s";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string at_time(double time) {
+    char text[48];
+    std::snprintf(text, sizeof text, " at %.2f s", time);
+    return text;
+}
+
+Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> agents, const ViewState& view) {
+    Caption caption;
+    caption.headlines = {fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string()};
+    if (view.boxes) {
+        caption.detail = tree_title(fitted.options().tree) + ", leaf " + std::to_string(fitted.options().leaf) + kDot +
+                         boxes_text(agents, view.levels);
+    }
+    if (!names_fit(agents.size())) {
+        const std::string left_out = std::to_string(agents.size()) + " agents, unnamed here";
+        caption.detail += (caption.detail.empty() ? "" : kDot) + left_out;
+    }
+    return caption;
+}
+
+Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
+                      int step) {
+    Caption caption;
+    caption.headlines = step_sentences(sides, recorded.trace, step);
+    caption.detail = tree_title(sides[0].placed.tree().options().tree) + ", leaf " +
+                     std::to_string(sides[0].placed.tree().options().leaf) + kDot + answer_sentence(sides, recorded);
+    const mobb::Outcome outcome = recorded.trace[step].outcome;
+    caption.mark = outcome_style(box_state(outcome), palette).color;
+    return caption;
+}
+
+bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options) {
+    return view.camera.target && !options.framed;
+}
+
+void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%.10g s lies outside %.4g..%.4g s", time, begin, end);
+    caption.detail = caption.detail.empty() ? text : std::string(text) + kDot + caption.detail;
+}
+
+CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {
+    const Sizes sizes(scale);
+    room -= (caption.mark.a > 0 ? sizes.indent : 0) + (caption.panel ? 2 * sizes.padding : 0);
+    CaptionLines out;
+    for (const std::string& headline : caption.headlines) {
+        out.headline = wrap_text(headline, FontFace::text, sizes.headline, room);
+        if (out.headline.size() <= most_headlines) break;
+    }
+    cut(out.headline, most_headlines, sizes.headline, room);
+    out.detail = wrap_text(caption.detail, FontFace::text, sizes.detail, room);
+    cut(out.detail, kMostDetails, sizes.detail, room);
+    return out;
+}
+
+glm::vec2 caption_size(const Caption& caption, const CaptionLines& lines, float scale) {
+    if (lines.headline.empty() && lines.detail.empty()) return glm::vec2(0);
+    const Sizes sizes(scale);
+    const bool marked = caption.mark.a > 0;
+    glm::vec2 size(0);
+    const auto add = [&](const std::string& line, float text_size) {
+        size.x = std::max(size.x, Font::of(FontFace::text).width(line, text_size) + (marked ? sizes.indent : 0));
+        size.y += line_height(FontFace::text, text_size);
+    };
+    for (const std::string& line : lines.headline) add(line, sizes.headline);
+    if (!lines.detail.empty()) size.y += sizes.between;
+    for (const std::string& line : lines.detail) add(line, sizes.detail);
+    if (caption.panel) size = glm::ceil(size) + 2 * sizes.padding;
+    return size;
+}
+
+float add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, float margin, float scale) {
+    if (caption.headlines.empty()) return margin;
+    const Sizes sizes(scale);
+    list.headline = caption.headlines.front();
+    glm::vec2 at(margin);
+    const glm::vec2 size = caption_size(caption, lines, scale);
+    const bool backed = caption.panel && size.x > 0;
+    if (backed) {
+        list.panels.push_back(text_panel({at, at + size}, list.palette, sizes.legend));
+        at += sizes.padding;
+    }
+    if (caption.mark.a > 0 && !lines.headline.empty()) {
+        const float r = 0.3f * sizes.headline;
+        const glm::vec2 middle = at + glm::vec2(r, 0.56f * line_height(FontFace::text, sizes.headline));
+        list.panels.push_back({{middle - r, middle + r}, r, caption.mark, Rgba(0), 0});
+        at.x += sizes.indent;
+    }
+    const auto add = [&](const std::string& line, float text_size, Rgba color) {
+        list.texts.push_back(text_at(line, FontFace::text, text_size, color, at));
+        at.y += line_height(FontFace::text, text_size);
+    };
+    for (const std::string& line : lines.headline) add(line, sizes.headline, list.palette.text);
+    if (!lines.detail.empty()) at.y += sizes.between;
+    for (const std::string& line : lines.detail) add(line, sizes.detail, list.palette.quiet_text);
+    return at.y + (backed ? sizes.padding : 0);
+}
+
+}  // namespace mobbscope

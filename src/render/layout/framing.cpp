@@ -1,0 +1,111 @@
+#include <render/drawlist/draw_list.h>
+#include <render/layout/framing.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+
+namespace mobbscope {
+
+void Bounds::add(glm::dvec3 p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+}
+
+Bounds bounds_of(std::span<const DrawnAgent> agents) {
+    Bounds bounds;
+    for (const DrawnAgent& agent : agents) {
+        const mobb::PlacedClip& clip = agent.clip();
+        for (int i = 0; i < clip.count(); ++i) {
+            const mobb::Disk d = clip.disk(i);
+            bounds.add({d.x - d.r, d.y - d.r, clip.time(i)});
+            bounds.add({d.x + d.r, d.y + d.r, clip.time(i + 1)});
+        }
+    }
+    return bounds;
+}
+
+Bounds with_boxes(Bounds bounds, const DrawList& list) {
+    for (const BoxInstance& box : list.boxes) {
+        for (const glm::vec3& corner : box_corners(box)) {
+            bounds.add({corner.x + list.space.origin.x, corner.y + list.space.origin.y,
+                        corner.z / list.space.time_height + list.space.origin.z});
+        }
+    }
+    return bounds;
+}
+
+DrawnSpace space_for(const Bounds& bounds, const ViewState& view) {
+    DrawnSpace space;
+    const glm::dvec3 extent = bounds.max - bounds.min;
+    space.origin = {0.5 * (bounds.min.x + bounds.max.x), 0.5 * (bounds.min.y + bounds.max.y), bounds.min.z};
+    // A point that stands still has no width to match.
+    const double wide = std::max({extent.x, extent.y, 1e-3});
+    space.time_height = view.time_height > 0 ? view.time_height : wide / extent.z;
+    return space;
+}
+
+std::vector<glm::vec3> points_to_show(const DrawList& list, const FloorExtent& floor_extent, const ViewState& view,
+                                      bool has_cursor) {
+    std::array<glm::vec3, 8> circle;
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+        const double angle = static_cast<double>(i) * std::numbers::pi / 4;
+        circle[i] = glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
+    }
+    std::vector<glm::vec3> out;
+    out.reserve(2 * circle.size() * list.disks.size() + 8 * list.boxes.size() + 9);
+    for (const DiskInstance& disk : list.disks) {
+        for (const glm::vec3& direction : circle) {
+            const glm::vec3 rim = disk.base + disk.radius * direction;
+            out.push_back(rim);
+            out.push_back(rim + glm::vec3(0, 0, disk.height));
+        }
+    }
+    for (const BoxInstance& box : list.boxes) {
+        for (const glm::vec3& corner : box_corners(box)) out.push_back(corner);
+    }
+    const std::vector<glm::vec3> corners = floor_corners(floor_extent, list.space);
+    if (view.floor || has_cursor || out.empty())
+        out.insert(out.end(), corners.begin(), corners.begin() + (has_cursor ? 8 : 4));
+    if (view.time_axis) {
+        const glm::dvec2 foot = axis_corner(floor_extent, glm::vec3(directions(view.camera).right));
+        for (const double t : {floor_extent.t0, floor_extent.t1}) out.push_back(list.space.point(foot.x, foot.y, t));
+    }
+    return out;
+}
+
+Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, const ViewState& view,
+                 const Metrics& metrics) {
+    const glm::vec2 picture(size.width, size.height);
+    const Frame bare{glm::vec2(metrics.pad, std::max(metrics.pad, top)), picture - metrics.pad};
+    if (!view.labels) return bare;
+    Frame frame = bare;
+    const Font& mono = Font::of(FontFace::mono);
+    frame.min.y += 1.8f * metrics.text;  // names over the paths
+    if (view.floor) {
+        const bool floor_seen_level = std::abs(orientation(view.camera).pitch_deg) < 2;
+        frame.max.y -= 1.6f * metrics.small;
+        // Half of what the corner of the floor is labelled with goes beyond it, all of it where that corner is to the
+        // right.
+        frame.max.x -=
+            mono.width("y " + longest_distance(floor_extent) + " m", metrics.small) * (floor_seen_level ? 0.5f : 1.0f);
+    }
+    if (view.time_axis) frame.min.x += mono.width(longest_tick(floor_extent), metrics.small) + metrics.small;
+    // In a tiny picture the scene matters more than its labels, which then stand where they find room.
+    const bool enough = frame.max.x - frame.min.x > 0.5f * picture.x && frame.max.y - frame.min.y > 0.4f * picture.y;
+    return enough ? frame : bare;
+}
+
+ViewProjection projection_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points,
+                              const Frame& frame) {
+    std::optional<glm::vec3> target;
+    if (view.camera.target) target = list.space.from_target(*view.camera.target);
+    return make_projection(view.camera, points, target ? &*target : nullptr, frame, list.size);
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,44 @@
+/// Where the scene goes in the picture: how time becomes height, and what the projection must show.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/metrics.h>
+#include <render/parts/floor_and_axes.h>
+#include <render/query/emphasis.h>
+#include <scene/drawn_agent.h>
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// In (x, y, t).
+struct Bounds {
+    glm::dvec3 min{std::numeric_limits<double>::max()};
+    glm::dvec3 max{std::numeric_limits<double>::lowest()};
+    void add(glm::dvec3 p);
+};
+
+/// Of the paths' disks.
+Bounds bounds_of(std::span<const DrawnAgent> agents);
+
+/// `bounds` with the boxes that are shown.
+Bounds with_boxes(Bounds bounds, const DrawList& list);
+
+/// About as tall as wide, unless the view says how tall.
+DrawnSpace space_for(const Bounds& bounds, const ViewState& view);
+
+/// All that must be inside the picture, as points. Needs the space, disks and boxes.
+std::vector<glm::vec3> points_to_show(const DrawList& list, const FloorExtent& floor_extent, const ViewState& view,
+                                      bool has_cursor);
+
+/// The picture without its margin, what is above `top`, and room for the labels along the scene's outline.
+Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, const ViewState& view,
+                 const Metrics& metrics);
+
+/// A projection that shows the points in a frame, or what the view's camera aims at.
+ViewProjection projection_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points,
+                              const Frame& frame);
+
+}  // namespace mobbscope

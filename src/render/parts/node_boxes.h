@@ -1,0 +1,44 @@
+/// The boxes of a range of levels.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <scene/drawn_agent.h>
+
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// The nodes of `tree` that a range of levels shows: those on its levels and the leaves above the first.
+std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
+
+/// The boxes of those nodes, coloured by their subject or their level; where several levels are shown, finer ones are
+/// fuller and heavier.
+void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
+                     float scale);
+
+/// The colour of a level where boxes are coloured by it: that level's in all pictures of these trees.
+Rgba level_color(int level, std::span<const DrawnAgent> agents, const Palette& palette);
+
+/// Makes boxes of levels finer where they are small in the picture, and fainter where many lie over one another, as
+/// they would bury what is inside. Needs the projection. `scale`: of line widths.
+void refine_crowded_boxes(DrawList& list, float scale);
+
+/// How the boxes of one level look.
+struct LevelStyle {
+    float face = 0;   ///< opacity
+    float edge = 1;   ///< opacity
+    float width = 1;  ///< pixels at scale 1
+};
+LevelStyle level_style(int level, int first, int last);
+
+/// The last level that there is to show in a tree.
+int last_shown_level(const mobb::Tree& tree, const LevelRange& levels);
+
+/// A node's box in world (x, y, w*t), global time. An aabb is wrapped again along the world's x and y.
+mobb::Box world_box(const mobb::PlacedTree& tree, int node);
+
+/// A node's box as it is drawn, with its place in the order and its id; the style is left to the caller.
+BoxInstance node_box(const DrawnAgent& agent, int node, const DrawnSpace& space);
+
+}  // namespace mobbscope

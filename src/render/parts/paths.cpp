@@ -1,0 +1,138 @@
+#include <render/parts/paths.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr float kEarly = 0.24f;  // towards the background at the beginning of a path, so that later disks stand out
+
+Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus& focus, int sample) {
+    if (focus.hit == sample) return palette.hit;
+    const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
+    const float age = 1 - static_cast<float>(sample) / static_cast<float>(agent.clip().count());
+    const float back = kEarly * age;
+    return with_alpha(agent.color, (1 - back) * (in_focus ? 1 : kOutOfFocus) * (focus.behind ? kBehind : 1));
+}
+
+}  // namespace
+
+void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, int together) {
+    const mobb::PlacedClip& clip = agent.clip();
+    const mobb::SampleRange shown = agent.samples();
+    for (int i = shown.first; i < shown.end(); i += together) {
+        const int count = std::min(together, shown.end() - i);
+        const float height = static_cast<float>(count * clip.clip().dt() * list.space.time_height);
+        const mobb::Disk disk = clip.disk(i);
+        DiskInstance instance;
+        instance.base = list.space.point(disk.x, disk.y, clip.time(i));
+        instance.radius = static_cast<float>(disk.r);
+        instance.height = height;
+        instance.color = disk_color(list.palette, agent, focus, i);
+        instance.id = {agent.index, ObjectId::Kind::disk, i};
+        instance.order = {0, 0, (static_cast<std::int64_t>(agent.index) << 32) + i};
+        list.disks.push_back(instance);
+    }
+}
+
+void add_thin_path(DrawList& list, const DrawnAgent& agent, float width) {
+    const mobb::PlacedClip& clip = agent.clip();
+    double widest = 0;
+    for (const mobb::Disk& disk : clip.clip().samples()) widest = std::max(widest, disk.r);
+    const float pixels = list.projection.pixels_per_metre(glm::vec3(0));
+    // 0: the scene's middle lies behind the eye, which therefore is near.
+    if (pixels <= 0 || static_cast<float>(widest) * pixels > 0.7f) return;
+    for (int i = 0; i < clip.count(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        const mobb::Disk next = clip.disk(std::min(i + 1, clip.count() - 1));
+        LineInstance line;
+        line.from = list.space.point(disk.x, disk.y, clip.time(i));
+        line.to = list.space.point(next.x, next.y, clip.time(i + 1));
+        line.color = agent.color;
+        line.width = width;
+        line.order = {0, 2, (static_cast<std::int64_t>(agent.index) << 32) + i};
+        list.lines.push_back(line);
+    }
+}
+
+Rgba floor_trace_color(const DrawnAgent& agent, const Palette& palette) {
+    return with_alpha(agent.color, palette.dark ? 0.5f : 0.7f);
+}
+
+void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange range, float floor, Rgba color,
+                     float width) {
+    if (range.count < 2) return;
+    const mobb::PlacedClip& clip = agent.clip();
+    // Pieces shorter than a pixel or so would only darken one another.
+    const float pixels = list.projection.pixels_per_metre(glm::vec3(0, 0, floor));
+    const float shortest = pixels > 0 ? 1.5f / pixels : 0;
+    const auto on_floor = [&](int i) {
+        const mobb::Disk disk = clip.disk(i);
+        glm::vec3 p = list.space.point(disk.x, disk.y, 0);
+        p.z = floor;
+        return p;
+    };
+    glm::vec3 from = on_floor(range.first);
+    for (int i = range.first + 1; i < range.end(); ++i) {
+        const glm::vec3 to = on_floor(i);
+        if (i + 1 < range.end() && std::hypot(to.x - from.x, to.y - from.y) < shortest) continue;
+        LineInstance line;
+        line.from = from;
+        line.to = to;
+        line.color = color;
+        line.width = width;
+        line.order = {0, 1, (static_cast<std::int64_t>(agent.index) << 32) + i};
+        list.lines.push_back(line);
+        from = to;
+    }
+}
+
+namespace {
+
+struct RingLine {
+    Rgba color;
+    float width;
+    float radius;  ///< in those of the disk
+    int order;     ///< later ones lie above
+    int pieces = 48;
+};
+
+void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingLine& ring) {
+    const mobb::PlacedClip& clip = agent.clip();
+    const mobb::Disk disk = clip.disk(sample);
+    const double radius = disk.r * static_cast<double>(ring.radius);
+    const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
+    const auto point = [&](int i) {
+        const double angle = 2 * std::numbers::pi * i / ring.pieces;
+        return list.space.point(disk.x + radius * std::cos(angle), disk.y + radius * std::sin(angle), time);
+    };
+    for (int i = 0; i < ring.pieces; ++i) {
+        LineInstance line;
+        line.from = point(i);
+        line.to = point(i + 1);
+        line.color = ring.color;
+        line.width = ring.width;
+        line.cap = 0.3f * ring.width;
+        line.hidden = 1;
+        line.order = {10, ring.order, (static_cast<std::int64_t>(agent.index) << 40) + (sample * ring.pieces + i)};
+        list.lines.push_back(line);
+    }
+}
+
+}  // namespace
+
+void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale, int pieces) {
+    add_ring(list, agent, sample, {list.palette.text, 1.6f * scale, 1.04f, 0, pieces});
+}
+
+void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale) {
+    // The ground's colour around it keeps it apart from disks of a like colour.
+    add_ring(list, agent, sample, {list.palette.background, 5.4f * scale, 1.04f, 1});
+    add_ring(list, agent, sample, {list.palette.hit, 3.2f * scale, 1.04f, 2});
+    add_ring(list, agent, sample, {list.palette.hit, 1.4f * scale, 1.4f, 2});
+}
+
+}  // namespace mobbscope

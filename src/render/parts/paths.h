@@ -1,0 +1,43 @@
+/// Paths: a stack of disks growing in time, and its trace on the floor.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <scene/drawn_agent.h>
+
+#include <optional>
+#include <span>
+
+namespace mobbscope {
+
+/// How much of its colour a disk outside the nodes under test keeps.
+inline constexpr float kOutOfFocus = 0.38f;
+
+/// ... and one behind boxes whose colours are to be read.
+inline constexpr float kBehind = 0.5f;
+
+/// Which samples of a path matter now; those outside step back.
+struct PathFocus {
+    std::optional<mobb::SampleRange> range;  ///< none: all
+    std::optional<int> hit;                  ///< a sample that collides
+    bool behind = false;                     ///< the boxes' colours matter more: all disks step back
+};
+
+/// `together`: so many samples are drawn as one disk, which is as high as all of them.
+void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, int together = 1);
+
+/// The line of centres, where the disks are too small to be seen.
+void add_thin_path(DrawList& list, const DrawnAgent& agent, float width);
+
+/// How a path looks on the floor where nothing else is said of it.
+Rgba floor_trace_color(const DrawnAgent& agent, const Palette& palette);
+
+/// The way of the centres of some samples at height `floor` (drawn space). `width`: pixels.
+void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange range, float floor, Rgba color,
+                     float width);
+
+/// The outline of a sample's disk at half its height, seen through everything: one line for what the time cursor
+/// meets, a heavy and a fine one in the colour of hits for what collides.
+void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale, int pieces = 48);
+void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale);
+
+}  // namespace mobbscope

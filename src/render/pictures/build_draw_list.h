@@ -1,0 +1,31 @@
+/// (scene, view state, size) -> draw list: all decisions about a picture, in numbers, without OpenGL.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/metrics.h>
+#include <render/drawlist/picture_options.h>
+#include <scene/fitted_scene.h>
+#include <scene/view_state.h>
+
+#include <optional>
+
+namespace mobbscope {
+
+class MoveSet;          // crowd/simulation/move_set.h
+struct FollowedChoice;  // crowd/simulation/followed.h
+
+/// `scale`: of text and lines, kLeastScale..kMostScale (1 suits 1280x720); 0: what suits the size. Throws
+/// std::invalid_argument, saying what is allowed, if the scale is another, the view names a query or a step that there
+/// is not, or the scene has nothing to draw.
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
+
+/// The same with a background: an opaque one replaces the palette's. The samples are the renderer's. A run is drawn as
+/// fitted_at makes it a scene, with the last choice of the agent that the view follows. For one that is made already
+/// `choice` is that; null: none is drawn.
+DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                         const FollowedChoice* choice = nullptr);
+
+/// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
+std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);
+
+}  // namespace mobbscope

@@ -1,0 +1,348 @@
+#include <explain/query_sentence.h>
+#include <render/layout/caption.h>
+#include <render/parts/paths.h>
+#include <render/pictures/candidates.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr int kCandidateLayer = 6;  // above grid, ways and people
+constexpr float kThrough = 0.75f;   // opacity that is kept behind people
+constexpr float kWayBeyond = 0.4f;  // ... and of a way behind the contact that rules it out
+constexpr std::size_t kMostNamed = 3;
+
+const std::string& agent_name(const Scene& run, int agent) {
+    return run.crowd->agents[static_cast<std::size_t>(agent)].name;
+}
+
+const SceneClip& clip_of_move(const Scene& run, int move) {
+    return run.clips[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(move)].clip)];
+}
+
+/// Draws one choice.
+class Drawer {
+  public:
+    Drawer(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed, const Metrics& metrics)
+        : list_(list), scene_(fitted.scene()), choice_(followed.choice), metrics_(metrics) {}
+
+    std::vector<LabelRequest> draw() {
+        std::vector<std::size_t> shown = shown_candidates(choice_);
+        // What was taken lies above what was free, and that above the rest.
+        std::stable_sort(shown.begin(), shown.end(),
+                         [&](std::size_t a, std::size_t b) { return outcome_of(choice_, a) > outcome_of(choice_, b); });
+        for (const std::size_t candidate : shown) add_way(candidate);
+        std::vector<LabelRequest> labels;
+        for (const auto& [agent, candidate] : first_met(shown)) add_contact(candidate, labels);
+        return labels;
+    }
+
+  private:
+    /// For each agent that rules out, the candidate that it meets first.
+    std::map<int, std::size_t> first_met(const std::vector<std::size_t>& shown) const {
+        std::map<int, std::size_t> out;
+        for (const std::size_t i : shown) {
+            const auto& blocker = choice_.candidates[i].blocker;
+            if (!blocker || outcome_of(choice_, i) == CandidateOutcome::leaves_floor) continue;
+            const auto [at, is_new] = out.try_emplace(blocker->agent, i);
+            if (!is_new && blocker->contact.time < choice_.candidates[at->second].blocker->contact.time) at->second = i;
+        }
+        return out;
+    }
+
+    glm::vec3 point(const mobb::Disk& disk, double time) const {
+        if (!list_.moment) return list_.space.point(disk.x, disk.y, time);
+        return list_.space.point(disk.x, disk.y, 0);
+    }
+
+    void add_line(glm::vec3 from, glm::vec3 to, const CandidateStyle& style, float strength = 1) {
+        LineInstance line;
+        line.from = from;
+        line.to = to;
+        line.color = with_alpha(style.color, style.color.a * strength);
+        line.width = style.width * metrics_.scale;
+        line.dash = style.dash * metrics_.scale;
+        line.hidden = kThrough;
+        line.order = {kCandidateLayer, 0, order_++};
+        list_.lines.push_back(line);
+    }
+
+    void add_way(std::size_t index) {
+        const Candidate& candidate = choice_.candidates[index];
+        const CandidateOutcome outcome = outcome_of(choice_, index);
+        const CandidateStyle style = outcome_style_of(outcome, list_.palette);
+        const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
+        const int contact = outcome == CandidateOutcome::ruled_out ? candidate.blocker->contact.a_sample : way.count();
+        // Pieces as long as a dash and its gap, or the pattern would be cut short.
+        const float pixels = list_.projection.pixels_per_metre(point(way.disk(0), way.time(0)));
+        const float pattern = (style.dash.x + style.dash.y + style.dash.z + style.dash.w) * metrics_.scale;
+        const float shortest = pixels > 0 ? std::max(pattern, 2 * metrics_.scale) / pixels : 0;
+        glm::vec3 from = point(way.disk(0), way.time(0));
+        for (int i = 1; i < way.count(); ++i) {
+            const glm::vec3 to = point(way.disk(i), way.time(i));
+            if (i != contact && i + 1 < way.count() && glm::length(to - from) < shortest) continue;
+            add_line(from, to, style, i <= contact ? 1 : kWayBeyond);
+            from = to;
+        }
+        if (outcome != CandidateOutcome::ruled_out) add_end(from, style, outcome == CandidateOutcome::taken);
+    }
+
+    /// Where a way ends that could be walked.
+    void add_end(glm::vec3 at, const CandidateStyle& style, bool large) {
+        const float pixels = list_.projection.pixels_per_metre(at);
+        if (pixels <= 0) return;
+        add_ring(at, (large ? 4.5f : 3) * metrics_.scale / pixels, {style.color, kSolid, style.width}, 12, true);
+    }
+
+    void add_ring(glm::vec3 middle, float radius, const CandidateStyle& style, int pieces, bool facing) {
+        const glm::vec3 right = facing ? list_.projection.right : glm::vec3(1, 0, 0);
+        const glm::vec3 up = facing ? list_.projection.up : glm::vec3(0, 1, 0);
+        const auto at = [&](int i) {
+            const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(pieces);
+            return middle + radius * (std::cos(angle) * right + std::sin(angle) * up);
+        };
+        for (int i = 0; i < pieces; ++i) add_line(at(i), at(i + 1), style);
+    }
+
+    void add_contact(std::size_t index, std::vector<LabelRequest>& labels) {
+        const Candidate& candidate = choice_.candidates[index];
+        const Blocker& blocker = *candidate.blocker;
+        const mobb::Contact& contact = blocker.contact;
+        const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
+        const Play& play =
+            scene_.crowd->agents[static_cast<std::size_t>(blocker.agent)].plays[static_cast<std::size_t>(blocker.play)];
+        const mobb::PlacedClip other(*clip_of_move(scene_, play.move).clip, play.placement);
+        const mobb::Disk a = way.disk(contact.a_sample);
+        const mobb::Disk b = other.disk(contact.b_sample);
+        const CandidateStyle style = outcome_style_of(CandidateOutcome::ruled_out, list_.palette);
+        const CandidateStyle outline{style.color, kSolid, 1.2f};
+        constexpr int kPieces = 32;
+        add_ring(point(a, contact.time), static_cast<float>(a.r), outline, kPieces, false);
+        PlacedAgent who;
+        who.agent = blocker.agent;
+        const Rgba whose = agent_color(scene_, who, blocker.agent);
+        add_ring(point(b, contact.time), static_cast<float>(b.r), {outlining(whose, list_.palette), kSolid, 1.2f},
+                 kPieces, false);
+        // Where they touch first.
+        const glm::dvec2 between(b.x - a.x, b.y - a.y);
+        const double length = glm::length(between);
+        const double share = length > 0 ? std::min(1.0, a.r / length) : 0;
+        const glm::vec3 cross = point({a.x + share * between.x, a.y + share * between.y, 0}, contact.time);
+        const float pixels = list_.projection.pixels_per_metre(cross);
+        if (pixels <= 0) return;
+        const float arm = 4.5f * metrics_.scale / pixels;
+        const CandidateStyle mark{style.color, kSolid, 2.4f};
+        for (const float side : {-1.0f, 1.0f}) {
+            const glm::vec3 way_of_arm = arm * (list_.projection.right + side * list_.projection.up);
+            add_line(cross - way_of_arm, cross + way_of_arm, mark);
+        }
+        const auto anchor = list_.projection.project(cross);
+        if (!anchor) return;
+        LabelRequest label;
+        label.text = agent_name(scene_, blocker.agent);
+        label.size = metrics_.text;
+        label.color = readable(whose, list_.palette);
+        label.border = style.color;
+        label.anchor = *anchor;
+        label.directions = {{1, -0.6f}, {-1, -0.6f}, {1, 0.6f}, {-1, 0.6f}, {0, -1}, {0, 1}};
+        label.distance = 1.6f * metrics_.text;
+        label.pill = true;
+        labels.push_back(std::move(label));
+    }
+
+    DrawList& list_;
+    const Scene& scene_;
+    const Choice& choice_;
+    const Metrics& metrics_;
+    std::int64_t order_ = 0;
+};
+
+}  // namespace
+
+CandidateOutcome outcome_of(const Choice& choice, std::size_t candidate) {
+    if (candidate == choice.taken) return CandidateOutcome::taken;
+    const Candidate& asked = choice.candidates[candidate];
+    if (asked.leaves_floor) return CandidateOutcome::leaves_floor;
+    if (asked.blocker) return CandidateOutcome::ruled_out;
+    return asked.in_the_way ? CandidateOutcome::in_the_way : CandidateOutcome::free;
+}
+
+CandidateStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette) {
+    switch (outcome) {
+        case CandidateOutcome::taken:
+            return {palette.text, kSolid, 3};
+        case CandidateOutcome::free:
+            return {palette.separated, kSolid, 1.6f};
+        case CandidateOutcome::in_the_way:
+            return {palette.overlap, {10, 3, 2, 3}, 1.5f};
+        case CandidateOutcome::leaves_floor:
+            return {palette.apart_in_time, {1.5f, 4, 1.5f, 4}, 1.4f};
+        case CandidateOutcome::ruled_out:
+            break;
+    }
+    return {palette.hit, {7, 4, 7, 4}, 1.6f};
+}
+
+std::string_view outcome_words(CandidateOutcome outcome) {
+    constexpr std::array<std::string_view, 5> kWords{"taken", "free", "in the way", "leaves the floor", "ruled out"};
+    return kWords[static_cast<std::size_t>(outcome)];
+}
+
+std::vector<std::size_t> shown_candidates(const Choice& choice) {
+    const double taken = choice.candidates[choice.taken].turn_deg;
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+        const double turn = choice.candidates[i].turn_deg;
+        if (turn == 0 || turn == taken) out.push_back(i);
+    }
+    return out;
+}
+
+std::string candidate_sentence(const Scene& run, const Choice& choice, std::size_t candidate) {
+    const Candidate& asked = choice.candidates[candidate];
+    std::string text = clip_of_move(run, asked.move).name;
+    if (asked.turn_deg != 0) {
+        char turn[48];
+        std::snprintf(turn, sizeof turn, ", turned by %.0f\u00B0", asked.turn_deg);
+        text += turn;
+    }
+    text += ": ";
+    const auto meets = [&] {
+        return "meets " + agent_name(run, asked.blocker->agent) + at_time(asked.blocker->contact.time);
+    };
+    const CandidateOutcome outcome = outcome_of(choice, candidate);
+    if (outcome == CandidateOutcome::ruled_out) return text + meets();
+    text += outcome_words(outcome);
+    if (outcome == CandidateOutcome::taken && asked.blocker) text += ", though it " + meets();
+    return text;
+}
+
+std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
+    const Choice& choice = followed.choice;
+    int free = 0;
+    int in_the_way = 0;
+    int off_floor = 0;
+    int ruled_out = 0;
+    std::set<int> rulers;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+        const Candidate& candidate = choice.candidates[i];
+        if (candidate.leaves_floor) {
+            ++off_floor;
+        } else if (!candidate.blocker) {
+            ++(candidate.in_the_way ? in_the_way : free);
+        } else {
+            ++ruled_out;
+            rulers.insert(candidate.blocker->agent);
+        }
+    }
+    const std::string count = std::to_string(choice.candidates.size());
+    const bool one = choice.candidates.size() == 1;
+    std::string text = agent_name(run, followed.agent);
+    std::string between = ": ";
+    const auto add = [&](int number, const std::string& outcome) {
+        text += between + std::to_string(number) + ' ' + outcome;
+        between = "; ";
+    };
+    if (choice.kind == PlayKind::forced) {
+        text += " was forced" + at_time(choice.time) + ", as " +
+                (one ? "its only move was not free" : "none of its " + count + " moves was free");
+    } else {
+        text += " chose among " + count + (one ? " move" : " moves") + at_time(choice.time);
+        add(free, "free");
+    }
+    if (ruled_out > 0) {
+        std::string names;
+        std::size_t named = 0;
+        for (const int ruler : rulers) {
+            if (named == kMostNamed) break;
+            names += (named++ > 0 ? ", " : "") + agent_name(run, ruler);
+        }
+        if (rulers.size() > named) names += " and " + std::to_string(rulers.size() - named) + " more";
+        add(ruled_out, "ruled out by " + names);
+    }
+    if (in_the_way > 0) add(in_the_way, "in the way of others");
+    if (off_floor > 0) add(off_floor, off_floor == 1 ? "leaves the floor" : "leave the floor");
+    return text;
+}
+
+std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
+                                         const Metrics& metrics) {
+    return Drawer(list, fitted, followed, metrics).draw();
+}
+
+std::vector<LabelRequest> add_followed(DrawList& list, std::span<const DrawnAgent> paths, int run_agent, double time,
+                                       double height, const Metrics& metrics) {
+    for (const DrawnAgent& path : paths) {
+        const std::optional<int> sample = path.run_agent == run_agent ? sample_at(path, time) : std::nullopt;
+        if (!sample) continue;
+        const mobb::Disk disk = path.clip().disk(*sample);
+        const double level = list.moment ? 0 : time;
+        constexpr int kPieces = 48;
+        std::int64_t order = 0;
+        for (const auto& [radius, width] : {std::pair(1.25, 2.2f), std::pair(1.5, 1.2f)}) {
+            const auto at = [&, r = radius * disk.r](int i) {
+                const double angle = 2 * std::numbers::pi * i / kPieces;
+                return list.space.point(disk.x + r * std::cos(angle), disk.y + r * std::sin(angle), level);
+            };
+            for (int i = 0; i < kPieces; ++i) {
+                LineInstance line;
+                line.from = at(i);
+                line.to = at(i + 1);
+                line.color = list.palette.accent;
+                line.width = width * metrics.scale;
+                line.cap = 0.3f * line.width;
+                line.hidden = kThrough;
+                line.order = {kCandidateLayer, 1, order++};
+                list.lines.push_back(line);
+            }
+        }
+        const glm::vec3 top = list.space.point(disk.x, disk.y, list.moment ? height : time);
+        const auto anchor = list.projection.project(top);
+        if (!anchor) return {};
+        LabelRequest label;
+        label.text = path.label;
+        label.size = metrics.text;
+        label.color = readable(path.color, list.palette);
+        label.border = list.palette.accent;
+        label.anchor = *anchor;
+        label.directions = {{0, -1}, {-1, -1}, {1, -1}, {-1, 0}, {1, 0}};
+        label.distance = 1.8f * metrics.text;
+        label.pill = true;
+        return {label};
+    }
+    return {};
+}
+
+std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice) {
+    std::vector<LegendEntry> out;
+    for (const CandidateOutcome outcome :
+         {CandidateOutcome::taken, CandidateOutcome::free, CandidateOutcome::in_the_way, CandidateOutcome::ruled_out,
+          CandidateOutcome::leaves_floor}) {
+        bool any = false;
+        for (const std::size_t i : shown_candidates(choice)) any = any || outcome_of(choice, i) == outcome;
+        if (!any) continue;
+        const CandidateStyle style = outcome_style_of(outcome, palette);
+        LegendEntry entry;
+        entry.color = style.color;
+        entry.dash = style.dash;
+        entry.width = style.width;
+        entry.text = std::string(outcome_words(outcome));
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,56 @@
+/// The moves that an agent could choose, as ways, and what became of each.
+#pragma once
+
+#include <crowd/simulation/choice.h>
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/metrics.h>
+#include <render/text/label_layout.h>
+#include <scene/drawn_agent.h>
+#include <scene/fitted_scene.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+/// What became of a candidate.
+enum class CandidateOutcome { taken, free, in_the_way, leaves_floor, ruled_out };
+CandidateOutcome outcome_of(const Choice& choice, std::size_t candidate);
+
+/// How its way is drawn: each outcome has a colour and a line of its own.
+struct CandidateStyle {
+    Rgba color;
+    Dash dash;
+    float width = 1;  ///< pixels at scale 1
+};
+CandidateStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette);
+
+/// "taken", "free", "in the way", "leaves the floor", "ruled out".
+std::string_view outcome_words(CandidateOutcome outcome);
+
+/// Those that are drawn: straight on, and turned as the one that was taken.
+std::vector<std::size_t> shown_candidates(const Choice& choice);
+
+/// "turn_left: meets 42 at 13.42 s", and why others are not taken.
+std::string candidate_sentence(const Scene& run, const Choice& choice, std::size_t candidate);
+
+/// "17 chose among 24 moves at 12.87 s: 6 free; 15 ruled out by 42, 77; 3 leave the floor". Of a forced play "17 was
+/// forced at 12.87 s, as none of its 24 moves was free: 21 ruled out by 42; 3 leave the floor".
+std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
+
+/// Adds the ways: at a moment on the floor, in space-time upwards. Where one is ruled out, the two disks that meet are
+/// outlined, with a cross between them; the returned labels name the agents that rule out, each once.
+std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
+                                         const Metrics& metrics);
+
+/// Two rings around a person's disk at a time, on the floor or in space-time; the returned label has the name, above a
+/// body that is so high.
+std::vector<LabelRequest> add_followed(DrawList& list, std::span<const DrawnAgent> paths, int run_agent, double time,
+                                       double height, const Metrics& metrics);
+
+/// A line for each outcome among them.
+std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice);
+
+}  // namespace mobbscope

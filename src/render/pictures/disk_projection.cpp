@@ -1,0 +1,385 @@
+#include <base/text.h>
+#include <explain/query_sentence.h>
+#include <render/layout/caption.h>
+#include <render/layout/framing.h>
+#include <render/layout/legend.h>
+#include <render/layout/text_budget.h>
+#include <render/parts/node_boxes.h>
+#include <render/pictures/disk_projection.h>
+#include <render/text/label_layout.h>
+#include <scene/view_state.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr int kCirclePieces = 64;
+constexpr double kAxisBeyond = 0.35;  // of the radius: how far axes go beyond what is marked on them
+constexpr double kAside = 0.16;       // ... and perpendiculars, and how far the height stands beside the disk
+
+const DrawnAgent& checked(std::span<const DrawnAgent> agents, const DiskProjection& projection) {
+    if (projection.participant < 0 || static_cast<std::size_t>(projection.participant) >= agents.size()) {
+        throw ViewMismatch("projection", "there is no participant " + std::to_string(projection.participant) + ": " +
+                                             std::to_string(agents.size()) + (agents.size() == 1 ? " is" : " are") +
+                                             " drawn, counted from 0");
+    }
+    const DrawnAgent& agent = agents[static_cast<std::size_t>(projection.participant)];
+    const auto nodes = agent.placed.tree().nodes();
+    if (projection.node < 0 || static_cast<std::size_t>(projection.node) >= nodes.size()) {
+        throw ViewMismatch("projection", "there is no node " + std::to_string(projection.node) + " in the tree of " +
+                                             in_quotes(agent.name) + ": it has " + std::to_string(nodes.size()) +
+                                             ", counted from 0");
+    }
+    const mobb::Node& node = agent.placed.node(projection.node);
+    if (projection.sample < node.first || projection.sample >= node.end()) {
+        throw ViewMismatch("projection", "there is no sample " + std::to_string(projection.sample) + " in node " +
+                                             std::to_string(projection.node) + " of " + in_quotes(agent.name) +
+                                             ": it has those from " + std::to_string(node.first) + " to " +
+                                             std::to_string(node.end() - 1));
+    }
+    return agent;
+}
+
+/// "a₀".
+std::string axis_name(const char* word, int axis) {
+    const char* const subscripts[] = {"\u2080", "\u2081", "\u2082"};
+    return std::string(word) + subscripts[axis];
+}
+
+/// The drawing, on top of the disk and never hidden by it.
+class Diagram {
+  public:
+    Diagram(DrawList& list, const DiskExtents& extents, double time_scale, float scale)
+        : list_(list), extents_(extents), time_scale_(time_scale), scale_(scale) {}
+
+    /// A place given from the centre of the base, in (x, y, w*t), as it is drawn.
+    glm::vec3 at(glm::dvec3 from_base) const {
+        const glm::dvec3 p = extents_.base + from_base;
+        return list_.space.point(p.x, p.y, p.z / time_scale_);
+    }
+    void line(glm::dvec3 from, glm::dvec3 to, Rgba color, float width, Dash dash = kSolid) {
+        add(at(from), at(to), color, width, dash);
+    }
+    /// A line with a head at its end; needs the projection.
+    void arrow(glm::dvec3 from, glm::dvec3 to, Rgba color, float width) {
+        line(from, to, color, width);
+        const glm::vec3 tip = at(to);
+        const glm::vec3 way = tip - at(from);
+        const glm::vec3 seen = way - list_.projection.back * glm::dot(way, list_.projection.back);
+        const float pixels = list_.projection.pixels_per_metre(tip);
+        if (pixels <= 0 || glm::length(seen) * pixels < 1) return;
+        const glm::vec3 along = glm::normalize(seen) * (7 * scale_ / pixels);
+        const glm::vec3 across = 0.45f * glm::cross(list_.projection.back, along);
+        add(tip, tip - along + across, color, width, kSolid);
+        add(tip, tip - along - across, color, width, kSolid);
+    }
+    void circle(glm::dvec3 middle, Rgba color, float width) {
+        const auto rim = [&](int i) {
+            const double angle = 2 * std::numbers::pi * i / kCirclePieces;
+            return middle + extents_.radius * glm::dvec3(std::cos(angle), std::sin(angle), 0);
+        };
+        for (int i = 0; i < kCirclePieces; ++i) line(rim(i), rim(i + 1), color, width);
+    }
+    /// The way in the picture from a place outwards, unit; upwards where none is seen.
+    glm::vec2 seen_way(glm::dvec3 place, glm::dvec3 outward) const {
+        // A short step, as what is far outside may lie behind the eye.
+        const auto from = list_.projection.project(at(place));
+        const auto to = list_.projection.project(at(place + 0.1 * extents_.radius * outward));
+        const glm::vec2 way = from && to ? *to - *from : glm::vec2(0);
+        return glm::length(way) > 1e-3f ? glm::normalize(way) : glm::vec2(0, -1);
+    }
+    void dot(glm::dvec3 place, Rgba color, float radius) {
+        const auto middle = list_.projection.project(at(place));
+        if (!middle) return;
+        const float r = radius * scale_;
+        list_.marks.push_back({{*middle - r, *middle + r}, r, color, list_.palette.background, 0.5f * scale_});
+    }
+
+  private:
+    void add(glm::vec3 from, glm::vec3 to, Rgba color, float width, Dash dash) {
+        LineInstance out;
+        out.from = from;
+        out.to = to;
+        out.color = color;
+        out.width = width * scale_;
+        out.dash = dash * scale_;
+        out.hidden = 1;
+        out.cap = dash == kSolid ? 0.3f * out.width : 0;
+        out.order = {9, 0, static_cast<std::int64_t>(list_.lines.size())};
+        list_.lines.push_back(out);
+    }
+
+    DrawList& list_;
+    const DiskExtents& extents_;
+    double time_scale_;
+    float scale_;
+};
+
+glm::dvec3 axis_begin(const AxisExtent& axis, double radius) {
+    return axis.direction * (axis.min - kAxisBeyond * radius);
+}
+glm::dvec3 axis_end(const AxisExtent& axis, double radius) {
+    return axis.direction * (axis.max + kAxisBeyond * radius);
+}
+
+/// Where the height is marked: left of the disk, its middle.
+glm::dvec3 beside_disk(const DiskExtents& extents) {
+    return -(1 + 1.6 * kAside) * extents.radius * extents.heading + glm::dvec3(0, 0, 0.5 * extents.height);
+}
+
+/// From the mark on the axis to the disk's corner and a little beyond both; along the other axis where the two are one
+/// point.
+struct Perpendicular {
+    glm::dvec3 from{0};
+    glm::dvec3 to{0};
+};
+Perpendicular perpendicular(const AxisExtent& axis, double value, glm::dvec3 corner, glm::dvec3 other, double radius) {
+    const glm::dvec3 mark = axis.direction * value;
+    const glm::dvec3 way = corner - mark;
+    const glm::dvec3 unit = glm::length(way) > 1e-9 * radius ? glm::normalize(way) : other;
+    return {mark - kAside * radius * unit, corner + kAside * radius * unit};
+}
+
+std::vector<glm::vec3> projected_points(const Diagram& diagram, const DiskExtents& extents) {
+    std::vector<glm::vec3> out;
+    for (int i = 0; i < 16; ++i) {
+        const double angle = i * std::numbers::pi / 8;
+        const glm::dvec3 rim = extents.radius * glm::dvec3(std::cos(angle), std::sin(angle), 0);
+        out.push_back(diagram.at(rim));
+        out.push_back(diagram.at(rim + glm::dvec3(0, 0, extents.height)));
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+        const AxisExtent& axis = extents.along[i];
+        out.push_back(diagram.at(axis_begin(axis, extents.radius)));
+        out.push_back(diagram.at(axis_end(axis, extents.radius)));
+        const glm::dvec3 other = extents.along[1 - i].direction;
+        for (const auto& [value, corner] : {std::pair(axis.min, axis.min_corner), {axis.max, axis.max_corner}}) {
+            out.push_back(diagram.at(perpendicular(axis, value, corner, other, extents.radius).from));
+        }
+    }
+    out.push_back(diagram.at(beside_disk(extents)));
+    return out;
+}
+
+void draw(Diagram& diagram, const DiskExtents& extents, const ViewProjection& projection, const Palette& palette,
+          Rgba disk) {
+    const glm::dvec3 r = extents.radius * extents.heading;
+    const glm::dvec3 height(0, 0, extents.height);
+    const Rgba rim = outlining(disk, palette);
+    if (!floor_on_edge(projection)) {
+        diagram.circle(glm::dvec3(0), rim, 1.2f);
+        diagram.circle(height, rim, 1.2f);
+    }
+    // The upright section through p that the radius vector lies in.
+    const glm::dvec3 section[] = {-r, r, r + height, -r + height};
+    for (std::size_t i = 0; i < 4; ++i) diagram.line(section[i], section[(i + 1) % 4], rim, 1.2f);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const AxisExtent& axis = extents.along[i];
+        const glm::dvec3 other = extents.along[1 - i].direction;
+        diagram.line(axis.direction * axis.min, axis.direction * axis.max, with_alpha(palette.accent, 0.45f), 5);
+        diagram.arrow(axis_begin(axis, extents.radius), axis_end(axis, extents.radius), palette.text, 1.4f);
+        for (const auto& [value, corner] : {std::pair(axis.min, axis.min_corner), {axis.max, axis.max_corner}}) {
+            const Perpendicular line = perpendicular(axis, value, corner, other, extents.radius);
+            diagram.line(line.from, line.to, palette.accent, 1.4f, {5, 3, 5, 3});
+            diagram.dot(axis.direction * value, palette.accent, 3.4f);
+        }
+    }
+    diagram.arrow(glm::dvec3(0), r, palette.text, 2.2f);
+    if (!time_on_end(projection)) {
+        const glm::dvec3 beside = beside_disk(extents);
+        const glm::dvec3 serif = 0.5 * kAside * extents.radius * extents.heading;
+        diagram.line(beside - 0.5 * height, beside + 0.5 * height, palette.text, 1.2f);
+        for (const double end : {-0.5, 0.5}) {
+            diagram.line(beside + end * height - serif, beside + end * height + serif, palette.text, 1.2f);
+        }
+    }
+    diagram.dot(glm::dvec3(0), palette.text, 3.6f);
+}
+
+/// Whether something of the drawing would lie behind a rectangle.
+bool covers_lines(const Rect& rect, const DrawList& list) {
+    return std::any_of(list.lines.begin(), list.lines.end(), [&](const LineInstance& line) {
+        constexpr int kPieces = 24;
+        for (int i = 0; i <= kPieces; ++i) {
+            const auto at = list.projection.project(glm::mix(line.from, line.to, static_cast<float>(i) / kPieces));
+            if (at && Rect{*at, *at}.grown(0.5f).overlaps(rect)) return true;
+        }
+        return false;
+    });
+}
+
+std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palette, Rgba disk, int sample, double dt) {
+    std::vector<LegendEntry> out;
+    const auto add = [&](LegendEntry::Mark mark, Rgba color, std::string text) {
+        LegendEntry entry;
+        entry.mark = mark;
+        entry.color = color;
+        entry.text = std::move(text);
+        out.push_back(std::move(entry));
+    };
+    add(LegendEntry::Mark::disk, disk,
+        "sample " + std::to_string(sample) + ": r " + with_unit(extents.radius, "m") + ", dt " + with_unit(dt, "s"));
+    for (const AxisExtent& axis : extents.along) {
+        add(LegendEntry::Mark::line, palette.accent,
+            axis_name("min", axis.axis) + " \u2212" + with_unit(-axis.min, "m") + ", " + axis_name("max", axis.axis) +
+                ' ' + with_unit(axis.max, "m"));
+        out.back().width = 5;
+    }
+    add(LegendEntry::Mark::remark, Rgba(0), "lengths along the axes, from p");
+    return out;
+}
+
+/// Beside a place, on the side that `outward` leads to (unit).
+void add_label(DrawList& list, LabelLayout& layout, const Diagram& diagram, glm::dvec3 place, glm::dvec3 outward,
+               const std::string& text, Rgba color, float size) {
+    const auto anchor = list.projection.project(diagram.at(place));
+    if (!anchor) return;
+    LabelRequest label;
+    label.text = text;
+    label.size = size;
+    label.color = color;
+    label.anchor = *anchor;
+    const glm::vec2 away = diagram.seen_way(place, outward);
+    const glm::vec2 aside(-away.y, away.x);
+    label.directions = {away, away + aside, away - aside, aside, -aside, -away};
+    label.distance = 0.3f * size;
+    layout.place(label, list);
+}
+
+void add_labels(DrawList& list, LabelLayout& layout, const Diagram& diagram, const DiskExtents& extents,
+                float text_size) {
+    const float size = 1.15f * text_size;
+    const Rgba plain = list.palette.text;
+    const Rgba marked = readable(list.palette.accent, list.palette);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const AxisExtent& axis = extents.along[i];
+        const glm::dvec3 other = extents.along[1 - i].direction;
+        add_label(list, layout, diagram, axis_end(axis, extents.radius), axis.direction, axis_name("a", axis.axis),
+                  plain, size);
+        const auto mark = [&](const char* word, double value, glm::dvec3 corner) {
+            // Beyond the end of the perpendicular, clear of the disk.
+            const Perpendicular line = perpendicular(axis, value, corner, other, extents.radius);
+            add_label(list, layout, diagram, line.from, glm::normalize(line.from - line.to), axis_name(word, axis.axis),
+                      marked, size);
+        };
+        mark("min", axis.min, axis.min_corner);
+        mark("max", axis.max, axis.max_corner);
+    }
+    const glm::dvec3 down(0, 0, -1);
+    add_label(list, layout, diagram, glm::dvec3(0), down, "p", plain, size);
+    add_label(list, layout, diagram, 0.6 * extents.radius * extents.heading, down, "r", plain, size);
+    if (!time_on_end(list.projection)) {
+        add_label(list, layout, diagram, beside_disk(extents), -extents.heading, "dt", plain, size);
+    }
+}
+
+}  // namespace
+
+DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample) {
+    const mobb::Box box = world_box(agent.placed, node);
+    const mobb::PlacedClip& clip = agent.clip();
+    const mobb::Disk disk = clip.disk(sample);
+    const double w = agent.placed.time_scale();
+    DiskExtents out;
+    out.base = {disk.x, disk.y, w * clip.time(sample)};
+    out.radius = disk.r;
+    out.height = w * clip.clip().dt();
+    const auto on_floor = [](glm::dvec3 v) {
+        const glm::dvec3 flat(v.x, v.y, 0);
+        const double length = glm::length(flat);
+        return length > 1e-12 ? flat / length : glm::dvec3(0);
+    };
+    out.heading = on_floor(box.axes[0]);
+    const std::array<int, 2> axes = box.kind == mobb::BoxKind::obb3d ? std::array{0, 2} : std::array{0, 1};
+    for (std::size_t i = 0; i < 2; ++i) {
+        AxisExtent& axis = out.along[i];
+        axis.axis = axes[i];
+        axis.direction = box.axes[static_cast<std::size_t>(axes[i])];
+        const glm::dvec3 rim = out.radius * on_floor(axis.direction);
+        const glm::dvec3 rise(0, 0, out.height);
+        // The height lies on the side that the axis leans to (Fig. 6; its signs hold for one orientation only).
+        const bool upwards = axis.direction.z > 0;
+        axis.min_corner = -rim + (upwards ? glm::dvec3(0) : rise);
+        axis.max_corner = rim + (upwards ? rise : glm::dvec3(0));
+        axis.min = glm::dot(axis.min_corner, axis.direction);
+        axis.max = glm::dot(axis.max_corner, axis.direction);
+    }
+    return out;
+}
+
+void add_disk_projection(DrawList& list, std::span<const DrawnAgent> agents, const DiskProjection& projection,
+                         const ViewState& view, const PictureOptions& options) {
+    const Metrics metrics = metrics_of(list.size, options.scale);
+    const DrawnAgent& agent = checked(agents, projection);
+    const double w = agent.placed.time_scale();
+    const double dt = agent.clip().clip().dt();
+    const DiskExtents extents = disk_extents(agent, projection.node, projection.sample);
+    list.space.origin = {extents.base.x, extents.base.y, extents.base.z / w};
+    list.space.time_height = view.time_height > 0 ? view.time_height : w;
+
+    DiskInstance disk;
+    disk.radius = static_cast<float>(extents.radius);
+    disk.height = static_cast<float>(dt * list.space.time_height);
+    disk.color = with_alpha(agent.color, 0.5f);
+    disk.id = {agent.index, ObjectId::Kind::disk, projection.sample};
+    if (view.disks) list.disks.push_back(disk);
+
+    float top = metrics.pad;
+    if (view.labels) {
+        Caption caption;
+        if (view.caption) {
+            const std::string who = "how far sample " + std::to_string(projection.sample) + " reaches";
+            caption.headlines = {who + " along the axes of " + node_name(agent, projection.node), who};
+        }
+        std::vector<LegendEntry> entries;
+        if (view.legend) entries = legend(extents, list.palette, agent.color, projection.sample, dt);
+        caption.panel = scene_may_lie_behind(view, options);
+        TextBudget words = fit_to_budget(caption, std::move(entries), glm::vec2(0), list.size, metrics);
+        list.legend = std::move(words.legend);
+        top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
+    }
+    LabelLayout layout(list);
+
+    Frame frame{glm::vec2(metrics.pad, top), glm::vec2(list.size.width, list.size.height) - metrics.pad};
+    if (view.labels) {
+        // Names stand beyond the ends of the axes and of the perpendiculars.
+        frame.min += glm::vec2(3, 1.7f) * metrics.text;
+        frame.max -= glm::vec2(3, 1.7f) * metrics.text;
+    }
+    Diagram diagram(list, extents, w, metrics.scale);
+    const auto draw_within = [&](const Frame& within) {
+        list.lines.clear();
+        list.marks.clear();
+        list.projection = projection_for(list, view, projected_points(diagram, extents), within);
+        list.frame = within;
+        draw(diagram, extents, list.projection, list.palette, agent.color);
+    };
+    draw_within(frame);
+    if (!list.legend.empty()) {
+        const glm::vec2 block = legend_size(list.legend, metrics.small);
+        const glm::vec2 corner(metrics.pad, static_cast<float>(list.size.height) - metrics.pad - block.y);
+        const Rect place{corner, corner + block};
+        if (covers_lines(place.grown(metrics.text), list)) {
+            // Beside or above the legend, wherever more is left.
+            const glm::vec2 left = frame.max - frame.min - block;
+            if (left.x > left.y) {
+                frame.min.x += block.x;
+            } else {
+                frame.max.y -= block.y;
+            }
+            draw_within(frame);
+        }
+        add_legend(list, corner, metrics.small);
+        layout.reserve(place);
+    }
+    if (view.labels) add_labels(list, layout, diagram, extents, metrics.text);
+}
+
+}  // namespace mobbscope

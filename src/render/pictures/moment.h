@@ -1,0 +1,54 @@
+/// Who is on the floor at one moment, in numbers: what the picture of it draws and says.
+#pragma once
+
+#include <scene/drawn_agent.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// The joint whose distance from the root makes the disk as large as it is.
+struct FarthestJoint {
+    int joint = 0;        ///< of the skeleton
+    double distance = 0;  ///< metres on the floor from the centre of the disk
+};
+
+/// Somebody who stands there then.
+struct Body {
+    int agent = 0;                          ///< index into the subjects
+    int sample = 0;                         ///< that holds then
+    mobb::Disk disk;                        ///< that sample in the world
+    double height = 0;                      ///< metres, of the cylinder
+    std::optional<FarthestJoint> farthest;  ///< none without a skeleton, and of more than two
+    bool overlaps = false;                  ///< with any other
+};
+
+/// Whether that joint lies on the cylinder's wall: it does unless the clip was given a radius of its own.
+bool sets_radius(const Body& body);
+
+/// Two of them.
+struct BodyPair {
+    int a = 0, b = 0;      ///< indices into Moment::bodies, a < b
+    double clearance = 0;  ///< metres between their disks; < 0: how deep they overlap
+};
+
+struct Moment {
+    double time = 0;  ///< global seconds
+    std::vector<Body> bodies;
+    std::vector<BodyPair> overlaps;   ///< all pairs whose samples collide (mobb/predicate.h)
+    std::optional<BodyPair> nearest;  ///< if no pair overlaps: the one with the least clearance
+};
+
+/// `heights`: of the subjects' cylinders, one for each.
+Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> heights, double time);
+
+/// How tall the subjects' cylinders are, metres: a little more than the highest joint of the whole clip, so that they
+/// keep their height while people walk.
+std::vector<double> cylinder_heights(std::span<const DrawnAgent> agents);
+
+/// A joint of a sample in the world: x, y and the height in metres. Requires a skeleton.
+glm::dvec3 joint_place(const DrawnAgent& agent, int sample, int joint);
+
+}  // namespace mobbscope

@@ -1,0 +1,135 @@
+#include <explain/query_progress.h>
+#include <render/parts/node_boxes.h>
+#include <render/query/query_boxes.h>
+
+#include <algorithm>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr float kForgotten = 24;  // steps until an earlier pair is as faint as it gets
+
+/// The farther from the pair under test, in the tree or in steps, the fainter.
+float strength(const NodeProgress& node, int step) {
+    if (node.open) return node.outcome == mobb::Outcome::hit ? 0.4f : 0.32f;
+    const float age = std::min(1.0f, static_cast<float>(step - node.event) / kForgotten);
+    return (node.refined ? 0.16f : 0.45f) * (1 - 0.7f * age);
+}
+
+// Pixels at scale 1.
+constexpr float kIntervalBar = 5;
+constexpr float kFirst = 9;  // from the axis to the middle of A's bar: clear of the ticks
+constexpr float kNext = 8;   // from there to B's
+
+}  // namespace
+
+BoxState box_state(mobb::Outcome outcome) {
+    switch (outcome) {
+        case mobb::Outcome::disjoint_in_time:
+            return BoxState::apart_in_time;
+        case mobb::Outcome::separated:
+            return BoxState::separated;
+        case mobb::Outcome::hit:
+            return BoxState::hit;
+        case mobb::Outcome::overlap:
+        case mobb::Outcome::no_hit:
+            break;
+    }
+    return BoxState::overlap;
+}
+
+OutcomeStyle outcome_style(BoxState state, const Palette& palette) {
+    switch (state) {
+        case BoxState::apart_in_time:
+            return {palette.apart_in_time, {4, 4, 4, 4}, 1.0f};
+        case BoxState::separated:
+            return {palette.separated, kSolid, 1.2f};
+        case BoxState::overlap:
+            return {palette.overlap, {10, 4, 2, 4}, 1.2f};
+        case BoxState::hit:
+            return {palette.hit, kSolid, 2.2f};
+        case BoxState::level:
+        case BoxState::under_test:
+        case BoxState::annotation:
+            break;
+    }
+    return {palette.text, kSolid, 2.2f};
+}
+
+PairOutline pair_outline(const ViewState& view) {
+    return view.tested_before ? PairOutline::owner : PairOutline::outcome;
+}
+
+OutcomeStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette) {
+    constexpr float kWidth = 2.2f;
+    if (outline == PairOutline::owner) return {outlining(side.color, palette), kSolid, kWidth};
+    OutcomeStyle style = outcome_style(box_state(outcome), palette);
+    style.width = kWidth;
+    return style;
+}
+
+void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const QueryProgress& progress,
+                     PairOutline outline, float scale) {
+    for (std::size_t side = 0; side < 2; ++side) {
+        const DrawnAgent& agent = sides[side];
+        const std::span<const NodeProgress> before =
+            outline == PairOutline::owner ? progress.nodes[side] : std::span<const NodeProgress>();
+        for (const NodeProgress& node : before) {
+            const OutcomeStyle style = outcome_style(box_state(node.outcome), list.palette);
+            BoxInstance box = node_box(agent, node.node, list.space);
+            box.state = box_state(node.outcome);
+            box.edge = faded(style.color, strength(node, progress.step), list.palette);
+            // Boxes around the one that matters stay in the background.
+            box.width = (node.open ? std::min(style.width, 1.2f) : style.width) * scale;
+            box.dash = style.dash * scale;
+            list.boxes.push_back(box);
+        }
+        BoxInstance box = node_box(agent, side == 0 ? progress.event.a : progress.event.b, list.space);
+        box.state = BoxState::under_test;
+        box.fill = with_alpha(agent.color, 0.17f);
+        const OutcomeStyle style = pair_style(outline, agent, progress.event.outcome, list.palette);
+        box.edge = style.color;
+        box.width = style.width * scale;
+        box.dash = style.dash * scale;
+        box.order.layer = 2;
+        list.boxes.push_back(box);
+    }
+}
+
+void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::span<const DrawnAgent> sides,
+                        const mobb::Trace::Event& event, float scale) {
+    if (time_on_end(list.projection)) return;
+    const glm::dvec2 foot = axis_corner(floor_extent, list.projection.right);
+    const float pixels =
+        list.projection.pixels_per_metre(list.space.point(foot.x, foot.y, 0.5 * (floor_extent.t0 + floor_extent.t1)));
+    if (pixels <= 0) return;
+    const auto add = [&](float aside, double from, double to, const OutcomeStyle& style) {
+        const glm::vec3 shift = list.projection.right * (aside * scale / pixels);
+        LineInstance line;
+        line.from = list.space.point(foot.x, foot.y, from) + shift;
+        line.to = list.space.point(foot.x, foot.y, to) + shift;
+        line.color = style.color;
+        line.width = style.width * scale;
+        line.dash = style.dash * scale;
+        line.hidden = 1;
+        line.order = {9, 1, static_cast<std::int64_t>(list.lines.size())};
+        list.lines.push_back(line);
+    };
+    double end = floor_extent.t1;
+    double begin = floor_extent.t0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const mobb::PlacedTree& tree = sides[side].placed;
+        const mobb::Node& node = tree.node(side == 0 ? event.a : event.b);
+        add(kFirst + kNext * static_cast<float>(side), tree.begin(node), tree.end(node),
+            {outlining(sides[side].color, list.palette), kSolid, kIntervalBar});
+        end = std::min(end, tree.end(node));
+        begin = std::max(begin, tree.begin(node));
+    }
+    if (event.outcome != mobb::Outcome::disjoint_in_time) return;
+    // In the text's colour, as the gap in the scene is: a thin grey line between the bars is not seen.
+    const Dash dash = outcome_style(BoxState::apart_in_time, list.palette).dash;
+    add(kFirst + 0.5f * kNext, end, begin, {list.palette.text, dash, 1.8f});
+}
+
+}  // namespace mobbscope

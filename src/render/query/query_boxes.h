@@ -1,0 +1,43 @@
+/// A query at a step: the pair under test, and the nodes tested before it.
+#pragma once
+
+#include <explain/query_progress.h>
+#include <mobb/trace.h>
+#include <render/drawlist/draw_list.h>
+#include <render/parts/floor_and_axes.h>
+#include <scene/drawn_agent.h>
+
+#include <span>
+
+namespace mobbscope {
+
+/// What a pair's boxes become by the outcome of a test.
+BoxState box_state(mobb::Outcome outcome);
+
+/// Colour and line of an outcome.
+struct OutcomeStyle {
+    Rgba color;
+    Dash dash = kSolid;
+    float width = 1;  ///< pixels at scale 1
+};
+OutcomeStyle outcome_style(BoxState state, const Palette& palette);
+
+/// How the boxes of the pair under test are outlined.
+enum class PairOutline {
+    owner,    ///< in their agents' colours: the outcomes' are those of the pairs before it
+    outcome,  ///< by how its test ended: there are no others
+};
+PairOutline pair_outline(const ViewState& view);
+/// Of one side's box, whose faces always have the agent's colour.
+OutcomeStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette);
+
+/// `sides`: A and B. With PairOutline::outcome only the pair's. `scale`: of line widths.
+void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const QueryProgress& progress,
+                     PairOutline outline, float scale);
+
+/// A bar for each side in its colour, and where they are apart in time the gap between them, dashed as that outcome is.
+/// Nothing where the time axis is seen end on. Needs the projection. `sides`: A and B.
+void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::span<const DrawnAgent> sides,
+                        const mobb::Trace::Event& event, float scale);
+
+}  // namespace mobbscope

@@ -1,0 +1,82 @@
+#include <render/text/label_layout.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr float kEdge = 3;      // pixels kept free along the picture's edge
+constexpr float kLabelGap = 2;  // ... and between labels
+
+/// The rectangle of a size whose edge is `distance` from the anchor in a direction.
+Rect beside(glm::vec2 anchor, glm::vec2 direction, float distance, glm::vec2 size) {
+    const float length = std::max(std::hypot(direction.x, direction.y), 1e-6f);
+    const glm::vec2 unit = direction / length;
+    // From the centre of a rectangle to its edge along the direction.
+    const float to_edge = std::min(std::abs(unit.x) > 1e-3f ? 0.5f * size.x / std::abs(unit.x) : 1e9f,
+                                   std::abs(unit.y) > 1e-3f ? 0.5f * size.y / std::abs(unit.y) : 1e9f);
+    const glm::vec2 center = anchor + unit * (distance + to_edge);
+    const glm::vec2 corner(std::round(center.x - 0.5f * size.x), std::round(center.y - 0.5f * size.y));
+    return {corner, corner + size};
+}
+
+}  // namespace
+
+float line_height(FontFace face, float size) {
+    const Font& font = Font::of(face);
+    return std::ceil(font.ascent(size) + font.descent(size));
+}
+
+TextRun text_at(const std::string& text, FontFace face, float size, Rgba color, glm::vec2 corner) {
+    const Font& font = Font::of(face);
+    TextRun run;
+    run.text = text;
+    run.face = face;
+    run.size = size;
+    run.color = color;
+    run.baseline = {corner.x, std::round(corner.y + font.ascent(size))};
+    run.box = {corner, corner + glm::vec2(font.width(text, size), line_height(face, size))};
+    return run;
+}
+
+LabelLayout::LabelLayout(PictureSize size)
+    : picture_{glm::vec2(kEdge), glm::vec2(static_cast<float>(size.width), static_cast<float>(size.height)) - kEdge} {}
+
+LabelLayout::LabelLayout(const DrawList& list) : LabelLayout(list.size) {
+    for (const TextRun& run : list.texts) reserve(run.box);
+    for (const Panel& panel : list.panels) reserve(panel.rect);
+}
+
+bool LabelLayout::is_free(const Rect& rect, float room) const {
+    const glm::vec2 around(std::max(room, kLabelGap), kLabelGap);
+    const Rect needed{rect.min - around, rect.max + around};
+    return picture_.contains(rect) &&
+           std::none_of(taken_.begin(), taken_.end(), [&](const Rect& other) { return other.overlaps(needed); });
+}
+
+bool LabelLayout::place(const LabelRequest& request, DrawList& list) {
+    const float padding = request.pill ? std::round(0.4f * request.size) : 0.0f;
+    const glm::vec2 text_size(std::ceil(Font::of(request.face).width(request.text, request.size)),
+                              line_height(request.face, request.size));
+    const glm::vec2 size = text_size + glm::vec2(2 * padding, padding);
+    for (const glm::vec2& direction : request.directions) {
+        const Rect rect = beside(request.anchor, direction, request.distance, size);
+        if (!is_free(rect, request.room)) continue;
+        taken_.push_back(rect);
+        if (request.pill) list.panels.push_back({rect, 0.3f * request.size, list.palette.panel, request.border, 1});
+        const glm::vec2 corner = rect.min + glm::vec2(padding, std::floor(0.5f * padding));
+        list.texts.push_back(text_at(request.text, request.face, request.size, request.color, corner));
+        return true;
+    }
+    return false;
+}
+
+float panel_padding(float text_size) { return std::round(0.8f * text_size); }
+
+Panel text_panel(const Rect& rect, const Palette& palette, float text_size) {
+    return {rect, 0.4f * text_size, palette.panel, palette.panel_border, 1};
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,97 @@
+#include <base/text.h>
+#include <scene/crowd_scene.h>
+#include <scene/drawn_agent.h>
+#include <scene/view_state.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kLongestLabel = 24;
+
+// The colours of Okabe and Ito that no outcome has, then tints of them.
+constexpr std::array<std::uint32_t, 8> kAgentColors{0xE69F00, 0x56B4E9, 0xCC79A7, 0x0072B2,
+                                                    0xF3CF80, 0xABDAF4, 0xE6BCD3, 0x6BA9D0};
+
+DrawnAgent make_subject(const FittedScene& fitted, const PlacedAgent& participant, int index, int color_index) {
+    const Scene& scene = fitted.scene();
+    return {fitted.placed(participant),
+            participant.name,
+            shortened(participant.name, kLongestLabel),
+            agent_color(scene, participant, color_index),
+            index,
+            scene.clips[static_cast<std::size_t>(participant.clip)].skeleton.get(),
+            participant.agent >= 0 ? scene.agents[static_cast<std::size_t>(participant.agent)].run_agent : -1};
+}
+
+/// The samples that hold at some time between two.
+mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, double end) {
+    const int first = mobb::first_ending_after(clip, 0, clip.count(), begin);
+    int last = mobb::first_ending_after(clip, 0, clip.count(), end);
+    if (last < clip.count() && clip.time(last) < end) ++last;
+    return {first, std::max(last - first, 0)};
+}
+
+}  // namespace
+
+Rgba agent_color(const Scene& scene, const PlacedAgent& participant, int index) {
+    if (participant.agent >= 0) {
+        const Agent& agent = scene.agents[static_cast<std::size_t>(participant.agent)];
+        if (agent.color) return Rgba(agent.color->r, agent.color->g, agent.color->b, 255) / 255.0f;
+        // All that one person plays looks alike.
+        if (agent.run_agent >= 0) index = agent.run_agent;
+    }
+    return hex(kAgentColors[static_cast<std::size_t>(index) % kAgentColors.size()]);
+}
+
+std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view) {
+    std::vector<DrawnAgent> out;
+    if (!view.query) {
+        for (const PlacedAgent& participant : fitted.placed_agents()) {
+            const int index = static_cast<int>(out.size());
+            out.push_back(make_subject(fitted, participant, index, index));
+        }
+        if (fitted.scene().crowd && view.show == Show::space_time) {
+            const double time = run_time(fitted.scene(), view);
+            for (DrawnAgent& agent : out) {
+                agent.window = samples_between(agent.clip(), time - view.time_window, time + view.time_window);
+            }
+        }
+        return out;
+    }
+    const std::size_t count = fitted.queries().size();
+    if (*view.query < 0 || static_cast<std::size_t>(*view.query) >= count) {
+        throw ViewMismatch("query", "there is no query " + std::to_string(*view.query) + ": the scene has " +
+                                        (count == 0 ? "none" : std::to_string(count) + ", counted from 0"));
+    }
+    const SceneQuery query = fitted.queries()[static_cast<std::size_t>(*view.query)];
+    const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
+    out.push_back(make_subject(fitted, query.a, 0, color_a));
+    out.push_back(make_subject(fitted, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
+    // Two sides of one colour or name could not be told apart.
+    if (out[1].color == out[0].color) out[1] = make_subject(fitted, query.b, 1, color_a + 1);
+    if (out[1].name == out[0].name) {
+        out[0].name += " (A)";
+        out[1].name += " (B)";
+    }
+    if (out[1].label == out[0].label) {
+        out[0].label += " (A)";
+        out[1].label += " (B)";
+    }
+    return out;
+}
+
+std::optional<int> sample_at(const DrawnAgent& agent, double time) {
+    const mobb::PlacedClip& clip = agent.clip();
+    if (time < agent.begin() || time >= agent.end()) return std::nullopt;
+    const int i = mobb::first_ending_after(clip, 0, clip.count(), time);
+    return i < clip.count() ? std::optional(i) : std::nullopt;
+}
+
+}  // namespace mobbscope

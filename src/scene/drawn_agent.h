@@ -1,0 +1,41 @@
+/// The paths that a picture is about.
+#pragma once
+
+#include <base/color.h>
+#include <scene/fitted_scene.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+/// A path that is drawn: who, with which tree, in which colour. Refers to the fitted scene.
+struct DrawnAgent {
+    mobb::PlacedTree placed;
+    std::string name;
+    std::string label;  ///< the name as pictures say it: short enough to leave room for what is said of it
+    Rgba color;
+    int index = 0;                       ///< in DrawList::participants
+    const Skeleton* skeleton = nullptr;  ///< of the clip; null: none
+    int run_agent = -1;                  ///< of a run: who plays it, as Agent::person; else -1
+    /// Of a run in space-time: the samples within the view's window, maybe none; nothing: all of them.
+    std::optional<mobb::SampleRange> window{};
+
+    const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
+    mobb::SampleRange samples() const { return window.value_or(mobb::SampleRange{0, clip().count()}); }  ///< drawn
+    double begin() const { return clip().time(0); }
+    double end() const { return clip().time(clip().count()); }
+};
+
+/// The colour of an agent: its own, or the palette's by index. None of them is an outcome's colour.
+Rgba agent_color(const Scene& scene, const PlacedAgent& participant, int index);
+
+/// The scene's participants, of a run made a scene (scene/crowd_scene.h) cut to the view's window of time; with a query
+/// in the view, its two sides. Throws std::invalid_argument if the scene has no such query.
+std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view);
+
+/// The sample that holds at a global time, or none.
+std::optional<int> sample_at(const DrawnAgent& agent, double time);
+
+}  // namespace mobbscope

@@ -1,0 +1,72 @@
+#include <paper_tables/built_in_clips.h>
+#include <paper_tables/table_report.h>
+#include <paper_tables/workload.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace mobbscope {
+namespace {
+
+TableReport report() {
+    TableReport out;
+    out.workload = "table2";
+    out.description = "somewhere";
+    out.machine = "a machine";
+    out.seed = 3;
+    out.rounds = 5;
+    out.queries = 1000;
+    out.clips = 14;
+    out.mean_duration = 42;
+    out.table.positive = 0.28;
+    TableRow brute{.method = "brute", .time_ns = 2900, .time_ns_q1 = 2800, .time_ns_q3 = 3000, .samples = 600};
+    TableRow mobb{.method = "mobb", .leaf = 10, .time_ns = 190, .obb2d = 25.5, .samples = 7, .root_rejected = 0.4};
+    out.table.rows = {brute, mobb};
+    out.costs.obb2d = 6;
+    out.costs.sample_pair = 3;
+    return out;
+}
+
+TEST(TableReport, JsonHasTheContractsKeys) {
+    std::ostringstream text;
+    write_json(text, report());
+    const nlohmann::json json = nlohmann::json::parse(text.str());
+    EXPECT_EQ(json["workload"], "table2");
+    EXPECT_EQ(json["machine"], "a machine");
+    EXPECT_EQ(json["queries"], 1000);
+    EXPECT_EQ(json["seed"], 3);
+    EXPECT_EQ(json["clips"]["count"], 14);
+    EXPECT_EQ(json["clips"]["mean_duration"], 42);
+    EXPECT_EQ(json["positive"], 0.28);
+    EXPECT_EQ(json["root_rejected"], 0.4);
+    ASSERT_EQ(json["rows"].size(), 2u);
+    EXPECT_EQ(json["rows"][1]["method"], "mobb");
+    EXPECT_EQ(json["rows"][1]["time_ns"], 190);
+    EXPECT_EQ(json["rows"][1]["obb2d"], 25.5);
+    EXPECT_EQ(json["rows"][1]["obb3d"], 0);
+    EXPECT_EQ(json["rows"][1]["samples"], 7);
+    EXPECT_EQ(json["rows"][1]["paper"]["obb2d"], 27.5);
+    EXPECT_TRUE(json["rows"][0]["paper"].is_null());
+    EXPECT_EQ(json["test_ns"]["obb2d"], 6);
+    EXPECT_TRUE(json["test_ns"]["moving"].is_null());
+}
+
+TEST(TableReport, TextSetsThePapersFiguresBeside) {
+    std::ostringstream text;
+    write_text(text, report());
+    EXPECT_NE(text.str().find("28.0 % collide"), std::string::npos) << text.str();
+    EXPECT_NE(text.str().find("27.5"), std::string::npos) << text.str();
+    EXPECT_NE(text.str().find("worth 2.0 sample pairs"), std::string::npos) << text.str();
+}
+
+TEST(PaperFigures, AreThoseOfTheTables) {
+    EXPECT_EQ(paper_row("table1", "hybrid2")->obb2d, 1.5);
+    EXPECT_EQ(paper_row("table2", "mobb_1level")->samples, 306);
+    EXPECT_FALSE(paper_row("table2", "moving"));
+    EXPECT_FALSE(paper_row("table3", "mobb"));
+}
+
+}  // namespace
+}  // namespace mobbscope

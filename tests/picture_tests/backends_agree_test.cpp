@@ -1,0 +1,54 @@
+// OSMesa and EGL draw the same picture of every case.
+#include <picture_tests/goldens.h>
+
+#include "render/backends.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace mobbscope::picture_tests {
+namespace {
+
+const std::filesystem::path kSource = MOBBSCOPE_SOURCE_DIR;
+
+/// Null where the machine lacks the backend; then the test is skipped, or failed.
+std::unique_ptr<PictureMaker> maker_or_skip(Backend backend) {
+    return mobbscope::testing::open_or_skip(backend) ? std::make_unique<PictureMaker>(backend) : nullptr;
+}
+
+class BackendsAgreeTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BackendsAgreeTest, OnEveryCase) {
+    const std::unique_ptr<PictureMaker> osmesa = maker_or_skip(Backend::osmesa);
+    const std::unique_ptr<PictureMaker> egl = osmesa ? maker_or_skip(Backend::egl) : nullptr;
+    if (!egl) return;
+    for (const CaseFile& file : find_cases(kSource / GetParam())) {
+        const Case tested = read_case(file.file);
+        if (tested.skip) continue;
+        CaseResult result;
+        result.file = file;
+        result.actual = egl->make(tested.shot);
+        result.golden = osmesa->make(tested.shot);
+        result.image = diff(result.actual, result.golden, diff_options(tested.tolerance));
+        if (result.image->same) continue;
+        keep_pictures(result, MOBBSCOPE_KEPT_PICTURES);
+        ADD_FAILURE() << file.name << ": " << result.image->differing << " pixels differ, by up to "
+                      << result.image->largest << "/255; see " MOBBSCOPE_KEPT_PICTURES;
+    }
+}
+
+std::string name_of(const ::testing::TestParamInfo<const char*>& folder) {
+    std::string name = folder.param;
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, BackendsAgreeTest,
+                         ::testing::Values("tests/goldens", "assets/figures", "tests/app/goldens"), name_of);
+
+}  // namespace
+}  // namespace mobbscope::picture_tests

@@ -1,0 +1,52 @@
+// What the picture of a motion graph looks like: goldens as of a case (picture_tests/reference.h), though there is no
+// case of it.
+#include <picture_tests/case_file.h>
+#include <picture_tests/reference.h>
+#include <render/image/png.h>
+#include <render/pictures/graph_picture.h>
+
+#include "render/backends.h"
+#include "render/small_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+namespace mobbscope::picture_tests {
+namespace {
+
+const std::filesystem::path kFolder = MOBBSCOPE_SOURCE_DIR "/tests/render/goldens";
+
+void expect_golden(const Image& drawn, const std::string& file, Tolerance tolerance) {
+    const std::filesystem::path golden = kFolder / file;
+    const std::filesystem::path actual = std::filesystem::path(MOBBSCOPE_KEPT_PICTURES) / file;
+    std::filesystem::create_directories(actual.parent_path());
+    write_png(actual, drawn);
+    EXPECT_TRUE(std::filesystem::exists(golden) && diff(drawn, read_png(golden), diff_options(tolerance)).same)
+        << "look at " << actual << "; if it is right, copy it to " << golden;
+}
+
+class GraphPicturePixels : public mobbscope::testing::OnEachBackend {};
+
+TEST_P(GraphPicturePixels, AreTheGoldens) {
+    DrawList list = graph_picture(mobbscope::testing::small_graph(), {640, 360}, Theme::dark);
+    const Image drawn = renderer().draw(list);
+    const auto reference = read_reference(kFolder);
+    ASSERT_TRUE(reference);
+    const std::string other = what_is_other(reference_of(renderer()), *reference);
+    if (other.empty()) {
+        expect_golden(drawn, "motion_graph.png", Tolerance::tight);
+    } else {
+        std::cout << "Pixels of text are not compared: drawn with " << other << '\n';
+    }
+    list.texts.clear();
+    expect_golden(coarse_picture(renderer().draw(list)), "motion_graph.plain.png", Tolerance::loose);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, GraphPicturePixels, ::testing::Values(Backend::osmesa, Backend::egl),
+                         mobbscope::testing::backend_name);
+
+}  // namespace
+}  // namespace mobbscope::picture_tests

@@ -1,0 +1,240 @@
+#include <picture_tests/markup.h>
+#include <picture_tests/reports.h>
+
+#include "support/temp_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+namespace mobbscope::picture_tests {
+namespace {
+
+const std::string kHostile = "<b>\"A\" & 'B'</b>\x01\x1b[31m \xff </script> \xef\xbf\xbf";
+
+const RunFacts kFacts{"my pictures", "osmesa", "llvmpipe (LLVM 15.0.6, 256 bits)"};
+
+Image grey(int width, int height, std::uint8_t value) {
+    Image image(width, height);
+    std::fill(image.rgba.begin(), image.rgba.end(), value);
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+    return image;
+}
+
+CaseResult result(const std::string& name, CaseOutcome outcome, const std::string& message = "") {
+    CaseResult out;
+    out.file = {name, "my pictures/" + name + ".case.json"};
+    out.outcome = outcome;
+    out.message = message;
+    out.seconds = 0.0001;
+    return out;
+}
+
+CaseResult different(const std::string& name) {
+    CaseResult out = result(name, CaseOutcome::different, "50 pixels differ");
+    out.golden = grey(40, 20, 100);
+    out.actual = out.golden;
+    for (int x = 5; x < 15; ++x) {
+        for (int y = 4; y < 9; ++y) out.actual.at(x, y)[1] = 200;
+    }
+    out.image = diff(out.actual, out.golden, diff_options(Tolerance::tight));
+    return out;
+}
+
+CaseResult passed(const std::string& name) {
+    CaseResult out = result(name, CaseOutcome::passed);
+    out.golden = out.actual = grey(8, 8, 30);
+    out.image = diff(out.actual, out.golden, diff_options(Tolerance::tight));
+    return out;
+}
+
+CaseResult missing(const std::string& name) {
+    CaseResult out = result(name, CaseOutcome::missing_golden, "there is no golden");
+    out.actual = grey(8, 8, 30);
+    return out;
+}
+
+/// One of each outcome, in another order than reports have them.
+std::vector<CaseResult> one_of_each() {
+    return {passed("fine"), result("skip", CaseOutcome::skipped, "not yet"), missing("levels/new one"),
+            different("moved"), result(kHostile, CaseOutcome::failed, "scene.json: line 3: " + kHostile)};
+}
+
+using Writer = void (*)(std::ostream&, const RunFacts&, std::span<const CaseResult>);
+
+std::string written(Writer writer, const std::vector<CaseResult>& results, const RunFacts& facts = kFacts) {
+    std::ostringstream out;
+    writer(out, facts, results);
+    return out.str();
+}
+
+/// What tests/picture_tests/parse_report.py makes of a report: it fails for what is malformed.
+std::string parsed(const std::string& report, const std::string& kind) {
+    const testing::TempFolder folder;
+    const auto file = folder.write("report", report);
+    const std::string command = "python3 '" MOBBSCOPE_SOURCE_DIR "/tests/picture_tests/parse_report.py' " + kind +
+                                " '" + file.string() + "' 2>&1";
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    std::string out;
+    for (int c; (c = std::fgetc(pipe)) != EOF;) out += static_cast<char>(c);
+    EXPECT_EQ(::pclose(pipe), 0) << out;
+    return out;
+}
+
+std::size_t times(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+TEST(Markup, EverythingThatMeansSomethingIsEscaped) {
+    EXPECT_EQ(escaped("<a href=\"x\">'&'"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
+    EXPECT_EQ(escaped(std::string("a\0b\x1b\n", 5)), "a?b??");
+    EXPECT_EQ(escaped("\xff"), "?");
+    EXPECT_EQ(escaped("\xef\xbf\xbe\xef\xbf\xbd\xef\xbf\xbf"), "?\xef\xbf\xbd?");
+    EXPECT_EQ(escaped("\xc3\xa9"), "\xc3\xa9");
+}
+
+TEST(Markup, Base64IsTheStandards) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foo"), "Zm9v");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64("\xfb\xff\xfe"), "+//+");
+}
+
+TEST(Reports, TextHasALineForEachThatDidNotPass) {
+    const std::string text = written(write_text, {passed("fine"), result("skip", CaseOutcome::skipped, "not yet"),
+                                                  missing("levels/new one"), different("moved")});
+    EXPECT_EQ(text,
+              "skipped: skip: not yet\n"
+              "missing golden: levels/new one: there is no golden\n"
+              "different: moved: 50 pixels differ\n"
+              "my pictures: 1 passed, 1 different, 1 without a golden, 1 skipped; drawn by osmesa, llvmpipe (LLVM "
+              "15.0.6, 256 bits)\n"
+              "Look at the pictures. Those that are right become goldens with\n"
+              "  mobbscope test 'my pictures' --update 'levels/new one' moved\n");
+    EXPECT_EQ(written(write_text, {passed("fine")}, {"d", "", ""}),
+              "d: 1 passed; drawn by nothing: there is no OpenGL\n");
+}
+
+TEST(Reports, TextHoldsNoControlCharacters) {
+    EXPECT_EQ(written(write_text, one_of_each()).find('\x1b'), std::string::npos);
+}
+
+TEST(Reports, JsonHasEveryCaseInOrder) {
+    const auto json = nlohmann::json::parse(written(write_json, one_of_each()));
+    EXPECT_EQ(json["folder"], "my pictures");
+    EXPECT_EQ(json["backend"], "osmesa");
+    EXPECT_EQ(json["summary"],
+              (nlohmann::json{{"passed", 1}, {"different", 1}, {"missing", 1}, {"failed", 1}, {"skipped", 1}}));
+    ASSERT_EQ(json["cases"].size(), 5u);
+    const auto& moved = json["cases"][3];
+    EXPECT_EQ(moved["name"], "moved");
+    EXPECT_EQ(moved["outcome"], "different");
+    EXPECT_EQ(moved["tolerance"], "tight");
+    EXPECT_EQ(moved["diff"]["failing"], 50);
+    EXPECT_EQ(moved["diff"]["maximum"], 100);
+    EXPECT_EQ(moved["diff"]["bounds"], (nlohmann::json{{"x", 5}, {"y", 4}, {"width", 10}, {"height", 5}}));
+    EXPECT_EQ(moved["diff"]["histogram"].size(), 256u);
+    EXPECT_EQ(moved["diff"]["histogram"][100], 50);
+    EXPECT_TRUE(json["cases"][2]["diff"].is_null());
+}
+
+TEST(Reports, JUnitTellsFailuresFromErrors) {
+    EXPECT_EQ(parsed(written(write_junit, one_of_each()), "junit"),
+              "suite my pictures: tests 5, failures 2, errors 1, skipped 1\n"
+              "fine: passed\n"
+              "skip: skipped: not yet\n"
+              "levels/new one: failure (missing golden): there is no golden\n"
+              "moved: failure (different): 50 pixels differ\n"
+              "<b>\"A\" & 'B'</b>??[31m ? </script> ???: error (failed): scene.json: line 3: <b>\"A\" & "
+              "'B'</b>??[31m ? </script> ???\n");
+}
+
+TEST(Reports, JUnitOfNoCasesIsWellFormed) {
+    EXPECT_EQ(parsed(written(write_junit, {}), "junit"),
+              "suite my pictures: tests 0, failures 0, errors 0, skipped 0\n");
+}
+
+TEST(Reports, ThePageIsWellFormedAndNeedsNothingElse) {
+    EXPECT_EQ(parsed(written(write_html, one_of_each()), "html"),
+              "title 3 of 5 picture tests did not pass - my pictures\n"
+              "case ✕ failed <b>\"A\" & 'B'</b>??[31m ? </script> ???: \n"
+              "case ≠ different moved: golden 40x20, actual 40x20, difference 40x20\n"
+              "case ∅ no golden levels/new one: actual 8x8\n"
+              "folded – skipped 1: \n"
+              "folded ✓ passed 1: 8x8\n"
+              "command mobbscope test 'my pictures' --update moved 'levels/new one'\n"
+              "command mobbscope test 'my pictures' --update moved\n"
+              "command mobbscope test 'my pictures' --update 'levels/new one'\n");
+}
+
+TEST(Reports, ThePageOfARunThatPassedSaysSo) {
+    const std::string page = written(write_html, {passed("a"), passed("b")});
+    EXPECT_EQ(parsed(page, "html"),
+              "title 2 picture tests passed - my pictures\n"
+              "folded ✓ passed 2: 8x8, 8x8\n");
+    EXPECT_EQ(times(page, "--update"), 0u);
+}
+
+TEST(Reports, ThePageShowsTheNumbersOfADifference) {
+    const std::string page = written(write_html, {different("moved")});
+    EXPECT_EQ(times(page, "50 of 800, 6.25 %"), 1u);
+    EXPECT_EQ(times(page, "100 of 255"), 1u);
+    EXPECT_EQ(times(page, "10 x 5 pixels at (5, 4)"), 1u);
+    EXPECT_EQ(times(page, "<rect x=\"5\" y=\"4\" width=\"10\" height=\"5\"/>"), 1u);
+    EXPECT_EQ(times(page, "<th scope=\"row\">65–128</th>"), 1u);
+    EXPECT_EQ(times(page, "<tr class=\"beyond\">"), 6u);
+}
+
+TEST(Reports, PicturesOfTwoSizesAreComparedByEye) {
+    CaseResult sizes = result("sizes", CaseOutcome::different, "the picture is 8x8, the golden 40x20");
+    sizes.golden = grey(40, 20, 100);
+    sizes.actual = grey(8, 8, 30);
+    sizes.image = diff(sizes.actual, sizes.golden);
+    EXPECT_EQ(parsed(written(write_html, {sizes}), "html"),
+              "title 1 of 1 picture test did not pass - my pictures\n"
+              "case ≠ different sizes: golden 40x20, actual 8x8\n"
+              "command mobbscope test 'my pictures' --update sizes\n");
+}
+
+TEST(Reports, SayOnceWhyPixelsOfTextAreNotCompared) {
+    std::vector<CaseResult> results{passed("a"), passed("b")};
+    const std::string sentence =
+        "Pixels of text are not compared: drawn with Dear ImGui 2 for 1 (my pictures/reference.json)";
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, results), "not compared"), 0u);
+    }
+    for (CaseResult& result : results) result.other_here = "Dear ImGui 2 for 1";
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, results), sentence), 1u);
+    }
+    EXPECT_EQ(times(written(write_text, results), "\n"), 2u);
+    EXPECT_EQ(nlohmann::json::parse(written(write_json, results))["not_compared"], nlohmann::json{sentence});
+    parsed(written(write_junit, results), "junit");
+    parsed(written(write_html, results), "html");
+
+    results = {different("moved")};
+    results.front().other_here = "Dear ImGui 2 for 1";
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(times(written(writer, results), "--update"), 0u) << "goldens are not taken here";
+    }
+}
+
+TEST(Reports, AreTheSameEveryTime) {
+    for (const Writer writer : {write_text, write_json, write_junit, write_html}) {
+        EXPECT_EQ(written(writer, one_of_each()), written(writer, one_of_each()));
+    }
+    // The page does not even say how long it took.
+    std::vector<CaseResult> slower = one_of_each();
+    for (CaseResult& result : slower) result.seconds = 7;
+    EXPECT_EQ(written(write_html, slower), written(write_html, one_of_each()));
+}
+
+}  // namespace
+}  // namespace mobbscope::picture_tests
