@@ -1,6 +1,5 @@
 #include <base/error.h>
 #include <cli/command_line.h>
-#include <cli/commands.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <paper_tables/built_in_clips.h>

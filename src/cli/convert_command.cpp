@@ -2,7 +2,6 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/commands.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <import/tracks/csv.h>

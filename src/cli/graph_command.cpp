@@ -1,14 +1,13 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/commands.h>
 #include <cli/graph_info.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/graph_walk.h>
 #include <crowd/graph/recordings.h>
-#include <render/drawlist/metrics.h>
+#include <render/drawlist/picture_options.h>
 #include <render/gl/renderer.h>
 #include <render/image/png.h>
 #include <render/pictures/graph_picture.h>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <crowd/graph/graph_figures.h>
-#include <crowd/graph/transitions.h>
 #include <scene/scene.h>
 
 #include <ostream>

@@ -1,7 +1,6 @@
 // mobbscope: see and debug bounding-volume trees in space-time.
 #include <base/error.h>
 #include <cli/command_line.h>
-#include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/window_command.h>
 

@@ -38,4 +38,18 @@ std::filesystem::path meant(const std::filesystem::path& file);
 /// nothing.
 void check_writable(const std::filesystem::path& output);
 
+class Command;
+
+void add_bench_command(Command& program, int& status);
+void add_conflicts_command(Command& program, int& status);
+void add_convert_command(Command& program);
+void add_diff_command(Command& program, int& status);
+void add_fit_command(Command& program);
+void add_graph_command(Command& program, int& status);
+void add_info_command(Command& program);
+void add_query_command(Command& program, int& status);
+void add_render_command(Command& program);
+void add_simulate_command(Command& program);
+void add_test_command(Command& program, int& status);
+
 }  // namespace mobbscope::cli

@@ -3,7 +3,6 @@
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/commands.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <crowd/graph/graph_walk.h>

@@ -1,7 +1,7 @@
 #include <cli/take_goldens.h>
 
 #include <base/text.h>
-#include <picture_tests/goldens.h>
+#include <picture_tests/run_cases.h>
 
 #include <istream>
 #include <string>

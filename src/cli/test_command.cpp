@@ -2,11 +2,9 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/commands.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <cli/take_goldens.h>
-#include <picture_tests/goldens.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/reports.h>
 #include <picture_tests/run_cases.h>

@@ -1,8 +1,15 @@
 #include <explain/clearance.h>
+#include <mobb/predicate.h>
+
+#include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace mobbscope {
 
@@ -30,6 +37,118 @@ struct PieceRecorder : mobb::ObserverBase {
     }
 
     double colliding = 0;  ///< clearance of the last pair if it collides
+};
+
+constexpr int kLeaf = 8;
+
+/// A range of samples and the rectangle that their disks lie in.
+struct Range {
+    int first = 0;
+    int end = 0;
+    glm::dvec2 min{std::numeric_limits<double>::max()};
+    glm::dvec2 max{std::numeric_limits<double>::lowest()};
+    int second = 0;  ///< index of the second half; the first half comes next; 0: none
+
+    bool is_leaf() const { return second == 0; }
+};
+
+/// Halves of halves of a path, depth first. Boxes along the axes of the world: all that is asked is a bound.
+class Ranges {
+  public:
+    explicit Ranges(const mobb::PlacedClip& clip) : clip_(clip) {
+        disks_.reserve(static_cast<std::size_t>(clip.count()));
+        for (int i = 0; i < clip.count(); ++i) disks_.push_back(clip.disk(i));
+        build(0, clip.count());
+    }
+
+    const Range& operator[](int i) const { return ranges_[static_cast<std::size_t>(i)]; }
+    const mobb::Disk& disk(int i) const { return disks_[static_cast<std::size_t>(i)]; }
+    double begin(int i) const { return clip_.time(i); }
+    double end(int i) const { return clip_.time(i + 1); }
+
+  private:
+    int build(int first, int end) {
+        const auto index = ranges_.size();
+        ranges_.emplace_back();
+        Range range;
+        range.first = first;
+        range.end = end;
+        if (end - first <= kLeaf) {
+            for (const mobb::Disk& d :
+                 std::span(disks_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first))) {
+                range.min = {std::min(range.min.x, d.x - d.r), std::min(range.min.y, d.y - d.r)};
+                range.max = {std::max(range.max.x, d.x + d.r), std::max(range.max.y, d.y + d.r)};
+            }
+        } else {
+            const int middle = first + (end - first) / 2;
+            const Range one = (*this)[build(first, middle)];
+            range.second = build(middle, end);
+            const Range& two = (*this)[range.second];
+            range.min = {std::min(one.min.x, two.min.x), std::min(one.min.y, two.min.y)};
+            range.max = {std::max(one.max.x, two.max.x), std::max(one.max.y, two.max.y)};
+        }
+        ranges_[index] = range;
+        return static_cast<int>(index);
+    }
+
+    const mobb::PlacedClip& clip_;
+    std::vector<mobb::Disk> disks_;
+    std::vector<Range> ranges_;
+};
+
+/// Lower bound on what disks of two ranges are apart, 0 if the rectangles overlap.
+double apart(const Range& a, const Range& b) {
+    const double x = std::max({a.min.x - b.max.x, b.min.x - a.max.x, 0.0});
+    const double y = std::max({a.min.y - b.max.y, b.min.y - a.max.y, 0.0});
+    return std::sqrt(x * x + y * y);
+}
+
+/// The pair of samples with the least value, by branch and bound.
+template <class Bound, class Value>
+class Least {
+  public:
+    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, const Bound& bound, const Value& value_of)
+        : a_(a), b_(b), visits_(visits), bound_(bound), value_of_(value_of) {
+        visit(0, 0, bound_(a_[0], b_[0]));
+    }
+
+    double value = std::numeric_limits<double>::infinity();
+    int i = -1;
+    int j = -1;
+
+  private:
+    void visit(int ia, int ib, double least) {
+        if (least >= value || --visits_ < 0) return;
+        const Range& a = a_[ia];
+        const Range& b = b_[ib];
+        if (a.is_leaf() && b.is_leaf()) {
+            visits_ -= static_cast<std::int64_t>(a.end - a.first) * (b.end - b.first);
+            for (int p = a.first; p < a.end; ++p) {
+                for (int q = b.first; q < b.end; ++q) {
+                    const double found = value_of_(p, q);
+                    if (found < value) value = found, i = p, j = q;
+                }
+            }
+            return;
+        }
+        // The longer of the two is halved, and the more promising half is looked at first.
+        const bool halve_a = b.is_leaf() || (!a.is_leaf() && a.end - a.first >= b.end - b.first);
+        struct Half {
+            int a, b;
+            double least;
+        };
+        std::array<Half, 2> halves{halve_a ? Half{ia + 1, ib, 0} : Half{ia, ib + 1, 0},
+                                   halve_a ? Half{a.second, ib, 0} : Half{ia, b.second, 0}};
+        for (Half& half : halves) half.least = bound_(a_[half.a], b_[half.b]);
+        if (halves[1].least < halves[0].least) std::swap(halves[0], halves[1]);
+        for (const Half& half : halves) visit(half.a, half.b, half.least);
+    }
+
+    const Ranges& a_;
+    const Ranges& b_;
+    std::int64_t& visits_;
+    const Bound& bound_;
+    const Value& value_of_;
 };
 
 }  // namespace
@@ -63,6 +182,43 @@ std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, d
             at.any = true;
         }
     }
+    return out;
+}
+
+FloorPaths floor_paths(const mobb::PlacedClip& clip_a, const mobb::PlacedClip& clip_b, std::int64_t most_visits) {
+    const Ranges a(clip_a);
+    const Ranges b(clip_b);
+    std::int64_t visits = most_visits;
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const auto gap = [](double begin_a, double end_a, double begin_b, double end_b) {
+        return std::max(begin_b - end_a, begin_a - end_b);
+    };
+    const auto gap_bound = [&](const Range& ra, const Range& rb) {
+        if (apart(ra, rb) > 0) return kNever;
+        const double between = gap(a.begin(ra.first), a.end(ra.end - 1), b.begin(rb.first), b.end(rb.end - 1));
+        // In ranges that share time there may be samples that share any of it.
+        return between > 0 ? between : -kNever;
+    };
+    const auto gap_value = [&](int i, int j) {
+        return mobb::collide(a.disk(i), b.disk(j)) ? gap(a.begin(i), a.end(i), b.begin(j), b.end(j)) : kNever;
+    };
+    const Least meeting(a, b, visits, gap_bound, gap_value);
+    if (visits < 0) return {};
+    FloorPaths out;
+    out.known = true;
+    if (meeting.i >= 0) {
+        out.meeting = {meeting.i, meeting.j, meeting.value, a.begin(meeting.i) < b.begin(meeting.j)};
+        return out;
+    }
+    const auto distance_bound = [](const Range& ra, const Range& rb) { return apart(ra, rb); };
+    const auto distance = [&](int i, int j) {
+        const mobb::Disk& da = a.disk(i);
+        const mobb::Disk& db = b.disk(j);
+        return std::max(0.0, std::sqrt(mobb::squared_distance(da, db)) - (da.r + db.r));
+    };
+    const Least nearest(a, b, visits, distance_bound, distance);
+    if (visits < 0) return {};
+    out.apart = nearest.value;
     return out;
 }
 

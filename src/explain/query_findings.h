@@ -2,7 +2,6 @@
 #pragma once
 
 #include <explain/clearance.h>
-#include <explain/floor_paths.h>
 #include <explain/recursion.h>
 #include <scene/drawn_agent.h>
 

@@ -1,7 +1,10 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <import/bvh/bvh.h>
 #include <import/import.h>
+#include <import/nodes/fbx.h>
+#include <import/nodes/gltf.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
@@ -11,8 +14,28 @@
 #include <array>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope {
+
+namespace {
+
+std::unique_ptr<MotionFile> read_bvh(const std::filesystem::path& file) {
+    return bvh_motion(parse_bvh(read_file(file), file.string()));
+}
+
+using MotionReader = std::unique_ptr<MotionFile> (*)(const std::filesystem::path&);
+constexpr std::array<std::pair<std::string_view, MotionReader>, 4> kReaders{
+    {{".bvh", read_bvh}, {".gltf", read_gltf}, {".glb", read_gltf}, {".fbx", read_fbx}}};
+
+MotionReader reader_for(std::string_view extension) {
+    for (const auto& [name, reader] : kReaders) {
+        if (name == extension) return reader;
+    }
+    return nullptr;
+}
+
+}  // namespace
 
 struct Importer::ParsedFiles {
     std::map<std::filesystem::path, CsvTable> tables;
@@ -60,6 +83,40 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
 
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {
     return Importer().clips(file, options);
+}
+
+std::string does_not_apply(const std::string& key, const std::filesystem::path& file) {
+    // Of the units it is only this one.
+    return (key == "unit" ? "unit auto" : key) + " does not apply to " + lower_extension(file) + " files";
+}
+
+ApplicableOptions applicable(const ImportOptions& options, const std::filesystem::path& file) {
+    ApplicableOptions out{options, {}};
+    const auto leave_out = [&out](auto& option, const char* key) {
+        if (!option) return;
+        option.reset();
+        out.left_out.emplace_back(key);
+    };
+    const std::string extension = lower_extension(file);
+    if (extension == ".csv" || is_track_extension(extension)) {
+        leave_out(out.options.animation, "animation");
+        leave_out(out.options.root, "root");
+        leave_out(out.options.up, "up");
+        // Without a body's height there is nothing to guess the unit from.
+        if (extension == ".csv" && out.options.unit == "auto") leave_out(out.options.unit, "unit");
+    } else {
+        leave_out(out.options.id, "id");
+        leave_out(out.options.dt, "dt");
+    }
+    return out;
+}
+
+bool is_motion_extension(const std::string& extension) { return reader_for(extension) != nullptr; }
+
+std::unique_ptr<MotionFile> read_motion(const std::filesystem::path& file) {
+    const MotionReader reader = reader_for(lower_extension(file));
+    if (!reader) throw InputError(file.string(), "", "is no motion file; give .bvh, .gltf, .glb or .fbx");
+    return reader(file);
 }
 
 }  // namespace mobbscope

@@ -61,7 +61,6 @@ struct DisagreementError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-
 /// The paper's rows and the baselines: brute, mobb_1level, umobb_1level, mobb, umobb, hybrid1, hybrid2, moving, aabb.
 /// `base` gives all but the kind and the levels.
 std::vector<Method> table_methods(const mobb::FitOptions& base);

@@ -1,5 +1,9 @@
+#include <base/text.h>
 #include <paper_tables/table_report.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <map>
 #include <utility>
 
 namespace mobbscope {
@@ -26,12 +30,216 @@ std::optional<PaperRow> find(const NamedRow (&rows)[N], std::string_view method)
     return std::nullopt;
 }
 
+void write_optional(JsonWriter& out, std::string_view key, const std::optional<double>& value) {
+    out.key(key);
+    value ? out.value(*value) : out.null();
+}
+
+void write_paper(JsonWriter& out, const std::string& table, const std::string& method) {
+    out.key("paper");
+    const std::optional<PaperRow> row = paper_row(table, method);
+    if (!row) return out.null();
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("time_ns", row->time_us * 1000);
+    out.member("obb2d", row->obb2d);
+    out.member("obb3d", row->obb3d);
+    out.member("samples", row->samples);
+    out.end_object();
+}
+
+void write_figures(JsonWriter& out, const TableRow& row) {
+    out.member("method", row.method);
+    out.member("leaf", row.leaf);
+    out.member("time_ns", row.time_ns);
+    out.key("time_ns_quartiles");
+    out.numbers({row.time_ns_q1, row.time_ns_q3});
+    out.member("time", row.time_tests);
+    out.member("obb2d", row.obb2d);
+    out.member("obb3d", row.obb3d);
+    out.member("moving", row.moving);
+    out.member("aabb", row.aabb);
+    out.member("samples", row.samples);
+    out.member("sample_steps", row.sample_steps);
+    out.member("root_box_tests", row.root_box_tests);
+    out.member("root_rejected", row.root_rejected);
+}
+
+/// A number in a column: `decimals` behind the point, right-aligned to `width`; "-" for zero tests.
+std::string cell(double value, int width, int decimals) {
+    char text[64];
+    if (value == 0) {
+        std::snprintf(text, sizeof text, "%*s", width, "-");
+    } else {
+        std::snprintf(text, sizeof text, "%*.*f", width, decimals, value);
+    }
+    return text;
+}
+
+std::string left(std::string_view text, int width) {
+    std::string out(text);
+    out.resize(std::max(out.size(), static_cast<std::size_t>(width)), ' ');
+    return out;
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
+    return text;
+}
+
+void write_rows(std::ostream& out, const TableReport& report) {
+    out << "method           ns/query   quartiles           2D      3D  moving    aabb  sample pairs   steps  "
+           "root rejects | paper: us      2D      3D  samples\n";
+    for (const TableRow& row : report.table.rows) {
+        char quartiles[64];
+        std::snprintf(quartiles, sizeof quartiles, "%.1f..%.1f", row.time_ns_q1, row.time_ns_q3);
+        out << left(row.method, 15) << cell(row.time_ns, 10, 1) << "   " << left(quartiles, 16) << cell(row.obb2d, 6, 2)
+            << cell(row.obb3d, 8, 2) << cell(row.moving, 8, 2) << cell(row.aabb, 8, 2) << cell(row.samples, 14, 2)
+            << cell(row.sample_steps, 8, 2) << "  "
+            << (row.leaf == 0 ? std::string("           -")
+                              : std::string(12 - std::min<std::size_t>(12, percent(row.root_rejected).size()), ' ') +
+                                    percent(row.root_rejected));
+        if (const std::optional<PaperRow> paper = paper_row(report.workload, row.method)) {
+            out << " |" << cell(paper->time_us, 10, 1) << cell(paper->obb2d, 8, 2) << cell(paper->obb3d, 8, 2)
+                << cell(paper->samples, 9, 2);
+        } else {
+            out << " |";
+        }
+        out << '\n';
+    }
+}
+
+void write_costs(std::ostream& out, const TestCosts& costs) {
+    const char* before = "One test costs, in ns: ";
+    const auto one = [&](const char* what, const std::optional<double>& cost) {
+        if (!cost) return;
+        out << before << what << ' ' << cell(*cost, 0, 2);
+        before = ", ";
+    };
+    one("2D boxes", costs.obb2d);
+    one("3D boxes", costs.obb3d);
+    one("moving boxes", costs.moving);
+    one("aabb", costs.aabb);
+    one("a pair of samples", costs.sample_pair);
+    out << (before[0] == ',' ? ".\n" : "No test was made, so none has a price.\n");
+    if (costs.obb2d && costs.sample_pair) {
+        out << "A 2D box test is worth " << cell(*costs.obb2d / *costs.sample_pair, 0, 1)
+            << " sample pairs; on the paper's machine it was worth n_min/2 = 5 steps.\n";
+    }
+}
+
+void write_sweep(std::ostream& out, const std::vector<TableRow>& sweep) {
+    if (sweep.empty()) return;
+    std::vector<int> leaves;
+    std::vector<std::string> methods;
+    std::map<std::pair<std::string, int>, const TableRow*> by;
+    for (const TableRow& row : sweep) {
+        if (std::find(leaves.begin(), leaves.end(), row.leaf) == leaves.end()) leaves.push_back(row.leaf);
+        if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
+        by[{row.method, row.leaf}] = &row;
+    }
+    out << "\nn_min, ns/query (box tests; sample pairs)\n" << left("", 8);
+    for (const std::string& method : methods) out << left(method, 26);
+    out << '\n';
+    for (const int leaf : leaves) {
+        out << left(std::to_string(leaf), 8);
+        for (const std::string& method : methods) {
+            const TableRow& row = *by.at({method, leaf});
+            char text[96];
+            std::snprintf(text, sizeof text, "%.1f (%.1f; %.1f)", row.time_ns,
+                          row.obb2d + row.obb3d + row.moving + row.aabb, row.samples);
+            out << left(text, 26);
+        }
+        out << '\n';
+    }
+    out << left("best", 8);
+    for (const std::string& method : methods) {
+        const TableRow* best = nullptr;
+        for (const int leaf : leaves) {
+            const TableRow* row = by.at({method, leaf});
+            if (!best || row->time_ns < best->time_ns) best = row;
+        }
+        out << left("n_min " + std::to_string(best->leaf), 26);
+    }
+    out << '\n';
+}
+
 }  // namespace
 
 std::optional<PaperRow> paper_row(std::string_view table, std::string_view method) {
     if (table == "table1") return find(kTable1, method);
     if (table == "table2") return find(kTable2, method);
     return std::nullopt;
+}
+
+void write_json(std::ostream& stream, const TableReport& report) {
+    JsonWriter out(stream);
+    out.begin_object();
+    out.member("workload", report.workload);
+    out.member("description", report.description);
+    out.member("machine", report.machine);
+    out.member("queries", report.queries);
+    out.key("seed");
+    out.value(static_cast<std::int64_t>(report.seed));
+    out.member("rounds", report.rounds);
+    out.key("clips");
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("count", report.clips);
+    out.member("mean_duration", report.mean_duration);
+    out.end_object();
+    out.member("positive", report.table.positive);
+    out.member("root_rejected", root_rejected(report));
+    out.key("rows");
+    out.begin_array();
+    for (const TableRow& row : report.table.rows) {
+        out.begin_object();
+        write_figures(out, row);
+        write_paper(out, report.workload, row.method);
+        out.end_object();
+    }
+    out.end_array();
+    out.key("test_ns");
+    out.begin_object(JsonWriter::Layout::row);
+    write_optional(out, "obb2d", report.costs.obb2d);
+    write_optional(out, "obb3d", report.costs.obb3d);
+    write_optional(out, "moving", report.costs.moving);
+    write_optional(out, "aabb", report.costs.aabb);
+    write_optional(out, "sample_pair", report.costs.sample_pair);
+    out.end_object();
+    if (!report.sweep.empty()) {
+        out.key("leaf_sweep");
+        out.begin_array();
+        for (const TableRow& row : report.sweep) {
+            out.begin_object(JsonWriter::Layout::row);
+            write_figures(out, row);
+            out.end_object();
+        }
+        out.end_array();
+    }
+    out.end_object();
+}
+
+double root_rejected(const TableReport& report) {
+    for (const TableRow& row : report.table.rows) {
+        if (row.method == "mobb") return row.root_rejected;
+    }
+    return 0;
+}
+
+void write_text(std::ostream& out, const TableReport& report) {
+    out << (report.workload == "table1" ? "Table 1" : "Table 2") << ": " << report.description << '\n'
+        << counted(report.queries, "query", "queries") << " between " << counted(report.clips, "clip", "clips")
+        << " of " << brief(report.mean_duration) << " s on average; seed " << report.seed << ", "
+        << counted(report.rounds, "round", "rounds") << ".\n"
+        << "On " << report.machine << ".\n"
+        << percent(report.table.positive) << " collide; the MOBB roots alone reject " << percent(root_rejected(report))
+        << ".\n\n";
+    write_rows(out, report);
+    out << "\nTimes are medians over the rounds. A sample whose hold overlaps two of the other clip's has two "
+           "partners: pairs "
+           "count both,\nsteps count it once, as the paper seems to.\n";
+    write_costs(out, report.costs);
+    write_sweep(out, report.sweep);
 }
 
 }  // namespace mobbscope

@@ -2,7 +2,7 @@
 
 #include <base/error.h>
 #include <base/file.h>
-#include <base/json_value.h>
+#include <base/json.h>
 #include <base/text.h>
 
 #include <algorithm>

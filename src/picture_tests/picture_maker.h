@@ -3,6 +3,7 @@
 
 #include <base/error.h>
 #include <picture_tests/shot.h>
+#include <render/drawlist/draw_list.h>
 #include <render/gl/renderer.h>
 #include <render/image/image.h>
 
@@ -44,5 +45,9 @@ inline void refuse_warnings(std::string_view backend, const std::vector<std::str
     if (warnings.empty()) return;
     throw MachineError(std::string(backend) + ", compiling shaders: " + warnings.front());
 }
+
+/// By panel, each at its size in the picture. Panels that are seen in the same way by a camera that frames the scene
+/// by itself share one that sees all of them. Throws InputError if a view cannot be drawn. The shot has no window.
+std::vector<DrawList> panel_lists(const Shot& shot);
 
 }  // namespace mobbscope::picture_tests

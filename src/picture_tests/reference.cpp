@@ -1,7 +1,7 @@
 #include <picture_tests/reference.h>
 
 #include <base/file.h>
-#include <base/json_place.h>
+#include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <render/drawlist/font.h>

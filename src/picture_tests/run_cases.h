@@ -4,6 +4,7 @@
 #include <picture_tests/case_file.h>
 #include <picture_tests/picture_maker.h>
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -63,5 +64,17 @@ struct Summary {
     bool ok() const { return different + missing + failed == 0; }
 };
 Summary summary(std::span<const CaseResult> results);
+
+/// Makes the folder that a file goes to, if need be. Throws MachineError.
+void make_folder_of(const std::filesystem::path& file);
+
+/// Writes the pictures of a case into a folder that is made if need be: NAME.actual.png, NAME.golden.png and
+/// NAME.heat.png, those that there are, none of a case that passed; what an earlier run left of the others goes.
+/// Returns what it wrote. Throws MachineError.
+std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const std::filesystem::path& folder);
+
+/// Makes the goldens of a case what is drawn now, each file whole; then the case has passed. Returns what it wrote.
+/// Throws MachineError.
+std::vector<std::filesystem::path> take(CaseResult& result);
 
 }  // namespace mobbscope::picture_tests

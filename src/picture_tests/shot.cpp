@@ -2,7 +2,7 @@
 
 #include <base/file.h>
 #include <base/text.h>
-#include <render/drawlist/metrics.h>
+#include <render/drawlist/picture_options.h>
 #include <render/pictures/render.h>
 #include <scene/fit_json.h>
 #include <scene/view_json.h>

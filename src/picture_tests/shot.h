@@ -14,7 +14,7 @@
 #pragma once
 
 #include <app/script/script.h>
-#include <base/json_place.h>
+#include <base/json.h>
 #include <render/drawlist/picture_options.h>
 #include <scene/fitted_scene.h>
 

@@ -2,11 +2,15 @@
 /// beside the `graph` whose moves its agents play.
 #pragma once
 
+#include <base/json.h>
+#include <base/json_writer.h>
 #include <mobb/clip.h>
+#include <scene/scene.h>
 
 #include <glm/vec2.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,5 +53,12 @@ struct CrowdRun {
     std::vector<CrowdAgent> agents;
     friend bool operator==(const CrowdRun&, const CrowdRun&) = default;
 };
+
+/// The crowd that plays the moves of the scene's graph. Throws InputError, at its place, if the scene has no graph, has
+/// agents or queries of its own, or if a play does not begin in the hub where the one before ends, at its end and where
+/// it comes to stand, to a millionth of a metre, second and degree (a pivoted or forced one may face another way).
+std::shared_ptr<const CrowdRun> read_crowd(const JsonPlace& place, const Scene& scene);
+
+void write_crowd(JsonWriter& out, const CrowdRun& crowd);
 
 }  // namespace mobbscope

@@ -3,7 +3,7 @@
 ///     {"tree": "mobb", "leaf": 10, "levels": 0, "axes": "endpoints", "time_scale": 1}
 #pragma once
 
-#include <base/json_place.h>
+#include <base/json.h>
 #include <base/json_writer.h>
 #include <mobb/tree.h>
 

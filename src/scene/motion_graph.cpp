@@ -1,11 +1,61 @@
 #include <base/strong_components.h>
+#include <base/text.h>
+#include <mobb/clip.h>
 #include <scene/motion_graph.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <unordered_set>
 #include <utility>
 
 namespace mobbscope {
+
+namespace {
+
+using Layout = JsonWriter::Layout;
+
+constexpr double kMaxAngle = 1e9;  // degrees, as for placements
+
+double read_bound(const JsonPlace& bounds, const char* key) {
+    const auto bound = bounds.find(key);
+    if (!bound || bound->is_null()) return std::numeric_limits<double>::infinity();
+    return bound->number(0, mobb::kMaxLength);
+}
+
+GraphBounds read_bounds(const JsonPlace& place) {
+    place.allow_only({"pose_distance", "root_speed"});
+    return {read_bound(place, "pose_distance"), read_bound(place, "root_speed")};
+}
+
+std::vector<GraphHub> read_hubs(const JsonPlace& place) {
+    if (place.size() == 0) place.fail("there is no hub; add one");
+    std::vector<GraphHub> hubs;
+    std::unordered_set<std::string> names;
+    for (int i = 0; i < place.size(); ++i) {
+        const JsonPlace hub = place[i];
+        hub.allow_only({"name"});
+        const JsonPlace name = hub.require("name");
+        if (name.string().empty()) name.fail("a hub needs a name");
+        if (!names.insert(name.string()).second) name.fail("another hub is named " + in_quotes(name.string()));
+        hubs.push_back({name.string()});
+    }
+    return hubs;
+}
+
+Stance read_stance(const JsonPlace& place) {
+    place.require_size(3, "[x, y, heading in degrees]");
+    return {{place[0].number(-kMostStance, kMostStance), place[1].number(-kMostStance, kMostStance)},
+            place[2].number(-kMaxAngle, kMaxAngle)};
+}
+
+void write_stance(JsonWriter& out, const char* key, const Stance& stance) {
+    out.key(key);
+    out.numbers({stance.position.x, stance.position.y, stance.heading_deg});
+}
+
+}  // namespace
 
 double heading_of(glm::dvec2 way) { return std::atan2(way.y, way.x) * 180 / std::numbers::pi; }
 
@@ -23,6 +73,57 @@ std::vector<int> hub_components(const MotionGraph& graph) {
     std::vector<std::pair<int, int>> edges;
     for (const GraphMove& move : graph.moves) edges.emplace_back(move.from, move.to);
     return strong_components(static_cast<int>(graph.hubs.size()), edges);
+}
+
+MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at) {
+    place.allow_only({"hubs", "bounds", "moves"});
+    MotionGraph graph;
+    graph.hubs = read_hubs(place.require("hubs"));
+    const auto bounds = place.find("bounds");
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    graph.bounds = bounds ? read_bounds(*bounds) : GraphBounds{kNone, kNone};
+    const JsonPlace moves = place.require("moves");
+    if (moves.size() == 0) moves.fail("there is no move; add one");
+    const int last_hub = static_cast<int>(graph.hubs.size()) - 1;
+    for (int i = 0; i < moves.size(); ++i) {
+        const JsonPlace move = moves[i];
+        move.allow_only({"clip", "from", "to", "entry", "exit"});
+        graph.moves.push_back({clip_at(move.require("clip")), move.require("from").integer(0, last_hub),
+                               move.require("to").integer(0, last_hub), read_stance(move.require("entry")),
+                               read_stance(move.require("exit"))});
+    }
+    return graph;
+}
+
+void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name) {
+    out.begin_object();
+    out.key("hubs");
+    out.begin_array();
+    for (const GraphHub& hub : graph.hubs) {
+        out.begin_object(Layout::row);
+        out.member("name", hub.name);
+        out.end_object();
+    }
+    out.end_array();
+    out.key("bounds");
+    out.begin_object(Layout::row);
+    // An infinite number is written as null, which reads as no bound.
+    out.member("pose_distance", graph.bounds.pose_distance);
+    out.member("root_speed", graph.bounds.root_speed);
+    out.end_object();
+    out.key("moves");
+    out.begin_array();
+    for (const GraphMove& move : graph.moves) {
+        out.begin_object(Layout::row);
+        out.member("clip", clip_name(move.clip));
+        out.member("from", move.from);
+        out.member("to", move.to);
+        write_stance(out, "entry", move.entry);
+        write_stance(out, "exit", move.exit);
+        out.end_object();
+    }
+    out.end_array();
+    out.end_object();
 }
 
 }  // namespace mobbscope

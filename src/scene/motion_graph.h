@@ -3,10 +3,13 @@
 /// `graph` of a scene file, whose clips it joins.
 #pragma once
 
+#include <base/json.h>
+#include <base/json_writer.h>
 #include <mobb/clip.h>
 
 #include <glm/vec2.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -62,5 +65,13 @@ mobb::Placement following(const mobb::Placement& before, const Stance& exit, dou
 /// For each hub the number of the part of the graph that it belongs to: from all hubs of a part moves lead to all
 /// others of it. Counted from 0 in the order of their first hubs.
 std::vector<int> hub_components(const MotionGraph& graph);
+
+/// `clip_at` gives the index of the clip that a place names, or throws InputError. Checks that there is a hub and a
+/// move, that hubs have names of their own, that moves join hubs that exist, and that stances and bounds are in range.
+/// A hub that no move leaves is allowed. Throws InputError.
+MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at);
+
+/// `clip_name` gives the name of the clip with an index.
+void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name);
 
 }  // namespace mobbscope

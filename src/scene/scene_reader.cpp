@@ -1,13 +1,12 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
 #include <base/file.h>
-#include <base/json_place.h>
+#include <base/json.h>
 #include <base/text.h>
-#include <import/applicable.h>
 #include <import/import.h>
 #include <import/tracks/tracks.h>
-#include <scene/crowd_json.h>
+#include <scene/crowd_run.h>
 #include <scene/fit_json.h>
-#include <scene/graph_json.h>
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
 #include <scene/view_json.h>

@@ -1,8 +1,8 @@
 // Scene files written: what is read back is the same scene, bit for bit.
 #include <base/json_writer.h>
 #include <base/text.h>
-#include <scene/crowd_json.h>
-#include <scene/graph_json.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
 #include <scene/view_json.h>

@@ -1,7 +1,7 @@
 /// Contacts and traces as they stand in scene files and in the output of `query --json`.
 #pragma once
 
-#include <base/json_place.h>
+#include <base/json.h>
 #include <base/json_writer.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>

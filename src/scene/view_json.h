@@ -11,7 +11,7 @@
 /// `levels` is a level or what `--level` takes, `step` an event number or what `--step` takes.
 #pragma once
 
-#include <base/json_place.h>
+#include <base/json.h>
 #include <base/json_writer.h>
 #include <scene/view_state.h>
 

@@ -1,5 +1,5 @@
 /// Paths on the floor against a look at all pairs of samples.
-#include <explain/floor_paths.h>
+#include <explain/clearance.h>
 #include <gtest/gtest.h>
 #include <mobb/predicate.h>
 

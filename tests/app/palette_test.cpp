@@ -1,5 +1,4 @@
 // What the palette finds.
-#include <app/commands/fuzzy.h>
 #include <app/commands/palette_entries.h>
 
 #include "app/crossing_folder.h"

@@ -1,11 +1,9 @@
 // Graphs cut out of recordings: what they promise holds at every joint.
-#include <crowd/graph/alike_moves.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/graph_walk.h>
 #include <crowd/graph/pose_distance.h>
 #include <crowd/graph/recordings.h>
-#include <crowd/graph/transitions.h>
 #include <scene/motion_graph.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>

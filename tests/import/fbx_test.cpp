@@ -1,7 +1,6 @@
 // The FBX reader's process: what it sends, and what becomes of its crashes. Figures of real files:
 // motion_data_test.cpp.
 #include <base/error.h>
-#include <import/nodes/child_process.h>
 #include <import/nodes/fbx.h>
 #include <import/nodes/node_scene.h>
 #include <import/nodes/scene_packet.h>

@@ -1,6 +1,6 @@
 #include <import/bvh/bvh.h>
+#include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
-#include <import/skeleton/skeleton.h>
 #include <support/bvh_text.h>
 #include <support/input_error.h>
 

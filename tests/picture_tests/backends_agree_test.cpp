@@ -1,5 +1,5 @@
 // OSMesa and EGL draw the same picture of every case.
-#include <picture_tests/goldens.h>
+#include <picture_tests/run_cases.h>
 
 #include "render/backends.h"
 

@@ -1,5 +1,5 @@
 // What a run leaves on the disk.
-#include <picture_tests/goldens.h>
+#include <picture_tests/run_cases.h>
 #include <render/image/png.h>
 
 #include "picture_tests/case_folder.h"

@@ -1,5 +1,5 @@
 // Panels are seen from one place, so that what differs is what is drawn.
-#include <picture_tests/panel_lists.h>
+#include <picture_tests/picture_maker.h>
 #include <render/drawlist/draw_list.h>
 
 #include "picture_tests/case_folder.h"

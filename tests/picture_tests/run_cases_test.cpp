@@ -1,6 +1,5 @@
 // What becomes of a case: every outcome, told apart.
 #include <base/file.h>
-#include <picture_tests/goldens.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
 #include <render/image/png.h>

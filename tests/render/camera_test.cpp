@@ -1,7 +1,6 @@
 // Explicit cameras: settled from one that frames the scene, and moved.
+#include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/navigate.h>
-#include <render/drawlist/resolve_camera.h>
 #include <render/layout/framing.h>
 #include <render/pictures/build_draw_list.h>
 

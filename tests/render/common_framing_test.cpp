@@ -2,8 +2,8 @@
 #include "render/pictures.h"
 #include "scenes.h"
 
+#include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/resolve_camera.h>
 #include <render/layout/common_framing.h>
 #include <render/pictures/build_draw_list.h>
 

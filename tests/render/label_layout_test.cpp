@@ -1,5 +1,5 @@
 #include <render/layout/block_layout.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 
 #include <gtest/gtest.h>
 

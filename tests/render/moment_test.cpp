@@ -1,8 +1,8 @@
 // The picture of one moment: who is there, what is marked, and that all of it is in the picture.
-#include <import/skeleton/skeleton.h>
+#include <import/skeleton/motion.h>
 #include <mobb/predicate.h>
 #include <render/drawlist/pick.h>
-#include <render/parts/disk_overlap.h>
+#include <render/parts/paths.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/moment.h>
 

@@ -1,4 +1,4 @@
-#include <render/drawlist/object_id.h>
+#include <render/drawlist/draw_list.h>
 #include <render/pictures/build_draw_list.h>
 
 #include "render/backends.h"

@@ -1,5 +1,5 @@
+#include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
-#include <render/drawlist/resolve_camera.h>
 #include <render/parts/node_boxes.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/render.h>

@@ -1,4 +1,4 @@
-#include <render/text/ticks.h>
+#include <render/text/labels.h>
 
 #include <gtest/gtest.h>
 

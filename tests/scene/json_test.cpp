@@ -1,5 +1,4 @@
-#include <base/json_place.h>
-#include <base/json_value.h>
+#include <base/json.h>
 #include <base/json_writer.h>
 #include <support/input_error.h>
 

@@ -1,5 +1,5 @@
 // Scenes whose clips come from motion files.
-#include <import/skeleton/skeleton.h>
+#include <import/skeleton/motion.h>
 #include <scene/scene.h>
 #include <support/bvh_text.h>
 #include <support/input_error.h>

@@ -1,6 +1,8 @@
 /// What commands take, read from text. Everything here throws std::invalid_argument in one sentence.
 #pragma once
 
+#include <mobb/tree.h>
+
 #include <glm/vec2.hpp>
 
 #include <string>
@@ -17,5 +19,15 @@ int whole_number_in(std::string_view text, std::string_view what, int low, int h
 glm::dvec2 two_numbers(std::string_view text, std::string_view what);
 /// "walker north 12": a name, which may hold blanks, and the word behind it.
 std::pair<std::string_view, std::string_view> name_and_word(std::string_view text, std::string_view what);
+
+/// The node of an index ("12"), or of a level and a place in it, counted from 0 in order of time ("2.1"). Throws
+/// std::invalid_argument, saying what there is, if there is none.
+int node_at(const mobb::Tree& tree, std::string_view text);
+
+/// The leaf that holds a sample of the tree's clip.
+int leaf_of_sample(const mobb::Tree& tree, int sample);
+
+/// The next node of the same level in the direction of time (1) or against it (-1); -1 if there is none.
+int neighbour_on_level(const mobb::Tree& tree, int node, int direction);
 
 }  // namespace mobbscope::app

@@ -6,6 +6,7 @@
 #include <render/layout/framing.h>
 
 #include <functional>
+#include <string>
 
 namespace mobbscope::app {
 
@@ -19,5 +20,17 @@ void move_camera(Session& session, const std::function<Camera(const Camera&, con
 /// What `selected` covers of what the present picture shows, in (x, y, t), or in the picture of a moment (x, y,
 /// height). None if it is not in the picture.
 std::optional<Bounds> box_of(const Session& session, const Selection& selected);
+
+bool follows(const Session& session);
+
+/// Follows and selects an agent, with so many metres around it in the picture. Throws std::invalid_argument if there is
+/// no agent of that name.
+void follow_agent(Session& session, const std::string& name, double metres);
+
+/// Brings so many metres around the followed agent into the picture.
+void frame_followed(Session& session, double metres);
+
+/// Puts the followed agent in the middle again, seen from as far as before.
+void center_followed(Session& session);
 
 }  // namespace mobbscope::app

@@ -85,4 +85,21 @@ std::string_view first_shortcut(const Command& command) {
     return command.shortcut.substr(0, command.shortcut.find(' '));
 }
 
+std::span<const Command> help_commands() {
+    static const std::vector<Command> table{
+        {.id = "help.shortcuts",
+         .title = "Shortcuts",
+         .menu = "Help",
+         .shortcut = "F1",
+         .doc = "Lists all shortcuts and what the mouse does.",
+         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::help); }},
+        {.id = "help.about",
+         .title = "About Mobbscope",
+         .menu = "Help",
+         .doc = "Says which version this is and what it shows.",
+         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::about); }},
+    };
+    return table;
+}
+
 }  // namespace mobbscope::app

@@ -1,6 +1,6 @@
 #include <app/commands/arguments.h>
+#include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
-#include <app/commands/following.h>
 #include <app/document/run_agents.h>
 #include <base/text.h>
 #include <render/layout/follow.h>

@@ -1,6 +1,5 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
-#include <app/commands/node_place.h>
 #include <app/commands/selected_agent.h>
 #include <base/text.h>
 #include <render/parts/node_boxes.h>

@@ -3,7 +3,9 @@
 
 #include <app/commands/command.h>
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
@@ -23,5 +25,13 @@ std::vector<PaletteEntry> palette_entries(const Session& session, const std::str
 
 /// The choices of a command that fit what was typed, the best first.
 std::vector<std::string> matching_choices(const Session& session, const Command& command, const std::string& text);
+
+/// The letters of `word` must stand in `text` in their order, whatever their case; starts of words and runs count more,
+/// and a match of letters strewn about is none. Higher is better; 0 for an empty word.
+std::optional<double> fuzzy_score(std::string_view word, std::string_view text);
+
+/// The same where `word` is the beginning of a word of `text`, or all of it: for whole sentences, in which a few
+/// letters are found always.
+std::optional<double> word_score(std::string_view word, std::string_view text);
 
 }  // namespace mobbscope::app

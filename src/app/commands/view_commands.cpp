@@ -1,10 +1,9 @@
 #include <app/commands/arguments.h>
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
-#include <app/commands/following.h>
 #include <app/document/run_agents.h>
 #include <base/text.h>
-#include <render/drawlist/navigate.h>
+#include <render/drawlist/camera.h>
 #include <render/drawlist/view_projection.h>
 #include <render/layout/follow.h>
 #include <scene/crowd_run.h>

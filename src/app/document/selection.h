@@ -1,7 +1,7 @@
 /// What is selected, or under the mouse: the same thing in every panel.
 #pragma once
 
-#include <render/drawlist/object_id.h>
+#include <render/drawlist/draw_list.h>
 #include <scene/fitted_scene.h>
 
 #include <optional>

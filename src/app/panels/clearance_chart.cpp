@@ -4,7 +4,7 @@
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
 #include <explain/query_sentence.h>
-#include <render/text/ticks.h>
+#include <render/text/labels.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,12 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
+#include <explain/query_findings.h>
+#include <explain/query_sentence.h>
+
+#include <algorithm>
+#include <array>
 
 namespace mobbscope::app {
 
@@ -30,6 +36,111 @@ void query_header(Ui& ui) {
         command_button(ui, "back to the crowd", "crowd.back", "crowd.back");
     }
     ImGui::PopStyleVar();
+}
+
+constexpr int kMostQueryRows = 12;  // a longer list scrolls by itself
+
+/// "A against B", the names shortened until it fits; the tooltip has them in full.
+std::string pair_that_fits(const SceneQuery& query, float room) {
+    const std::string a = cleaned(query.a.name);
+    const std::string b = cleaned(query.b.name);
+    std::string pair;
+    for (std::size_t most = 40; most >= 5; --most) {
+        pair = shortened(a, most) + " against " + shortened(b, most);
+        if (ImGui::CalcTextSize(pair.c_str()).x <= room) break;
+    }
+    return pair;
+}
+
+void query_row(Ui& ui, std::size_t index, float height) {
+    const SceneQuery query = ui.session.fitted().queries()[index];
+    const Answer& answer = ui.session.answer_of(index);
+    const EventMark mark = answer.contact ? EventMark::hit : EventMark::separated;
+    ImGui::PushID(static_cast<int>(index));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (ImGui::Selectable("##query", false, 0, {width, height})) {
+        invoke(ui.session, "query.select", std::to_string(index));
+    }
+    ui.mark("query.row." + std::to_string(index));
+    if (ImGui::IsItemHovered()) {
+        ui.session.hovered = {Selection::Kind::query, {}, static_cast<int>(index)};
+        ImGui::SetTooltip("%s", sentence(query, answer.contact).c_str());
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float side = ui.px(11);
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 cell{at.x + ui.px(2), at.y + 0.5f * (line - side) + ui.px(2)};
+    outcome_cell(list, ui.style, cell, {cell.x + side, cell.y + side}, mark, 1);
+    const float left = cell.x + side + ui.px(7);
+    list.AddText({left, at.y + ui.px(2)}, ui.style.text, pair_that_fits(query, at.x + width - left).c_str());
+    const std::string found = answer.contact ? "hit at " + with_unit(answer.contact->time, "s") : "never collide";
+    list.AddText({left, at.y + ui.px(3) + line}, mark_text(ui.style, mark), found.c_str());
+    ImGui::PopID();
+}
+
+/// Two disks, apart or one over the other: the answer without words.
+void answer_sign(Ui& ui, bool collide, ImU32 color) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float r = ui.px(6);
+    const float height = ImGui::GetTextLineHeight();
+    const float apart = collide ? 1.1f * r : 2.6f * r;
+    const float y = at.y + 0.5f * height;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddCircleFilled({at.x + r, y}, r, color);
+    list.AddCircle({at.x + r + apart, y}, r, color, 0, ui.px(1.8f));
+    ImGui::Dummy({2 * r + apart, height});
+    ImGui::SameLine(0, ui.px(8));
+}
+
+void expectation(Ui& ui) {
+    const auto index = static_cast<std::size_t>(*ui.session.view().query);
+    const SceneQuery query = ui.session.fitted().queries()[index];
+    if (query.expect) {
+        const auto wrong = disagreement(query, ui.session.answer_of(index));
+        if (!wrong) {
+            words(ui.style.quiet, "As the scene expects.");
+            return;
+        }
+        words(ui.style.warning, "Not as the scene expects: " + *wrong);
+    }
+    query_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
+}
+
+void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& contact) {
+    number_row(ui, "Contact at", with_unit(contact.time, "s"), contact.time, "s");
+    number_row(ui, ("Sample of " + findings.sides[0].label).c_str(), std::to_string(contact.a_sample), contact.a_sample,
+               "");
+    number_row(ui, ("Sample of " + findings.sides[1].label).c_str(), std::to_string(contact.b_sample), contact.b_sample,
+               "");
+    number_row(ui, "Distance", with_unit(contact.distance, "m"), contact.distance, "m");
+    number_row(ui, "Sum of radii", with_unit(contact.radii, "m"), contact.radii, "m");
+    number_row(ui, "How deep", with_unit(contact.radii - contact.distance, "m"), contact.radii - contact.distance, "m");
+}
+
+struct Counter {
+    const char* label;
+    const char* doc;
+    std::int64_t (*of)(const StepCounts&);
+    bool beyond_the_paper = false;  ///< shown only where there was one
+};
+
+constexpr std::array<Counter, 7> kCounters{{
+    {"time tests", "Do two nodes share time?", [](const StepCounts& c) { return c.tests.time; }},
+    {"2D box tests", "Four axes on the floor", [](const StepCounts& c) { return c.tests.obb2d; }},
+    {"3D box tests", "Up to fifteen axes in space-time", [](const StepCounts& c) { return c.tests.obb3d; }},
+    {"moving box tests", "Four axes on the floor, at both ends of the common time",
+     [](const StepCounts& c) { return c.tests.moving; }, true},
+    {"AABB tests", "The world's x and y", [](const StepCounts& c) { return c.tests.aabb; }, true},
+    {"sample pairs", "Pairs of disks whose distance was measured", [](const StepCounts& c) { return c.tests.samples; }},
+    {"wasted", "Box tests that found an overlap which led to no hit", [](const StepCounts& c) { return c.wasted; }},
+}};
+
+void right_aligned(const std::string& text, float right, ImU32 color) {
+    ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
 }
 
 }  // namespace
@@ -62,6 +173,81 @@ void query_panel(Ui& ui) {
     }
     heading(ui, "CLEARANCE OVER TIME");
     clearance_chart(ui, *findings, ui.px(110));
+}
+
+void query_list(Ui& ui) {
+    const std::size_t count = ui.session.fitted().queries().size();
+    heading(ui, "QUERIES", count > 0 ? std::to_string(count) : "");
+    if (count == 0) {
+        words(ui.style.quiet, ui.session.empty()
+                                  ? "Open a scene to ask whether two agents collide."
+                                  : "A query asks whether two agents ever collide. Add agents at the left (+ agent): "
+                                    "every pair of them is asked by itself.");
+        return;
+    }
+    words(ui.style.quiet, "Choose one to see why.");
+    const float height = 2 * ImGui::GetTextLineHeight() + ui.px(6);
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const int rows = static_cast<int>(count);
+    const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostQueryRows)) + spacing;
+    ImGui::BeginChild("queries", {0, room});
+    ImGuiListClipper clipper;
+    clipper.Begin(rows, height + spacing);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            query_row(ui, static_cast<std::size_t>(i), height);
+        }
+    }
+    ImGui::EndChild();
+}
+
+void query_answer(Ui& ui, const QueryFindings& findings) {
+    const bool collide = findings.clearance.contact.has_value();
+    const EventMark mark = collide ? EventMark::hit : EventMark::separated;
+    framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
+        ImGui::PushFont(ui.style.title);
+        answer_sign(ui, collide, mark_color(ui.style, mark));
+        words(mark_text(ui.style, mark), answer_words(findings.sides, findings.clearance));
+        ImGui::PopFont();
+        for (const std::string& sentence : why_words(findings.sides, findings.clearance, findings.floor)) {
+            words(ui.style.text, sentence);
+        }
+    });
+    ui.mark("query.answer");
+    if (const auto& contact = ui.session.recorded()->contact) {
+        contact_rows(ui, findings, *contact);
+        query_button(ui, "Go to contact", "go.contact");
+    }
+    expectation(ui);
+}
+
+void query_counters(Ui& ui, const QueryFindings& findings) {
+    heading(ui, "TESTS");
+    const StepCounts total = findings.recursion.total();
+    const StepCounts now = findings.recursion.so_far.empty()
+                               ? StepCounts{}
+                               : findings.recursion.so_far[static_cast<std::size_t>(ui.session.step())];
+    const float left = ImGui::GetCursorPosX();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float first = left + 0.68f * room;
+    const float second = left + room;
+    ImGui::PushFont(ui.style.caption);
+    ImGui::TextUnformatted("");
+    right_aligned("so far", first, ui.style.quiet);
+    right_aligned("in all", second, ui.style.quiet);
+    ImGui::PopFont();
+    for (const Counter& counter : kCounters) {
+        if (counter.beyond_the_paper && counter.of(total) == 0) continue;
+        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
+        ImGui::TextUnformatted(counter.label);
+        ImGui::PopStyleColor();
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", counter.doc);
+        ImGui::PushFont(ui.style.mono);
+        right_aligned(std::to_string(counter.of(now)), first, ui.style.text);
+        right_aligned(std::to_string(counter.of(total)), second, ui.style.quiet);
+        ImGui::PopFont();
+    }
+    words(ui.style.quiet, gain_words(total.tests, findings.clearance));
 }
 
 }  // namespace mobbscope::app

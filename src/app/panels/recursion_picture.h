@@ -1,7 +1,7 @@
 /// A recursion in pixels: what is too small to be seen apart is put together, and nothing that says more is lost.
 #pragma once
 
-#include <app/ui/event_mark.h>
+#include <app/ui/swatch.h>
 #include <explain/recursion.h>
 
 #include <vector>

@@ -1,6 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
+#include <app/viewport/viewport_overlay.h>
 #include <render/drawlist/palette.h>
 
 #include <cstdio>
@@ -143,6 +144,27 @@ void scene_panel(Ui& ui) {
     clips(ui);
     // A run is asked for its conflicts.
     if (!ui.session.crowd()) queries(ui);
+}
+
+void selection_panel(Ui& ui) {
+    const Session& session = ui.session;
+    if (session.empty()) return;
+    heading(ui, "SELECTION");
+    if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
+        words(ui.style.quiet,
+              "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "
+              "to move it, "
+              "roll the wheel to zoom. F1 lists all keys.");
+        return;
+    }
+    const Described what = describe(session.fitted(), session.selection);
+    ImGui::TextWrapped("%s", what.name.c_str());
+    for (const auto& [key, value] : what.facts) {
+        form_label(ui, key.c_str(), nullptr);
+        ImGui::PushFont(ui.style.mono);
+        ImGui::TextWrapped("%s", value.c_str());
+        ImGui::PopFont();
+    }
 }
 
 }  // namespace mobbscope::app

@@ -20,16 +20,16 @@ struct PanelChoice {
 };
 
 constexpr std::array<PanelChoice, 6> kKinds{{{"mobb", "MOBB", "Boxes upright in time"},
-                                        {"umobb", "UMOBB", "Free boxes in space-time"},
-                                        {"hybrid1", "hybrid 1", "MOBB root, UMOBB below"},
-                                        {"hybrid2", "hybrid 2", "UMOBB root, MOBB below"},
-                                        {"moving", "moving", "Boxes that move with the walk"},
-                                        {"aabb", "AABB", "Boxes along x and y: the baseline of other fields"}}};
+                                             {"umobb", "UMOBB", "Free boxes in space-time"},
+                                             {"hybrid1", "hybrid 1", "MOBB root, UMOBB below"},
+                                             {"hybrid2", "hybrid 2", "UMOBB root, MOBB below"},
+                                             {"moving", "moving", "Boxes that move with the walk"},
+                                             {"aabb", "AABB", "Boxes along x and y: the baseline of other fields"}}};
 constexpr std::array<PanelChoice, 3> kAxes{{{"endpoints", "endpoints", "Along first to last sample: the paper's"},
-                                       {"covariance", "covariance", "Principal axes of the centres"},
-                                       {"minarea", "minarea", "Smallest area or volume found"}}};
+                                            {"covariance", "covariance", "Principal axes of the centres"},
+                                            {"minarea", "minarea", "Smallest area or volume found"}}};
 constexpr std::array<PanelChoice, 2> kColours{{{"agent", "agent", "Boxes in their agent's colour"},
-                                          {"level", "level", "Boxes by their level, from dark to bright"}}};
+                                               {"level", "level", "Boxes by their level, from dark to bright"}}};
 
 template <std::size_t count>
 void choose(Ui& ui, const char* label, const char* command, const std::array<PanelChoice, count>& choices,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <app/document/session.h>
-#include <app/window/shell_host.h>
+#include <app/window/shell.h>
 #include <base/text.h>
 
 #include <functional>

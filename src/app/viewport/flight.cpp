@@ -1,5 +1,5 @@
 #include <app/viewport/flight.h>
-#include <render/drawlist/navigate.h>
+#include <render/drawlist/camera.h>
 
 #include <algorithm>
 

@@ -1,9 +1,8 @@
 #include <app/commands/command.h>
 #include <app/viewport/viewport.h>
-#include <render/drawlist/metrics.h>
-#include <render/drawlist/navigate.h>
+#include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
-#include <render/drawlist/resolve_camera.h>
+#include <render/drawlist/picture_options.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/render.h>
 #include <scene/drawn_agent.h>
@@ -77,9 +76,7 @@ void Viewport::build(const Key& key, const FollowedChoice* choice) {
     painted_ = false;
 }
 
-Camera Viewport::shown_camera() const {
-    return list_ ? resolved_camera(key_->view.camera, *list_) : key_->view.camera;
-}
+Camera Viewport::shown_camera() const { return list_ ? resolved_camera(key_->view.camera, *list_) : key_->view.camera; }
 
 /// The camera has jumped, by a command or by undo: it flies there instead, if somebody is looking.
 void Viewport::take_off(Ui& ui, const Key& next) {

@@ -1,7 +1,8 @@
 /// The real window. All that knows GLFW stands behind this.
 #pragma once
 
-#include <app/window/shell_host.h>
+#include <app/window/shell.h>
+#include <render/image/image.h>
 
 #include <memory>
 #include <optional>
@@ -33,5 +34,7 @@ class GlfwWindow final : public ShellHost {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+Image window_icon(int side);
 
 }  // namespace mobbscope::app

@@ -1,7 +1,7 @@
 /// A shell without a window, for pictures and scripts. Its clock runs by a sixtieth of a second a frame.
 #pragma once
 
-#include <app/window/shell_host.h>
+#include <app/window/shell.h>
 
 #include <memory>
 

@@ -1,13 +1,19 @@
 #include <base/error.h>
+#include <base/json_writer.h>
+#include <base/text.h>
 #include <cli/command_line.h>
-#include <cli/commands.h>
-#include <cli/render/list_backends.h>
+#include <cli/program.h>
 #include <cli/render/render_batch.h>
+#include <cli/render/render_command.h>
 #include <cli/render/render_job.h>
 #include <cli/render/render_options.h>
+#include <render/gl/backends.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -41,6 +47,36 @@ void run_render(const Command& command, const RenderCommandArguments& arguments)
     }
 }
 
+void print_words(const std::vector<BackendReport>& backends) {
+    for (const BackendReport& backend : backends) {
+        std::cout << backend.name << ": "
+                  << cleaned(backend.works ? "OpenGL " + backend.version + ", " + backend.renderer
+                                           : "not here: " + backend.why_not)
+                  << '\n';
+    }
+}
+
+void print_backends_json(const std::vector<BackendReport>& backends) {
+    JsonWriter json(std::cout);
+    json.begin_object();
+    json.key("backends");
+    json.begin_array();
+    for (const BackendReport& backend : backends) {
+        json.begin_object();
+        json.member("name", backend.name);
+        json.member("works", backend.works);
+        if (backend.works) {
+            json.member("version", backend.version);
+            json.member("renderer", backend.renderer);
+        } else {
+            json.member("why_not", backend.why_not);
+        }
+        json.end_object();
+    }
+    json.end_array();
+    json.end_object();
+}
+
 }  // namespace
 
 void add_render_command(Command& program) {
@@ -57,6 +93,14 @@ void add_render_command(Command& program) {
     command.add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
     command.add_flag("--json", arguments->json, "With --list-backends: as JSON");
     command.callback([&command, arguments] { run_render(command, *arguments); });
+}
+
+void list_backends(bool json) {
+    const std::vector<BackendReport> backends = report_backends();
+    json ? print_backends_json(backends) : print_words(backends);
+    flush_results();
+    const bool any = std::any_of(backends.begin(), backends.end(), [](const BackendReport& b) { return b.works; });
+    if (!any) throw MachineError("no OpenGL 3.3 context without a display; see above which libraries were tried");
 }
 
 }  // namespace mobbscope::cli

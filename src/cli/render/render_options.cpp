@@ -5,7 +5,7 @@
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/render/render_options.h>
-#include <render/drawlist/metrics.h>
+#include <render/drawlist/picture_options.h>
 #include <render/drawlist/view_projection.h>
 #include <render/pictures/render.h>
 #include <scene/view_json.h>

@@ -2,10 +2,12 @@
 /// become hubs, and what lies between two of them becomes a move.
 #pragma once
 
+#include <crowd/graph/cut_search.h>
 #include <crowd/graph/hub_choice.h>
 #include <scene/scene.h>
 
 #include <cstddef>
+#include <vector>
 
 namespace mobbscope {
 
@@ -34,5 +36,12 @@ struct BuiltGraph {
 /// std::invalid_argument for options out of range.
 BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, const std::string& place,
                        const Progress& progress = {});
+
+/// Picks pieces that differ, all of which join the same two hubs, at most `most`. The first is the one that is most
+/// like its hubs; each next one differs most from those before (farthest-first traversal: Gonzalez 1985). Two are alike
+/// if, laid upon each other at their begin, their paths stay within 0.15 m of each other, their headings end within 10
+/// degrees and their durations are within 0.15 s. Gives indices into `pieces`, ascending.
+std::vector<std::size_t> different_pieces(const std::vector<Recording>& recordings, const std::vector<Piece>& pieces,
+                                          std::size_t most);
 
 }  // namespace mobbscope

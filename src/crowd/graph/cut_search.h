@@ -2,7 +2,6 @@
 #pragma once
 
 #include <crowd/graph/pose_distance.h>
-#include <crowd/graph/pose_track.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 

@@ -1,8 +1,18 @@
+#include <base/error.h>
 #include <crowd/graph/graph_figures.h>
+#include <crowd/graph/graph_walk.h>
+#include <crowd/graph/pose_distance.h>
+#include <import/import.h>
+#include <scene/motion_graph.h>
+
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 
@@ -20,6 +30,91 @@ EndSpeeds end_speeds(const mobb::Clip& clip, const GraphMove& move) {
     const auto samples = clip.samples();
     const glm::dvec2 second = samples.size() > 1 ? glm::dvec2{samples[1].x, samples[1].y} : move.exit.position;
     return {step(samples.front(), second) / clip.dt(), step(samples.back(), move.exit.position) / clip.dt()};
+}
+
+constexpr std::size_t kMostJoints = 20'000'000;
+
+constexpr double kRounding = 1e-6;  // relative, and in metres or metres per second
+
+/// A move's poses, with some from before and after it where its source has them.
+struct MovePoses {
+    std::optional<PoseTrack> track;
+    int entry = 0;  ///< frames of the track
+    int exit = 0;
+};
+
+/// The poses of the clip and those around it that a window at either end needs.
+MovePoses poses_of(const Scene& scene, const SceneClip& clip, Importer& importer, Rigs& rigs) {
+    if (!clip.skeleton) return {};
+    const int count = clip.clip->count();
+    // A path that was put at the origin cannot be lengthened in front.
+    if (!clip.source || !clip.options.trim || clip.options.origin.value_or(Origin::keep) != Origin::keep) {
+        return {rigs.track(*clip.clip, *clip.skeleton), 0, count};
+    }
+    const double dt = clip.clip->dt();
+    const int reach = window_offsets(dt).back();
+    const auto [begin, end] = *clip.options.trim;
+    const int in_front = static_cast<int>(std::min<double>(reach, std::floor(begin / dt + kRounding)));
+    ImportOptions options = clip.options;
+    options.trim = {std::max(0.0, begin - in_front * dt), end + (reach + 1) * dt};
+    const ImportedClip longer = importer.clips(scene.file.parent_path() / *clip.source, options).front();
+    if (!longer.skeleton) return {};
+    return {rigs.track(*longer.clip, *longer.skeleton), in_front, in_front + count};
+}
+
+/// The root's velocity at both ends of a move, metres per second, with the heading of the stance along +x.
+struct EndVelocities {
+    glm::dvec2 entry;
+    glm::dvec2 exit;
+};
+
+EndVelocities velocities_of(const mobb::Clip& clip, const GraphMove& move) {
+    // The stances are what joins the moves, so they stand for the ends whatever the samples say.
+    const auto at = [&](int i) -> glm::dvec2 {
+        if (i == 0) return move.entry.position;
+        if (i == clip.count()) return move.exit.position;
+        const mobb::Disk& disk = clip.samples()[static_cast<std::size_t>(i)];
+        return {disk.x, disk.y};
+    };
+    const int last = clip.count() - 1;
+    return {mobb::Rotation::from_degrees(-move.entry.heading_deg)((at(1) - at(0)) / clip.dt()),
+            mobb::Rotation::from_degrees(-move.exit.heading_deg)((at(last + 1) - at(last)) / clip.dt())};
+}
+
+JointSpread spread_of(const std::vector<std::pair<int, int>>& joints, const std::vector<double>& values) {
+    JointSpread out;
+    std::vector<double> measured;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (values[i] < 0) continue;
+        measured.push_back(values[i]);
+        if (out.before >= 0 && values[i] <= out.largest) continue;
+        out.largest = values[i];
+        out.before = joints[i].first;
+        out.after = joints[i].second;
+    }
+    out.count = measured.size();
+    if (measured.empty()) return out;
+    const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
+    std::nth_element(measured.begin(), middle, measured.end());
+    out.median = *middle;
+    return out;
+}
+
+std::vector<std::pair<int, int>> joints_of(const MotionGraph& graph) {
+    const std::vector<std::vector<int>> begin_in = moves_by_hub(graph);
+    std::size_t joints = 0;
+    for (const GraphMove& move : graph.moves) joints += begin_in[static_cast<std::size_t>(move.to)].size();
+    if (joints > kMostJoints) {
+        throw InputError("the graph has " + std::to_string(joints) + " joints, more than the " +
+                         std::to_string(kMostJoints) + " that are measured; give it fewer moves a hub");
+    }
+    std::vector<std::pair<int, int>> out;
+    out.reserve(joints);
+    for (int m = 0; m < static_cast<int>(graph.moves.size()); ++m) {
+        const int hub = graph.moves[static_cast<std::size_t>(m)].to;
+        for (const int next : begin_in[static_cast<std::size_t>(hub)]) out.emplace_back(m, next);
+    }
+    return out;
 }
 
 }  // namespace
@@ -74,6 +169,39 @@ GraphFigures graph_figures(const Scene& scene) {
     out.choices /= static_cast<double>(out.moves);
     out.seconds_between_choices = out.seconds / static_cast<double>(out.moves);
     return out;
+}
+
+JointMeasures measure_joints(const Scene& scene, const Progress& progress) {
+    const MotionGraph& graph = *scene.graph;
+    Importer importer;
+    Rigs rigs;
+    std::vector<MovePoses> poses;
+    std::vector<EndVelocities> velocities;
+    for (std::size_t m = 0; m < graph.moves.size(); ++m) {
+        if (progress) progress(m, graph.moves.size());
+        const SceneClip& clip = scene.clips[static_cast<std::size_t>(graph.moves[m].clip)];
+        poses.push_back(poses_of(scene, clip, importer, rigs));
+        velocities.push_back(velocities_of(*clip.clip, graph.moves[m]));
+    }
+
+    const std::vector<std::pair<int, int>> joints = joints_of(graph);
+    std::vector<double> distances(joints.size(), -1);  // negative: not measured
+    std::vector<double> speeds(joints.size());
+    tbb::parallel_for(std::size_t{0}, joints.size(), [&](std::size_t i) {
+        const auto a = static_cast<std::size_t>(joints[i].first);
+        const auto b = static_cast<std::size_t>(joints[i].second);
+        speeds[i] = glm::distance(velocities[a].exit, velocities[b].entry);
+        const std::optional<PoseTrack>& before = poses[a].track;
+        const std::optional<PoseTrack>& after = poses[b].track;
+        if (!before || !after || before->rig != after->rig || before->dt != after->dt) return;
+        distances[i] = joined_distance(*before, poses[a].exit, graph.moves[a].exit.heading_deg, *after, poses[b].entry,
+                                       graph.moves[b].entry.heading_deg);
+    });
+    return {joints.size(), spread_of(joints, distances), spread_of(joints, speeds)};
+}
+
+bool exceeds(const JointSpread& measured, double bound) {
+    return measured.count > 0 && measured.largest > bound * (1 + kRounding) + kRounding;
 }
 
 }  // namespace mobbscope

@@ -47,5 +47,4 @@ std::vector<Piece> pieces_between(const std::vector<Recording>& recordings, cons
 std::vector<Hub> choose_hubs(const std::vector<Recording>& recordings, const std::vector<Hub>& candidates,
                              const GraphOptions& options);
 
-
 }  // namespace mobbscope

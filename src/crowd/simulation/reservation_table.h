@@ -78,5 +78,4 @@ class ReservationTable {
     std::vector<std::optional<std::size_t>> stand_of_agent_;  ///< what stands_ gave for the agent's last play
 };
 
-
 }  // namespace mobbscope

@@ -3,10 +3,29 @@
 
 #include <import/skeleton/motion.h>
 
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace mobbscope {
 
 /// Throws InputError if the file cannot be read (a crash or a hang of the reader included), MachineError if the reader
 /// cannot be started.
 std::unique_ptr<MotionFile> read_fbx(const std::filesystem::path& file);
+
+enum class ChildEnd { exited, signalled, timed_out, too_much_output };
+
+struct ChildResult {
+    ChildEnd end = ChildEnd::exited;
+    int code = 0;        ///< exit status, or the signal's number
+    std::string output;  ///< what it wrote to standard output
+};
+
+/// Runs `program` with `arguments` until it ends; its standard input is empty, its standard error discarded. After
+/// `seconds`, or beyond `most_output` bytes, it is killed. Throws std::system_error if it cannot be started. Safe from
+/// any thread.
+ChildResult run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments, double seconds,
+                      std::size_t most_output);
 
 }  // namespace mobbscope

@@ -1,3 +1,5 @@
+#include <base/error.h>
+#include <base/text.h>
 #include <import/clip/sampling.h>
 #include <import/nodes/node_scene.h>
 
@@ -45,6 +47,190 @@ void cubic(const double* values, std::size_t width, std::size_t k, double span, 
                  (3 * s2 - 2 * s3) * to[width + i] + span * (s3 - s2) * in_tangent;
     }
 }
+
+/// A node that has to be posed, as a joint lies in it or below it.
+struct PosedNode {
+    int parent = -1;  ///< index into the posed nodes, less than its own
+    int joint = -1;   ///< index into the joints; -1: none
+    TranslationRotationScale rest;
+    Affine matrix;
+    std::array<const Channel*, 3> channels{};  ///< by NodeProperty; null where none
+    bool moves = false;                        ///< at least one channel
+};
+
+/// The node nearest to a scene root that any animation moves: all clips of a file have one root. Of several at one
+/// depth the first in `order`; -1: none.
+int topmost_animated(const NodeScene& scene, const std::vector<int>& order) {
+    std::vector<bool> moved(scene.nodes.size());
+    for (const NodeAnimation& animation : scene.animations) {
+        for (const Channel& channel : animation.channels) moved[as_index(channel.node)] = true;
+    }
+    const auto first = std::find_if(order.begin(), order.end(), [&](int node) { return moved[as_index(node)]; });
+    return first == order.end() ? -1 : *first;
+}
+
+/// True if a rotation is not the same at all keys.
+bool turns(const Channel& channel) {
+    const std::vector<double>& values = *channel.values;
+    const glm::dquat first = glm::normalize(glm::dquat{values[3], values[0], values[1], values[2]});
+    for (std::size_t i = 4; i < values.size(); i += 4) {
+        const glm::dquat q{values[i + 3], values[i], values[i + 1], values[i + 2]};
+        // The cosine of half the angle between them; single precision leaves it within 1e-7 of 1.
+        if (std::abs(glm::dot(first, glm::normalize(q))) < 1 - 1e-6) return true;
+    }
+    return false;
+}
+
+class NodeMotion : public Motion {
+  public:
+    NodeMotion(std::shared_ptr<const NodeScene> scene, std::size_t animation)
+        : scene_(std::move(scene)), animation_(&scene_->animations[animation]) {
+        if (animation_->channels.empty()) {
+            throw InputError(
+                scene_->file, "animation " + in_quotes(animation_->name),
+                animation_->has_morph_channels
+                    ? "moves morph targets only, so there is no joint to follow; give a clip that moves nodes"
+                    : "moves no node; give a clip that does");
+        }
+        const std::vector<int> order = parents_first(scene_->nodes);
+        const std::vector<int> joint_of = choose_joints(order);
+        choose_posed_nodes(order, joint_of);
+        is_pivot_.resize(joints_.size());
+        for (const Channel& channel : animation_->channels) {
+            const int joint = joint_of[as_index(channel.node)];
+            if (scene_->has_pivots && joint >= 0 && channel.property == NodeProperty::rotation && turns(channel)) {
+                is_pivot_[as_index(joint)] = true;
+            }
+        }
+    }
+
+    std::span<const Joint> joints() const override { return joints_; }
+    int topmost() const override { return topmost_; }
+    bool is_pivot(int joint) const override { return is_pivot_[as_index(joint)]; }
+    const MotionTimes& times() const override { return animation_->times; }
+
+    void pose(double seconds, std::span<glm::dvec3> positions) const override {
+        std::vector<Affine> global(posed_.size());
+        for (std::size_t i = 0; i < posed_.size(); ++i) {
+            const PosedNode& node = posed_[i];
+            const Affine local = node.moves ? local_at(node, seconds) : node.matrix;
+            global[i] = node.parent < 0 ? local : global[as_index(node.parent)] * local;
+            if (node.joint >= 0) positions[as_index(node.joint)] = global[i].offset;
+        }
+    }
+
+    std::vector<std::string> warnings() const override {
+        std::vector<std::string> out;
+        if (scene_->skins > 1) {
+            out.push_back("the file has " + counted(scene_->skins, "skin", "skins") +
+                          "; the joints of skin 0 were taken");
+        }
+        if (animation_->has_morph_channels)
+            out.push_back("morph targets are animated too; they do not widen the disks");
+        return out;
+    }
+
+  private:
+    static Affine local_at(const PosedNode& node, double seconds) {
+        TranslationRotationScale local = node.rest;
+        std::array<double, 4> v{};
+        const auto take = [&](NodeProperty property) {
+            const Channel* channel = node.channels[static_cast<std::size_t>(property)];
+            if (channel) evaluate(*channel, seconds, v.data());
+            return channel != nullptr;
+        };
+        if (take(NodeProperty::translation)) local.translation = {v[0], v[1], v[2]};
+        if (take(NodeProperty::rotation)) local.rotation = {v[3], v[0], v[1], v[2]};
+        if (take(NodeProperty::scale)) local.scale = {v[0], v[1], v[2]};
+        return local.affine();
+    }
+
+    /// Fills joints_ and topmost_; gives the joint of every node, -1 where it is none.
+    std::vector<int> choose_joints(const std::vector<int>& order) {
+        const std::vector<Node>& nodes = scene_->nodes;
+        std::vector<bool> is_joint(nodes.size());
+        if (scene_->has_skin) {
+            for (const int node : scene_->skin_joints) is_joint[as_index(node)] = true;
+        } else {
+            is_joint[as_index(topmost_animated(*scene_, order))] = true;
+            for (const int node : order) {
+                const int parent = nodes[as_index(node)].parent;
+                if (parent >= 0 && is_joint[as_index(parent)]) is_joint[as_index(node)] = true;
+            }
+        }
+        std::vector<int> joint_of(nodes.size(), -1);
+        std::vector<int> joint_above(nodes.size(), -1);  // the nearest one, or the node's own
+        for (const int node : order) {
+            const int parent = nodes[as_index(node)].parent;
+            const int above = parent < 0 ? -1 : joint_above[as_index(parent)];
+            joint_above[as_index(node)] = above;
+            if (!is_joint[as_index(node)]) continue;
+            joint_of[as_index(node)] = joint_above[as_index(node)] = static_cast<int>(joints_.size());
+            joints_.push_back({nodes[as_index(node)].name, above, false});
+        }
+        // A skin may have several joints without a joint above them: the first that it names.
+        const auto is_top = [&](int node) { return joints_[as_index(joint_of[as_index(node)])].parent < 0; };
+        if (scene_->has_skin) {
+            topmost_ =
+                joint_of[as_index(*std::find_if(scene_->skin_joints.begin(), scene_->skin_joints.end(), is_top))];
+        }
+        return joint_of;
+    }
+
+    void choose_posed_nodes(const std::vector<int>& order, const std::vector<int>& joint_of) {
+        const std::vector<Node>& nodes = scene_->nodes;
+        std::vector<bool> is_needed(nodes.size());
+        for (auto node = order.rbegin(); node != order.rend(); ++node) {
+            const int parent = nodes[as_index(*node)].parent;
+            if (joint_of[as_index(*node)] >= 0) is_needed[as_index(*node)] = true;
+            if (parent >= 0 && is_needed[as_index(*node)]) is_needed[as_index(parent)] = true;
+        }
+        std::vector<int> posed_of(nodes.size(), -1);
+        for (const int i : order) {
+            if (!is_needed[as_index(i)]) continue;
+            const Node& node = nodes[as_index(i)];
+            posed_of[as_index(i)] = static_cast<int>(posed_.size());
+            posed_.push_back({node.parent < 0 ? -1 : posed_of[as_index(node.parent)],
+                              joint_of[as_index(i)],
+                              node.rest,
+                              node.matrix,
+                              {},
+                              false});
+        }
+        for (const Channel& channel : animation_->channels) {
+            const int posed = posed_of[as_index(channel.node)];
+            if (posed < 0) continue;
+            posed_[as_index(posed)].channels[static_cast<std::size_t>(channel.property)] = &channel;
+            posed_[as_index(posed)].moves = true;
+        }
+    }
+
+    std::shared_ptr<const NodeScene> scene_;
+    const NodeAnimation* animation_;
+    std::vector<Joint> joints_;
+    int topmost_ = 0;
+    std::vector<bool> is_pivot_;  ///< by joint
+    std::vector<PosedNode> posed_;
+};
+
+class NodeMotionFile : public MotionFile {
+  public:
+    explicit NodeMotionFile(NodeScene scene) : scene_(std::make_shared<const NodeScene>(std::move(scene))) {}
+
+    std::string format() const override { return scene_->format; }
+    std::optional<double> unit() const override { return scene_->unit; }
+    std::vector<std::string> animations() const override {
+        std::vector<std::string> names;
+        for (const NodeAnimation& animation : scene_->animations) names.push_back(animation.name);
+        return names;
+    }
+    std::shared_ptr<const Motion> motion(std::size_t animation) const override {
+        return std::make_shared<NodeMotion>(scene_, animation);
+    }
+
+  private:
+    std::shared_ptr<const NodeScene> scene_;
+};
 
 }  // namespace
 
@@ -129,6 +315,10 @@ MotionTimes key_times(const std::vector<Numbers>& lists) {
         if (is_uniform(frames)) times.dt = (times.last - times.first) / static_cast<double>(all.size() - 1);
     }
     return times;
+}
+
+std::unique_ptr<MotionFile> node_motion_file(NodeScene scene) {
+    return std::make_unique<NodeMotionFile>(std::move(scene));
 }
 
 }  // namespace mobbscope

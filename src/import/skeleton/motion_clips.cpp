@@ -2,11 +2,9 @@
 #include <base/text.h>
 #include <import/clip/sampling.h>
 #include <import/skeleton/disk_sampler.h>
-#include <import/skeleton/grounded_motion.h>
+#include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/skeleton/motion_warnings.h>
-#include <import/skeleton/root_joint.h>
-#include <import/skeleton/skeleton.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include <base/text.h>
+#include <import/skeleton/motion.h>
 #include <import/skeleton/motion_warnings.h>
-#include <import/skeleton/skeleton.h>
 
 #include <algorithm>
 #include <cmath>

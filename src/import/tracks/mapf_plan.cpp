@@ -1,7 +1,6 @@
 // Plans of multi-agent path finding, as the solvers of atb033/multi_agent_path_planning write them.
 #include <base/error.h>
 #include <base/text.h>
-#include <base/text_lines.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 

@@ -1,6 +1,5 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
 #include <base/text.h>
-#include <base/text_lines.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 

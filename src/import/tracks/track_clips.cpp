@@ -1,6 +1,5 @@
 #include <base/error.h>
 #include <base/text.h>
-#include <base/text_lines.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/track_clips.h>
 

@@ -1,7 +1,6 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
-#include <base/text_lines.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>

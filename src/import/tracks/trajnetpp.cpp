@@ -1,7 +1,6 @@
 // TrajNet++: a JSON object a line (vita-epfl/trajnetplusplustools, "Data format").
 #include <base/error.h>
 #include <base/text.h>
-#include <base/text_lines.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 

@@ -1,9 +1,7 @@
 /// Everything that a picture shows, as plain numbers: what the view is turned into, and all that the renderer is told.
 #pragma once
 
-#include <render/drawlist/drawn_space.h>
 #include <render/drawlist/font.h>
-#include <render/drawlist/object_id.h>
 #include <render/drawlist/palette.h>
 #include <render/drawlist/view_projection.h>
 #include <render/image/image.h>
@@ -13,12 +11,79 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mobbscope {
+
+/// Something that can be pointed at. It is stored as two 32-bit numbers: 1 + the participant's index; then the sample's
+/// or the node's index, with the highest bit set for a node. (0, 0) is nothing.
+struct ObjectId {
+    enum class Kind { disk, box };
+
+    int participant = 0;  ///< index into DrawList::participants
+    Kind kind = Kind::disk;
+    int index = 0;  ///< sample of the clip, or node of the tree; below 2^31
+
+    std::uint32_t r() const { return static_cast<std::uint32_t>(participant) + 1; }
+    std::uint32_t g() const { return static_cast<std::uint32_t>(index) | (kind == Kind::box ? kBoxBit : 0u); }
+    static std::optional<ObjectId> decode(std::uint32_t r, std::uint32_t g) {
+        if (r == 0) return std::nullopt;
+        return ObjectId{static_cast<int>(r - 1), (g & kBoxBit) ? Kind::box : Kind::disk,
+                        static_cast<int>(g & ~kBoxBit)};
+    }
+
+    friend bool operator==(const ObjectId&, const ObjectId&) = default;
+
+  private:
+    static constexpr std::uint32_t kBoxBit = 0x80000000u;
+};
+
+/// Object ids, two numbers a pixel, rows from top to bottom.
+struct IdImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint32_t> rg;
+
+    /// What is at pixel (x, y), which must lie in the image.
+    std::optional<ObjectId> at(int x, int y) const {
+        const std::size_t i =
+            2 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        return ObjectId::decode(rg[i], rg[i + 1]);
+    }
+};
+
+/// Maps (x, y, t), metres and global seconds, to drawn metres near the origin. The subtraction happens in double, so
+/// that scenes at 10 km and 10^5 s keep their detail in float.
+struct DrawnSpace {
+    glm::dvec3 origin{0};    ///< x, y in metres, t in seconds
+    double time_height = 1;  ///< metres drawn per second, > 0
+    glm::dvec3 anchor{0};    ///< x, y, t that the targets of cameras are counted from
+
+    glm::vec3 point(double x, double y, double t) const {
+        return glm::vec3(glm::dvec3(x - origin.x, y - origin.y, (t - origin.z) * time_height));
+    }
+    /// The (x, y, t) that is drawn at a point.
+    glm::dvec3 place(glm::dvec3 point) const {
+        return {point.x + origin.x, point.y + origin.y, point.z / time_height + origin.z};
+    }
+    /// Where a camera's target is drawn, and the target that is drawn at a point.
+    glm::vec3 from_target(glm::dvec3 target) const {
+        return point(target.x + anchor.x, target.y + anchor.y, target.z / time_height + anchor.z);
+    }
+    glm::dvec3 to_target(glm::dvec3 point) const {
+        const glm::dvec3 p = place(point) - anchor;
+        return {p.x, p.y, p.z * time_height};
+    }
+    /// A direction or extent of a box, which is in (x, y, w*t) with w in m/s. A tilted box is sheared by this, as time
+    /// is drawn time_height metres a second and not w.
+    glm::vec3 extent(glm::dvec3 v, double time_scale) const {
+        return glm::vec3(glm::dvec3(v.x, v.y, v.z / time_scale * time_height));
+    }
+};
 
 /// A line pattern in pixels: on, off, on, off. All zero: solid.
 using Dash = glm::vec4;

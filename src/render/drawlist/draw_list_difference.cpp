@@ -1,6 +1,6 @@
 #include <render/drawlist/draw_list_json.h>
 
-#include <base/json_value.h>
+#include <base/json.h>
 #include <base/text.h>
 
 #include <algorithm>

@@ -25,7 +25,6 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/object_id.h>
 
 #include <optional>
 #include <ostream>

@@ -4,6 +4,8 @@
 #include <render/drawlist/palette.h>
 #include <render/image/image.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -29,5 +31,37 @@ int parse_samples(const std::string& text);
 
 /// "#RRGGBB", "#RRGGBBAA" or "transparent". Throws std::invalid_argument saying what is allowed.
 Rgba parse_background(const std::string& text);
+
+/// Pixels, but for `scale`: of line widths and all that is given at 1280x720.
+struct Metrics {
+    float scale = 1;
+    float text = 12;
+    float small = 11;
+    float pad = 14;  ///< along the picture's edges
+};
+
+/// What a caller may ask for.
+inline constexpr double kLeastScale = 0.5;
+inline constexpr double kMostScale = 8;
+
+/// Text and lines have one size from small windows up to 1280x720; they grow with larger pictures, but slower, and
+/// shrink with tiny ones, but stay readable.
+inline double usual_scale(PictureSize size) {
+    constexpr double kSmall = 400'000;
+    constexpr double kLarge = 1280.0 * 720.0;
+    const double pixels = static_cast<double>(size.width) * size.height;
+    if (pixels < kSmall) return std::max(std::sqrt(pixels / kSmall), 0.8);
+    return std::clamp(std::sqrt(pixels / kLarge), 1.0, 4.0);
+}
+
+/// `scale`: of text and lines, kLeastScale..kMostScale; 0: the usual.
+inline Metrics metrics_of(PictureSize size, double scale = 0) {
+    Metrics m;
+    m.scale = static_cast<float>(scale > 0 ? scale : usual_scale(size));
+    m.text = std::round(12 * m.scale);
+    m.small = std::round(11 * m.scale);
+    m.pad = std::round(std::min(14 * m.scale, 0.05f * static_cast<float>(std::min(size.width, size.height))));
+    return m;
+}
 
 }  // namespace mobbscope

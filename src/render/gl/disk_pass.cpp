@@ -1,7 +1,7 @@
 #include <render/drawlist/view_projection.h>
 #include <render/gl/disk_pass.h>
 #include <render/gl/disk_runs.h>
-#include <render/gl/vertex_layout.h>
+#include <render/gl/gl_objects.h>
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -2,7 +2,6 @@
 #include <render/drawlist/view_projection.h>
 #include <render/gl/face_pass.h>
 #include <render/gl/gl_objects.h>
-#include <render/gl/vertex_layout.h>
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>

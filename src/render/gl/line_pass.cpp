@@ -1,6 +1,5 @@
 #include <render/gl/gl_objects.h>
 #include <render/gl/line_pass.h>
-#include <render/gl/vertex_layout.h>
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -7,7 +7,7 @@
 #include <render/gl/line_pass.h>
 #include <render/gl/overlay_pass.h>
 #include <render/gl/targets.h>
-#include <render/image/transparent_background.h>
+#include <render/image/image.h>
 
 #include <algorithm>
 #include <array>

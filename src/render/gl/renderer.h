@@ -2,7 +2,6 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/object_id.h>
 #include <render/drawlist/picture_options.h>
 #include <render/gl/gl_context.h>
 #include <render/gl/gl_objects.h>

@@ -1,6 +1,11 @@
 #include <render/image/image.h>
 
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +15,16 @@ namespace {
 
 constexpr int kStripGap = 4;
 constexpr std::uint8_t kGrey = 128;  // stands out from both themes
+
+glm::vec3 color_at(const Image& image, std::size_t i) {
+    return glm::vec3(image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]) / 255.0f;
+}
+
+float sum(glm::vec3 v) { return v.x + v.y + v.z; }
+
+std::uint8_t to_byte(float value) {
+    return static_cast<std::uint8_t>(std::lround(255 * glm::clamp(value, 0.0f, 1.0f)));
+}
 
 }  // namespace
 
@@ -32,6 +47,25 @@ Image make_strip(std::span<const Image* const> pictures) {
             std::copy_n(picture->at(0, y), 4 * static_cast<std::size_t>(picture->width), out.at(left, y));
         }
         left += picture->width + kStripGap;
+    }
+    return out;
+}
+
+Image with_transparent_background(const OnGround& first, const OnGround& second, Rgba background) {
+    const glm::vec3 ground(first.ground);
+    const float between_grounds = sum(glm::vec3(second.ground) - ground);
+    Image out(first.image.width, first.image.height);
+    for (std::size_t i = 0; i < out.rgba.size(); i += 4) {
+        const glm::vec3 seen = color_at(first.image, i);
+        const float through = glm::clamp(sum(color_at(second.image, i) - seen) / between_grounds, 0.0f, 1.0f);
+        const glm::vec3 drawn = seen - through * ground + through * background.a * glm::vec3(background);
+        const float covers = 1 - through * (1 - background.a);
+        // The colour makes up for what rounding does to the opacity, so that all is right over the first ground.
+        const std::uint8_t alpha = to_byte(covers);
+        const float rounded = static_cast<float>(alpha) / 255.0f;
+        const glm::vec3 color = alpha > 0 ? (drawn + (rounded - covers) * ground) / rounded : glm::vec3(0);
+        for (int c = 0; c < 3; ++c) out.rgba[i + static_cast<std::size_t>(c)] = to_byte(color[c]);
+        out.rgba[i + 3] = alpha;
     }
     return out;
 }

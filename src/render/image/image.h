@@ -1,6 +1,8 @@
 /// Pixels on the CPU.
 #pragma once
 
+#include <base/color.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,5 +42,16 @@ inline constexpr long long kMostStripPixels = 500'000'000;
 /// From left to right, their upper edges level, a few grey pixels between them and below shorter ones; pictures keep
 /// their pixels. At least one. Throws std::invalid_argument if that is more than kMostStripPixels.
 Image make_strip(std::span<const Image* const> pictures);
+
+/// A picture on an opaque ground.
+struct OnGround {
+    const Image& image;
+    Rgba ground;
+};
+
+/// The same picture on two grounds of different lightness gives what was drawn and how much it covers; that over
+/// `background`, with straight alpha. Laid over the first ground, what is drawn is the first picture again, within
+/// rounding.
+Image with_transparent_background(const OnGround& first, const OnGround& second, Rgba background);
 
 }  // namespace mobbscope

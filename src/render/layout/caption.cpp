@@ -4,7 +4,7 @@
 #include <render/layout/caption.h>
 #include <render/parts/node_boxes.h>
 #include <render/query/query_boxes.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
+#include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/resolve_camera.h>
 #include <render/layout/common_framing.h>
 
 #include <glm/common.hpp>

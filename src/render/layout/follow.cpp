@@ -1,7 +1,6 @@
 #include <base/text.h>
 #include <mobb/clip.h>
-#include <render/drawlist/navigate.h>
-#include <render/drawlist/resolve_camera.h>
+#include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <scene/crowd_run.h>

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/metrics.h>
+#include <render/drawlist/picture_options.h>
+#include <render/layout/block_layout.h>
 #include <render/parts/floor_and_axes.h>
-#include <render/query/emphasis.h>
+#include <render/query/query_boxes.h>
 #include <scene/drawn_agent.h>
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -40,5 +42,11 @@ Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, c
 /// A projection that shows the points in a frame, or what the view's camera aims at.
 ViewProjection projection_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points,
                               const Frame& frame);
+
+/// Sets the list's projection and frame, so that all `points` (drawn space) fit into what caption, labels and blocks
+/// leave; returns the places of legend and map. `top`: where the caption ends, pixels. `map`: its size, 0 for none.
+/// `busy`: what blocks had better not cover, asked for once a projection is set.
+Blocks aim(DrawList& list, std::span<const glm::vec3> points, const FloorExtent& floor_extent, const ViewState& view,
+           const Metrics& metrics, float top, glm::vec2 map, const std::function<std::vector<Rect>()>& busy);
 
 }  // namespace mobbscope

@@ -2,7 +2,7 @@
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
 #include <render/query/query_boxes.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 
 #include <algorithm>
 #include <cmath>

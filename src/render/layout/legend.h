@@ -3,7 +3,7 @@
 
 #include <explain/query_progress.h>
 #include <render/drawlist/draw_list.h>
-#include <render/query/emphasis.h>
+#include <render/query/query_boxes.h>
 #include <scene/drawn_agent.h>
 
 #include <span>

@@ -1,5 +1,5 @@
 #include <render/parts/floor_and_axes.h>
-#include <render/text/ticks.h>
+#include <render/text/labels.h>
 
 #include <glm/geometric.hpp>
 

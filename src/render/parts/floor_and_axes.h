@@ -2,7 +2,7 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 
 #include <glm/vec2.hpp>
 

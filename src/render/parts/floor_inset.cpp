@@ -1,7 +1,6 @@
 #include <render/parts/floor_inset.h>
 #include <render/parts/paths.h>
-#include <render/text/label_layout.h>
-#include <render/text/ticks.h>
+#include <render/text/labels.h>
 
 #include <algorithm>
 #include <cmath>

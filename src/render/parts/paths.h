@@ -1,11 +1,14 @@
 /// Paths: a stack of disks growing in time, and its trace on the floor.
 #pragma once
 
+#include <mobb/clip.h>
 #include <render/drawlist/draw_list.h>
 #include <scene/drawn_agent.h>
 
+#include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace mobbscope {
 
@@ -39,5 +42,14 @@ void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange 
 /// meets, a heavy and a fine one in the colour of hits for what collides.
 void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale, int pieces = 48);
 void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale);
+
+struct DiskOverlap {
+    /// Its two outlines from end to end, as many points in each; rows of points across it. ReservationGrid metres.
+    std::array<std::vector<glm::dvec2>, 2> sides;
+    bool has_tips = false;  ///< the circles cross at the ends of the outlines
+};
+
+/// `rows` >= 2 points in each outline; both are empty if the disks do not overlap.
+DiskOverlap disk_overlap(const mobb::Disk& a, const mobb::Disk& b, int rows);
 
 }  // namespace mobbscope

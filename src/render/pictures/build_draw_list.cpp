@@ -7,8 +7,6 @@
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
-#include <render/layout/place_scene.h>
-#include <render/layout/text_budget.h>
 #include <render/parts/floor_inset.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
@@ -16,9 +14,8 @@
 #include <render/pictures/crowd_picture.h>
 #include <render/pictures/disk_projection.h>
 #include <render/pictures/moment_picture.h>
-#include <render/query/emphasis.h>
 #include <render/query/query_boxes.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 #include <scene/crowd_scene.h>
 
 #include <stdexcept>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/metrics.h>
 #include <render/drawlist/picture_options.h>
 #include <scene/fitted_scene.h>
 #include <scene/view_state.h>

@@ -3,8 +3,8 @@
 
 #include <crowd/simulation/choice.h>
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/metrics.h>
-#include <render/text/label_layout.h>
+#include <render/drawlist/picture_options.h>
+#include <render/text/labels.h>
 #include <scene/drawn_agent.h>
 #include <scene/fitted_scene.h>
 

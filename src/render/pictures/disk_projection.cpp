@@ -1,12 +1,12 @@
 #include <base/text.h>
 #include <explain/query_sentence.h>
+#include <render/layout/block_layout.h>
 #include <render/layout/caption.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
-#include <render/layout/text_budget.h>
 #include <render/parts/node_boxes.h>
 #include <render/pictures/disk_projection.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 #include <scene/view_state.h>
 
 #include <glm/common.hpp>

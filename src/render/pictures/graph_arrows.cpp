@@ -1,5 +1,5 @@
 #include <render/pictures/graph_moves.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 #include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,6 @@
 #include <base/text.h>
 #include <render/pictures/graph_moves.h>
-#include <render/text/label_layout.h>
-#include <render/text/ticks.h>
+#include <render/text/labels.h>
 #include <scene/motion_graph.h>
 
 #include <glm/common.hpp>

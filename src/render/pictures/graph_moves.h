@@ -2,7 +2,7 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/metrics.h>
+#include <render/drawlist/picture_options.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 

@@ -2,8 +2,7 @@
 #include <render/pictures/graph_moves.h>
 #include <render/pictures/graph_picture.h>
 #include <render/pictures/render.h>
-#include <render/text/label_layout.h>
-#include <render/text/ticks.h>
+#include <render/text/labels.h>
 #include <scene/motion_graph.h>
 
 #include <glm/common.hpp>

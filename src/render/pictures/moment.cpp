@@ -1,5 +1,5 @@
-#include <import/skeleton/root_joint.h>
-#include <import/skeleton/skeleton.h>
+#include <import/skeleton/disk_sampler.h>
+#include <import/skeleton/motion.h>
 #include <mobb/predicate.h>
 #include <render/parts/paths.h>
 #include <render/pictures/moment.h>

@@ -1,5 +1,5 @@
 #include <explain/query_sentence.h>
-#include <import/skeleton/skeleton.h>
+#include <import/skeleton/motion.h>
 #include <render/layout/annotations.h>
 #include <render/pictures/moment_caption.h>
 #include <scene/crowd_scene.h>

@@ -1,9 +1,8 @@
 #include <render/layout/annotations.h>
+#include <render/layout/block_layout.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
-#include <render/layout/place_scene.h>
-#include <render/layout/text_budget.h>
 #include <render/parts/floor_and_axes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/candidates.h>

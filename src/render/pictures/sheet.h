@@ -1,8 +1,8 @@
 /// Pictures side by side with titles over them: panels of a figure, contact sheets.
 #pragma once
 
-#include <render/drawlist/metrics.h>
 #include <render/drawlist/palette.h>
+#include <render/drawlist/picture_options.h>
 #include <render/gl/renderer.h>
 #include <render/image/image.h>
 

@@ -1,8 +1,8 @@
 #include <explain/query_sentence.h>
-#include <import/skeleton/root_joint.h>
-#include <import/skeleton/skeleton.h>
+#include <import/skeleton/disk_sampler.h>
+#include <import/skeleton/motion.h>
 #include <render/layout/annotations.h>
-#include <render/parts/disk_overlap.h>
+#include <render/parts/paths.h>
 #include <render/pictures/standing_agents.h>
 
 #include <glm/common.hpp>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/metrics.h>
+#include <render/drawlist/picture_options.h>
 #include <render/pictures/moment.h>
-#include <render/text/label_layout.h>
+#include <render/text/labels.h>
 
 #include <span>
 #include <vector>

@@ -1,5 +1,6 @@
 #include <explain/query_progress.h>
 #include <render/parts/node_boxes.h>
+#include <render/parts/paths.h>
 #include <render/query/query_boxes.h>
 
 #include <algorithm>
@@ -130,6 +131,28 @@ void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::sp
     // In the text's colour, as the gap in the scene is: a thin grey line between the bars is not seen.
     const Dash dash = outcome_style(BoxState::apart_in_time, list.palette).dash;
     add(kFirst + 0.5f * kNext, end, begin, {list.palette.text, dash, 1.8f});
+}
+
+bool Emphasis::cuts() const {
+    return std::any_of(at_cursor.begin(), at_cursor.end(), [](const auto& sample) { return sample.has_value(); });
+}
+
+Emphasis emphasis_of(const ViewState& view, std::span<const DrawnAgent> agents, double begin, double end,
+                     const QueryProgress* progress) {
+    Emphasis out;
+    if (view.time && *view.time >= begin && *view.time <= end) {
+        out.cursor = view.time;
+        for (const DrawnAgent& agent : agents) out.at_cursor.push_back(sample_at(agent, *view.time));
+    }
+    if (!progress) return out;
+    const mobb::Trace::Event& event = progress->event;
+    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty())
+        out.hits = {event.pairs.back().i, event.pairs.back().j};
+    for (const DrawnAgent& agent : agents) {
+        const mobb::Node& node = agent.placed.node(agent.index == 0 ? event.a : event.b);
+        out.dims = out.dims || (view.disks && node.count < agent.clip().count());
+    }
+    return out;
 }
 
 }  // namespace mobbscope

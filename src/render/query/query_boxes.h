@@ -7,7 +7,10 @@
 #include <render/parts/floor_and_axes.h>
 #include <scene/drawn_agent.h>
 
+#include <array>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace mobbscope {
 
@@ -39,5 +42,19 @@ void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const Qu
 /// Nothing where the time axis is seen end on. Needs the projection. `sides`: A and B.
 void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::span<const DrawnAgent> sides,
                         const mobb::Trace::Event& event, float scale);
+
+struct Emphasis {
+    std::optional<double> cursor;               ///< global seconds, where the time cursor is drawn
+    std::vector<std::optional<int>> at_cursor;  ///< by subject: the sample that holds then
+    std::optional<std::array<int, 2>> hits;     ///< samples of A and B that collide
+    bool dims = false;                          ///< disks outside the nodes under test step back
+
+    /// True if any path has a sample at the cursor.
+    bool cuts() const;
+};
+
+/// `begin`, `end`: of the paths. `progress`: of the query in the view, or null.
+Emphasis emphasis_of(const ViewState& view, std::span<const DrawnAgent> agents, double begin, double end,
+                     const QueryProgress* progress);
 
 }  // namespace mobbscope

@@ -1,5 +1,5 @@
 #include <base/text.h>
-#include <scene/crowd_json.h>
+#include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 
 #include <array>

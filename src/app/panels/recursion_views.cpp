@@ -1,0 +1,261 @@
+#include <app/commands/command.h>
+#include <app/panels/query_parts.h>
+#include <app/panels/recursion_picture.h>
+#include <app/ui/memo.h>
+#include <app/ui/swatch.h>
+#include <explain/query_sentence.h>
+#include <render/text/labels.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr float kSquareAhead = 0.28f;  // strength of what comes after the present step
+
+/// What both axes cover, and where.
+struct Square {
+    ImVec2 min, max;
+    mobb::Interval a, b;
+
+    float x(double t) const { return min.x + static_cast<float>((t - a.t0) / (a.t1 - a.t0)) * (max.x - min.x); }
+    float y(double t) const { return max.y - static_cast<float>((t - b.t0) / (b.t1 - b.t0)) * (max.y - min.y); }
+};
+
+std::string seconds(double t) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g s", t);
+    return text;
+}
+
+/// Where both times are equal: only what it crosses can hit.
+void common_time(ImDrawList& list, const Style& style, const Square& square) {
+    const double t0 = std::max(square.a.t0, square.b.t0);
+    const double t1 = std::min(square.a.t1, square.b.t1);
+    if (t1 <= t0) return;
+    list.AddLine({square.x(t0), square.y(t0)}, {square.x(t1), square.y(t1)}, style.accent, 1.3f * style.scale);
+}
+
+void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    ImFont* font = ui.style.caption;
+    const auto text = [&](ImVec2 at, ImU32 color, const std::string& words) {
+        list.AddText(font, font->FontSize, at, color, words.c_str());
+    };
+    const auto width = [&](const std::string& words) {
+        return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, words.c_str()).x;
+    };
+    const ImU32 color_a = to_im(readable(findings.sides[0].color, ui.style.palette));
+    const ImU32 color_b = to_im(readable(findings.sides[1].color, ui.style.palette));
+    const float below = square.max.y + ui.px(3);
+    const std::string from = seconds(square.a.t0), to = seconds(square.a.t1);
+    text({square.min.x, below}, color_a, from);
+    text({square.max.x - width(to), below}, color_a, to);
+    const std::string name_a = findings.sides[0].label + " \u2192";
+    const float middle = 0.5f * (square.min.x + square.max.x - width(name_a));
+    if (middle > square.min.x + width(from) + ui.px(4)) text({middle, below}, color_a, name_a);
+    const float above = square.min.y - font->FontSize - ui.px(3);
+    text({square.min.x, above}, color_b,
+         findings.sides[1].label + " \u2191  " + seconds(square.b.t0) + " to " + seconds(square.b.t1));
+}
+
+constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step
+
+/// Pairs that went on to others stay quiet: what they found stands below them.
+void draw_inner(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, bool hit, float strength) {
+    list.AddRectFilled(min, max, style.raised);
+    if (hit) list.AddRectFilled({min.x, max.y - 2 * style.scale}, max, mark_color(style, EventMark::hit, strength));
+}
+
+/// How much of the strip's height an event takes: what says more stands taller.
+constexpr std::array<float, kEventMarks> kHeights{0.14f, 0.3f, 0.55f, 0.8f, 0.8f, 1.0f};
+
+constexpr float kStripAhead = 0.4f;  // strength of what comes after the present step
+
+void draw_cell(ImDrawList& list, const Style& style, const StripCell& cell, ImVec2 at, float height, float strength) {
+    const float width = cell.x1 - cell.x0;
+    const float gap = width >= 3 * style.scale ? style.scale : 0;
+    // Taller ones behind: the top of each is seen, so a column shows all that is in it.
+    for (std::size_t m = kEventMarks; m-- > 0;) {
+        if (cell.marks[m] == 0) continue;
+        const float top = at.y + height * (1 - kHeights[m]);
+        list.AddRectFilled({at.x + cell.x0, top}, {at.x + cell.x1 - gap, at.y + height},
+                           mark_color(style, static_cast<EventMark>(m), strength));
+    }
+}
+
+std::string tooltip(const QueryFindings& findings, const mobb::Trace& trace, const StripCell& cell) {
+    if (cell.end - cell.first == 1) return step_sentence(findings.sides, trace, cell.first);
+    std::string out = "events " + std::to_string(cell.first) + " to " + std::to_string(cell.end - 1);
+    for (std::size_t m = kEventMarks; m-- > 0;) {
+        if (cell.marks[m] == 0) continue;
+        out += "\n" + std::to_string(cell.marks[m]) + "  " + headline(static_cast<EventMark>(m));
+    }
+    return out;
+}
+
+}  // namespace
+
+void recursion_square(Ui& ui, const QueryFindings& findings) {
+    const Recursion& recursion = findings.recursion;
+    const float caption = ui.style.caption->FontSize;
+    const float label = caption + ui.px(5);
+    const float side = std::floor(std::min(ImGui::GetContentRegionAvail().x, ui.px(340)));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const Square square{{at.x, at.y + label},
+                        {at.x + side, at.y + label + side},
+                        recursion.pairs.front().time_a,
+                        recursion.pairs.front().time_b};
+    const int size = static_cast<int>(side);
+    if (size < 16) return;
+    ImGui::SetCursorScreenPos(square.min);
+    ImGui::InvisibleButton("square", {side, side});
+    ui.mark("query.square");
+    const bool hovered = ImGui::IsItemHovered();
+    const bool clicked = ImGui::IsItemClicked();
+
+    using Drawn = std::pair<std::shared_ptr<const QueryFindings>, int>;
+    static Memo<Drawn, std::vector<PairCell>> memo;
+    const std::vector<PairCell>& cells = memo.get(
+        {ui.session.findings(), size}, [&] { return square_cells(recursion, square.a, square.b, size, size); });
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(square.min, square.max, ui.style.raised);
+    const int step = ui.session.step();
+    const int present = recursion.pair_of[static_cast<std::size_t>(step)];
+    const PairCell* under = nullptr;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    for (const PairCell& cell : cells) {
+        const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
+        const ImVec2 min{square.min.x + static_cast<float>(cell.x0), square.min.y + static_cast<float>(cell.y0)};
+        const ImVec2 max{square.min.x + static_cast<float>(cell.x1), square.min.y + static_cast<float>(cell.y1)};
+        const float strength = pair.first <= step ? 1 : kSquareAhead;
+        if (pair.has_children()) {
+            list.AddRect(min, max, to_im(with_alpha(ui.style.palette.axis, 0.6f * strength)), 0, 0, ui.style.scale);
+        } else {
+            const float gap = cell.x1 - cell.x0 > 4 ? 1.0f : 0.0f;
+            outcome_cell(list, ui.style, min, {max.x - gap, max.y - gap}, mark_of(pair), strength);
+        }
+        // Later cells lie in earlier ones: the last that the mouse is in is the smallest.
+        if (mouse.x >= min.x && mouse.x < max.x && mouse.y >= min.y && mouse.y < max.y) under = &cell;
+    }
+    common_time(list, ui.style, square);
+    const RecursionPair& now = recursion.pairs[static_cast<std::size_t>(present)];
+    // However small the pair is, its outline is seen.
+    const ImVec2 middle{0.5f * (square.x(now.time_a.t0) + square.x(now.time_a.t1)),
+                        0.5f * (square.y(now.time_b.t0) + square.y(now.time_b.t1))};
+    const float half_x = std::max(ui.px(4), square.x(now.time_a.t1) - middle.x + ui.px(1));
+    const float half_y = std::max(ui.px(4), square.y(now.time_b.t0) - middle.y + ui.px(1));
+    list.AddRect({middle.x - half_x, middle.y - half_y}, {middle.x + half_x, middle.y + half_y}, ui.style.text, 0, 0,
+                 ui.px(2));
+    axis_labels(ui, findings, square);
+    ImGui::SetCursorScreenPos({at.x, square.max.y + label});
+    ImGui::Dummy({0, 0});
+    if (!hovered || !under) return;
+    const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
+    const std::string more =
+        under->merged > 1 ? "\nand " + std::to_string(under->merged - 1) + " smaller pairs here" : "";
+    ImGui::SetTooltip("%s%s", step_sentence(findings.sides, ui.session.recorded()->trace, pair.last).c_str(),
+                      more.c_str());
+    if (clicked) invoke(ui.session, "step.to", std::to_string(pair.last));
+}
+
+void recursion_icicle(Ui& ui, ImVec2 size) {
+    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+    const int width = static_cast<int>(size.x);
+    if (!findings || findings->recursion.pairs.empty() || width < 1) return;
+    const Recursion& recursion = findings->recursion;
+    const int most = static_cast<int>(ui.px(20));
+    const int row = std::clamp(static_cast<int>(size.y) / std::max(1, recursion.depth), 2, most);
+    using Drawn = std::tuple<std::shared_ptr<const QueryFindings>, int, int>;
+    static Memo<Drawn, std::vector<PairCell>> memo;
+    const std::vector<PairCell>& cells =
+        memo.get({findings, width, row}, [&] { return icicle_cells(recursion, width, row); });
+
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("icicle", size);
+    ui.mark("query.icicle");
+    const bool hovered = ImGui::IsItemHovered();
+    const bool clicked = ImGui::IsItemClicked();
+    const int step = ui.session.step();
+    const int present = recursion.pair_of[static_cast<std::size_t>(step)];
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const PairCell* under = nullptr;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
+    for (const PairCell& cell : cells) {
+        const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
+        const ImVec2 min{at.x + static_cast<float>(cell.x0), at.y + static_cast<float>(cell.y0)};
+        const ImVec2 end{at.x + static_cast<float>(cell.x1), at.y + static_cast<float>(cell.y1)};
+        const float gap = cell.x1 - cell.x0 > 3 && row > 4 ? 1.0f : 0.0f;
+        const ImVec2 max{end.x - gap, end.y - gap};
+        const float strength = pair.first <= step ? 1 : kIcicleAhead;
+        if (pair.has_children()) {
+            draw_inner(list, ui.style, min, max, pair.hit, strength);
+        } else {
+            outcome_cell(list, ui.style, min, max, mark_of(pair), strength);
+        }
+        if (pair.has_children() && cell.merged == 1) {
+            const std::string name =
+                node_name(findings->sides[0], pair.a) + "  " + node_name(findings->sides[1], pair.b);
+            const ImVec2 text = ImGui::CalcTextSize(name.c_str());
+            if (text.x + ui.px(8) < max.x - min.x && text.y <= max.y - min.y) {
+                list.AddText({min.x + ui.px(4), 0.5f * (min.y + max.y - text.y)},
+                             pair.first <= step ? ui.style.text : ui.style.quiet, name.c_str());
+            }
+        }
+        if (cell.pair == present) list.AddRect(min, max, ui.style.text, 0, 0, ui.px(2));
+        if (mouse.x >= min.x && mouse.x < end.x && mouse.y >= min.y && mouse.y < end.y) under = &cell;
+    }
+    list.PopClipRect();
+    if (!hovered || !under) return;
+    const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];
+    const std::string more = under->merged > 1 ? "\nand " + std::to_string(under->merged - 1) + " more pairs here" : "";
+    ImGui::SetTooltip("%s\n%d events here and below%s",
+                      step_sentence(findings->sides, ui.session.recorded()->trace, pair.last).c_str(),
+                      pair.end - pair.first, more.c_str());
+    if (clicked) invoke(ui.session, "step.to", std::to_string(pair.first));
+}
+
+void step_strip(Ui& ui, float width, float height) {
+    const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
+    const int columns = static_cast<int>(width);
+    if (!findings || findings->recursion.pairs.empty() || columns < 1) return;
+    const mobb::Trace& trace = ui.session.recorded()->trace;
+    using Drawn = std::pair<std::shared_ptr<const QueryFindings>, int>;
+    static Memo<Drawn, std::vector<StripCell>> memo;
+    const std::vector<StripCell>& cells = memo.get({findings, columns}, [&] { return strip_cells(trace, columns); });
+
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("strip", {width, height});
+    ui.mark("query.strip");
+    const int step = ui.session.step();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);
+    const float room = height - ui.px(4);  // the rest is for the marker
+    for (const StripCell& cell : cells) {
+        draw_cell(list, ui.style, cell, {at.x, at.y + ui.px(4)}, room, cell.first <= step ? 1 : kStripAhead);
+    }
+    const auto present =
+        std::partition_point(cells.begin(), cells.end(), [&](const StripCell& c) { return c.end <= step; });
+    const float x = at.x + 0.5f * (present->x0 + present->x1);
+    const float r = ui.px(4);
+    list.AddTriangleFilled({x - r, at.y}, {x + r, at.y}, {x, at.y + r}, ui.style.text);
+    list.AddLine({x, at.y}, {x, at.y + height}, ui.style.text, ui.px(1.5f));
+
+    const bool active = ImGui::IsItemActive();
+    if (!active && !ImGui::IsItemHovered()) return;
+    const float mouse = std::clamp(ImGui::GetIO().MousePos.x - at.x, 0.0f, width - 1);
+    const auto under = std::min<std::size_t>(static_cast<std::size_t>(mouse / width * static_cast<float>(cells.size())),
+                                             cells.size() - 1);
+    const StripCell& cell = cells[under];
+    ImGui::SetTooltip("%s", tooltip(*findings, trace, cell).c_str());
+    if (active && (step < cell.first || step >= cell.end)) invoke(ui.session, "step.to", std::to_string(cell.first));
+}
+
+}  // namespace mobbscope::app
