@@ -266,10 +266,11 @@ int run_test(const TestCommandArguments& arguments) {
     const bool renews = arguments.new_reference && drawer.maker;
     if (arguments.update && drawer.maker && !renews)
         check_references(cases, picture_tests::reference_of(drawer.maker->renderer()));
-    const picture_tests::Origin origin = renews ? picture_tests::Origin::here : picture_tests::Origin::reference;
+    const picture_tests::GoldenSource source =
+        renews ? picture_tests::GoldenSource::here : picture_tests::GoldenSource::reference;
     std::vector<picture_tests::CaseResult> results;
     for (const picture_tests::CaseFile& file : cases) {
-        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, origin));
+        results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, source));
     }
     // Where standard output is a report, the rest goes beside it.
     std::ostream& say = arguments.json ? std::cerr : std::cout;

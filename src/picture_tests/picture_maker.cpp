@@ -37,8 +37,8 @@ const app::Script* script_of(const Shot& shot) { return shot.window->script ? &*
 
 PictureSize panel_size(const Shot& shot) {
     if (shot.panels.size() == 1) return shot.picture.size;
-    const bool titles =
-        std::any_of(shot.panels.begin(), shot.panels.end(), [](const Panel& panel) { return !panel.title.empty(); });
+    const bool titles = std::any_of(shot.panels.begin(), shot.panels.end(),
+                                    [](const PicturePanel& panel) { return !panel.title.empty(); });
     return cell_size(shot.picture.size, static_cast<int>(shot.panels.size()), shot.columns, titles,
                      metrics_of(shot.picture.size, shot.picture.scale));
 }
@@ -60,7 +60,7 @@ std::vector<DrawList> lists_of(const Shot& shot) {
     PictureOptions options = shot.picture;
     options.size = panel_size(shot);
     std::vector<DrawList> alone;
-    for (const Panel& panel : shot.panels) alone.push_back(build_draw_list(*panel.fitted, panel.view, options));
+    for (const PicturePanel& panel : shot.panels) alone.push_back(build_draw_list(*panel.fitted, panel.view, options));
     std::vector<DrawList> lists;
     for (std::size_t i = 0; i < alone.size(); ++i) {
         CommonFraming framing;

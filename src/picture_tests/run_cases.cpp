@@ -111,7 +111,7 @@ void compare_without_text(CaseResult& result, const Shot& shot, PictureMaker& ma
 }
 
 /// Reads and draws it, and compares.
-void run(CaseResult& result, PictureMaker& maker, Origin origin) {
+void run(CaseResult& result, PictureMaker& maker, GoldenSource source) {
     const Case tested = read_case(result.file.file);
     result.tolerance = tested.tolerance;
     if (tested.skip) {
@@ -125,7 +125,7 @@ void run(CaseResult& result, PictureMaker& maker, Origin origin) {
     }
     const Reference here = reference_of(maker.renderer());
     const std::optional<Reference> reference =
-        origin == Origin::here ? here : read_reference(result.file.file.parent_path());
+        source == GoldenSource::here ? here : read_reference(result.file.file.parent_path());
     if (reference && result.file.name.ends_with(".plain")) {
         throw InputError(result.file.file.string(), "",
                          "names that end in .plain are those of goldens without text; rename the case");
@@ -160,7 +160,7 @@ std::string_view name(CaseOutcome outcome) {
     return "";
 }
 
-CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, Origin origin) {
+CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, GoldenSource source) {
     CaseResult result;
     result.file = file;
     if (!maker) {
@@ -170,7 +170,7 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
     }
     const auto begin = std::chrono::steady_clock::now();
     try {
-        run(result, *maker, origin);
+        run(result, *maker, source);
     } catch (const std::exception& error) {
         result.outcome = CaseOutcome::failed;
         result.message = error.what();

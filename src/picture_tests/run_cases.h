@@ -46,7 +46,7 @@ struct CaseResult {
 };
 
 /// What the goldens of a run are held to be from.
-enum class Origin {
+enum class GoldenSource {
     reference,  ///< what the reference.json of their folder says, or here if there is none
     here,       ///< here, whatever it says: this becomes the reference
 };
@@ -54,7 +54,7 @@ enum class Origin {
 /// Runs one case. `maker` null: there is no OpenGL, for the reason given; the case is skipped without being read. Never
 /// throws for what is wrong with a case.
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl,
-                    Origin origin = Origin::reference);
+                    GoldenSource source = GoldenSource::reference);
 
 /// Whether there is a picture that is not the golden's, and goldens are taken here.
 bool can_be_taken(const CaseResult& result);

@@ -57,26 +57,26 @@ class Fits {
 };
 
 /// What `view` and `fit` of an object say, over what is so already.
-struct Look {
+struct FitAndView {
     mobb::FitOptions fit;
     ViewState view;
 
-    Look over(const JsonPlace& place) const {
-        Look out = *this;
+    FitAndView over(const JsonPlace& place) const {
+        FitAndView out = *this;
         if (const auto fit_place = place.find("fit")) out.fit = read_fit(*fit_place, fit);
         if (const auto view_place = place.find("view")) out.view = read_view(*view_place, view);
         return out;
     }
 };
 
-std::vector<Panel> read_panels(const JsonPlace& place, const Look& common, Fits& fits) {
+std::vector<PicturePanel> read_panels(const JsonPlace& place, const FitAndView& common, Fits& fits) {
     if (place.size() == 0) place.fail("there are no panels; give one or more, or leave the key out");
-    std::vector<Panel> panels;
+    std::vector<PicturePanel> panels;
     for (int i = 0; i < place.size(); ++i) {
         const JsonPlace one = place[i];
         one.allow_only({"title", "view", "fit"});
-        const Look look = common.over(one);
-        Panel panel{{}, fits.with(look.fit), look.view};
+        const FitAndView chosen = common.over(one);
+        PicturePanel panel{{}, fits.with(chosen.fit), chosen.view};
         if (const auto title = one.find("title")) panel.title = title->string();
         panels.push_back(std::move(panel));
     }
@@ -138,7 +138,7 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     }
 
     Fits fits(read_named(scene, [&] { return load_scene(shot.scene_file); }));
-    const Look common = Look{fits.scene().fit, fits.scene().view}.over(place);
+    const FitAndView common = FitAndView{fits.scene().fit, fits.scene().view}.over(place);
     if (const auto panels = place.find("panels")) {
         shot.panels = read_panels(*panels, common, fits);
     } else {
@@ -152,7 +152,7 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
 }
 
 Shot without_text(Shot shot) {
-    for (Panel& panel : shot.panels) {
+    for (PicturePanel& panel : shot.panels) {
         panel.title.clear();
         panel.view.labels = false;
     }

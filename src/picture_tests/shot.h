@@ -28,7 +28,7 @@ namespace mobbscope::picture_tests {
 
 /// One view of the scene. Panels with the same camera, where it frames the scene by itself, share one that sees all of
 /// them, so that what differs between them is what is drawn.
-struct Panel {
+struct PicturePanel {
     std::string title;  ///< above it; empty where there is only one
     std::shared_ptr<const FittedScene> fitted;
     ViewState view;
@@ -43,7 +43,7 @@ struct WindowShot {
 struct Shot {
     std::filesystem::path file;  ///< of the case, for messages
     std::filesystem::path scene_file;
-    std::vector<Panel> panels;  ///< at least one
+    std::vector<PicturePanel> panels;  ///< at least one
     int columns = 1;
     PictureOptions picture;
     std::optional<WindowShot> window;  ///< then there is one panel

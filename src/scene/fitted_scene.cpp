@@ -1,37 +1,78 @@
+#include <base/text.h>
 #include <scene/fitted_scene.h>
 
-#include <unordered_map>
+#include <map>
+#include <stdexcept>
 #include <unordered_set>
 #include <utility>
 
 namespace mobbscope {
 
+namespace {
+
+/// A fit of every clip, with the trees that one of `sources` (null: none) has already.
+std::shared_ptr<const NamedFit> fit_of(const Scene& scene, std::string name, const mobb::FitOptions& options,
+                                       std::initializer_list<const FittedScene*> sources, const Progress& progress) {
+    mobb::check(options);
+    std::map<const mobb::Clip*, std::shared_ptr<const mobb::Tree>> made;
+    for (const FittedScene* source : sources) {
+        if (!source) continue;
+        for (const auto& fit : source->fits()) {
+            if (fit->options != options) continue;
+            for (const auto& tree : fit->trees) made.emplace(&tree->clip(), tree);
+        }
+    }
+    NamedFit out{std::move(name), options, {}};
+    out.trees.reserve(scene.clips.size());
+    for (const SceneClip& clip : scene.clips) {
+        std::shared_ptr<const mobb::Tree>& tree = made[clip.clip.get()];
+        if (!tree) tree = std::make_shared<const mobb::Tree>(clip.clip, options);
+        out.trees.push_back(tree);
+        if (progress) progress(out.trees.size(), scene.clips.size());
+    }
+    return std::make_shared<const NamedFit>(std::move(out));
+}
+
+}  // namespace
+
 FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, const FittedScene* previous,
                          const Progress& progress)
-    : scene_(std::move(scene)), options_(options), participants_(mobbscope::placed_agents(scene_)) {
-    mobb::check(options);
-    std::unordered_map<const mobb::Clip*, std::shared_ptr<const mobb::Tree>> fitted;
-    if (previous && previous->options() == options) {
-        for (const auto& tree : previous->trees_) fitted.emplace(&tree->clip(), tree);
+    : scene_(std::make_shared<const Scene>(std::move(scene))),
+      placed_agents_(std::make_shared<const std::vector<PlacedAgent>>(mobbscope::placed_agents(*scene_))),
+      fits_{fit_of(*scene_, "", options, {previous}, progress)} {}
+
+FittedScene FittedScene::with_fit(std::string name, const mobb::FitOptions& options, const FittedScene* previous,
+                                  const Progress& progress) const {
+    if (name.empty()) throw std::invalid_argument("a further fit needs a name");
+    for (const auto& fit : fits_) {
+        if (fit->name == name) throw std::invalid_argument("there is a fit named " + in_quotes(name) + " already");
     }
-    trees_.reserve(scene_.clips.size());
-    for (const SceneClip& clip : scene_.clips) {
-        std::shared_ptr<const mobb::Tree>& tree = fitted[clip.clip.get()];
-        if (!tree) tree = std::make_shared<const mobb::Tree>(clip.clip, options);
-        trees_.push_back(tree);
-        if (progress) progress(trees_.size(), scene_.clips.size());
-    }
+    FittedScene out = *this;
+    out.fits_.push_back(fit_of(*scene_, std::move(name), options, {this, previous}, progress));
+    return out;
+}
+
+FittedScene FittedScene::using_fit(std::size_t index) const {
+    FittedScene out = *this;
+    out.in_use_ = index;
+    return out;
 }
 
 std::size_t FittedScene::bytes_beyond(const FittedScene& other) const {
-    if (this == &other) return 0;
-    std::unordered_set<const void*> shared;
-    for (const auto& tree : other.trees_) shared.insert({tree.get(), &tree->clip()});
-    std::size_t bytes = scene_.clips.size() * sizeof(SceneClip) + scene_.agents.size() * sizeof(Agent) +
-                        scene_.queries.size() * sizeof(SceneQuery) + participants_.size() * sizeof(PlacedAgent);
-    for (const auto& tree : trees_) {
-        if (shared.insert(tree.get()).second) bytes += tree->nodes().size() * (sizeof(mobb::Node) + sizeof(int));
-        if (shared.insert(&tree->clip()).second) bytes += tree->clip().samples().size_bytes();
+    std::unordered_set<const void*> shared{other.scene_.get()};
+    for (const auto& fit : other.fits_) {
+        for (const auto& tree : fit->trees) shared.insert({tree.get(), &tree->clip()});
+    }
+    std::size_t bytes = 0;
+    if (shared.insert(scene_.get()).second) {
+        bytes += scene_->clips.size() * sizeof(SceneClip) + scene_->agents.size() * sizeof(Agent) +
+                 scene_->queries.size() * sizeof(SceneQuery) + placed_agents_->size() * sizeof(PlacedAgent);
+    }
+    for (const auto& fit : fits_) {
+        for (const auto& tree : fit->trees) {
+            if (shared.insert(tree.get()).second) bytes += tree->nodes().size() * (sizeof(mobb::Node) + sizeof(int));
+            if (shared.insert(&tree->clip()).second) bytes += tree->clip().samples().size_bytes();
+        }
     }
     return bytes;
 }

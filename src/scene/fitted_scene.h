@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -24,20 +25,38 @@ class QueryList {
     const Scene* scene_;
 };
 
-/// Immutable once made; refers to nothing outside itself.
+/// A tree over each clip of a scene, all fitted with the same options.
+struct NamedFit {
+    std::string name;  ///< "" of the first fit of a scene
+    mobb::FitOptions options;
+    std::vector<std::shared_ptr<const mobb::Tree>> trees;  ///< by clip
+};
+
+/// A scene with any number of fits, of which one is in use: pictures, queries and figures are of its trees. Immutable
+/// once made; refers to nothing outside itself. Cheap to copy: copies share scene and trees.
 class FittedScene {
   public:
-    /// Fits every clip with `options` (usually scene.fit); a tree of `previous` over the very same clip with equal
-    /// options is shared instead. `progress` is told after each clip. Throws std::invalid_argument if an option is out
-    /// of range.
+    /// Fits every clip with `options` (usually scene.fit); a tree of any fit of `previous` over the very same clip with
+    /// equal options is shared instead. `progress` is told after each clip. Throws std::invalid_argument if an option
+    /// is out of range.
     FittedScene(Scene scene, const mobb::FitOptions& options, const FittedScene* previous = nullptr,
                 const Progress& progress = {});
 
-    const Scene& scene() const { return scene_; }
-    const mobb::FitOptions& options() const { return options_; }
-    const mobb::Tree& tree(int clip) const { return *trees_[static_cast<std::size_t>(clip)]; }
-    QueryList queries() const { return QueryList(scene_); }  ///< what is asked; valid as long as this
-    const std::vector<PlacedAgent>& placed_agents() const { return participants_; }  ///< what is drawn
+    /// The same scene with one more fit; the fit in use stays. A tree of any fit of `previous` or of this is shared as
+    /// above. Throws std::invalid_argument for a name that is empty or taken, and as the constructor does.
+    FittedScene with_fit(std::string name, const mobb::FitOptions& options, const FittedScene* previous = nullptr,
+                         const Progress& progress = {}) const;
+    /// The same with another fit in use: an index < fits().size().
+    FittedScene using_fit(std::size_t index) const;
+
+    const std::vector<std::shared_ptr<const NamedFit>>& fits() const { return fits_; }  ///< at least one; none is null
+    std::size_t fit_in_use() const { return in_use_; }
+
+    const Scene& scene() const { return *scene_; }
+    const mobb::FitOptions& options() const { return fits_[in_use_]->options; }
+    const mobb::Tree& tree(int clip) const { return *fits_[in_use_]->trees[static_cast<std::size_t>(clip)]; }
+    QueryList queries() const { return QueryList(*scene_); }  ///< what is asked; valid as long as this or a copy
+    const std::vector<PlacedAgent>& placed_agents() const { return *placed_agents_; }  ///< what is drawn
 
     mobb::PlacedTree placed(const PlacedAgent& participant) const {
         return {tree(participant.clip), participant.placement};
@@ -47,10 +66,10 @@ class FittedScene {
     std::size_t bytes_beyond(const FittedScene& other) const;
 
   private:
-    Scene scene_;
-    mobb::FitOptions options_;
-    std::vector<std::shared_ptr<const mobb::Tree>> trees_;  ///< by clip
-    std::vector<PlacedAgent> participants_;
+    std::shared_ptr<const Scene> scene_;
+    std::shared_ptr<const std::vector<PlacedAgent>> placed_agents_;
+    std::vector<std::shared_ptr<const NamedFit>> fits_;
+    std::size_t in_use_ = 0;
 };
 
 /// Through the trees, or by measuring every pair of samples.

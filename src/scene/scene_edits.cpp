@@ -42,26 +42,28 @@ class PairInView {
         const std::optional<int> query = scene.view.query;
         if (!query || !scene.queries.empty() || static_cast<std::size_t>(*query) >= query_count(scene)) return;
         const SceneQuery shown = query_at(scene, static_cast<std::size_t>(*query));
-        agents_ = {shown.a.agent, shown.b.agent};
+        a_ = shown.a.agent;
+        b_ = shown.b.agent;
+        any_ = true;
     }
 
     void agent_removed(int agent) {
-        if (!agents_) return;
-        gone_ = agents_->first == agent || agents_->second == agent;
-        agents_->first -= agents_->first > agent ? 1 : 0;
-        agents_->second -= agents_->second > agent ? 1 : 0;
+        gone_ = gone_ || a_ == agent || b_ == agent;
+        a_ -= a_ > agent ? 1 : 0;
+        b_ -= b_ > agent ? 1 : 0;
     }
 
     void restore(Scene& scene) const {
-        if (!agents_) return;
+        if (!any_) return;
         scene.view.query.reset();
         if (gone_) return;
-        scene.view.query = static_cast<int>(
-            query_of_pair(scene, static_cast<std::size_t>(agents_->first), static_cast<std::size_t>(agents_->second)));
+        scene.view.query =
+            static_cast<int>(query_of_pair(scene, static_cast<std::size_t>(a_), static_cast<std::size_t>(b_)));
     }
 
   private:
-    std::optional<std::pair<int, int>> agents_;
+    bool any_ = false;
+    int a_ = -1, b_ = -1;  ///< the agents of the query in the view
     bool gone_ = false;
 };
 

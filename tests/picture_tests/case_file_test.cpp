@@ -67,7 +67,7 @@ TEST(ReadCase, EachLayerSaysWhatIsOtherThanInTheOneBelow) {
     EXPECT_EQ(read.shot.picture.samples, 8);
     EXPECT_EQ(read.shot.picture.background->r, 1);
     EXPECT_EQ(read.shot.columns, 2);
-    const std::vector<Panel>& panels = read.shot.panels;
+    const std::vector<PicturePanel>& panels = read.shot.panels;
     ASSERT_EQ(panels.size(), 3u);
     EXPECT_EQ(panels[0].title, "one");
     EXPECT_EQ(panels[0].view.query, 0);

@@ -184,7 +184,7 @@ class RunCaseWithReferenceTest : public RunCaseTest {
   protected:
     /// Takes all goldens of a case here, and says that they are from here.
     void take_here(const CaseFile& file) {
-        CaseResult result = run_case(file, maker_.get(), "", Origin::here);
+        CaseResult result = run_case(file, maker_.get(), "", GoldenSource::here);
         EXPECT_EQ(result.outcome, CaseOutcome::missing_golden) << result.message;
         take(result);
         write_reference(cases.path(), reference_of(maker_->renderer()));
@@ -272,7 +272,7 @@ TEST_F(RunCaseWithReferenceTest, WithoutAReferenceNothingIsDrawnWithoutText) {
 TEST_F(RunCaseWithReferenceTest, WhatIsDrawnIsHeldWithoutText) {
     const CaseFile file = cases.add("a");
     cases.folder().write("a.draw.json", "");
-    CaseResult result = run_case(file, maker_.get(), "", Origin::here);
+    CaseResult result = run_case(file, maker_.get(), "", GoldenSource::here);
     take(result);
     move_elsewhere();
     spoil(file.draw());

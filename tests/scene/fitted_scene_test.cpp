@@ -47,6 +47,33 @@ TEST(FittedScene, WhatIsSharedTakesNoMemoryTwice) {
     EXPECT_EQ(other.bytes_beyond(fitted), refitted.bytes_beyond(fitted) + scene.clips[0].clip->samples().size_bytes());
 }
 
+TEST(FittedScene, HoldsSeveralFitsOfOneScene) {
+    const FittedScene mobb(head_on(), {.leaf = 1});
+    const mobb::FitOptions tilted{mobb::TreeKind::umobb, 1, 0, mobb::Axes::endpoints, 1};
+    const FittedScene both = mobb.with_fit("tilted", tilted);
+    ASSERT_EQ(both.fits().size(), 2u);
+    EXPECT_EQ(both.fit_in_use(), 0u);
+    EXPECT_EQ(&both.tree(0), &mobb.tree(0));
+    EXPECT_EQ(&both.scene(), &mobb.scene());
+
+    const FittedScene umobb = both.using_fit(1);
+    EXPECT_EQ(umobb.options(), tilted);
+    EXPECT_EQ(umobb.fits()[1]->name, "tilted");
+    EXPECT_EQ(&umobb.placed(umobb.placed_agents()[0]).tree(), &umobb.tree(0));
+    EXPECT_EQ(record(umobb, umobb.queries()[0]).contact, record(both, both.queries()[0]).contact);
+    EXPECT_GT(record(umobb, umobb.queries()[0]).tests.obb3d, 0);
+    EXPECT_EQ(record(both, both.queries()[0]).tests.obb3d, 0);
+
+    // A scene made of this one shares the trees of all its fits.
+    EXPECT_EQ(&FittedScene(mobb.scene(), tilted, &both).tree(0), &umobb.tree(0));
+    EXPECT_EQ(&mobb.with_fit("again", tilted, &both).using_fit(1).tree(0), &umobb.tree(0));
+    EXPECT_EQ(both.bytes_beyond(mobb), umobb.tree(0).nodes().size() * (sizeof(mobb::Node) + sizeof(int)));
+
+    EXPECT_THROW(static_cast<void>(both.with_fit("tilted", tilted)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(both.with_fit("", tilted)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(both.with_fit("no", {.leaf = -1})), std::invalid_argument);
+}
+
 TEST(FittedScene, PairsAreCountedThrough) {
     for (const int agents : {0, 1, 2, 3, 7, 50}) {
         Scene scene = head_on();
