@@ -1,9 +1,8 @@
-#define GLFW_INCLUDE_NONE
-
 #include <app/window/glfw_window.h>
 #include <base/error.h>
 #include <render/drawlist/palette.h>
 
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

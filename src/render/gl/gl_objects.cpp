@@ -1,13 +1,14 @@
-namespace render_assets {
-std::string_view embedded(std::string_view name);
-}
-
 #include <base/error.h>
 #include <render/gl/gl_objects.h>
 
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <string_view>
+
+namespace render_assets {
+std::string_view embedded(std::string_view name);
+}
 
 namespace mobbscope {
 
