@@ -10,13 +10,12 @@ namespace mobbscope {
 
 namespace {
 
-/// A fit of every clip, with the trees that one of `sources` (null: none) has already.
+/// A fit of every clip, with the trees that one of `sources` has already.
 std::shared_ptr<const NamedFit> fit_of(const Scene& scene, std::string name, const mobb::FitOptions& options,
-                                       std::initializer_list<const FittedScene*> sources, const Progress& progress) {
+                                       std::span<const FittedScene* const> sources, const Progress& progress) {
     mobb::check(options);
     std::map<const mobb::Clip*, std::shared_ptr<const mobb::Tree>> made;
     for (const FittedScene* source : sources) {
-        if (!source) continue;
         for (const auto& fit : source->fits()) {
             if (fit->options != options) continue;
             for (const auto& tree : fit->trees) made.emplace(&tree->clip(), tree);
@@ -37,18 +36,24 @@ std::shared_ptr<const NamedFit> fit_of(const Scene& scene, std::string name, con
 
 FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, const FittedScene* previous,
                          const Progress& progress)
+    : FittedScene(std::move(scene), options, std::span(&previous, previous ? 1 : 0), progress) {}
+
+FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, std::span<const FittedScene* const> previous,
+                         const Progress& progress)
     : scene_(std::make_shared<const Scene>(std::move(scene))),
       placed_agents_(std::make_shared<const std::vector<PlacedAgent>>(mobbscope::placed_agents(*scene_))),
-      fits_{fit_of(*scene_, "", options, {previous}, progress)} {}
+      fits_{fit_of(*scene_, "", options, previous, progress)} {}
 
-FittedScene FittedScene::with_fit(std::string name, const mobb::FitOptions& options, const FittedScene* previous,
-                                  const Progress& progress) const {
+FittedScene FittedScene::with_fit(std::string name, const mobb::FitOptions& options,
+                                  std::span<const FittedScene* const> previous, const Progress& progress) const {
     if (name.empty()) throw std::invalid_argument("a further fit needs a name");
     for (const auto& fit : fits_) {
         if (fit->name == name) throw std::invalid_argument("there is a fit named " + in_quotes(name) + " already");
     }
+    std::vector<const FittedScene*> sources(previous.begin(), previous.end());
+    sources.push_back(this);
     FittedScene out = *this;
-    out.fits_.push_back(fit_of(*scene_, std::move(name), options, {this, previous}, progress));
+    out.fits_.push_back(fit_of(*scene_, std::move(name), options, sources, progress));
     return out;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,14 @@ class FittedScene {
     /// is out of range.
     FittedScene(Scene scene, const mobb::FitOptions& options, const FittedScene* previous = nullptr,
                 const Progress& progress = {});
+    /// The same with several scenes to share trees of; none is null.
+    FittedScene(Scene scene, const mobb::FitOptions& options, std::span<const FittedScene* const> previous,
+                const Progress& progress = {});
 
-    /// The same scene with one more fit; the fit in use stays. A tree of any fit of `previous` or of this is shared as
+    /// The same scene with one more fit; the fit in use stays. Trees of any fit of this or of `previous` are shared as
     /// above. Throws std::invalid_argument for a name that is empty or taken, and as the constructor does.
-    FittedScene with_fit(std::string name, const mobb::FitOptions& options, const FittedScene* previous = nullptr,
-                         const Progress& progress = {}) const;
+    FittedScene with_fit(std::string name, const mobb::FitOptions& options,
+                         std::span<const FittedScene* const> previous = {}, const Progress& progress = {}) const;
     /// The same with another fit in use: an index < fits().size().
     FittedScene using_fit(std::size_t index) const;
 

@@ -2,6 +2,7 @@
 #include <app/commands/command.h>
 #include <base/text.h>
 
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -11,9 +12,8 @@ namespace {
 
 std::vector<std::string> as_strings(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
 
-template <class Change>
-void fit(Session& session, const std::string& doing, const Change& change) {
-    session.edit({doing, doing}, [&](Scene& scene) { change(scene.fit); });
+void fit(Session& session, const std::string& doing, const std::function<void(mobb::FitOptions&)>& change) {
+    session.refit({doing, doing}, change);
 }
 
 void set_kind(Session& session, const std::string& text) {
@@ -22,7 +22,7 @@ void set_kind(Session& session, const std::string& text) {
         throw std::invalid_argument("the trees cannot be " + in_quotes(text) + ": give one of " +
                                     listed(mobb::tree_kind_names()));
     }
-    fit(session, "changing the kind of trees", [&](mobb::FitOptions& options) { options.tree = *kind; });
+    fit(session, "changing the kind of trees", [=](mobb::FitOptions& options) { options.tree = *kind; });
 }
 
 void set_axes(Session& session, const std::string& text) {
@@ -31,22 +31,22 @@ void set_axes(Session& session, const std::string& text) {
         throw std::invalid_argument("the axes cannot be " + in_quotes(text) + ": give one of " +
                                     listed(mobb::axes_names()));
     }
-    fit(session, "changing the axes", [&](mobb::FitOptions& options) { options.axes = *axes; });
+    fit(session, "changing the axes", [=](mobb::FitOptions& options) { options.axes = *axes; });
 }
 
 void set_leaf(Session& session, const std::string& text) {
     const int leaf = whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max());
-    fit(session, "changing the leaves", [&](mobb::FitOptions& options) { options.leaf = leaf; });
+    fit(session, "changing the leaves", [=](mobb::FitOptions& options) { options.leaf = leaf; });
 }
 
 void set_tree_levels(Session& session, const std::string& text) {
     const int levels = whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max());
-    fit(session, "changing the levels", [&](mobb::FitOptions& options) { options.levels = levels; });
+    fit(session, "changing the levels", [=](mobb::FitOptions& options) { options.levels = levels; });
 }
 
 void set_time_scale(Session& session, const std::string& text) {
     const double scale = number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
-    fit(session, "changing the time scale", [&](mobb::FitOptions& options) { options.time_scale = scale; });
+    fit(session, "changing the time scale", [=](mobb::FitOptions& options) { options.time_scale = scale; });
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ std::span<const Command> tree_commands() {
          .run = set_kind,
          .choices = [](const Session&) { return as_strings(mobb::tree_kind_names()); },
          .chosen = [](const Session& session,
-                      const std::string& kind) { return name(session.scene().fit.tree) == kind; }},
+                      const std::string& kind) { return name(session.fitted().options().tree) == kind; }},
         {.id = "tree.axes",
          .title = "Axes",
          .menu = "Tree",
@@ -72,7 +72,7 @@ std::span<const Command> tree_commands() {
          .run = set_axes,
          .choices = [](const Session&) { return as_strings(mobb::axes_names()); },
          .chosen = [](const Session& session,
-                      const std::string& axes) { return name(session.scene().fit.axes) == axes; }},
+                      const std::string& axes) { return name(session.fitted().options().axes) == axes; }},
         {.id = "tree.leaf",
          .title = "Samples in a leaf...",
          .menu = "Tree",

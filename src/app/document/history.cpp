@@ -70,13 +70,10 @@ void History::change(Document document, const EditName& name) {
     open_ = true;
 }
 
-void History::change_view(const ViewState& view) {
-    const std::string title = what_changes(now().view, view);
-    if (states_[now_].looked && states_[now_].name.title == title) {
-        states_[now_].document.view = view;
-        return;
-    }
-    append({{now().fitted, view, now().origin}, {title, ""}, true, 0});
+void History::change_view(Document document) {
+    const std::string title = what_changes(now().view, document.view);
+    if (states_[now_].looked && states_[now_].name.title == title) return set(std::move(document));
+    append({std::move(document), {title, ""}, true, 0});
     open_ = false;
 }
 

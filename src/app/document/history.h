@@ -19,12 +19,22 @@ struct Origin {
     std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
 };
 
-/// The scene with its trees, and how it is seen. Values: a state once reached can be returned to at no cost, as the
+/// One view of the document's scene: how it is seen, and with which of its fits.
+struct SceneView {
+    std::shared_ptr<const FittedScene> fitted;  ///< with the view's fit in use; never null
+    ViewState view;
+};
+
+/// The scene with its fits, and how it is seen: the active view, which commands and panels are about, and those beside
+/// it. All views are of one scene and one time. Values: a state once reached can be returned to at no cost, as the
 /// scene is immutable and shared.
 struct Document {
-    std::shared_ptr<const FittedScene> fitted;  ///< never null
-    ViewState view;
-    std::shared_ptr<const Origin> origin{};  ///< of an excerpt; else null
+    std::shared_ptr<const FittedScene> fitted;  ///< with the active view's fit in use; never null
+    ViewState view;                             ///< the active one
+    std::shared_ptr<const Origin> origin{};     ///< of an excerpt; else null
+    std::vector<SceneView> beside{};            ///< the other views, from left to right
+    std::size_t place = 0;                      ///< how many of them stand to the left of the active one
+    bool linked_cameras = true;                 ///< all views have one camera
 };
 
 /// Groups what belongs together: one drag, one number typed.
@@ -51,7 +61,7 @@ class History {
     void change(Document document, const EditName& name);
     /// Only how it is seen has changed. Looking around of one kind (moving the view, stepping ...) is one state, and it
     /// does not clear what can be redone.
-    void change_view(const ViewState& view);
+    void change_view(Document document);
     /// The present state is this instead; no edit of its own.
     void amend(Document document);
     /// The next edit starts a group of its own, even under the same name.

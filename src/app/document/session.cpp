@@ -46,17 +46,56 @@ Document document_of(Scene scene, const FittedScene* previous, const Progress& p
     return {std::make_shared<const FittedScene>(std::move(scene), options, previous, progress), view};
 }
 
-/// Whether trees over these clips are made in an instant.
-bool quick_to_fit(const Scene& scene, const FittedScene& present) {
-    std::unordered_set<const mobb::Clip*> kept;
-    if (scene.fit == present.options()) {
-        for (const SceneClip& clip : present.scene().clips) kept.insert(clip.clip.get());
+/// The options of each fit of `present` when those of the fit in use become `options`.
+std::vector<mobb::FitOptions> fits_with(const FittedScene& present, const mobb::FitOptions& options) {
+    std::vector<mobb::FitOptions> out;
+    for (const auto& fit : present.fits()) out.push_back(fit->options);
+    out[present.fit_in_use()] = options;
+    return out;
+}
+
+/// The document with another scene, whose `fit` are the options of the fit in use and whose `view` is the active one.
+/// Its other fits and views are made anew for that scene; trees that `present` or `fitted_beside` (null: none) has are
+/// shared.
+Document with_scene(const Document& present, Scene scene, const FittedScene* fitted_beside = nullptr,
+                    const Progress& progress = {}) {
+    const FittedScene& before = *present.fitted;
+    const std::vector<mobb::FitOptions> fits = fits_with(before, scene.fit);
+    Document out = present;
+    out.view = scene.view;
+    scene.fit = fits.front();
+    std::vector<const FittedScene*> known{&before};
+    if (fitted_beside) known.push_back(fitted_beside);
+    FittedScene fitted(std::move(scene), fits.front(), known, progress);
+    for (std::size_t i = 1; i < fits.size(); ++i) {
+        fitted = fitted.with_fit(before.fits()[i]->name, fits[i], known, progress);
     }
-    std::size_t samples = 0;
-    for (const SceneClip& clip : scene.clips) {
-        if (!kept.contains(clip.clip.get())) samples += static_cast<std::size_t>(clip.clip->count());
+    out.fitted = std::make_shared<const FittedScene>(fitted.using_fit(before.fit_in_use()));
+    for (SceneView& other : out.beside) {
+        other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
     }
-    return samples * (scene.fit.axes == mobb::Axes::minarea ? kSearchFactor : 1) < kQuickSamples;
+    return out;
+}
+
+/// Whether with_scene is done in an instant.
+bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside) {
+    std::size_t work = 0;
+    for (const mobb::FitOptions& options : fits_with(present, scene.fit)) {
+        std::unordered_set<const mobb::Clip*> kept;
+        for (const FittedScene* source : {&present, fitted_beside}) {
+            if (!source) continue;
+            for (const auto& fit : source->fits()) {
+                if (fit->options != options) continue;
+                for (const auto& tree : fit->trees) kept.insert(&tree->clip());
+            }
+        }
+        for (const SceneClip& clip : scene.clips) {
+            if (kept.contains(clip.clip.get())) continue;
+            work += static_cast<std::size_t>(clip.clip->count()) *
+                    (options.axes == mobb::Axes::minarea ? kSearchFactor : 1);
+        }
+    }
+    return work < kQuickSamples;
 }
 
 /// A view of another scene, or of this one before an edit, made to fit what there is.
@@ -80,49 +119,133 @@ Session::Session(bool attended, Settings settings_)
 // --- the document
 
 void Session::edit(const EditName& name, const std::function<void(Scene&)>& change) {
-    require_no_job();
+    change_document(with_scene(document(), changed_scene(change)), name);
+}
+
+void Session::refit(const EditName& name, const std::function<void(mobb::FitOptions&)>& change) {
+    edit_with_fits(
+        name, [change](Scene& scene) { change(scene.fit); }, nullptr);
+}
+
+Scene Session::changed_scene(const std::function<void(Scene&)>& change) const {
     Scene next = scene();
     next.view = view();
+    next.fit = document().fitted->options();
     change(next);
     mobb::check(next.fit);
     if (next.fit != document().fitted->options()) drop_traces(next);
-    const std::shared_ptr<const FittedScene> before = document().fitted;
-    if (quick_to_fit(next, *before)) {
-        change_document(document_of(std::move(next), before.get()), name);
-        return;
-    }
-    start("Fitting trees", [this, name, before, next = std::move(next)](JobControl& control) -> Job::Finish {
-        Document document =
-            document_of(next, before.get(), [&](std::size_t done, std::size_t all) { control.step(done, all); });
-        return [this, name, document = std::move(document)] { change_document(document, name); };
-    });
+    return next;
 }
 
-/// The present excerpt stays one.
+void Session::edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
+                             const FittedScene* fitted_beside) {
+    Scene next = changed_scene(change);
+    if (quick_to_fit(next, *document().fitted, fitted_beside)) {
+        return change_document(with_scene(document(), std::move(next), fitted_beside), name);
+    }
+    start("Fitting trees",
+          [this, name, change, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
+              const Document fitted = with_scene(before, next, nullptr, progress_of(control));
+              // The document may have changed meanwhile: the edit is made on what it is now, with the trees made here.
+              return [this, name, change, fitted] { edit_with_fits(name, change, fitted.fitted.get()); };
+          });
+}
+
 void Session::change_document(Document next, const EditName& name) {
-    next.origin = document().origin;
     history_.change(std::move(next), name);
     changed();
 }
 
 void Session::change_view(const std::function<void(ViewState&)>& change) {
-    ViewState next = view();
-    change(next);
-    next = fitting(next, *document().fitted);
-    if (next == view()) return;
-    history_.change_view(next);
+    Document next = document();
+    change(next.view);
+    next.view = fitting(next.view, *next.fitted);
+    if (next.view == view()) return;
+    history_.change_view(std::move(next));
     changed();
 }
 
+// --- views
+
+void Session::split_view(const std::string& name, const mobb::FitOptions& options) {
+    Document next = document();
+    const auto& fits = next.fitted->fits();
+    const auto known = std::find_if(fits.begin(), fits.end(), [&](const auto& fit) { return fit->name == name; });
+    std::size_t index = static_cast<std::size_t>(known - fits.begin());
+    FittedScene fitted = *next.fitted;
+    if (known == fits.end()) {
+        fitted = fitted.with_fit(name, options);
+        next.fitted = std::make_shared<const FittedScene>(fitted);
+        for (SceneView& other : next.beside) {
+            other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
+        }
+    }
+    next.beside.push_back({std::make_shared<const FittedScene>(fitted.using_fit(index)), next.view});
+    change_document(std::move(next), {"splitting the view", ""});
+}
+
+void Session::close_other_views() {
+    if (document().beside.empty()) return;
+    Document next = document();
+    next.beside.clear();
+    next.place = 0;
+    change_document(std::move(next), {"closing the other views", ""});
+}
+
+void Session::activate_view(std::size_t place) {
+    if (place == document().place || place > document().beside.size()) return;
+    Document next = document();
+    next.beside.insert(next.beside.begin() + static_cast<std::ptrdiff_t>(next.place), {next.fitted, next.view});
+    const auto chosen = next.beside.begin() + static_cast<std::ptrdiff_t>(place);
+    next.fitted = chosen->fitted;
+    next.view = chosen->view;
+    next.beside.erase(chosen);
+    next.place = place;
+    history_.amend(std::move(next));
+    changed();
+}
+
+void Session::link_cameras(bool linked) {
+    Document next = document();
+    next.linked_cameras = linked;
+    history_.amend(std::move(next));
+    changed();
+}
+
+SceneView Session::view_at(std::size_t place) const {
+    const Document& now = document();
+    if (place == now.place) return {shown(), now.view};
+    const SceneView& other = now.beside[place < now.place ? place : place - 1];
+    shown_beside_.resize(now.beside.size() + 1);
+    return {shown_at(other, shown_beside_[place]), other.view};
+}
+
+/// All views show one time, and of linked cameras what the active view's shows.
+void Session::share_time_and_camera() {
+    Document next = document();
+    for (SceneView& other : next.beside) {
+        ViewState view = other.view;
+        view.time = next.view.time;
+        view.theme = next.view.theme;
+        if (next.linked_cameras) {
+            view.camera = next.view.camera;
+            view.time_height = next.view.time_height;
+            view.follow = next.view.follow;
+        }
+        other.view = fitting(view, *other.fitted);
+    }
+    if (!next.beside.empty()) history_.amend(std::move(next));
+}
+
 void Session::undo() {
-    if (job_ || !history_.can_undo()) return;
+    if (!history_.can_undo()) return;
     stop();
     history_.undo();
     changed();
 }
 
 void Session::redo() {
-    if (job_ || !history_.can_redo()) return;
+    if (!history_.can_redo()) return;
     stop();
     history_.redo();
     changed();
@@ -130,6 +253,7 @@ void Session::redo() {
 
 /// After every change of the document: nothing points at what is gone, and the step is one of the trace.
 void Session::changed() {
+    share_time_and_camera();
     selection = still(selection, *pointed_into_, fitted());
     hovered = still(hovered, *pointed_into_, fitted());
     pointed_into_ = shown();
@@ -181,16 +305,17 @@ const std::vector<mobb::LevelFigures>& Session::figures_of(int clip) const {
 
 // --- crowds
 
-std::shared_ptr<const FittedScene> Session::shown() const {
-    const std::shared_ptr<const FittedScene>& whole = document().fitted;
+std::shared_ptr<const FittedScene> Session::shown() const { return shown_at({document().fitted, view()}, shown_); }
+
+std::shared_ptr<const FittedScene> Session::shown_at(const SceneView& seen, Shown& kept) const {
+    const std::shared_ptr<const FittedScene>& whole = seen.fitted;
+    const ViewState& view = seen.view;
     if (!is_run(whole->scene())) return whole;
-    const ViewState& seen = view();
-    const double time = run_time(whole->scene(), seen);
-    if (shown_.of != whole || shown_.time != time || shown_.window != seen.time_window || shown_.show != seen.show) {
-        shown_ = {whole, time, seen.time_window, seen.show,
-                  std::make_shared<const FittedScene>(fitted_at(*whole, seen))};
+    const double time = run_time(whole->scene(), view);
+    if (kept.of != whole || kept.time != time || kept.window != view.time_window || kept.show != view.show) {
+        kept = {whole, time, view.time_window, view.show, std::make_shared<const FittedScene>(fitted_at(*whole, view))};
     }
-    return shown_.fitted;
+    return kept.fitted;
 }
 
 bool Session::is_crowd() const {
@@ -222,6 +347,9 @@ void Session::find_conflicts() {
     start("Looking for conflicts", [this, in = document().fitted](JobControl& control) -> Job::Finish {
         std::vector<SceneConflict> found = conflicts_in(*in, progress_of(control));
         return [this, in, found = std::move(found)]() mutable {
+            if (in != document().fitted) {
+                return tell(Message::Level::info, "The scene has changed: look for conflicts again");
+            }
             found_ = Found{in, std::move(found)};
             conflict = -1;
         };
@@ -232,7 +360,7 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
     require_no_job();
     Scene excerpt;
     excerpt.file = scene().file;
-    excerpt.fit = scene().fit;
+    excerpt.fit = document().fitted->options();
     for (const PlacedAgent* side : {&a, &b}) {
         int clip = 0;
         if (side == &b && b.clip == a.clip) {
@@ -272,9 +400,11 @@ void Session::leave_excerpt() {
 // --- files
 
 bool Session::modified() const {
+    // Views of one scene share it, whichever fit they use.
+    const auto differ = [](const auto& a, const auto& b) { return &a->scene() != &b->scene(); };
     const std::shared_ptr<const Origin>& origin = document().origin;
-    if (!origin) return document().fitted != saved_;
-    return origin->fitted != saved_ || document().fitted != origin->saved;
+    if (!origin) return differ(document().fitted, saved_);
+    return differ(origin->fitted, saved_) || differ(document().fitted, origin->saved);
 }
 
 std::string Session::title() const {
@@ -288,6 +418,7 @@ std::string Session::title() const {
 }
 
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
+    jobs_.clear();
     document.view = fitting(document.view, *document.fitted);
     document.origin = nullptr;
     saved_ = document.fitted;
@@ -307,11 +438,19 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
 }
 
 void Session::load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files) {
-    start(std::move(title), [this, load_all, files](JobControl& control) -> Job::Finish {
-        Document document = document_of(load_all(control), nullptr,
-                                        [&](std::size_t done, std::size_t all) { control.step(done, all); });
-        return [this, document = std::move(document), files] { replace(document, files); };
-    });
+    // What is opened last is meant.
+    std::erase_if(jobs_, [](const Running& running) { return running.opens; });
+    start(
+        std::move(title),
+        [this, load_all, files, present = document().fitted](JobControl& control) -> Job::Finish {
+            Document document = document_of(load_all(control), nullptr, progress_of(control));
+            return [this, document = std::move(document), files, present] {
+                // Who edited meanwhile is asked again.
+                if (&scene() == &present->scene()) return replace(document, files);
+                after_asking([this, document, files] { replace(document, files); });
+            };
+        },
+        true);
 }
 
 void Session::open(const std::vector<std::filesystem::path>& files) {
@@ -342,14 +481,12 @@ void Session::open_demo() {
 void Session::add(const std::vector<std::filesystem::path>& files) {
     if (empty()) return open(files);
     if (crowd()) throw InputError("a run stands alone: open the files by themselves");
-    const std::shared_ptr<const FittedScene> before = document().fitted;
-    Scene present = scene();
-    present.view = view();
-    start("Adding files", [this, files, before, present = std::move(present)](JobControl& control) -> Job::Finish {
-        Scene next = present;
-        merge(next, load_files(files, {}, progress_of(control)));
-        Document document = document_of(std::move(next), before.get());
-        return [this, document = std::move(document)] { change_document(document, {"adding files", ""}); };
+    start("Reading files", [this, files](JobControl& control) -> Job::Finish {
+        const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
+        return [this, read] {
+            edit_with_fits(
+                {"adding files", ""}, [read](Scene& scene) { merge(scene, *read); }, nullptr);
+        };
     });
 }
 
@@ -380,6 +517,7 @@ void Session::save_as(const std::filesystem::path& file) {
     }
     Scene saved = scene();
     saved.view = view();
+    saved.fit = document().fitted->options();
     move_to_file(saved, file);
     write_file(file, to_json(saved));
     if (in_excerpt()) {
@@ -389,10 +527,7 @@ void Session::save_as(const std::filesystem::path& file) {
         history_.amend(std::move(now));
     } else {
         // The document is the file's now: messages and further sources refer to it.
-        const mobb::FitOptions options = saved.fit;
-        const FittedScene* before = document().fitted.get();
-        Document now{std::make_shared<const FittedScene>(std::move(saved), options, before), view()};
-        history_.amend(std::move(now));
+        history_.amend(with_scene(document(), std::move(saved)));
         saved_ = document().fitted;
         file_ = file;
         opened_ = {file};
@@ -452,28 +587,35 @@ void Session::dismiss(std::size_t message) {
 }
 
 void Session::require_no_job() const {
-    if (job_) throw std::invalid_argument("wait for \"" + job_->title() + "\", or cancel it");
+    if (!jobs_.empty()) throw std::invalid_argument("wait for \"" + job()->title() + "\", or cancel it");
 }
 
-void Session::start(std::string title, Job::Work work) {
-    require_no_job();
-    job_ = std::make_unique<Job>(std::move(title), std::move(work), hooks.wake);
-    job_->wait(attended_ ? kPatience : std::chrono::hours(24));
+void Session::start(std::string title, Job::Work work, bool opens) {
+    jobs_.push_back({std::make_unique<Job>(std::move(title), std::move(work), hooks.wake), opens});
+    jobs_.back().job->wait(attended_ ? kPatience : std::chrono::hours(24));
     poll();
 }
 
-void Session::cancel_job() {
-    if (!job_) return;
-    job_.reset();
+void Session::cancel_job(std::size_t index) {
+    if (index >= jobs_.size()) return;
+    jobs_.erase(jobs_.begin() + static_cast<std::ptrdiff_t>(index));
     tell(Message::Level::info, "Cancelled");
 }
 
 void Session::poll() {
-    if (!job_ || !job_->done()) return;
-    // What it hands over may start the next one.
-    const std::unique_ptr<Job> done = std::move(job_);
+    for (;;) {
+        const auto done = std::find_if(jobs_.begin(), jobs_.end(), [](const Running& r) { return r.job->done(); });
+        if (done == jobs_.end()) return;
+        // What it hands over may start the next one.
+        const std::unique_ptr<Job> job = std::move(done->job);
+        jobs_.erase(done);
+        finish(*job);
+    }
+}
+
+void Session::finish(Job& job) {
     try {
-        done->finish();
+        job.finish();
     } catch (const Cancelled&) {
         tell(Message::Level::info, "Cancelled");
     } catch (const std::bad_alloc&) {
@@ -510,8 +652,7 @@ void Session::play() {
 }
 
 void Session::advance(double seconds) {
-    // What a job hands over is seen as it was when it began.
-    if (!playing_ || empty() || job_) return;
+    if (!playing_ || empty()) return;
     const mobb::Interval span = time_span();
     double time = view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;

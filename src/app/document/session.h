@@ -93,14 +93,32 @@ class Session {
     /// Which opening the present scene is of; files and excerpts are counted apart.
     int opening() const { return in_excerpt() ? excerpts_opened_ : files_opened_; }
 
-    /// Changes the scene; its `view` is the present one and may be changed along. Throws what `change` throws, and
-    /// std::invalid_argument for options out of range: nothing is changed then. Fits that take long become a job, and
-    /// the document changes when it is done.
+    /// Changes the scene at once; its `view` is the present one and may be changed along. Throws what `change` throws:
+    /// nothing is changed then.
     void edit(const EditName& name, const std::function<void(Scene&)>& change);
+    /// Changes the options of the active view's fit. A fit that takes long becomes a job, and the document changes when
+    /// it is done: `change` may run again then, so it holds by value what it needs. Throws std::invalid_argument for
+    /// options out of range: nothing is changed then.
+    void refit(const EditName& name, const std::function<void(mobb::FitOptions&)>& change);
     /// Changes how it is seen; undo takes back looking of one kind (see History::look) in one go.
     void change_view(const std::function<void(ViewState&)>& change);
     /// An interaction has ended: what follows is undone apart from it.
     void close_group() { history_.close_group(); }
+    // Views: places count from left to right.
+    std::size_t view_count() const { return document().beside.size() + 1; }
+    std::size_t active_place() const { return document().place; }
+    /// What is seen at a place, < view_count(); of a run as shown().
+    SceneView view_at(std::size_t place) const;
+    /// Shows the scene once more, to the right of all, as the active view does but with the fit of that name; makes
+    /// that fit if there is none yet. Throws std::invalid_argument for options out of range, or an empty name.
+    void split_view(const std::string& name, const mobb::FitOptions& options);
+    /// Only the active view is left; fits stay.
+    void close_other_views();
+    /// Commands and panels are about the view at that place from now on; of a place that there is not nothing changes.
+    void activate_view(std::size_t place);
+    /// Whether all views have one camera.
+    void link_cameras(bool linked);
+
     /// Back, and on again; what plays stops.
     void undo();
     void redo();
@@ -184,9 +202,13 @@ class Session {
     void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
 
     // Jobs.
-    /// The work under way; null if none. The document cannot be edited meanwhile, undone or left for another.
-    const Job* job() const { return job_.get(); }
-    void cancel_job();
+    /// The work under way, the oldest first. Edits go on meanwhile: what a job has made is put into the document as
+    /// that is when the job ends. Only excerpts are neither opened nor left.
+    std::size_t job_count() const { return jobs_.size(); }
+    const Job& job(std::size_t index) const { return *jobs_[index].job; }
+    /// The oldest; null if none.
+    const Job* job() const { return jobs_.empty() ? nullptr : jobs_.front().job.get(); }
+    void cancel_job(std::size_t index);
     /// Takes in what jobs have done. Call it before each frame.
     void poll();
 
@@ -206,10 +228,16 @@ class Session {
 
     void ask_anew(DialogInput with);
     void require_no_job() const;
-    void start(std::string title, Job::Work work);
+    void start(std::string title, Job::Work work, bool opens = false);
+    void finish(Job& job);
+    Scene changed_scene(const std::function<void(Scene&)>& change) const;
+    /// An edit that may make fits, in a job if they take long. `fitted_beside`: has trees to share; null: none.
+    void edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
+                        const FittedScene* fitted_beside);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
     void change_document(Document next, const EditName& name);
+    void share_time_and_camera();
     void changed();
 
     bool attended_;
@@ -221,7 +249,11 @@ class Session {
     int files_opened_ = 0;
     int excerpts_opened_ = 0;
     std::vector<Message> messages_;
-    std::unique_ptr<Job> job_;
+    struct Running {
+        std::unique_ptr<Job> job;
+        bool opens = false;  ///< it replaces the document
+    };
+    std::vector<Running> jobs_;
     bool playing_ = false;
     bool has_played_ = false;        ///< since play(): the time that passes has a state
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes
@@ -246,7 +278,9 @@ class Session {
         Show show = Show::space_time;
         std::shared_ptr<const FittedScene> fitted;
     };
-    mutable Shown shown_;
+    std::shared_ptr<const FittedScene> shown_at(const SceneView& seen, Shown& kept) const;
+    mutable Shown shown_;                      ///< of the active view
+    mutable std::vector<Shown> shown_beside_;  ///< of the others, by place
     struct Choosing {
         std::shared_ptr<const FittedScene> of;
         std::unique_ptr<MoveSet> moves;

@@ -16,7 +16,6 @@ void selection_panel(Ui& ui);  ///< all numbers of what is selected
 void timeline(Ui& ui);         ///< two clocks: time and step
 void dialogs(Ui& ui);          ///< open, save, palette, help, unsaved changes
 void messages(Ui& ui);
-void job_progress(Ui& ui);
 
 /// The whole window: panels with movable borders between them.
 void window_layout(Ui& ui, Viewport& viewport);

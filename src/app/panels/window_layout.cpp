@@ -111,7 +111,6 @@ void window_layout(Ui& ui, Viewport& viewport) {
 
     dialogs(ui);
     messages(ui);
-    job_progress(ui);
 }
 
 }  // namespace mobbscope::app

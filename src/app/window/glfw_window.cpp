@@ -229,7 +229,7 @@ struct GlfwWindow::State {
         };
     }
     ~State() {
-        session.cancel_job();  // it would wake a window that is gone
+        while (session.job()) session.cancel_job(0);  // they would wake a window that is gone
         session.hooks.wake = nullptr;
         session.hooks.set_clipboard = nullptr;
         session.hooks.clipboard = nullptr;

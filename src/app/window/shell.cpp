@@ -171,7 +171,7 @@ struct Shell::State {
     /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
     bool press(const Chord& chord, bool repeated) {
         const Command* command = command_for(chord);
-        if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none || session.job()) {
+        if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none) {
             return false;
         }
         // A drag ends on what it began on.
@@ -309,9 +309,9 @@ double Shell::frame(PictureSize size, double now) {
         s.settling = kFramesToSettle;
     }
     s.follow_time(now);
-    const Job* job = s.session.job();
+    const std::size_t jobs = s.session.job_count();
     s.session.poll();
-    if (s.session.job() != job) s.settling = kFramesToSettle;
+    if (s.session.job_count() != jobs) s.settling = kFramesToSettle;
     s.feed();
     s.follow_look();
     const double wanted = s.lay_out(now);
