@@ -5,7 +5,6 @@
 #include <app/document/session.h>
 #include <app/input/key.h>
 
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,14 +40,12 @@ std::span<const Command> commands();
 /// Null if there is none.
 const Command* find_command(std::string_view id);
 
-/// Runs a command by id as a script does: throws std::invalid_argument if there is none, it is not enabled, or it is
-/// given an argument that it does not take or none where it needs one; and what the command throws.
+/// Runs a command by id at once, as a script does between frames: throws std::invalid_argument if there is none, it is
+/// not enabled, or it is given an argument that it does not take or none where it needs one; and what the command
+/// throws.
 void run_command(Session& session, std::string_view id, const std::string& argument = "");
 
-/// Does something for a person: what it throws becomes a message in the window.
-void attempt(Session& session, const std::function<void()>& something);
-
-/// Runs a command for a person.
+/// Runs a command for a person once the frame is drawn (Session::enqueue).
 void invoke(Session& session, std::string_view id, const std::string& argument = "");
 
 /// The command that a chord calls; null if none.

@@ -60,16 +60,8 @@ void run_command(Session& session, std::string_view id, const std::string& argum
     command->run(session, argument);
 }
 
-void attempt(Session& session, const std::function<void()>& something) {
-    try {
-        something();
-    } catch (const std::exception& error) {
-        session.tell(Message::Level::error, error.what());
-    }
-}
-
 void invoke(Session& session, std::string_view id, const std::string& argument) {
-    attempt(session, [&] { run_command(session, id, argument); });
+    session.enqueue([&session, id = std::string(id), argument] { run_command(session, id, argument); });
 }
 
 const Command* command_for(const Chord& chord) {

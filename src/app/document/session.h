@@ -14,6 +14,7 @@
 #include <scene/answer.h>
 #include <scene/crowd_run.h>
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -183,6 +184,13 @@ class Session {
     void dismiss(std::size_t message);
     void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
 
+    // The queue: the document changes between frames only, so panels may keep references into it while they draw.
+    /// Does `something` once the frame is drawn. What it throws becomes a message.
+    void enqueue(std::function<void()> something) { queue_.push_back(std::move(something)); }
+    /// Does what was enqueued, in order, and what that enqueues; whether there was anything. Not while panels are
+    /// drawn.
+    bool run_queue();
+
     // Jobs.
     /// The work under way; null if none. The document cannot be edited meanwhile, undone or left for another.
     const Job* job() const { return job_.get(); }
@@ -221,6 +229,7 @@ class Session {
     int files_opened_ = 0;
     int excerpts_opened_ = 0;
     std::vector<Message> messages_;
+    std::deque<std::function<void()>> queue_;
     std::unique_ptr<Job> job_;
     bool playing_ = false;
     bool has_played_ = false;        ///< since play(): the time that passes has a state

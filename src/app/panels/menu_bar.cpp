@@ -33,7 +33,9 @@ std::string title_of(const Session& session, const Command& command) {
 std::string menu_mark(const Command& command) { return "menu." + std::string(command.id); }
 
 void ask_argument(Session& session, const Command& command) {
-    session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+    session.enqueue([&session, &command] {
+        session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+    });
 }
 
 void choices(Ui& ui, const Command& command) {

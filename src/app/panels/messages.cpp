@@ -138,7 +138,7 @@ void job_progress(Ui& ui) {
     const bool cancelled = marked_button(ui, "Cancel", "job.cancel") || pressed(ImGuiKey_Escape);
     end_dialog();
     ui.want_frame_in(kProgressFrame);
-    if (cancelled) ui.session.cancel_job();
+    if (cancelled) ui.session.enqueue([&session = ui.session] { session.cancel_job(); });
 }
 
 }  // namespace mobbscope::app

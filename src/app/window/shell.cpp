@@ -181,6 +181,8 @@ struct Shell::State {
         if (busy && !chord.ctrl && edits_text(chord)) return false;
         // A key that has nothing to do now says nothing.
         if (command->enabled(session)) invoke(session, command->id);
+        // No panel is being drawn: what comes next from the keyboard meets what this one has done.
+        session.run_queue();
         return true;
     }
 
@@ -188,8 +190,10 @@ struct Shell::State {
         if (dropped.paths.empty()) return;
         const bool clips = std::none_of(dropped.paths.begin(), dropped.paths.end(),
                                         [](const auto& path) { return lower_extension(path) == ".json"; });
-        attempt(session,
-                [&] { clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths); });
+        session.enqueue([this, clips, dropped] {
+            clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths);
+        });
+        session.run_queue();
     }
 
     /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
@@ -240,7 +244,7 @@ struct Shell::State {
         marks.clear();
         Ui ui{session, style, marks, drawn->painter, now, kNever};
         ImGui::NewFrame();
-        window_layout(ui, viewport);
+        window_layout(ui, viewport, pictures);
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);
         ImGui::Render();
@@ -266,6 +270,7 @@ struct Shell::State {
     Renderer renderer;
     std::unique_ptr<Drawn> drawn;
     Viewport viewport;
+    QueryPictures pictures;
     PictureSize size;  ///< of the last frame
     bool undrawn = false;
     int frames_drawn = 0;
@@ -317,6 +322,7 @@ double Shell::frame(PictureSize size, double now) {
     const double wanted = s.lay_out(now);
     s.size = size;
     s.undrawn = true;
+    if (s.session.run_queue()) s.settling = kFramesToSettle;
     if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
     s.cursor = ImGui::GetMouseCursor();
     if (s.settling > 0) --s.settling;
