@@ -18,9 +18,12 @@ struct Command {
     /// "File", "Edit", "View", "Tree", "Query", "Go" or "Help", and behind a slash the submenu; empty: not in a menu
     std::string_view menu{};
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
+    bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
     std::string_view doc;         ///< one sentence
     bool (*enabled)(const Session&) = [](const Session&) { return true; };
+    /// Why not, where it is not enabled though a scene is open and no job under way.
+    std::string_view (*why_not)(const Session&) = [](const Session&) { return std::string_view("not now"); };
     /// Throws InputError, MachineError or std::invalid_argument, in words for the person.
     void (*run)(Session&, const std::string& argument) = nullptr;
     bool (*checked)(const Session&) = nullptr;                      ///< of a toggle or a choice: whether it is on
@@ -36,6 +39,11 @@ inline bool has_scene(const Session& session) { return !session.empty(); }
 
 /// The table, in the order of the menus.
 std::span<const Command> commands();
+
+/// Why a command cannot be done now; empty if it can.
+std::string_view why_not(const Session& session, const Command& command);
+/// ... of a command that looks for a step of the query in view.
+std::string_view why_no_step(const Session& session);
 
 /// Null if there is none.
 const Command* find_command(std::string_view id);

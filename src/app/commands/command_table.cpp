@@ -34,6 +34,16 @@ std::span<const Command> commands() {
     return table;
 }
 
+std::string_view why_not(const Session& session, const Command& command) {
+    if (command.enabled(session)) return "";
+    if (session.job()) return "something is under way";
+    return session.empty() ? "nothing is open" : command.why_not(session);
+}
+
+std::string_view why_no_step(const Session& session) {
+    return session.view().query ? "there is none from here" : "no query is shown";
+}
+
 const Command* find_command(std::string_view id) {
     const auto table = commands();
     const auto at = std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.id == id; });

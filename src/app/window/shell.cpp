@@ -50,30 +50,6 @@ std::unique_ptr<ImGuiContext, ImGuiContextDeleter> make_imgui() {
     return context;
 }
 
-/// Keys that go on while they are held.
-bool repeats(const Chord& chord) {
-    switch (chord.key) {
-        case Key::left:
-        case Key::right:
-        case Key::up:
-        case Key::down:
-        case Key::page_up:
-        case Key::page_down:
-        case Key::comma:
-        case Key::period:
-        case Key::minus:
-        case Key::equal:
-        case Key::left_bracket:
-        case Key::right_bracket:
-            return true;
-        case Key::y:
-        case Key::z:
-            return chord.ctrl;
-        default:
-            return false;
-    }
-}
-
 /// What a text field does with a chord by itself.
 bool edits_text(const Chord& chord) {
     const bool function_key = chord.key >= Key::f1 && chord.key <= Key::f12;
@@ -171,7 +147,7 @@ struct Shell::State {
     /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
     bool press(const Chord& chord, bool repeated) {
         const Command* command = command_for(chord);
-        if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none || session.job()) {
+        if (!command || (repeated && !command->repeats) || session.dialog != Dialog::none || session.job()) {
             return false;
         }
         // A drag ends on what it began on.
