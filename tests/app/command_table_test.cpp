@@ -130,9 +130,31 @@ TEST(CommandTable, NumbersThatNobodyMeansAreRefusedEverywhere) {
 TEST(CommandTable, AsInvokedWhatGoesWrongIsAMessage) {
     Session session(false);
     invoke(session, "view.top");
+    EXPECT_TRUE(session.messages().empty()) << "it has not run yet";
+    session.run_queue();
     ASSERT_EQ(session.messages().size(), 1u);
     EXPECT_EQ(session.messages()[0].level, Message::Level::error);
     EXPECT_EQ(session.messages()[0].text, "\"View from above\" cannot be done now");
+}
+
+/// Panels may keep references into the document while they draw.
+TEST(CommandTable, WhatIsInvokedRunsInOrderOnceTheFrameIsDrawn) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    const Document& shown = session.document();
+    const ViewState before = shown.view;
+    invoke(session, "view.top");
+    invoke(session, "step.out");  // cannot be done: what follows runs all the same
+    session.enqueue([&] { invoke(session, "view.side"); });
+    EXPECT_EQ(&session.document(), &shown);
+    EXPECT_EQ(shown.view, before);
+    EXPECT_TRUE(session.run_queue());
+    EXPECT_EQ(session.view().camera.preset, CameraPreset::side) << "what a command enqueues runs too";
+    ASSERT_EQ(session.messages().size(), 1u);
+    EXPECT_FALSE(session.run_queue());
+    run_command(session, "edit.undo");
+    EXPECT_EQ(session.view(), before);
 }
 
 TEST(CommandTable, ChoicesCanAllBeChosen) {

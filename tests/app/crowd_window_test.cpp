@@ -115,6 +115,18 @@ TEST_P(CrowdWindowTest, FramingGoesOnFollowing) {
     w.change_view("framed");
 }
 
+/// The button stands in the panel that names who is followed; each click is a state of the history, which moves in
+/// memory as it grows.
+TEST_P(CrowdWindowTest, StoppingLeavesThePanelWithWhatItDraws) {
+    w.click("agent.1");
+    for (int i = 0; i < 9; ++i) {
+        w.key("W");
+        ASSERT_EQ(w.session.view().follow, w.name(1));
+        w.click("crowd.stop");
+        ASSERT_EQ(w.session.view().follow, "");
+    }
+}
+
 TEST_P(CrowdWindowTest, ADoubleClickOnAnotherNameFollowsThatOne) {
     w.click("agent.1");
     w.key("W");

@@ -145,6 +145,25 @@ TEST(Shortcuts, EachDoesWhatItsCommandDoes) {
     EXPECT_GT(tried, 50);
 }
 
+/// As a keyboard sends a key that is held: it goes down again and again.
+void hold(const KeyWorld& world, Key key, int times) {
+    for (int i = 0; i < times; ++i) {
+        world.window->shell().feed(KeyPress{key, true});
+        world.window->settle();
+    }
+    world.window->shell().feed(KeyPress{key, false});
+    world.window->settle();
+}
+
+TEST(Shortcuts, HeldKeysGoOnWhereTheirCommandRepeats) {
+    KeyWorld world;
+    world.begin({{"query.select", "0"}, {"step.first", ""}});
+    hold(world, Key::right, 3);
+    EXPECT_EQ(world.session->step(), 3);
+    hold(world, Key::d, 2);
+    EXPECT_FALSE(world.session->view().disks) << "a toggle is one";
+}
+
 /// A letter as a keyboard sends it: the key, and what it types.
 void type(const KeyWorld& world, Key key, char32_t code) {
     world.window->shell().feed(KeyPress{key, true});

@@ -5,7 +5,6 @@
 #include <app/document/session.h>
 #include <app/input/key.h>
 
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,9 +18,12 @@ struct Command {
     /// "File", "Edit", "View", "Tree", "Query", "Go" or "Help", and behind a slash the submenu; empty: not in a menu
     std::string_view menu{};
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
+    bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
     std::string_view doc;         ///< one sentence
     bool (*enabled)(const Session&) = [](const Session&) { return true; };
+    /// Why not, where it is not enabled though a scene is open and no job under way.
+    std::string_view (*why_not)(const Session&) = [](const Session&) { return std::string_view("not now"); };
     /// Throws InputError, MachineError or std::invalid_argument, in words for the person.
     void (*run)(Session&, const std::string& argument) = nullptr;
     bool (*checked)(const Session&) = nullptr;                      ///< of a toggle or a choice: whether it is on
@@ -38,17 +40,20 @@ inline bool has_scene(const Session& session) { return !session.empty(); }
 /// The table, in the order of the menus.
 std::span<const Command> commands();
 
+/// Why a command cannot be done now; empty if it can.
+std::string_view why_not(const Session& session, const Command& command);
+/// ... of a command that looks for a step of the query in view.
+std::string_view why_no_step(const Session& session);
+
 /// Null if there is none.
 const Command* find_command(std::string_view id);
 
-/// Runs a command by id as a script does: throws std::invalid_argument if there is none, it is not enabled, or it is
-/// given an argument that it does not take or none where it needs one; and what the command throws.
+/// Runs a command by id at once, as a script does between frames: throws std::invalid_argument if there is none, it is
+/// not enabled, or it is given an argument that it does not take or none where it needs one; and what the command
+/// throws.
 void run_command(Session& session, std::string_view id, const std::string& argument = "");
 
-/// Does something for a person: what it throws becomes a message in the window.
-void attempt(Session& session, const std::function<void()>& something);
-
-/// Runs a command for a person.
+/// Runs a command for a person once the frame is drawn (Session::enqueue).
 void invoke(Session& session, std::string_view id, const std::string& argument = "");
 
 /// The command that a chord calls; null if none.

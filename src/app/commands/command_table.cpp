@@ -34,6 +34,16 @@ std::span<const Command> commands() {
     return table;
 }
 
+std::string_view why_not(const Session& session, const Command& command) {
+    if (command.enabled(session)) return "";
+    if (session.job()) return "something is under way";
+    return session.empty() ? "nothing is open" : command.why_not(session);
+}
+
+std::string_view why_no_step(const Session& session) {
+    return session.view().query ? "there is none from here" : "no query is shown";
+}
+
 const Command* find_command(std::string_view id) {
     const auto table = commands();
     const auto at = std::find_if(table.begin(), table.end(), [&](const Command& c) { return c.id == id; });
@@ -60,16 +70,8 @@ void run_command(Session& session, std::string_view id, const std::string& argum
     command->run(session, argument);
 }
 
-void attempt(Session& session, const std::function<void()>& something) {
-    try {
-        something();
-    } catch (const std::exception& error) {
-        session.tell(Message::Level::error, error.what());
-    }
-}
-
 void invoke(Session& session, std::string_view id, const std::string& argument) {
-    attempt(session, [&] { run_command(session, id, argument); });
+    session.enqueue([&session, id = std::string(id), argument] { run_command(session, id, argument); });
 }
 
 const Command* command_for(const Chord& chord) {

@@ -48,21 +48,6 @@ std::optional<double> score(const std::vector<std::string>& words, std::initiali
     return sum;
 }
 
-/// Why a command that is not enabled cannot be done.
-std::string why_not(const Session& session, const Command& command) {
-    if (command.enabled(session)) return "";
-    if (session.job()) return "something is under way";
-    if (session.empty()) return "nothing is open";
-    if (command.id.starts_with("agent.") && session.crowd()) return "a run is not edited";
-    if (command.id.starts_with("agent.") || command.id == "query.add") {
-        return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
-    }
-    if (command.id.starts_with("step.") || command.id == "go.contact") {
-        return session.view().query ? "there is none from here" : "no query is shown";
-    }
-    return "not now";
-}
-
 struct Scored {
     double score = 0;
     PaletteEntry entry;
@@ -79,7 +64,7 @@ class Collector {
         const Command* command = find_command(id);
         found_.push_back({*found,
                           {command, std::move(argument), std::move(title), std::move(detail),
-                           std::string(first_shortcut(*command)), why_not(session_, *command)}});
+                           std::string(first_shortcut(*command)), std::string(why_not(session_, *command))}});
     }
     bool has_words() const { return !words_.empty(); }
 

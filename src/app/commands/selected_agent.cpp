@@ -12,6 +12,11 @@ bool has_selected_agent(const Session& session) {
     return !session.crowd() && session.selection.on_path() && session.selection.path.participant >= 0;
 }
 
+std::string_view why_no_agent(const Session& session) {
+    if (session.crowd()) return "a run is not edited";
+    return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
+}
+
 int selected_agent(const Session& session) { return session.selection.path.participant; }
 
 std::string selected_agent_name(const Session& session) {

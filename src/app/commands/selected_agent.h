@@ -5,12 +5,16 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
 
 /// Whether an agent is selected; in a scene without agents a clip that is seen counts as one, as an edit makes it one.
 bool has_selected_agent(const Session& session);
+
+/// Why a command about an agent cannot be done.
+std::string_view why_no_agent(const Session& session);
 
 /// Its index among the scene's agents, or its clip's in a scene without agents, which is the agent's that an edit
 /// makes. Requires has_selected_agent.

@@ -572,7 +572,7 @@ void Session::ask_anew(DialogInput with) {
     input = std::move(with);
 }
 
-// --- messages and jobs
+// --- messages, queue and jobs
 
 void Session::tell(Message::Level level, const std::string& text) {
     const std::string said = shortened(text, kLongestMessage);
@@ -584,6 +584,20 @@ void Session::tell(Message::Level level, const std::string& text) {
 
 void Session::dismiss(std::size_t message) {
     if (message < messages_.size()) messages_.erase(messages_.begin() + static_cast<std::ptrdiff_t>(message));
+}
+
+bool Session::run_queue() {
+    const bool had_any = !queue_.empty();
+    while (!queue_.empty()) {
+        const std::function<void()> next = std::move(queue_.front());
+        queue_.pop_front();
+        try {
+            next();
+        } catch (const std::exception& error) {
+            tell(Message::Level::error, error.what());
+        }
+    }
+    return had_any;
 }
 
 void Session::require_no_job() const {

@@ -14,6 +14,7 @@
 #include <scene/answer.h>
 #include <scene/crowd_run.h>
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -201,6 +202,13 @@ class Session {
     void dismiss(std::size_t message);
     void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
 
+    // The queue: the document changes between frames only, so panels may keep references into it while they draw.
+    /// Does `something` once the frame is drawn. What it throws becomes a message.
+    void enqueue(std::function<void()> something) { queue_.push_back(std::move(something)); }
+    /// Does what was enqueued, in order, and what that enqueues; whether there was anything. Not while panels are
+    /// drawn.
+    bool run_queue();
+
     // Jobs.
     /// The work under way, the oldest first. Edits go on meanwhile: what a job has made is put into the document as
     /// that is when the job ends. Only excerpts are neither opened nor left.
@@ -249,6 +257,7 @@ class Session {
     int files_opened_ = 0;
     int excerpts_opened_ = 0;
     std::vector<Message> messages_;
+    std::deque<std::function<void()>> queue_;
     struct Running {
         std::unique_ptr<Job> job;
         bool opens = false;  ///< it replaces the document

@@ -1,6 +1,5 @@
 #include <app/commands/command.h>
 #include <app/panels/query_parts.h>
-#include <app/ui/memo.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
 #include <explain/query_sentence.h>
@@ -92,7 +91,7 @@ const ClearancePiece* piece_at(const Clearance& clearance, double t) {
 
 }  // namespace
 
-void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
+void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float height) {
     const Clearance& clearance = findings.clearance;
     if (!clearance.least) {
         words(ui.style.quiet, "They share no time, so there is no clearance.");
@@ -112,10 +111,8 @@ void clearance_chart(Ui& ui, const QueryFindings& findings, float height) {
     const bool active = ImGui::IsItemActive();
 
     Chart chart{at, {at.x + static_cast<float>(width), at.y + height - label}, ui.session.time_span(), 0, 0};
-    using Drawn = std::pair<std::shared_ptr<const QueryFindings>, int>;
-    static Memo<Drawn, std::vector<ClearanceColumn>> memo;
-    const std::vector<ClearanceColumn>& columns = memo.get(
-        {ui.session.findings(), width}, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
+    const std::vector<ClearanceColumn>& columns = clearance_.of(
+        ui.session.findings(), width, 0, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
     double most = 0;
     for (const ClearanceColumn& column : columns) {
         if (column.any) most = std::max(most, column.most);

@@ -83,7 +83,7 @@ void last_choice_list(Ui& ui) {
         if (!session.view().follow.empty()) words(ui.style.quiet, "No choice yet at this time.");
         return;
     }
-    const Choice choice = followed->choice;
+    const Choice& choice = followed->choice;
     heading(ui, "LAST CHOICE", at_time(choice.time));
     words(ui.style.text, choice_sentence(session.scene(), *followed));
     std::vector<std::size_t> shown = shown_candidates(choice);
@@ -114,7 +114,6 @@ void last_choice_list(Ui& ui) {
             invoke(session, "crowd.open_candidate", std::to_string(index));
         }
     });
-    if (!session.crowd()) return;  // a double click has opened two of them
     const bool opens = session.candidate >= 0 &&
                        static_cast<std::size_t>(session.candidate) < choice.candidates.size() &&
                        choice.candidates[static_cast<std::size_t>(session.candidate)].blocker;
@@ -160,11 +159,8 @@ void conflicts(Ui& ui) {
         words(to_im(readable(ui.style.palette.separated, ui.style.palette)), "Nobody collides with anybody.");
         return;
     }
-    // A double click may open two of them.
-    const std::vector<SceneConflict> kept = *found;
-    int open = -1;
-    rows(ui, "##conflicts", static_cast<int>(kept.size()), kMostCrowdRows, [&](int i) {
-        const SceneConflict& conflict = kept[static_cast<std::size_t>(i)];
+    rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, [&](int i) {
+        const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
         char depth[48];
         std::snprintf(depth, sizeof depth, "%.2f s  %.2f m", conflict.begin(), -conflict.facts.least_clearance);
         if (row(ui, {"conflict" + std::to_string(i), conflict.a.name + " and " + conflict.b.name, depth,
@@ -174,13 +170,11 @@ void conflicts(Ui& ui) {
         ui.mark("conflict." + std::to_string(i));
         if (!ImGui::IsItemHovered()) return;
         ImGui::SetTooltip("When they first touch, and how deep they overlap. Double-click goes to just before it");
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) open = i;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "conflicts.go", std::to_string(i));
     });
-    if (open >= 0) invoke(session, "conflicts.go", std::to_string(open));
     ImGui::BeginDisabled(session.conflict < 0);
     command_button(ui, "open as a scene", "conflicts.open", "conflicts.open");
     ImGui::EndDisabled();
-    if (!session.conflicts()) return;
     flow(button_width("next"));
     command_button(ui, "next", "conflicts.next", "conflicts.next");
 }

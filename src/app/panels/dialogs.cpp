@@ -10,7 +10,7 @@ namespace mobbscope::app {
 namespace {
 
 void answer(Ui& ui, Session::Unsaved choice) {
-    attempt(ui.session, [&] { ui.session.answer_unsaved(choice); });
+    ui.session.enqueue([&session = ui.session, choice] { session.answer_unsaved(choice); });
 }
 
 void unsaved(Ui& ui) {
@@ -60,7 +60,7 @@ void dialogs(Ui& ui) {
             about(ui);
             break;
     }
-    if (session.dialog != Dialog::none && pressed(ImGuiKey_Escape)) session.close_dialog();
+    if (pressed(ImGuiKey_Escape)) session.enqueue([&session] { session.close_dialog(); });
 }
 
 void about(Ui& ui) {
@@ -74,7 +74,9 @@ void about(Ui& ui) {
         "The method is from the paper \"Detecting Collisions in Graph-Driven Motion Synthesis for Crowd Simulation\".");
     ImGui::PopStyleColor();
     ImGui::Dummy({0, ui.px(6)});
-    if (marked_button(ui, "Close", "about.close", true) || pressed(ImGuiKey_Enter)) ui.session.close_dialog();
+    if (marked_button(ui, "Close", "about.close", true) || pressed(ImGuiKey_Enter)) {
+        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
+    }
     end_dialog();
 }
 

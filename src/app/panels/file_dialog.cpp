@@ -72,8 +72,7 @@ std::filesystem::path path_meant(const std::string& typed, const Purpose& purpos
     return path;
 }
 
-void accept(Ui& ui, const Purpose& purpose) {
-    Session& session = ui.session;
+void accept(Session& session, const Purpose& purpose) {
     DialogInput& input = session.input;
     const std::filesystem::path path = path_meant(input.text, purpose);
     std::error_code ignored;
@@ -213,8 +212,8 @@ void file_dialog(Ui& ui) {
         ImGui::TextDisabled("Enter goes into a folder; Open opens all clips in it.");
     }
     end_dialog();
-    if (accepted) accept(ui, purpose);
-    if (cancelled) session.close_dialog();
+    if (accepted) session.enqueue([&session, purpose] { accept(session, purpose); });
+    if (cancelled) session.enqueue([&session] { session.close_dialog(); });
 }
 
 }  // namespace mobbscope::app

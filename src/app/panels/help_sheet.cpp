@@ -100,7 +100,9 @@ void help_sheet(Ui& ui) {
     if (pressed(ImGuiKey_DownArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() + ui.px(60));
     if (pressed(ImGuiKey_UpArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() - ui.px(60));
     ImGui::EndChild();
-    if (marked_button(ui, "Close", "help.close", true) || pressed(ImGuiKey_Enter)) ui.session.close_dialog();
+    if (marked_button(ui, "Close", "help.close", true) || pressed(ImGuiKey_Enter)) {
+        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
+    }
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("Ctrl+P finds everything else by a few letters.");

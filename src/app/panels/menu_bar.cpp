@@ -3,15 +3,14 @@
 #include <app/ui/dialog_frame.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 
 namespace {
 
-constexpr std::array<const char*, 7> kMenus{"File", "Edit", "View", "Tree", "Query", "Go", "Help"};
 constexpr float kSearchWidth = 360;       // pixels at scale 1
 constexpr float kLeastSearchWidth = 110;  // below, it only costs room
 constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
@@ -33,7 +32,9 @@ std::string title_of(const Session& session, const Command& command) {
 std::string menu_mark(const Command& command) { return "menu." + std::string(command.id); }
 
 void ask_argument(Session& session, const Command& command) {
-    session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+    session.enqueue([&session, &command] {
+        session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+    });
 }
 
 void choices(Ui& ui, const Command& command) {
@@ -148,8 +149,13 @@ float file_title(Ui& ui, float left) {
 
 void menu_bar(Ui& ui) {
     if (!ImGui::BeginMainMenuBar()) return;
-    for (const char* menu : kMenus) {
-        const bool open = ImGui::BeginMenu(menu);
+    std::vector<std::string> menus;
+    for (const Command& command : commands()) {
+        const std::string menu(command.menu.substr(0, command.menu.find('/')));
+        if (!menu.empty() && std::find(menus.begin(), menus.end(), menu) == menus.end()) menus.push_back(menu);
+    }
+    for (const std::string& menu : menus) {
+        const bool open = ImGui::BeginMenu(menu.c_str());
         ui.mark("menu." + lower_case(menu));
         if (!open) continue;
         items(ui, menu);

@@ -146,7 +146,7 @@ void messages(Ui& ui) {
         if (draw(ui, session.messages()[i], i)) gone = i;
     }
     ImGui::End();
-    if (cancelled) session.cancel_job(*cancelled);
+    if (cancelled) session.enqueue([&session, index = *cancelled] { session.cancel_job(index); });
     if (gone) session.dismiss(*gone);
 }
 

@@ -38,12 +38,14 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
 }
 
 void run(Session& session, const Command& command, const std::string& argument) {
-    if (argument.empty() && (command.needs_argument() || command.choices)) {
-        session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
-        return;
-    }
-    session.close_dialog();
-    invoke(session, command.id, argument);
+    session.enqueue([&session, &command, argument] {
+        if (argument.empty() && (command.needs_argument() || command.choices)) {
+            session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+            return;
+        }
+        session.close_dialog();
+        run_command(session, command.id, argument);
+    });
 }
 
 /// A list of `count` lines that follows the keys; `draw` draws one and says whether it was clicked. Returns the line
@@ -88,7 +90,7 @@ void all(Ui& ui) {
         if (entered) input.fresh = true;
         return;
     }
-    const PaletteEntry entry = entries[static_cast<std::size_t>(taken)];
+    const PaletteEntry& entry = entries[static_cast<std::size_t>(taken)];
     run(session, *entry.command, entry.argument);
 }
 
@@ -109,13 +111,13 @@ void argument(Ui& ui, const Command& command) {
         return palette_row(ui, i, picked, choice, chosen ? "now" : "", "", true);
     };
     const int taken = pick_from_list(input, static_cast<int>(choices.size()), entered, draw);
-    if (taken >= 0) return run(session, command, std::string(choices[static_cast<std::size_t>(taken)]));
+    if (taken >= 0) return run(session, command, choices[static_cast<std::size_t>(taken)]);
     if (!entered) return;
     if (input.text.empty()) {
         input.fresh = true;
         return;
     }
-    run(session, command, std::string(input.text));
+    run(session, command, input.text);
 }
 
 }  // namespace

@@ -1,23 +1,24 @@
 /// The window's panels. Each draws itself into the current ImGui child window.
 #pragma once
 
+#include <app/panels/query_parts.h>
 #include <app/ui/ui.h>
 #include <app/viewport/viewport.h>
 
 namespace mobbscope::app {
 
 void menu_bar(Ui& ui);
-void scene_panel(Ui& ui);      ///< agents, clips, queries
-void placement_panel(Ui& ui);  ///< the selected agent by numbers
-void tree_panel(Ui& ui);       ///< how trees are fitted and how tight they are
-void query_panel(Ui& ui);      ///< the answer, and why
-void crowd_panel(Ui& ui);      ///< who is followed, its last choice, its plays, and who collides
-void selection_panel(Ui& ui);  ///< all numbers of what is selected
-void timeline(Ui& ui);         ///< two clocks: time and step
-void dialogs(Ui& ui);          ///< open, save, palette, help, unsaved changes
+void scene_panel(Ui& ui);                           ///< agents, clips, queries
+void placement_panel(Ui& ui);                       ///< the selected agent by numbers
+void tree_panel(Ui& ui);                            ///< how trees are fitted and how tight they are
+void query_panel(Ui& ui, QueryPictures& pictures);  ///< the answer, and why
+void crowd_panel(Ui& ui);                           ///< who is followed, its last choice, its plays, and who collides
+void selection_panel(Ui& ui);                       ///< all numbers of what is selected
+void timeline(Ui& ui, QueryPictures& pictures);     ///< two clocks: time and step
+void dialogs(Ui& ui);                               ///< open, save, palette, help, unsaved changes
 void messages(Ui& ui);
 
 /// The whole window: panels with movable borders between them.
-void window_layout(Ui& ui, Viewport& viewport);
+void window_layout(Ui& ui, Viewport& viewport, QueryPictures& pictures);
 
 }  // namespace mobbscope::app

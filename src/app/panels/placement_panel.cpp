@@ -32,8 +32,8 @@ void rename_agent(Ui& ui, int agent, const std::string& name) {
     ImGui::InputText("##agent.name", &text);
     ui.mark("agent.name");
     if (!ImGui::IsItemDeactivatedAfterEdit() || name == text) return;
-    attempt(ui.session, [&] {
-        ui.session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text); });
+    ui.session.enqueue([&session = ui.session, name, agent, text] {
+        session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text); });
     });
 }
 
@@ -47,9 +47,9 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
     if (!changed) return;
     const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
     const Color wanted{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
-    attempt(ui.session, [&] {
-        ui.session.edit({"colouring " + who.name, "color"},
-                        [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
+    ui.session.enqueue([&session = ui.session, who, wanted] {
+        session.edit({"colouring " + who.name, "color"},
+                     [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
     });
 }
 
@@ -75,9 +75,9 @@ void placement_panel(Ui& ui) {
                                 "Global time at which the clip begins");
     color_field(ui, *who, session.selection.path.participant);
     if (changed) {
-        attempt(session, [&] {
-            session.edit({"placing " + who->name, "placement"},
-                         [&](Scene& scene) { place_agent(scene, who->agent, placement); });
+        session.enqueue([&session, who = *who, placement] {
+            session.edit({"placing " + who.name, "placement"},
+                         [&](Scene& scene) { place_agent(scene, who.agent, placement); });
         });
     }
     if (ImGui::SmallButton("Duplicate")) invoke(session, "agent.duplicate");

@@ -150,17 +150,14 @@ void query_button(Ui& ui, const char* label, const char* command) {
     command_button(ui, label, command, "query." + id.substr(id.find('.') + 1));
 }
 
-void query_panel(Ui& ui) {
+void query_panel(Ui& ui, QueryPictures& pictures) {
     const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
     if (!findings) {
         query_list(ui);
         return;
     }
-    const std::shared_ptr<const FittedScene> kept = ui.session.shown();
     query_header(ui);
-    if (ui.session.findings() != findings) return;  // another query, or none: drawn in the next frame
     query_answer(ui, *findings);
-    if (ui.session.findings() != findings) return;
     if (!findings->recursion.pairs.empty()) {
         step_transport(ui);
         current_test(ui, *findings);
@@ -168,11 +165,11 @@ void query_panel(Ui& ui) {
         measured_pairs(ui, *findings);
         query_counters(ui, *findings);
         heading(ui, "RECURSION: TIME OF A BY TIME OF B");
-        recursion_square(ui, *findings);
+        pictures.square(ui, *findings);
         outcome_legend(ui);
     }
     heading(ui, "CLEARANCE OVER TIME");
-    clearance_chart(ui, *findings, ui.px(110));
+    pictures.clearance(ui, *findings, ui.px(110));
 }
 
 void query_list(Ui& ui) {

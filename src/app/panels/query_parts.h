@@ -2,9 +2,16 @@
 /// cursor of the current ImGui window.
 #pragma once
 
+#include <app/panels/recursion_picture.h>
 #include <app/ui/ui.h>
 #include <app/ui/widgets.h>
 #include <explain/query_findings.h>
+
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -25,16 +32,42 @@ void current_test(Ui& ui, const QueryFindings& findings);
 void why_axes(Ui& ui, const QueryFindings& findings);
 /// The pairs of samples that were measured.
 void measured_pairs(Ui& ui, const QueryFindings& findings);
-/// A's time by B's: every pair of nodes that was tested.
-void recursion_square(Ui& ui, const QueryFindings& findings);
-/// How far A and B are apart at each moment.
-void clearance_chart(Ui& ui, const QueryFindings& findings, float height);
 
-/// The events of the trace as a strip, the present one marked; click and drag set the step. Nothing without a query in
-/// the view.
-void step_strip(Ui& ui, float width, float height);
+/// The pictures of a trace, each with the cells that it was last drawn from: most frames draw the same ones.
+class QueryPictures {
+  public:
+    /// A's time by B's: every pair of nodes that was tested.
+    void square(Ui& ui, const QueryFindings& findings);
+    /// How far A and B are apart at each moment.
+    void clearance(Ui& ui, const QueryFindings& findings, float height);
+    /// The events of the trace as a strip, the present one marked; click and drag set the step. Nothing without a query
+    /// in the view.
+    void strip(Ui& ui, float width, float height);
+    /// The recursion, depth downwards; a click steps to a pair's first event. Nothing without a query in the view.
+    void icicle(Ui& ui, ImVec2 size);
 
-/// The recursion, depth downwards; a click steps to a pair's first event. Nothing without a query in the view.
-void recursion_icicle(Ui& ui, ImVec2 size);
+  private:
+    template <class Cell>
+    class Kept {
+      public:
+        /// The cells of these findings at a size in pixels, made if they are not what is kept. Valid until the next
+        /// call.
+        template <class Make>
+        const std::vector<Cell>& of(const std::shared_ptr<const QueryFindings>& findings, int width, int height,
+                                    const Make& make) {
+            const auto wanted = std::tuple(findings, width, height);
+            if (made_for_ != wanted) cells_ = make();
+            made_for_ = wanted;
+            return cells_;
+        }
+
+      private:
+        std::optional<std::tuple<std::shared_ptr<const QueryFindings>, int, int>> made_for_;
+        std::vector<Cell> cells_;
+    };
+    Kept<PairCell> square_, icicle_;
+    Kept<ClearanceColumn> clearance_;
+    Kept<StripCell> strip_;
+};
 
 }  // namespace mobbscope::app

@@ -1,7 +1,5 @@
 #include <app/commands/command.h>
 #include <app/panels/query_parts.h>
-#include <app/panels/recursion_picture.h>
-#include <app/ui/memo.h>
 #include <app/ui/swatch.h>
 #include <explain/query_sentence.h>
 #include <render/text/labels.h>
@@ -10,7 +8,6 @@
 #include <array>
 #include <cstdio>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace mobbscope::app {
@@ -102,7 +99,7 @@ std::string tooltip(const QueryFindings& findings, const mobb::Trace& trace, con
 
 }  // namespace
 
-void recursion_square(Ui& ui, const QueryFindings& findings) {
+void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     const Recursion& recursion = findings.recursion;
     const float caption = ui.style.caption->FontSize;
     const float label = caption + ui.px(5);
@@ -120,10 +117,8 @@ void recursion_square(Ui& ui, const QueryFindings& findings) {
     const bool hovered = ImGui::IsItemHovered();
     const bool clicked = ImGui::IsItemClicked();
 
-    using Drawn = std::pair<std::shared_ptr<const QueryFindings>, int>;
-    static Memo<Drawn, std::vector<PairCell>> memo;
-    const std::vector<PairCell>& cells = memo.get(
-        {ui.session.findings(), size}, [&] { return square_cells(recursion, square.a, square.b, size, size); });
+    const std::vector<PairCell>& cells = square_.of(
+        ui.session.findings(), size, size, [&] { return square_cells(recursion, square.a, square.b, size, size); });
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(square.min, square.max, ui.style.raised);
     const int step = ui.session.step();
@@ -165,17 +160,15 @@ void recursion_square(Ui& ui, const QueryFindings& findings) {
     if (clicked) invoke(ui.session, "step.to", std::to_string(pair.last));
 }
 
-void recursion_icicle(Ui& ui, ImVec2 size) {
+void QueryPictures::icicle(Ui& ui, ImVec2 size) {
     const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
     const int width = static_cast<int>(size.x);
     if (!findings || findings->recursion.pairs.empty() || width < 1) return;
     const Recursion& recursion = findings->recursion;
     const int most = static_cast<int>(ui.px(20));
     const int row = std::clamp(static_cast<int>(size.y) / std::max(1, recursion.depth), 2, most);
-    using Drawn = std::tuple<std::shared_ptr<const QueryFindings>, int, int>;
-    static Memo<Drawn, std::vector<PairCell>> memo;
     const std::vector<PairCell>& cells =
-        memo.get({findings, width, row}, [&] { return icicle_cells(recursion, width, row); });
+        icicle_.of(findings, width, row, [&] { return icicle_cells(recursion, width, row); });
 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("icicle", size);
@@ -222,14 +215,12 @@ void recursion_icicle(Ui& ui, ImVec2 size) {
     if (clicked) invoke(ui.session, "step.to", std::to_string(pair.first));
 }
 
-void step_strip(Ui& ui, float width, float height) {
+void QueryPictures::strip(Ui& ui, float width, float height) {
     const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
     const int columns = static_cast<int>(width);
     if (!findings || findings->recursion.pairs.empty() || columns < 1) return;
     const mobb::Trace& trace = ui.session.recorded()->trace;
-    using Drawn = std::pair<std::shared_ptr<const QueryFindings>, int>;
-    static Memo<Drawn, std::vector<StripCell>> memo;
-    const std::vector<StripCell>& cells = memo.get({findings, columns}, [&] { return strip_cells(trace, columns); });
+    const std::vector<StripCell>& cells = strip_.of(findings, columns, 0, [&] { return strip_cells(trace, columns); });
 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("strip", {width, height});

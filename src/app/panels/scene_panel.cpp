@@ -63,20 +63,19 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
 
 void agents(Ui& ui) {
     Session& session = ui.session;
-    // A row's menu may remove its agent: the others are drawn as they were.
-    const std::shared_ptr<const FittedScene> kept = session.shown();
-    const bool has_agents = !kept->scene().agents.empty();
+    const FittedScene& fitted = session.fitted();
+    const bool has_agents = !fitted.scene().agents.empty();
     // Of a run its people; what they play before and after now is theirs.
     const auto count =
-        static_cast<int>(session.crowd() ? session.crowd()->agents.size() : kept->placed_agents().size());
+        static_cast<int>(session.crowd() ? session.crowd()->agents.size() : fitted.placed_agents().size());
     heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
-    rows(ui, "##agents", count, kMostSceneRows, [&](int i) { path_row(ui, *kept, i); });
+    rows(ui, "##agents", count, kMostSceneRows, [&](int i) { path_row(ui, fitted, i); });
     if (session.crowd()) return;
     if (ImGui::SmallButton("+ agent")) ImGui::OpenPopup("add agent");
     ui.mark("scene.add_agent");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add an agent that plays one of the clips");
     if (ImGui::BeginPopup("add agent")) {
-        for (const SceneClip& clip : kept->scene().clips) {
+        for (const SceneClip& clip : fitted.scene().clips) {
             ImGui::PushID(&clip);  // names may look alike to ImGui
             if (ImGui::MenuItem(clip.name.c_str())) invoke(session, "agent.add", clip.name);
             ImGui::PopID();

@@ -80,8 +80,10 @@ void time_bars(Ui& ui, float width, float height) {
     const auto x_of = [&](double t) { return corner.x + width * static_cast<float>((t - span.t0) / length); };
     if (ImGui::IsItemActive()) {
         const double at = span.t0 + length * std::clamp<double>((ImGui::GetIO().MousePos.x - corner.x) / width, 0, 1);
-        session.stop();
-        session.change_view([&](ViewState& view) { view.time = at; });
+        session.enqueue([&session, at] {
+            session.stop();
+            session.change_view([&](ViewState& view) { view.time = at; });
+        });
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.style.window, ui.px(3));
@@ -149,7 +151,7 @@ void time_row(Ui& ui, bool tall) {
 }
 
 /// The second clock: where in the trace we stand.
-void step_row(Ui& ui) {
+void step_row(Ui& ui, QueryPictures& pictures) {
     char text[48];
     std::snprintf(text, sizeof text, "step %d / %d", ui.session.step(), ui.session.recorded()->trace.size() - 1);
     ImGui::AlignTextToFramePadding();
@@ -157,7 +159,7 @@ void step_row(Ui& ui) {
     ImGui::TextUnformatted(text);
     ImGui::PopFont();
     ImGui::SameLine();
-    step_strip(ui, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
+    pictures.strip(ui, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
 }
 
 /// A bar, a triangle or both, on the last button.
@@ -199,15 +201,15 @@ void text_button(Ui& ui, const char* label, const char* id) {
 
 }  // namespace
 
-void timeline(Ui& ui) {
+void timeline(Ui& ui, QueryPictures& pictures) {
     if (ui.session.empty()) return;
     ImGui::PushID("timeline");
     const bool steps = ui.session.recorded() != nullptr;
     time_row(ui, !steps);
     if (steps) {
-        step_row(ui);
+        step_row(ui, pictures);
         const ImVec2 room = ImGui::GetContentRegionAvail();
-        if (room.y > ui.px(24)) recursion_icicle(ui, room);
+        if (room.y > ui.px(24)) pictures.icicle(ui, room);
     }
     ImGui::PopID();
 }

@@ -40,7 +40,7 @@ void panel(const Ui& ui, const std::string& name, ImVec2 size, const Draw& draw)
 
 }  // namespace
 
-void window_layout(Ui& ui, Viewport& viewport) {
+void window_layout(Ui& ui, Viewport& viewport, QueryPictures& pictures) {
     const ImGuiIO& io = ImGui::GetIO();
     menu_bar(ui);
     const float top = ImGui::GetFrameHeight();
@@ -87,7 +87,7 @@ void window_layout(Ui& ui, Viewport& viewport) {
     ImGui::EndChild();
     settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
-    panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui); });
+    panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui, pictures); });
     ImGui::PopStyleVar();
     ImGui::EndGroup();
     spacing();
@@ -98,7 +98,7 @@ void window_layout(Ui& ui, Viewport& viewport) {
         if (ui.session.is_crowd() && !ui.session.view().query) {
             crowd_panel(ui);
         } else {
-            query_panel(ui);
+            query_panel(ui, pictures);
         }
         selection_panel(ui);
     });

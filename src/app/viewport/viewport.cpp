@@ -158,9 +158,6 @@ void Viewport::draw(Ui& ui) {
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
     ui.mark("viewport");
     mouse(ui, picture);
-    // A drag may have changed the document: what is shown is never of before.
-    update_picture(ui, size);
-    if (!list_) return;
     paint(ui, corner);
     decorate(ui, {*list_, corner});
 }
@@ -168,10 +165,13 @@ void Viewport::draw(Ui& ui) {
 // --- the mouse
 
 void Viewport::move_camera(Ui& ui, const Camera& camera) {
-    ui.session.change_view([&](ViewState& view) {
-        view.camera = camera;
-        // The camera stands in a scene whose time is drawn so high.
-        if (!list_->moment) view.time_height = list_->space.time_height;
+    // The camera stands in a scene whose time is drawn so high.
+    const std::optional<double> height = list_->moment ? std::nullopt : std::optional<double>(list_->space.time_height);
+    ui.session.enqueue([&session = ui.session, camera, height] {
+        session.change_view([&](ViewState& view) {
+            view.camera = camera;
+            if (height) view.time_height = *height;
+        });
     });
     flight_.reset();
 }
@@ -265,10 +265,10 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
     const char* what = handle_drag_.handle == Handle::move   ? "moving "
                        : handle_drag_.handle == Handle::turn ? "turning "
                                                              : "shifting ";
-    attempt(ui.session, [&] {
-        const std::string& name = ui.session.scene().agents.at(static_cast<std::size_t>(handle_drag_.agent)).name;
-        ui.session.edit({what + name, "drag"}, [&](Scene& scene) {
-            place_agent(scene, handle_drag_.agent, *placement);
+    ui.session.enqueue([&session = ui.session, what, agent = handle_drag_.agent, placement, camera, height] {
+        const std::string& name = session.scene().agents.at(static_cast<std::size_t>(agent)).name;
+        session.edit({what + name, "drag"}, [&](Scene& scene) {
+            place_agent(scene, agent, *placement);
             scene.view.camera = camera;
             scene.view.time_height = height;
         });
@@ -278,7 +278,7 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
 void Viewport::release(Ui& ui, glm::vec2 pixel) {
     const bool was_click = !moved_ && drag_ != Drag::pan;
     drag_ = Drag::none;
-    ui.session.close_group();
+    ui.session.enqueue([&session = ui.session] { session.close_group(); });
     if (was_click && list_) click(ui, pixel);
 }
 

@@ -50,30 +50,6 @@ std::unique_ptr<ImGuiContext, ImGuiContextDeleter> make_imgui() {
     return context;
 }
 
-/// Keys that go on while they are held.
-bool repeats(const Chord& chord) {
-    switch (chord.key) {
-        case Key::left:
-        case Key::right:
-        case Key::up:
-        case Key::down:
-        case Key::page_up:
-        case Key::page_down:
-        case Key::comma:
-        case Key::period:
-        case Key::minus:
-        case Key::equal:
-        case Key::left_bracket:
-        case Key::right_bracket:
-            return true;
-        case Key::y:
-        case Key::z:
-            return chord.ctrl;
-        default:
-            return false;
-    }
-}
-
 /// What a text field does with a chord by itself.
 bool edits_text(const Chord& chord) {
     const bool function_key = chord.key >= Key::f1 && chord.key <= Key::f12;
@@ -171,7 +147,7 @@ struct Shell::State {
     /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
     bool press(const Chord& chord, bool repeated) {
         const Command* command = command_for(chord);
-        if (!command || (repeated && !repeats(chord)) || session.dialog != Dialog::none) {
+        if (!command || (repeated && !command->repeats) || session.dialog != Dialog::none) {
             return false;
         }
         // A drag ends on what it began on.
@@ -181,6 +157,8 @@ struct Shell::State {
         if (busy && !chord.ctrl && edits_text(chord)) return false;
         // A key that has nothing to do now says nothing.
         if (command->enabled(session)) invoke(session, command->id);
+        // No panel is being drawn: what comes next from the keyboard meets what this one has done.
+        session.run_queue();
         return true;
     }
 
@@ -188,8 +166,10 @@ struct Shell::State {
         if (dropped.paths.empty()) return;
         const bool clips = std::none_of(dropped.paths.begin(), dropped.paths.end(),
                                         [](const auto& path) { return lower_extension(path) == ".json"; });
-        attempt(session,
-                [&] { clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths); });
+        session.enqueue([this, clips, dropped] {
+            clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths);
+        });
+        session.run_queue();
     }
 
     /// A dialog has opened whose field does not have the keys yet: what is typed meanwhile is meant for it.
@@ -240,7 +220,7 @@ struct Shell::State {
         marks.clear();
         Ui ui{session, style, marks, drawn->painter, now, kNever};
         ImGui::NewFrame();
-        window_layout(ui, viewport);
+        window_layout(ui, viewport, pictures);
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);
         ImGui::Render();
@@ -266,6 +246,7 @@ struct Shell::State {
     Renderer renderer;
     std::unique_ptr<Drawn> drawn;
     Viewport viewport;
+    QueryPictures pictures;
     PictureSize size;  ///< of the last frame
     bool undrawn = false;
     int frames_drawn = 0;
@@ -317,6 +298,7 @@ double Shell::frame(PictureSize size, double now) {
     const double wanted = s.lay_out(now);
     s.size = size;
     s.undrawn = true;
+    if (s.session.run_queue()) s.settling = kFramesToSettle;
     if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
     s.cursor = ImGui::GetMouseCursor();
     if (s.settling > 0) --s.settling;
