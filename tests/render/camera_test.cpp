@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace mobbscope {
@@ -223,6 +224,31 @@ TEST(Navigate, FlightsGoTheShorterWay) {
     EXPECT_NEAR(half.target->x, 3, 1e-9);
     EXPECT_NEAR(half.shift.x, 0.05, 1e-9);
     EXPECT_NEAR(between(from, to, 0.01).distance, 20 * std::pow(100, 0.01), 1e-9);
+}
+
+/// What moves the camera needs no draw list: the frame is that of the list, whatever is shown.
+TEST(Camera, TheFrameIsThatOfThePicture) {
+    const FittedScene fitted = testing::hit_scene();
+    for (const Show show : {Show::space_time, Show::moment}) {
+        for (const bool with_query : {false, true}) {
+            for (const std::optional<double> time : {std::optional<double>(), std::optional<double>(0.8)}) {
+                ViewState view;
+                view.show = show;
+                view.time = time;
+                if (with_query) view.query = 0;
+                const DrawList list = build_draw_list(fitted, view, kGoldenSize);
+                const PictureFrame frame = picture_frame(fitted, view, kGoldenSize);
+                EXPECT_EQ(frame.projection.clip_from_world, list.projection.clip_from_world);
+                EXPECT_EQ(frame.size, list.size);
+                EXPECT_EQ(frame.space.time_height, list.space.time_height);
+                EXPECT_EQ(frame.moment, list.moment);
+                EXPECT_EQ(resolved_camera(view.camera, frame), resolved_camera(view.camera, list));
+                view.camera = resolved_camera(view.camera, frame);
+                EXPECT_EQ(picture_frame(fitted, view, kGoldenSize).projection.clip_from_world,
+                          build_draw_list(fitted, view, kGoldenSize).projection.clip_from_world);
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -89,8 +89,8 @@ TEST(DrawListJson, SaysAllThatIsDrawn) {
 
 TEST(DrawListJson, NumbersAreShort) {
     DrawList list = levels();
-    list.disks[0].base = {1.0f / 3, -1e-9f, 123456.7f};
-    list.disks[0].radius = std::numeric_limits<float>::infinity();
+    list.disks.edit()[0].base = {1.0f / 3, -1e-9f, 123456.7f};
+    list.disks.edit()[0].radius = std::numeric_limits<float>::infinity();
     const std::string text = text_of(list);
     EXPECT_NE(text.find("\"base\": [0.333333, 0, 123457], \"radius\": null"), std::string::npos);
     EXPECT_EQ(text.find("-0,"), std::string::npos);
@@ -121,7 +121,7 @@ TEST(DrawListJson, TheOrderOfTheListDoesNotShow) {
         const std::string text = text_of(list);
         std::mt19937 random(7);
         for (int round = 0; round < 5; ++round) {
-            std::shuffle(list.disks.begin(), list.disks.end(), random);
+            std::shuffle(list.disks.edit().begin(), list.disks.edit().end(), random);
             std::shuffle(list.boxes.begin(), list.boxes.end(), random);
             std::shuffle(list.lines.begin(), list.lines.end(), random);
             ASSERT_EQ(text_of(list), text);
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(All, DrawListIdsTest, ::testing::Values(Backend::osmesa
 
 TEST(IdPicture, HasRoomForEveryNumber) {
     DrawList list;
-    for (int i = 0; i < 70000; ++i) list.disks.emplace_back().id = {0, ObjectId::Kind::disk, i};
+    for (int i = 0; i < 70000; ++i) list.disks.edit().emplace_back().id = {0, ObjectId::Kind::disk, i};
     IdImage ids{2, 1, {}};
     for (const ObjectId id : {ObjectId{0, ObjectId::Kind::disk, 69999}, ObjectId{7, ObjectId::Kind::box, 0}}) {
         ids.rg.push_back(id.r());

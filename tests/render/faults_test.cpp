@@ -44,7 +44,7 @@ DrawList list_of(const ViewState& view) { return build_draw_list(testing::hit_sc
 
 /// Every colour of the list.
 void recolour(DrawList& list, const std::function<void(Rgba&)>& change) {
-    for (DiskInstance& disk : list.disks) change(disk.color);
+    for (DiskInstance& disk : list.disks.edit()) change(disk.color);
     for (BoxInstance& box : list.boxes) change(box.fill), change(box.edge);
     for (LineInstance& line : list.lines) change(line.color);
     for (OverlayLine& line : list.overlay_lines) change(line.color);
@@ -104,9 +104,9 @@ std::vector<Fault> faults() {
         {"a box 2 % too large", levels, changed(levels, [](DrawList& list) { enlarge(list.boxes[0]); }), true},
         {"a leaf 2 % too large", fine, changed(fine, [](DrawList& list) { enlarge(list.boxes[3]); }), true},
         {"one level off", levels, list_of(deeper), true},
-        {"a missing disk", levels, changed(levels, [](DrawList& list) { list.disks.pop_back(); }), true},
+        {"a missing disk", levels, changed(levels, [](DrawList& list) { list.disks.edit().pop_back(); }), true},
         {"a missing disk inside", levels,
-         changed(levels, [](DrawList& list) { list.disks.erase(list.disks.begin() + 30); }), false},
+         changed(levels, [](DrawList& list) { list.disks.edit().erase(list.disks.begin() + 30); }), false},
         {"colours of hit and miss swapped", query, changed(query, swap_hit_and_miss), true},
         {"a label 2 pixels aside", levels, changed(levels, [](DrawList& list) { label(list, "A").baseline.x += 2; }),
          false},
@@ -146,7 +146,7 @@ TEST_P(FaultsTest, AnotherOrderIsNone) {
         const Image picture = renderer().draw(right);
         for (int round = 0; round < 3; ++round) {
             DrawList list = right;
-            std::shuffle(list.disks.begin(), list.disks.end(), random);
+            std::shuffle(list.disks.edit().begin(), list.disks.edit().end(), random);
             std::shuffle(list.boxes.begin(), list.boxes.end(), random);
             std::shuffle(list.lines.begin(), list.lines.end(), random);
             EXPECT_EQ(list_difference(text_of(list), text_of(right)), std::nullopt);

@@ -171,11 +171,11 @@ TEST_P(PaintTest, WhatIsKeptFollowsTheList) {
         EXPECT_EQ(after.rgba, fresh(list).rgba) << what;
         before = after;
     };
-    for (DiskInstance& disk : list.disks) disk.radius *= 1.5f;
+    for (DiskInstance& disk : list.disks.edit()) disk.radius *= 1.5f;
     changed("radius");
-    list.disks.back().color = {1, 0, 1, 1};
+    list.disks.edit().back().color = {1, 0, 1, 1};
     changed("colour of a disk");
-    list.disks.pop_back();
+    list.disks.edit().pop_back();
     changed("a disk less");
     list.boxes.front().fill.a = 0.5f;
     changed("face of a box");
@@ -190,7 +190,7 @@ TEST_P(PaintTest, WhatIsKeptFollowsTheList) {
     changed("text");
     list.panels.front().fill = {0, 1, 0, 1};
     changed("panel");
-    list.disks.clear();
+    list.disks.edit().clear();
     list.boxes.clear();
     list.lines.clear();
     changed("nothing left");

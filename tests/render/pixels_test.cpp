@@ -54,7 +54,7 @@ TEST_P(PictureTest, ShufflingChangesNothing) {
     const Image ordered = renderer().draw(list);
     std::mt19937 random(7);
     for (int round = 0; round < 3; ++round) {
-        std::shuffle(list.disks.begin(), list.disks.end(), random);
+        std::shuffle(list.disks.edit().begin(), list.disks.edit().end(), random);
         std::shuffle(list.boxes.begin(), list.boxes.end(), random);
         std::shuffle(list.lines.begin(), list.lines.end(), random);
         const ImageDiff result = diff(renderer().draw(list), ordered, {1, 0});
@@ -70,7 +70,7 @@ TEST_P(PictureTest, FacesBlendTheSameInAnyOrder) {
     DrawList list = build_draw_list(fitted, view, kSmallSize);
     // Edges and disks do hide one another; the order decides where they are equally deep.
     list.lines.clear();
-    list.disks.clear();
+    list.disks.edit().clear();
     std::vector<DrawOrder> orders;
     for (BoxInstance& box : list.boxes) {
         box.edge.a = 0;

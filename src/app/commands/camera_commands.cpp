@@ -44,15 +44,14 @@ PictureSize viewport_size(const Session& session) {
     return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
 }
 
-void move_camera(Session& session, const std::function<Camera(const Camera&, const DrawList&)>& move) {
+void move_camera(Session& session, const std::function<Camera(const Camera&, const PictureFrame&)>& move) {
     const PictureSize size = viewport_size(session);
     const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
-    const DrawList list = build_draw_list(session.fitted(), session.view(), size, scale);
-    const Camera camera = resolved_camera(session.view().camera, list);
-    const Camera moved = move(camera, list);
+    const PictureFrame picture = picture_frame(session.fitted(), session.view(), size, scale);
+    const Camera moved = move(resolved_camera(session.view().camera, picture), picture);
     session.change_view([&](ViewState& view) {
         view.camera = moved;
-        if (!list.moment) view.time_height = list.space.time_height;
+        if (!picture.moment) view.time_height = picture.space.time_height;
     });
 }
 
@@ -96,14 +95,14 @@ void follow_agent(Session& session, const std::string& name, double metres) {
 }
 
 void frame_followed(Session& session, double metres) {
-    move_camera(session, [&](const Camera&, const DrawList& list) {
-        return framing_followed(session.fitted(), session.view(), list, metres);
+    move_camera(session, [&](const Camera&, const PictureFrame& picture) {
+        return framing_followed(session.fitted(), session.view(), picture, metres);
     });
 }
 
 void center_followed(Session& session) {
-    move_camera(session, [&](Camera camera, const DrawList& list) {
-        const glm::dvec3 foot = target_of_followed(session.fitted(), session.view(), list);
+    move_camera(session, [&](Camera camera, const PictureFrame& picture) {
+        const glm::dvec3 foot = target_of_followed(session.fitted(), session.view(), picture);
         camera.target = foot + glm::dvec3(0, 0, 0.5 * kStanding);
         camera.shift = {0, 0};
         return camera;

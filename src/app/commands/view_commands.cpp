@@ -79,15 +79,17 @@ void frame_selection(Session& session, const std::string& none) {
     }
     const std::optional<Bounds> box = box_of(session, selected);
     if (!box) return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session, none);
-    move_camera(session, [&](const Camera& camera, const DrawList& list) {
-        const auto target = [&](glm::dvec3 at) { return list.space.to_target(list.space.point(at.x, at.y, at.z)); };
-        return framing(camera, target(box->min), target(box->max), list.size);
+    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+        const auto target = [&](glm::dvec3 at) {
+            return picture.space.to_target(picture.space.point(at.x, at.y, at.z));
+        };
+        return framing(camera, target(box->min), target(box->max), picture.size);
     });
 }
 
 void zoom(Session& session, double factor) {
-    move_camera(session, [&](const Camera& camera, const DrawList& list) {
-        const PictureSize size = list.size;
+    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+        const PictureSize size = picture.size;
         const glm::dvec2 target =
             (glm::dvec2(0.5) + camera.shift * glm::dvec2(1, -1)) * glm::dvec2(size.width, size.height);
         return zoomed(camera, factor, glm::vec2(target), size);
@@ -96,8 +98,8 @@ void zoom(Session& session, double factor) {
 
 /// The scene turns as if it was dragged to the right and downwards.
 void orbit(Session& session, glm::dvec2 degrees) {
-    move_camera(session, [&](const Camera& camera, const DrawList& list) {
-        return orbited(camera, glm::vec2(degrees * (list.size.height / 180.0)), list.size);
+    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+        return orbited(camera, glm::vec2(degrees * (picture.size.height / 180.0)), picture.size);
     });
 }
 
@@ -392,8 +394,8 @@ std::span<const Command> view_commands() {
          .run =
              [](Session& session, const std::string& text) {
                  const glm::vec2 pixels(two_numbers(text, "the way"));
-                 move_camera(session, [&](const Camera& camera, const DrawList& list) {
-                     return panned(camera, pixels, list.size);
+                 move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+                     return panned(camera, pixels, picture.size);
                  });
              }},
         {.id = "view.moment",

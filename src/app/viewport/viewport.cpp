@@ -87,7 +87,7 @@ void Viewport::take_off(Ui& ui, const Key& next) {
         return;
     }
     Camera from = resolved_camera(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
-    const DrawList there = build_draw_list(*next.fitted, next.view, next.size, next.scale);
+    const PictureFrame there = picture_frame(*next.fitted, next.view, next.size, next.scale);
     // Heights must mean the same all the way.
     if (there.space.time_height != list_->space.time_height || there.moment.has_value() != list_->moment.has_value()) {
         return;

@@ -31,24 +31,6 @@ glm::dvec3 across(const Camera& camera, glm::dvec2 pixels, PictureSize size) {
     return (d.right * pixels.x - d.up * pixels.y) * metres_per_pixel(camera, size);
 }
 
-/// The middle of what is drawn of paths and boxes.
-glm::dvec3 middle_of(const DrawList& list) {
-    glm::vec3 min(std::numeric_limits<float>::max());
-    glm::vec3 max(std::numeric_limits<float>::lowest());
-    const auto add = [&](glm::vec3 low, glm::vec3 high) {
-        min = glm::min(min, low);
-        max = glm::max(max, high);
-    };
-    for (const DiskInstance& disk : list.disks) {
-        const glm::vec3 around(disk.radius, disk.radius, 0);
-        add(disk.base - around, disk.base + around + glm::vec3(0, 0, disk.height));
-    }
-    for (const BoxInstance& box : list.boxes) {
-        for (const glm::vec3& corner : box_corners(box)) add(corner, corner);
-    }
-    return min.x <= max.x ? 0.5 * (glm::dvec3(min) + glm::dvec3(max)) : glm::dvec3(0);
-}
-
 }  // namespace
 
 Camera orbited(Camera camera, glm::vec2 pixels, PictureSize size) {
@@ -105,12 +87,8 @@ Camera between(const Camera& from, const Camera& to, double t) {
     return out;
 }
 
-Camera resolved_camera(const Camera& camera, const DrawList& list) {
-    return resolved_camera(camera, list.projection, list.space, middle_of(list));
-}
-
-Camera resolved_camera(const Camera& camera, const ViewProjection& projection, const DrawnSpace& space,
-                       glm::dvec3 middle) {
+Camera resolved_camera(const Camera& camera, const PictureFrame& picture) {
+    const ViewProjection& projection = picture.projection;
     const Orientation o = orientation(camera);
     Camera out = camera;
     out.preset = CameraPreset::free;
@@ -120,8 +98,8 @@ Camera resolved_camera(const Camera& camera, const ViewProjection& projection, c
     if (camera.target) return out;
 
     const glm::dvec3 back(projection.back);
-    const double depth = glm::dot(glm::dvec3(projection.eye) - middle, back);
-    out.target = space.to_target(glm::dvec3(projection.eye) - back * depth);
+    const double depth = glm::dot(glm::dvec3(projection.eye) - picture.middle, back);
+    out.target = picture.space.to_target(glm::dvec3(projection.eye) - back * depth);
     out.shift = 0.5 * glm::dvec2(projection.middle);
     // Half of what the picture's height shows is tan(fov / 2) * distance.
     const double half_height = 1 / static_cast<double>(projection.scale.y);

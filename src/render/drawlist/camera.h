@@ -32,14 +32,10 @@ Camera framing(const Camera& camera, glm::dvec3 min, glm::dvec3 max, PictureSize
 /// Perspective comes or goes half-way.
 Camera between(const Camera& from, const Camera& to, double t);
 
-/// The explicit camera (preset free, with a target) that shows what `list.projection` shows; `camera` is the one that
-/// the list was built with. The target lies in the middle of the picture's free part, as deep as the middle of the
-/// disks and boxes. It is in world metres with time drawn `list.space.time_height` high, which the view has to keep. A
-/// camera that has a target keeps it. A field of view beyond kMostFov, as a tiny picture may have, is cut to that.
-Camera resolved_camera(const Camera& camera, const DrawList& list);
-
-/// The same for a projection that framed `camera`; the target is as deep as `middle` (drawn space).
-Camera resolved_camera(const Camera& camera, const ViewProjection& projection, const DrawnSpace& space,
-                       glm::dvec3 middle);
+/// The explicit camera (preset free, with a target) that shows what `picture` shows, which was framed with `camera`.
+/// The target lies in the middle of the picture's free part, as deep as the middle of the scene. It is in world metres
+/// with time drawn `picture.space.time_height` high, which the view has to keep. A camera that has a target keeps it. A
+/// field of view beyond kMostFov, as a tiny picture may have, is cut to that.
+Camera resolved_camera(const Camera& camera, const PictureFrame& picture);
 
 }  // namespace mobbscope

@@ -3,6 +3,7 @@
 
 #include <render/drawlist/font.h>
 #include <render/drawlist/palette.h>
+#include <render/drawlist/shared_values.h>
 #include <render/drawlist/view_projection.h>
 #include <render/image/image.h>
 
@@ -191,19 +192,24 @@ struct LegendEntry {
     std::string text;
 };
 
-struct DrawList {
+/// From where a scene is seen: all that moving the camera needs to know.
+struct PictureFrame {
     PictureSize size;
+    DrawnSpace space;
+    ViewProjection projection;
+    Frame frame;           ///< the part of the picture that is left for the scene; a camera with a target may leave it
+    glm::dvec3 middle{0};  ///< of the scene, drawn space
+    std::optional<double> moment;  ///< global seconds: heights are metres and no times, for the floor then
+};
+
+struct DrawList : PictureFrame {
     Palette palette;
     /// Behind everything; none: the palette's, which is what steps back does so towards. With opacity below 1 the
     /// picture is seen through where nothing is drawn.
     std::optional<Rgba> background;
-    DrawnSpace space;
-    ViewProjection projection;
-    Frame frame;  ///< the part of the picture that is left for the scene; a camera with a target need not keep to it
-    std::optional<double> moment;           ///< global seconds: heights are metres and no times, for the floor then
     std::vector<std::string> participants;  ///< names of what ObjectId::participant counts
 
-    std::vector<DiskInstance> disks;
+    SharedValues<DiskInstance> disks;
     std::vector<BoxInstance> boxes;
     std::vector<LineInstance> lines;
 

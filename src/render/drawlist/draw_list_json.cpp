@@ -263,7 +263,8 @@ std::vector<BoxInstance> sorted(std::vector<BoxInstance> boxes) {
     return boxes;
 }
 
-std::vector<DiskInstance> sorted(std::vector<DiskInstance> disks) {
+std::vector<DiskInstance> sorted(const SharedValues<DiskInstance>& all) {
+    std::vector<DiskInstance> disks(all.begin(), all.end());
     std::sort(disks.begin(), disks.end(),
               [](const DiskInstance& a, const DiskInstance& b) { return before(a.id, b.id); });
     return disks;

@@ -1,11 +1,13 @@
+#include <render/drawlist/shown_points.h>
 #include <render/drawlist/view_projection.h>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 namespace mobbscope {
 
@@ -15,8 +17,8 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// The scene in the camera's directions: x to the right, y up, z towards the eye.
 struct CameraExtent {
-    glm::vec3 min{std::numeric_limits<float>::max()};
-    glm::vec3 max{std::numeric_limits<float>::lowest()};
+    glm::vec3 min{0};
+    glm::vec3 max{0};
 };
 
 glm::vec3 to_camera(const ViewProjection& projection, glm::vec3 p) {
@@ -37,19 +39,13 @@ Stand fit_orthographic(const CameraExtent& extent, float aspect) {
 
 /// Each point p limits the eye: |p.x - eye.x| <= (eye.z - p.z) * tan. Along x the extremes of p.x +/- p.z*tan decide,
 /// likewise along y; the direction that needs more distance wins and the other is centred.
-Stand fit_perspective(const ViewProjection& projection, std::span<const glm::vec3> points, float tan_x, float tan_y,
+Stand fit_perspective(const ViewProjection& projection, const ShownPoints& points, float tan_x, float tan_y,
                       float nearest) {
-    float right = std::numeric_limits<float>::lowest();
-    float left = right;
-    float top = right;
-    float bottom = right;
-    for (const glm::vec3& point : points) {
-        const glm::vec3 p = to_camera(projection, point);
-        right = std::max(right, p.x + p.z * tan_x);
-        left = std::max(left, -p.x + p.z * tan_x);
-        top = std::max(top, p.y + p.z * tan_y);
-        bottom = std::max(bottom, -p.y + p.z * tan_y);
-    }
+    const auto most = [&](glm::vec3 along, float tan) { return points.most(along, projection.back, tan); };
+    const float right = most(projection.right, tan_x);
+    const float left = most(-projection.right, tan_x);
+    const float top = most(projection.up, tan_y);
+    const float bottom = most(-projection.up, tan_y);
     const float distance = std::max((right + left) / (2 * tan_x), (top + bottom) / (2 * tan_y));
     // Never into the scene, even where it has no width.
     return {{(right - left) / 2, (top - bottom) / 2, std::max(distance, nearest + 1e-3f)}, 1};
@@ -157,6 +153,11 @@ float ViewProjection::pixels_per_metre(glm::vec3 point) const {
 
 ViewProjection make_projection(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target,
                                const Frame& free_frame, PictureSize size) {
+    return make_projection(camera, ShownPoints(points), target, free_frame, size);
+}
+
+ViewProjection make_projection(const Camera& camera, const ShownPoints& points, const glm::vec3* target,
+                               const Frame& free_frame, PictureSize size) {
     const Frame frame = target ? shifted_picture(camera, size) : free_frame;
     const Directions d = directions(camera);
     ViewProjection projection;
@@ -166,11 +167,12 @@ ViewProjection make_projection(const Camera& camera, std::span<const glm::vec3> 
     projection.right = glm::vec3(d.right);
     projection.up = glm::cross(projection.back, projection.right);
 
+    const auto extent_along = [&](glm::vec3 way) { return std::pair(-points.most(-way), points.most(way)); };
     CameraExtent extent;
-    for (const glm::vec3& point : points) {
-        const glm::vec3 p = to_camera(projection, point);
-        extent.min = glm::min(extent.min, p);
-        extent.max = glm::max(extent.max, p);
+    std::tie(extent.min.z, extent.max.z) = extent_along(projection.back);
+    if (!target && !projection.perspective) {
+        std::tie(extent.min.x, extent.max.x) = extent_along(projection.right);
+        std::tie(extent.min.y, extent.max.y) = extent_along(projection.up);
     }
     const glm::vec2 frame_size = glm::max(frame.max - frame.min, glm::vec2(1));
     const float aspect = frame_size.x / frame_size.y;

@@ -74,9 +74,13 @@ struct Directions {
 };
 Directions directions(const Camera& camera);
 
+class ShownPoints;
+
 /// A projection for the camera. Without a target all `points` fit into `frame` as large as can be. With `target` (drawn
 /// space) the frame is the whole picture, moved by the camera's shift, and the target goes to its middle. `points` also
 /// set what is near and far.
+ViewProjection make_projection(const Camera& camera, const ShownPoints& points, const glm::vec3* target,
+                               const Frame& frame, PictureSize size);
 ViewProjection make_projection(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target,
                                const Frame& frame, PictureSize size);
 

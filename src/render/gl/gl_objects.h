@@ -115,6 +115,13 @@ class VertexLayout {
         enable(location);
     }
 
+    /// 0..255 for 0..1.
+    void bytes(GLuint location, GLint count, std::size_t offset) const {
+        glVertexAttribPointer(location, count, GL_UNSIGNED_BYTE, GL_TRUE, stride_,
+                              reinterpret_cast<const void*>(offset));
+        enable(location);
+    }
+
   private:
     void enable(GLuint location) const {
         glEnableVertexAttribArray(location);
@@ -125,16 +132,18 @@ class VertexLayout {
     GLuint divisor_;
 };
 
-/// Replaces the contents of a buffer.
+/// Replaces the contents of a buffer. Returns how many bytes these are.
 template <class T>
-void upload(const Buffer& buffer, const std::vector<T>& items, GLenum target = GL_ARRAY_BUFFER) {
+std::size_t upload(const Buffer& buffer, const std::vector<T>& items, GLenum target = GL_ARRAY_BUFFER) {
+    const std::size_t bytes = items.size() * sizeof(T);
     glBindBuffer(target, buffer.name());
-    glBufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(T)), items.data(), GL_STREAM_DRAW);
+    glBufferData(target, static_cast<GLsizeiptr>(bytes), items.data(), GL_STREAM_DRAW);
+    return bytes;
 }
 
 /// The items in their drawing order, which is the same however the list is shuffled.
-template <class T>
-std::vector<const T*> in_order(const std::vector<T>& items) {
+template <class Items, class T = typename Items::value_type>
+std::vector<const T*> in_order(const Items& items) {
     std::vector<const T*> sorted;
     sorted.reserve(items.size());
     for (const T& item : items) sorted.push_back(&item);

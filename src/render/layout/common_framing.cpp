@@ -65,8 +65,12 @@ void CommonFraming::tidy() {
 }
 
 Camera CommonFraming::still(const Camera& camera) const {
-    return resolved_camera(camera, make_projection(camera, points_, nullptr, *frame_, size_), space_,
-                           extent_of(points_).middle());
+    PictureFrame picture;
+    picture.size = size_;
+    picture.space = space_;
+    picture.projection = make_projection(camera, points_, nullptr, *frame_, size_);
+    picture.middle = extent_of(points_).middle();
+    return resolved_camera(camera, picture);
 }
 
 Camera CommonFraming::turning(const Camera& camera) const {

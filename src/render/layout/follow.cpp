@@ -73,17 +73,17 @@ glm::dvec3 camera_anchor(const FittedScene& fitted, const ViewState& view, doubl
     return {place.x, place.y, time_runs ? time : 0};
 }
 
-glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list) {
+glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, const PictureFrame& picture) {
     // In a scene's space-time targets are as high as their time, else they count from the floor or from now.
-    if (list.moment || fitted.scene().crowd) return glm::dvec3(0);
+    if (picture.moment || fitted.scene().crowd) return glm::dvec3(0);
     const double time = view.time ? *view.time : bounds_of(drawn_agents(fitted, view)).min.z;
-    return {0, 0, time * list.space.time_height};
+    return {0, 0, time * picture.space.time_height};
 }
 
-Camera framing_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list, double metres) {
-    const glm::dvec3 at = target_of_followed(fitted, view, list);
-    return framing(resolved_camera(view.camera, list), at - glm::dvec3(metres, metres, 0),
-                   at + glm::dvec3(metres, metres, kStanding), list.size);
+Camera framing_followed(const FittedScene& fitted, const ViewState& view, const PictureFrame& picture, double metres) {
+    const glm::dvec3 at = target_of_followed(fitted, view, picture);
+    return framing(resolved_camera(view.camera, picture), at - glm::dvec3(metres, metres, 0),
+                   at + glm::dvec3(metres, metres, kStanding), picture.size);
 }
 
 bool can_follow(const Scene& scene, const std::string& name) {

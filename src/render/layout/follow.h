@@ -25,12 +25,13 @@ inline constexpr double kAroundFollowed = 5;
 
 inline constexpr double kStanding = 1.8;  ///< metres: people's height
 
-/// Where the followed agent stands at the view's time, as a camera's target, which counts from it. `list`: of the view.
-glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list);
+/// Where the followed agent stands at the view's time, as a camera's target, which counts from it. `picture`: of the
+/// view.
+glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, const PictureFrame& picture);
 
 /// The explicit camera (see settle.h) that has so many metres around the followed agent in the picture, as seen from
-/// where the view's camera looks. `list`: of the view.
-Camera framing_followed(const FittedScene& fitted, const ViewState& view, const DrawList& list,
+/// where the view's camera looks. `picture`: of the view.
+Camera framing_followed(const FittedScene& fitted, const ViewState& view, const PictureFrame& picture,
                         double metres = kAroundFollowed);
 
 /// Whether there is an agent, or a path, of that name to follow.

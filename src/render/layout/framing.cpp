@@ -5,10 +5,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <numbers>
 #include <optional>
 
 namespace mobbscope {
@@ -58,33 +55,13 @@ DrawnSpace space_for(const Bounds& bounds, const ViewState& view) {
     return space;
 }
 
-std::vector<glm::vec3> points_to_show(const DrawList& list, const FloorExtent& floor_extent, const ViewState& view,
-                                      bool has_cursor) {
-    std::array<glm::vec3, 8> circle;
-    for (std::size_t i = 0; i < circle.size(); ++i) {
-        const double angle = static_cast<double>(i) * std::numbers::pi / 4;
-        circle[i] = glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
-    }
-    std::vector<glm::vec3> out;
-    out.reserve(2 * circle.size() * list.disks.size() + 8 * list.boxes.size() + 9);
-    for (const DiskInstance& disk : list.disks) {
-        for (const glm::vec3& direction : circle) {
-            const glm::vec3 rim = disk.base + disk.radius * direction;
-            out.push_back(rim);
-            out.push_back(rim + glm::vec3(0, 0, disk.height));
-        }
-    }
-    for (const BoxInstance& box : list.boxes) {
-        for (const glm::vec3& corner : box_corners(box)) out.push_back(corner);
-    }
-    const std::vector<glm::vec3> corners = floor_corners(floor_extent, list.space);
-    if (view.floor || has_cursor || out.empty())
-        out.insert(out.end(), corners.begin(), corners.begin() + (has_cursor ? 8 : 4));
-    if (view.time_axis) {
-        const glm::dvec2 foot = axis_corner(floor_extent, glm::vec3(directions(view.camera).right));
-        for (const double t : {floor_extent.t0, floor_extent.t1}) out.push_back(list.space.point(foot.x, foot.y, t));
-    }
-    return out;
+void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorExtent& floor_extent,
+                      const ViewState& view, bool has_cursor) {
+    const std::vector<glm::vec3> corners = floor_corners(floor_extent, space);
+    if (view.floor || has_cursor || points.empty()) points.add(std::span(corners).first(has_cursor ? 8 : 4));
+    if (!view.time_axis) return;
+    const glm::dvec2 foot = axis_corner(floor_extent, glm::vec3(directions(view.camera).right));
+    for (const double t : {floor_extent.t0, floor_extent.t1}) points.add(space.point(foot.x, foot.y, t));
 }
 
 Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, const ViewState& view,
@@ -109,14 +86,14 @@ Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, c
     return enough ? frame : bare;
 }
 
-ViewProjection projection_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points,
+ViewProjection projection_for(const DrawList& list, const ViewState& view, const ShownPoints& points,
                               const Frame& frame) {
     std::optional<glm::vec3> target;
     if (view.camera.target) target = list.space.from_target(*view.camera.target);
     return make_projection(view.camera, points, target ? &*target : nullptr, frame, list.size);
 }
 
-Blocks aim(DrawList& list, std::span<const glm::vec3> points, const FloorExtent& floor_extent, const ViewState& view,
+Blocks aim(DrawList& list, const ShownPoints& points, const FloorExtent& floor_extent, const ViewState& view,
            const Metrics& metrics, float top, glm::vec2 map, const std::function<std::vector<Rect>()>& busy) {
     const glm::vec2 legend = legend_size(list.legend, metrics.small);
     const Rect area{{metrics.pad, top + 0.3f * metrics.pad},

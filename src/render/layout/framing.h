@@ -3,6 +3,7 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
+#include <render/drawlist/shown_points.h>
 #include <render/layout/block_layout.h>
 #include <render/parts/floor_and_axes.h>
 #include <render/query/query_boxes.h>
@@ -31,22 +32,22 @@ Bounds with_boxes(Bounds bounds, const DrawList& list);
 /// About as tall as wide, unless the view says how tall.
 DrawnSpace space_for(const Bounds& bounds, const ViewState& view);
 
-/// All that must be inside the picture, as points. Needs the space, disks and boxes.
-std::vector<glm::vec3> points_to_show(const DrawList& list, const FloorExtent& floor_extent, const ViewState& view,
-                                      bool has_cursor);
+/// Adds floor and axis to what must be inside the picture.
+void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorExtent& floor_extent,
+                      const ViewState& view, bool has_cursor);
 
 /// The picture without its margin, what is above `top`, and room for the labels along the scene's outline.
 Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, const ViewState& view,
                  const Metrics& metrics);
 
 /// A projection that shows the points in a frame, or what the view's camera aims at.
-ViewProjection projection_for(const DrawList& list, const ViewState& view, std::span<const glm::vec3> points,
+ViewProjection projection_for(const DrawList& list, const ViewState& view, const ShownPoints& points,
                               const Frame& frame);
 
 /// Sets the list's projection and frame, so that all `points` (drawn space) fit into what caption, labels and blocks
 /// leave; returns the places of legend and map. `top`: where the caption ends, pixels. `map`: its size, 0 for none.
 /// `busy`: what blocks had better not cover, asked for once a projection is set.
-Blocks aim(DrawList& list, std::span<const glm::vec3> points, const FloorExtent& floor_extent, const ViewState& view,
+Blocks aim(DrawList& list, const ShownPoints& points, const FloorExtent& floor_extent, const ViewState& view,
            const Metrics& metrics, float top, glm::vec2 map, const std::function<std::vector<Rect>()>& busy);
 
 }  // namespace mobbscope

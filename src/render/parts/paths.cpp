@@ -24,6 +24,7 @@ Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus
 void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, int together) {
     const mobb::PlacedClip& clip = agent.clip();
     const mobb::SampleRange shown = agent.samples();
+    std::vector<DiskInstance>& disks = list.disks.edit();
     for (int i = shown.first; i < shown.end(); i += together) {
         const int count = std::min(together, shown.end() - i);
         const float height = static_cast<float>(count * clip.clip().dt() * list.space.time_height);
@@ -35,7 +36,7 @@ void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, 
         instance.color = disk_color(list.palette, agent, focus, i);
         instance.id = {agent.index, ObjectId::Kind::disk, i};
         instance.order = {0, 0, (static_cast<std::int64_t>(agent.index) << 32) + i};
-        list.disks.push_back(instance);
+        disks.push_back(instance);
     }
 }
 

@@ -14,10 +14,12 @@
 #include <render/pictures/crowd_picture.h>
 #include <render/pictures/disk_projection.h>
 #include <render/pictures/moment_picture.h>
+#include <render/pictures/picture.h>
 #include <render/query/query_boxes.h>
 #include <render/text/labels.h>
 #include <scene/crowd_scene.h>
 
+#include <memory>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -65,12 +67,98 @@ void add_floor_and_axes(DrawList& list, std::span<const DrawnAgent> agents, cons
     if (view.time_axis) add_time_axis(list, floor_extent, scale);
 }
 
-DrawList build_run(const FittedScene& run, const ViewState& view, const PictureOptions& options) {
-    const FittedScene seen = fitted_at(run, view);
-    if (view.follow.empty() || !view.candidates) return build_draw_list(seen, view, options);
-    const MoveSet moves(run);
-    const auto choice = choice_in_view(moves, view);
-    return build_draw_list(seen, view, options, choice ? &*choice : nullptr);
+/// Paths and boxes in space-time.
+class SpaceTimePicture final : public Picture {
+  public:
+    SpaceTimePicture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options)
+        : Picture(fitted, view, options) {
+        const Bounds bounds = bounds_of(agents_);
+        list_.space = space_for(bounds, view_);
+        list_.space.anchor = camera_anchor(fitted, view_, view_.time.value_or(bounds.min.z));
+        if (view_.query) query_.emplace(fitted, view_);
+        emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, progress());
+        if (view_.boxes && progress()) {
+            add_query_boxes(list_, agents_, *progress(), pair_outline(view_), metrics_.scale);
+        }
+        const bool levels = view_.boxes && !progress();
+        if (levels) add_level_boxes(list_, agents_, view_.levels, view_.color_by, metrics_.scale);
+        if (view_.disks) {
+            add_paths(list_, agents_, emphasis_, progress(), levels && view_.color_by == ColorBy::level);
+        }
+        const Bounds all = with_boxes(bounds, list_);
+        floor_extent_ = floor_extent_of(all.min, all.max);
+        floor_extent_.t0 = bounds.min.z;
+        floor_extent_.t1 = bounds.max.z;
+        points_ = ShownPoints(list_.disks);
+        for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
+        list_.middle = middle_of(points_);
+        add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
+    }
+
+  private:
+    const QueryProgress* progress() const { return query_ ? &query_->progress : nullptr; }
+
+    Words words() override {
+        Words out;
+        out.caption = query_ ? query_caption(list_.palette, agents_, query_->recorded, progress()->step)
+                             : scene_caption(fitted_, agents_, view_);
+        if (view_.time && !emphasis_.cursor) {
+            mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
+        }
+        out.legend = legend_entries(list_, agents_, view_, emphasis_, progress());
+        if (emphasis_.cursor) out.map = inset_size(floor_extent_, metrics_.scale);
+        return out;
+    }
+
+    std::vector<Rect> busy() const override { return occupied(list_, floor_extent_, view_, metrics_); }
+
+    std::vector<LabelRequest> content() override {
+        refine_crowded_boxes(list_, metrics_.scale);
+        add_floor_and_axes(list_, agents_, floor_extent_, view_, metrics_.scale);
+        if (view_.disks) {
+            for (const DrawnAgent& agent : agents_) add_thin_path(list_, agent, 1.3f * metrics_.scale);
+        }
+        if (progress() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
+            add_time_intervals(list_, floor_extent_, agents_, progress()->event, metrics_.scale);
+        }
+        if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
+        add_rings(list_, agents_, emphasis_, metrics_.scale);
+        if (!query_) return {};
+        return add_findings(list_, agents_, query_->recorded, *progress(), metrics_);
+    }
+
+    void add_map(glm::vec2 corner) override {
+        add_floor_inset(list_, agents_, floor_extent_, *emphasis_.cursor, corner, metrics_.scale);
+    }
+
+    void add_names_to(LabelLayout& layout) override { add_names(list_, layout, agents_, metrics_); }
+
+    std::optional<QueryAtStep> query_;
+    Emphasis emphasis_;
+};
+
+void check_scale(double scale) {
+    if (scale == 0 || (scale >= kLeastScale && scale <= kMostScale)) return;
+    throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
+                                short_double(kLeastScale) + " to " + short_double(kMostScale));
+}
+
+/// Hands `use` what is seen of the scene: of a run the scene at the view's time, with its followed agent's choice.
+template <class Use>
+auto with_scene_at(const FittedScene& fitted, const ViewState& view, const FollowedChoice* choice, Use use) {
+    if (!is_run(fitted.scene())) return use(fitted, choice);
+    const FittedScene seen = fitted_at(fitted, view);
+    if (view.follow.empty() || !view.candidates) return use(seen, nullptr);
+    const auto own = choice_in_view(MoveSet(fitted), view);
+    return use(seen, own ? &*own : nullptr);
+}
+
+std::unique_ptr<Picture> picture_of(const FittedScene& seen, const ViewState& view, const PictureOptions& options,
+                                    const FollowedChoice* choice) {
+    if (view.show == Show::moment) return moment_picture(seen, view, options, choice);
+    if (seen.scene().crowd) return crowd_picture(seen, view, options, choice);
+    if (view.projection) return disk_projection_picture(seen, view, options);
+    return std::make_unique<SpaceTimePicture>(seen, view, options);
 }
 
 }  // namespace
@@ -88,97 +176,17 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
 
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
                          const FollowedChoice* choice) {
-    const PictureSize size = options.size;
-    const double scale = options.scale;
-    if (scale != 0 && !(scale >= kLeastScale && scale <= kMostScale)) {
-        throw std::invalid_argument("text and lines cannot be drawn " + short_double(scale) + " times as large: give " +
-                                    short_double(kLeastScale) + " to " + short_double(kMostScale));
-    }
-    if (is_run(fitted.scene())) return build_run(fitted, view, options);
-    if (view.show == Show::moment) return build_moment(fitted, view, options, choice);
-    if (fitted.scene().crowd) return build_crowd(fitted, view, options, choice);
-    const std::vector<DrawnAgent> paths = drawn_agents(fitted, view);
-    if (paths.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
-    const Metrics metrics = metrics_of(size, scale);
-    DrawList list;
-    list.size = size;
-    list.palette = palette_for(view.theme, options);
-    list.background = options.background;
-    for (const DrawnAgent& agent : paths) list.participants.push_back(agent.name);
+    check_scale(options.scale);
+    return with_scene_at(fitted, view, choice, [&](const FittedScene& seen, const FollowedChoice* own) {
+        return picture_of(seen, view, options, own)->draw();
+    });
+}
 
-    if (view.projection) {
-        add_disk_projection(list, paths, *view.projection, view, options);
-        return list;
-    }
-    const Bounds bounds = bounds_of(paths);
-    list.space = space_for(bounds, view);
-    list.space.anchor = camera_anchor(fitted, view, view.time.value_or(bounds.min.z));
-    std::optional<QueryAtStep> query;
-    if (view.query) query.emplace(fitted, view);
-    const QueryProgress* progress = query ? &query->progress : nullptr;
-    const Emphasis emphasis = emphasis_of(view, paths, bounds.min.z, bounds.max.z, progress);
-    const bool has_cursor = emphasis.cursor.has_value();
-
-    if (view.boxes && progress) add_query_boxes(list, paths, *progress, pair_outline(view), metrics.scale);
-    const bool levels = view.boxes && !progress;
-    if (levels) add_level_boxes(list, paths, view.levels, view.color_by, metrics.scale);
-    if (view.disks) add_paths(list, paths, emphasis, progress, levels && view.color_by == ColorBy::level);
-    const Bounds all = with_boxes(bounds, list);
-    FloorExtent floor_extent = floor_extent_of(all.min, all.max);
-    floor_extent.t0 = bounds.min.z;
-    floor_extent.t1 = bounds.max.z;
-
-    float top = metrics.pad;
-    glm::vec2 map(0);
-    if (view.labels) {
-        Caption caption = query ? query_caption(list.palette, paths, query->recorded, progress->step)
-                                : scene_caption(fitted, paths, view);
-        if (view.time && !has_cursor) mention_cursor_outside(caption, *view.time, floor_extent.t0, floor_extent.t1);
-        if (!view.caption) caption = {};
-        caption.panel = scene_may_lie_behind(view, options);
-        std::vector<LegendEntry> legend;
-        if (view.legend) legend = legend_entries(list, paths, view, emphasis, progress);
-        TextBudget words =
-            fit_to_budget(caption, std::move(legend),
-                          has_cursor ? inset_size(floor_extent, metrics.scale) : glm::vec2(0), size, metrics);
-        list.legend = std::move(words.legend);
-        map = words.map;
-        top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
-    }
-    LabelLayout layout(list);
-
-    const Blocks blocks = aim(list, points_to_show(list, floor_extent, view, has_cursor), floor_extent, view, metrics,
-                              top, map, [&] { return occupied(list, floor_extent, view, metrics); });
-    refine_crowded_boxes(list, metrics.scale);
-    add_floor_and_axes(list, paths, floor_extent, view, metrics.scale);
-    if (view.disks) {
-        for (const DrawnAgent& agent : paths) add_thin_path(list, agent, 1.3f * metrics.scale);
-    }
-    if (progress && view.time_axis && pair_outline(view) == PairOutline::outcome) {
-        add_time_intervals(list, floor_extent, paths, progress->event, metrics.scale);
-    }
-    if (emphasis.cursor) add_time_cursor(list, floor_extent, *emphasis.cursor, metrics.scale);
-    add_rings(list, paths, emphasis, metrics.scale);
-    std::vector<LabelRequest> notes;
-    if (query) notes = add_findings(list, paths, query->recorded, *progress, metrics);
-
-    if (!blocks.legend) list.legend.clear();
-    if (!view.labels) return list;
-    if (blocks.legend) {
-        add_legend(list, blocks.legend->min, metrics.small);
-        layout.reserve(*blocks.legend);
-    }
-    if (blocks.map) {
-        add_floor_inset(list, paths, floor_extent, *emphasis.cursor, blocks.map->min, metrics.scale);
-        layout.reserve(*blocks.map);
-    }
-    add_notes(list, layout, notes, metrics.scale);
-    for (const LabelRequest& label :
-         floor_and_axis_labels(list, floor_extent, view.floor, view.time_axis, metrics.small)) {
-        layout.place(label, list);
-    }
-    add_names(list, layout, paths, metrics);
-    return list;
+PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
+    check_scale(scale);
+    return with_scene_at(fitted, view, nullptr, [&](const FittedScene& seen, const FollowedChoice* own) {
+        return picture_of(seen, view, {.size = size, .scale = scale}, own)->aim();
+    });
 }
 
 }  // namespace mobbscope

@@ -24,6 +24,10 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
                          const FollowedChoice* choice = nullptr);
 
+/// The frame of the picture that build_draw_list would make, without making it: for what moves the camera. Throws as it
+/// does.
+PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
+
 /// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
 std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);
 

@@ -126,119 +126,112 @@ std::vector<DrawnAgent> boxed(std::span<const DrawnAgent> paths, const ViewState
     return boxes <= kMostCrowdBoxes ? all : own;
 }
 
-}  // namespace
+class CrowdPicture final : public Picture {
+  public:
+    CrowdPicture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                 const FollowedChoice* choice)
+        : Picture(fitted, view, options), crowd_(*fitted.scene().crowd), time_(run_time(fitted.scene(), view)) {
+        outside_ = time_ < 0 || time_ >= crowd_.seconds;
+        if (!outside_) choice_ = choice;
+        seconds_ = {time_ - view.time_window, time_, time_ + view.time_window};
+        followed_ = view.follow.empty() ? -1 : run_agent_by_name(crowd_, view.follow).value_or(-1);
+        Bounds bounds;
+        bounds.add(glm::dvec3(-0.5 * crowd_.area, seconds_.begin));
+        bounds.add(glm::dvec3(0.5 * crowd_.area, seconds_.end));
+        list_.space = space_for(bounds, view);
+        // As tall as wide it would be a forest of poles.
+        if (view.time_height <= 0) list_.space.time_height = std::min(kFlat * list_.space.time_height, kMostHeight);
+        list_.space.anchor = camera_anchor(fitted, view, time_);
+        floor_extent_ = floor_stage(crowd_.area, seconds_.begin, seconds_.end);
+        points_ = ShownPoints(floor_corners(floor_extent_, list_.space));
+        list_.middle = middle_of(points_);
+    }
 
-DrawList build_crowd(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
-                     const FollowedChoice* choice) {
-    const CrowdRun& crowd = *fitted.scene().crowd;
-    const PictureSize size = options.size;
-    const Metrics metrics = metrics_of(size, options.scale);
-    const double time = run_time(fitted.scene(), view);
-    const bool outside = time < 0 || time >= crowd.seconds;
-    if (outside) choice = nullptr;
-    const Seconds seconds{time - view.time_window, time, time + view.time_window};
-    const std::vector<DrawnAgent> paths = drawn_agents(fitted, view);
-    const int followed = view.follow.empty() ? -1 : run_agent_by_name(crowd, view.follow).value_or(-1);
-
-    DrawList list;
-    list.size = size;
-    list.palette = palette_for(view.theme, options);
-    list.background = options.background;
-    for (const DrawnAgent& agent : paths) list.participants.push_back(agent.name);
-    Bounds bounds;
-    bounds.add(glm::dvec3(-0.5 * crowd.area, seconds.begin));
-    bounds.add(glm::dvec3(0.5 * crowd.area, seconds.end));
-    list.space = space_for(bounds, view);
-    // As tall as wide it would be a forest of poles.
-    if (view.time_height <= 0) list.space.time_height = std::min(kFlat * list.space.time_height, kMostHeight);
-    list.space.anchor = camera_anchor(fitted, view, time);
-    const FloorExtent floor_extent = floor_stage(crowd.area, seconds.begin, seconds.end);
-
-    float top = metrics.pad;
-    if (view.labels) {
-        Caption caption;
-        caption.headlines = {headline_of(outside ? people_at(paths, time) : crowd.agents.size(), time)};
-        caption.detail = choice ? choice_sentence(fitted.scene(), *choice) : window_text(seconds);
-        if (outside) mention_cursor_outside(caption, time, 0, crowd.seconds);
-        if (!view.caption) caption = {};
-        caption.panel = scene_may_lie_behind(view, options);
-        std::vector<LegendEntry> legend;
-        if (view.legend) {
-            if (names_fit(crowd.agents.size())) {
-                legend = agent_entries(std::span(paths).first(crowd.agents.size()));
-            }
-            if (choice) {
-                const auto fates = candidate_legend(list.palette, choice->choice);
-                legend.insert(legend.end(), fates.begin(), fates.end());
-            }
-            LegendEntry now;
-            now.color = list.palette.accent;
-            now.width = 1.3f;
-            now.text = "now";
-            legend.push_back(now);
+  private:
+    Words words() override {
+        Words out;
+        out.caption.headlines = {headline_of(outside_ ? people_at(agents_, time_) : crowd_.agents.size(), time_)};
+        out.caption.detail = choice_ ? choice_sentence(fitted_.scene(), *choice_) : window_text(seconds_);
+        if (outside_) mention_cursor_outside(out.caption, time_, 0, crowd_.seconds);
+        if (names_fit(crowd_.agents.size())) {
+            out.legend = agent_entries(std::span(agents_).first(crowd_.agents.size()));
         }
-        TextBudget words = fit_to_budget(caption, std::move(legend), glm::vec2(0), size, metrics);
-        list.legend = std::move(words.legend);
-        top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
-    }
-    LabelLayout layout(list);
-    const std::vector<glm::vec3> corners = floor_corners(floor_extent, list.space);
-    // The widest labels of the whole run, so that nothing moves while time runs.
-    const FloorExtent last = floor_stage(crowd.area, crowd.seconds - 2 * view.time_window, crowd.seconds);
-    const Blocks blocks = aim(list, corners, last, view, metrics, top, glm::vec2(0),
-                              [&] { return above_floor(list.projection, corners); });
-
-    if (view.disks) {
-        std::size_t samples = 0;
-        for (const DrawnAgent& agent : paths) samples += static_cast<std::size_t>(agent.samples().count);
-        list.disks.reserve(samples);
-        for (const DrawnAgent& agent : paths) {
-            if (may_be_seen(list, agent)) add_disks(list, agent, {}, samples_together(list, agent));
+        if (choice_) {
+            const auto fates = candidate_legend(list_.palette, choice_->choice);
+            out.legend.insert(out.legend.end(), fates.begin(), fates.end());
         }
+        LegendEntry now;
+        now.color = list_.palette.accent;
+        now.width = 1.3f;
+        now.text = "now";
+        out.legend.push_back(now);
+        return out;
     }
-    if (view.boxes) {
-        add_level_boxes(list, boxed(paths, view, followed), view.levels, view.color_by, metrics.scale);
-        keep_within(list, paths, seconds);
-        refine_crowded_boxes(list, metrics.scale);
+
+    /// The widest labels of the whole run, so that nothing moves while time runs.
+    FloorExtent widest_floor() const override {
+        return floor_stage(crowd_.area, crowd_.seconds - 2 * view_.time_window, crowd_.seconds);
     }
-    if (view.floor) {
-        add_floor_grid(list, floor_extent, metrics.scale);
-        add_walls(list, crowd.area, seconds.begin, seconds.begin, metrics.scale);
+
+    std::vector<Rect> busy() const override {
+        return above_floor(list_.projection, floor_corners(floor_extent_, list_.space));
     }
-    if (view.time_axis) add_time_axis(list, floor_extent, metrics.scale);
-    add_time_cursor(list, floor_extent, time, metrics.scale);
-    if (view.disks) {
-        for (const DrawnAgent& agent : paths) {
-            const auto sample = sample_at(agent, time);
+
+    std::vector<LabelRequest> content() override {
+        if (view_.disks) {
+            for (const DrawnAgent& agent : agents_) {
+                if (may_be_seen(list_, agent)) add_disks(list_, agent, {}, samples_together(list_, agent));
+            }
+        }
+        if (view_.boxes) {
+            add_level_boxes(list_, boxed(agents_, view_, followed_), view_.levels, view_.color_by, metrics_.scale);
+            keep_within(list_, agents_, seconds_);
+            refine_crowded_boxes(list_, metrics_.scale);
+        }
+        if (view_.floor) {
+            add_floor_grid(list_, floor_extent_, metrics_.scale);
+            add_walls(list_, crowd_.area, seconds_.begin, seconds_.begin, metrics_.scale);
+        }
+        if (view_.time_axis) add_time_axis(list_, floor_extent_, metrics_.scale);
+        add_time_cursor(list_, floor_extent_, time_, metrics_.scale);
+        if (view_.disks) add_rings_now();
+        std::vector<LabelRequest> notes;
+        if (choice_) notes = add_candidates(list_, fitted_, *choice_, metrics_);
+        if (followed_ >= 0) {
+            const auto name = add_followed(list_, agents_, followed_, time_, 0, metrics_);
+            notes.insert(notes.end(), name.begin(), name.end());
+        }
+        return notes;
+    }
+
+    /// Around everybody at the time, where they are large enough to be seen.
+    void add_rings_now() {
+        const Rect picture{glm::vec2(0), glm::vec2(list_.size.width, list_.size.height)};
+        for (const DrawnAgent& agent : agents_) {
+            const auto sample = sample_at(agent, time_);
             if (!sample) continue;
             const mobb::Disk disk = agent.clip().disk(*sample);
-            const glm::vec3 middle = list.space.point(disk.x, disk.y, time);
-            const float radius = static_cast<float>(disk.r) * list.projection.pixels_per_metre(middle);
-            const auto pixel = list.projection.project(middle);
-            const Rect picture{glm::vec2(0), glm::vec2(size.width, size.height)};
+            const glm::vec3 middle = list_.space.point(disk.x, disk.y, time_);
+            const float radius = static_cast<float>(disk.r) * list_.projection.pixels_per_metre(middle);
+            const auto pixel = list_.projection.project(middle);
             if (radius < kLeastRing || !pixel || !picture.grown(2 * radius).contains({*pixel, *pixel})) continue;
-            add_cursor_ring(list, agent, *sample, metrics.scale, std::clamp(static_cast<int>(1.5f * radius), 10, 48));
+            add_cursor_ring(list_, agent, *sample, metrics_.scale, std::clamp(static_cast<int>(1.5f * radius), 10, 48));
         }
     }
-    std::vector<LabelRequest> notes;
-    if (choice) notes = add_candidates(list, fitted, *choice, metrics);
-    if (followed >= 0) {
-        const auto name = add_followed(list, paths, followed, time, 0, metrics);
-        notes.insert(notes.end(), name.begin(), name.end());
-    }
 
-    if (!blocks.legend) list.legend.clear();
-    if (!view.labels) return list;
-    if (blocks.legend) {
-        add_legend(list, blocks.legend->min, metrics.small);
-        layout.reserve(*blocks.legend);
-    }
-    add_notes(list, layout, notes, metrics.scale);
-    for (const LabelRequest& label :
-         floor_and_axis_labels(list, floor_extent, view.floor, view.time_axis, metrics.small)) {
-        layout.place(label, list);
-    }
-    return list;
+    const CrowdRun& crowd_;
+    const FollowedChoice* choice_ = nullptr;
+    double time_;
+    bool outside_ = false;
+    Seconds seconds_;
+    int followed_ = -1;
+};
+
+}  // namespace
+
+std::unique_ptr<Picture> crowd_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                                       const FollowedChoice* choice) {
+    return std::make_unique<CrowdPicture>(fitted, view, options, choice);
 }
 
 }  // namespace mobbscope

@@ -314,72 +314,87 @@ DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample) {
     return out;
 }
 
-void add_disk_projection(DrawList& list, std::span<const DrawnAgent> agents, const DiskProjection& projection,
-                         const ViewState& view, const PictureOptions& options) {
-    const Metrics metrics = metrics_of(list.size, options.scale);
-    const DrawnAgent& agent = checked(agents, projection);
-    const double w = agent.placed.time_scale();
-    const double dt = agent.clip().clip().dt();
-    const DiskExtents extents = disk_extents(agent, projection.node, projection.sample);
-    list.space.origin = {extents.base.x, extents.base.y, extents.base.z / w};
-    list.space.time_height = view.time_height > 0 ? view.time_height : w;
+namespace {
 
-    DiskInstance disk;
-    disk.radius = static_cast<float>(extents.radius);
-    disk.height = static_cast<float>(dt * list.space.time_height);
-    disk.color = with_alpha(agent.color, 0.5f);
-    disk.id = {agent.index, ObjectId::Kind::disk, projection.sample};
-    if (view.disks) list.disks.push_back(disk);
+class DiskProjectionPicture final : public Picture {
+  public:
+    DiskProjectionPicture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options)
+        : Picture(fitted, view, options),
+          agent_(checked(agents_, *view.projection)),
+          extents_(disk_extents(agent_, view.projection->node, view.projection->sample)) {
+        const double w = agent_.placed.time_scale();
+        list_.space.origin = {extents_.base.x, extents_.base.y, extents_.base.z / w};
+        list_.space.time_height = view.time_height > 0 ? view.time_height : w;
+        if (!view.disks) return;
+        DiskInstance disk;
+        disk.radius = static_cast<float>(extents_.radius);
+        disk.height = static_cast<float>(agent_.clip().clip().dt() * list_.space.time_height);
+        disk.color = with_alpha(agent_.color, 0.5f);
+        disk.id = {agent_.index, ObjectId::Kind::disk, view.projection->sample};
+        list_.disks.edit().push_back(disk);
+        list_.middle = {0, 0, 0.5 * static_cast<double>(disk.height)};
+    }
 
-    float top = metrics.pad;
-    if (view.labels) {
-        Caption caption;
-        if (view.caption) {
-            const std::string who = "how far sample " + std::to_string(projection.sample) + " reaches";
-            caption.headlines = {who + " along the axes of " + node_name(agent, projection.node), who};
+  private:
+    Words words() override {
+        Words out;
+        const std::string who = "how far sample " + std::to_string(view_.projection->sample) + " reaches";
+        out.caption.headlines = {who + " along the axes of " + node_name(agent_, view_.projection->node), who};
+        out.legend = legend(extents_, list_.palette, agent_.color, view_.projection->sample, agent_.clip().clip().dt());
+        return out;
+    }
+
+    /// The legend has its corner, and the drawing makes room for it.
+    Blocks find_places(float top, glm::vec2) override {
+        Frame frame{glm::vec2(metrics_.pad, top), glm::vec2(list_.size.width, list_.size.height) - metrics_.pad};
+        if (view_.labels) {
+            // Names stand beyond the ends of the axes and of the perpendiculars.
+            frame.min += glm::vec2(3, 1.7f) * metrics_.text;
+            frame.max -= glm::vec2(3, 1.7f) * metrics_.text;
         }
-        std::vector<LegendEntry> entries;
-        if (view.legend) entries = legend(extents, list.palette, agent.color, projection.sample, dt);
-        caption.panel = scene_may_lie_behind(view, options);
-        TextBudget words = fit_to_budget(caption, std::move(entries), glm::vec2(0), list.size, metrics);
-        list.legend = std::move(words.legend);
-        top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
-    }
-    LabelLayout layout(list);
-
-    Frame frame{glm::vec2(metrics.pad, top), glm::vec2(list.size.width, list.size.height) - metrics.pad};
-    if (view.labels) {
-        // Names stand beyond the ends of the axes and of the perpendiculars.
-        frame.min += glm::vec2(3, 1.7f) * metrics.text;
-        frame.max -= glm::vec2(3, 1.7f) * metrics.text;
-    }
-    Diagram diagram(list, extents, w, metrics.scale);
-    const auto draw_within = [&](const Frame& within) {
-        list.lines.clear();
-        list.marks.clear();
-        list.projection = projection_for(list, view, projected_points(diagram, extents), within);
-        list.frame = within;
-        draw(diagram, extents, list.projection, list.palette, agent.color);
-    };
-    draw_within(frame);
-    if (!list.legend.empty()) {
-        const glm::vec2 block = legend_size(list.legend, metrics.small);
-        const glm::vec2 corner(metrics.pad, static_cast<float>(list.size.height) - metrics.pad - block.y);
-        const Rect place{corner, corner + block};
-        if (covers_lines(place.grown(metrics.text), list)) {
-            // Beside or above the legend, wherever more is left.
-            const glm::vec2 left = frame.max - frame.min - block;
-            if (left.x > left.y) {
-                frame.min.x += block.x;
-            } else {
-                frame.max.y -= block.y;
-            }
-            draw_within(frame);
+        draw_within(frame);
+        Blocks blocks;
+        if (list_.legend.empty()) return blocks;
+        const glm::vec2 block = legend_size(list_.legend, metrics_.small);
+        const glm::vec2 corner(metrics_.pad, static_cast<float>(list_.size.height) - metrics_.pad - block.y);
+        blocks.legend = Rect{corner, corner + block};
+        if (!covers_lines(blocks.legend->grown(metrics_.text), list_)) return blocks;
+        // Beside or above the legend, wherever more is left.
+        const glm::vec2 left = frame.max - frame.min - block;
+        if (left.x > left.y) {
+            frame.min.x += block.x;
+        } else {
+            frame.max.y -= block.y;
         }
-        add_legend(list, corner, metrics.small);
-        layout.reserve(place);
+        draw_within(frame);
+        return blocks;
     }
-    if (view.labels) add_labels(list, layout, diagram, extents, metrics.text);
+
+    void draw_within(const Frame& within) {
+        Diagram diagram(list_, extents_, agent_.placed.time_scale(), metrics_.scale);
+        list_.lines.clear();
+        list_.marks.clear();
+        list_.projection = projection_for(list_, view_, ShownPoints(projected_points(diagram, extents_)), within);
+        list_.frame = within;
+        mobbscope::draw(diagram, extents_, list_.projection, list_.palette, agent_.color);
+    }
+
+    std::vector<LabelRequest> floor_labels() const override { return {}; }
+
+    void add_names_to(LabelLayout& layout) override {
+        const Diagram diagram(list_, extents_, agent_.placed.time_scale(), metrics_.scale);
+        add_labels(list_, layout, diagram, extents_, metrics_.text);
+    }
+
+    const DrawnAgent& agent_;
+    DiskExtents extents_;
+};
+
+}  // namespace
+
+std::unique_ptr<Picture> disk_projection_picture(const FittedScene& fitted, const ViewState& view,
+                                                 const PictureOptions& options) {
+    return std::make_unique<DiskProjectionPicture>(fitted, view, options);
 }
 
 }  // namespace mobbscope

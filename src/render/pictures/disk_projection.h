@@ -1,13 +1,12 @@
 /// One disk and how far it reaches along the axes of a box around it: the paper's Fig. 6.
 #pragma once
 
-#include <render/drawlist/draw_list.h>
-#include <render/drawlist/picture_options.h>
+#include <render/pictures/picture.h>
 #include <scene/drawn_agent.h>
 #include <scene/view_state.h>
 
 #include <array>
-#include <span>
+#include <memory>
 
 namespace mobbscope {
 
@@ -34,11 +33,10 @@ struct DiskExtents {
 /// `node` and `sample` of the subject's tree and clip; the node bounds the sample.
 DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample);
 
-/// The whole picture of it, captions included. Unless the view says how high time is drawn it has the height that the
-/// box is fitted with, so that right angles are seen as such. `projection` counts among `subjects`. Throws
-/// std::invalid_argument, saying what there is, if it names a participant, a node or a sample of the node that does
-/// not exist.
-void add_disk_projection(DrawList& list, std::span<const DrawnAgent> agents, const DiskProjection& projection,
-                         const ViewState& view, const PictureOptions& options);
+/// The picture of the view's projection. Unless the view says how high time is drawn it has the height that the box is
+/// fitted with, so that right angles are seen as such. The scene outlives the picture. Throws std::invalid_argument,
+/// saying what there is, if it names an agent, a node or a sample of the node that does not exist.
+std::unique_ptr<Picture> disk_projection_picture(const FittedScene& fitted, const ViewState& view,
+                                                 const PictureOptions& options);
 
 }  // namespace mobbscope

@@ -134,116 +134,112 @@ void add_ways(DrawList& list, std::span<const DrawnAgent> agents, const Moment& 
     }
 }
 
+class MomentPicture final : public Picture {
+  public:
+    MomentPicture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                  const FollowedChoice* choice)
+        : Picture(fitted, view, options), crowd_(fitted.scene().crowd.get()), heights_(cylinder_heights(agents_)) {
+        // Time is no direction of this picture.
+        view_.time_axis = false;
+        moment_ = moment_of(agents_, heights_,
+                            crowd_ ? run_time(fitted.scene(), view) : view.time.value_or(beginning(agents_)));
+        // Of a run each person stands there with several plays.
+        count_ = crowd_ ? crowd_->agents.size() : agents_.size();
+        list_.moment = moment_.time;
+        bounds_ = moment_bounds(fitted, agents_);
+        outside_ = moment_.time < bounds_.min.z || moment_.time >= bounds_.max.z;
+        if (!outside_) choice_ = choice;
+        const glm::dvec3 middle = 0.5 * (bounds_.min + bounds_.max);
+        list_.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view_, moment_.time)};
+        const double highest = *std::max_element(heights_.begin(), heights_.end());
+        floor_extent_ =
+            crowd_ ? floor_stage(crowd_->area, 0, highest)
+                   : floor_extent_of({bounds_.min.x, bounds_.min.y, 0}, {bounds_.max.x, bounds_.max.y, highest});
+        // Walls hold everybody, wherever they will stand.
+        if (!crowd_) standing_ = standing_room(list_.space, agents_, heights_, 0.02 * floor_extent_.step);
+        corners_ = floor_corners(floor_extent_, list_.space);
+        points_ = ShownPoints(standing_);
+        if (crowd_) points_.add(corners_);
+        list_.middle = middle_of(points_);
+        if (!crowd_) points_.add(std::span(corners_).first(4));
+    }
+
+  private:
+    std::span<const DrawnAgent> persons() const { return std::span(agents_).first(count_); }
+
+    Words words() override {
+        Words out;
+        out.caption = moment_caption(list_.palette, agents_, moment_, count_);
+        if (outside_) mention_cursor_outside(out.caption, moment_.time, bounds_.min.z, bounds_.max.z);
+        if (choice_) {
+            out.caption.detail = choice_sentence(fitted_.scene(), *choice_);
+            out.legend = candidate_legend(list_.palette, choice_->choice);
+        }
+        const std::vector<LegendEntry> who = moment_legend(list_.palette, persons(), view_);
+        out.legend.insert(out.legend.end(), who.begin(), who.end());
+        return out;
+    }
+
+    std::vector<Rect> busy() const override {
+        std::vector<Rect> out = occupied(list_, floor_extent_, view_, metrics_);
+        const std::vector<Rect> bodies = seen_at(list_.projection, standing_);
+        out.insert(out.end(), bodies.begin(), bodies.end());
+        if (!crowd_) return out;
+        const std::vector<Rect> floor = seen_floor(list_.projection, corners_);
+        out.insert(out.end(), floor.begin(), floor.end());
+        return out;
+    }
+
+    std::vector<LabelRequest> content() override {
+        if (view_.floor) {
+            add_floor_grid(list_, floor_extent_, metrics_.scale);
+            if (crowd_) add_walls(list_, crowd_->area, 0, kWallHeight, metrics_.scale);
+            if (!floor_on_edge(list_.projection) && count_ <= kMostWithWays) {
+                add_ways(list_, agents_, moment_, metrics_.scale);
+            }
+        }
+        add_bodies(list_, agents_, moment_, {view_.disks, view_.boxes}, metrics_.scale);
+        std::vector<LabelRequest> notes;
+        const auto add = [&](const std::vector<LabelRequest>& some) {
+            notes.insert(notes.end(), some.begin(), some.end());
+        };
+        if (choice_) add(add_candidates(list_, fitted_, *choice_, metrics_));
+        if (crowd_ && !view_.follow.empty()) {
+            const int followed = run_agent_by_name(*crowd_, view_.follow).value_or(-1);
+            add(add_followed(list_, agents_, followed, moment_.time, heights_.front(), metrics_));
+        }
+        if (moment_.nearest && view_.disks && names_fit(count_)) {
+            const auto body = [&](int i) -> const Body& { return moment_.bodies[static_cast<std::size_t>(i)]; };
+            add(add_clearance(list_, body(moment_.nearest->a), body(moment_.nearest->b), metrics_));
+        }
+        // Where two overlap, that is what the picture is about.
+        if (view_.disks && may_show_radii(persons()) && moment_.overlaps.empty()) {
+            for (const Body& body : moment_.bodies) {
+                if (!sets_radius(body)) continue;
+                const auto length = add_radius(list_, agents_[static_cast<std::size_t>(body.agent)], body, metrics_);
+                if (moment_.bodies.size() == 1) add(length);
+            }
+        }
+        return notes;
+    }
+
+    void add_names_to(LabelLayout& layout) override { add_body_names(list_, layout, agents_, moment_, metrics_); }
+
+    const CrowdRun* crowd_;
+    const FollowedChoice* choice_ = nullptr;
+    std::vector<double> heights_;
+    Moment moment_;
+    std::size_t count_ = 0;  ///< people
+    Bounds bounds_;
+    bool outside_ = false;  ///< nobody is there yet, or any more
+    std::vector<glm::vec3> standing_, corners_;
+};
+
 }  // namespace
 
-DrawList build_moment(const FittedScene& fitted, const ViewState& asked, const PictureOptions& options,
-                      const FollowedChoice* choice) {
-    const PictureSize size = options.size;
-    const Metrics metrics = metrics_of(size, options.scale);
-    // Time is no direction of this picture.
-    ViewState view = asked;
-    view.time_axis = false;
-    const std::vector<DrawnAgent> people = drawn_agents(fitted, view);
-    if (people.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
-    const std::vector<double> heights = cylinder_heights(people);
-    const bool is_crowd = fitted.scene().crowd != nullptr;
-    const double time = is_crowd ? run_time(fitted.scene(), view) : view.time.value_or(beginning(people));
-    const Moment moment = moment_of(people, heights, time);
-    // Of a run each person stands there with several plays.
-    const std::size_t count = is_crowd ? fitted.scene().crowd->agents.size() : people.size();
-    const std::span<const DrawnAgent> persons = std::span(people).first(count);
-
-    DrawList list;
-    list.size = size;
-    list.palette = palette_for(view.theme, options);
-    list.background = options.background;
-    list.moment = moment.time;
-    for (const DrawnAgent& agent : people) list.participants.push_back(agent.name);
-    const Bounds bounds = moment_bounds(fitted, people);
-    const bool outside = moment.time < bounds.min.z || moment.time >= bounds.max.z;
-    if (outside) choice = nullptr;
-    const glm::dvec3 middle = 0.5 * (bounds.min + bounds.max);
-    list.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view, time)};
-    const double highest = *std::max_element(heights.begin(), heights.end());
-    const FloorExtent floor_extent =
-        is_crowd ? floor_stage(fitted.scene().crowd->area, 0, highest)
-                 : floor_extent_of({bounds.min.x, bounds.min.y, 0}, {bounds.max.x, bounds.max.y, highest});
-    // Walls hold everybody, wherever they will stand.
-    std::vector<glm::vec3> points;
-    if (!is_crowd) points = standing_room(list.space, people, heights, 0.02 * floor_extent.step);
-    const std::size_t standing = points.size();
-    const std::vector<glm::vec3> corners = floor_corners(floor_extent, list.space);
-    points.insert(points.end(), corners.begin(), corners.begin() + (is_crowd ? 8 : 4));
-
-    float top = metrics.pad;
-    if (view.labels) {
-        Caption caption = moment_caption(list.palette, people, moment, count);
-        if (outside) mention_cursor_outside(caption, moment.time, bounds.min.z, bounds.max.z);
-        if (choice) caption.detail = choice_sentence(fitted.scene(), *choice);
-        if (!view.caption) caption = {};
-        caption.panel = scene_may_lie_behind(view, options);
-        std::vector<LegendEntry> legend;
-        if (view.legend) legend = moment_legend(list.palette, persons, view);
-        if (view.legend && choice) {
-            const auto fates = candidate_legend(list.palette, choice->choice);
-            legend.insert(legend.begin(), fates.begin(), fates.end());
-        }
-        TextBudget words = fit_to_budget(caption, std::move(legend), glm::vec2(0), size, metrics);
-        list.legend = std::move(words.legend);
-        top = add_caption(list, caption, words.caption, metrics.pad, metrics.scale);
-    }
-    LabelLayout layout(list);
-    const Blocks blocks = aim(list, points, floor_extent, view, metrics, top, glm::vec2(0), [&] {
-        std::vector<Rect> busy = occupied(list, floor_extent, view, metrics);
-        const std::vector<Rect> bodies = seen_at(list.projection, std::span(points).first(standing));
-        busy.insert(busy.end(), bodies.begin(), bodies.end());
-        if (is_crowd) {
-            const std::vector<Rect> floor = seen_floor(list.projection, corners);
-            busy.insert(busy.end(), floor.begin(), floor.end());
-        }
-        return busy;
-    });
-
-    if (view.floor) {
-        add_floor_grid(list, floor_extent, metrics.scale);
-        if (is_crowd) add_walls(list, fitted.scene().crowd->area, 0, kWallHeight, metrics.scale);
-        if (!floor_on_edge(list.projection) && count <= kMostWithWays) add_ways(list, people, moment, metrics.scale);
-    }
-    add_bodies(list, people, moment, {view.disks, view.boxes}, metrics.scale);
-    std::vector<LabelRequest> notes;
-    const auto add = [&](const std::vector<LabelRequest>& some) {
-        notes.insert(notes.end(), some.begin(), some.end());
-    };
-    if (choice) add(add_candidates(list, fitted, *choice, metrics));
-    if (is_crowd && !view.follow.empty()) {
-        const int followed = run_agent_by_name(*fitted.scene().crowd, view.follow).value_or(-1);
-        add(add_followed(list, people, followed, time, heights.front(), metrics));
-    }
-    if (moment.nearest && view.disks && names_fit(count)) {
-        const auto body = [&](int i) -> const Body& { return moment.bodies[static_cast<std::size_t>(i)]; };
-        add(add_clearance(list, body(moment.nearest->a), body(moment.nearest->b), metrics));
-    }
-    // Where two overlap, that is what the picture is about.
-    if (view.disks && may_show_radii(persons) && moment.overlaps.empty()) {
-        for (const Body& body : moment.bodies) {
-            if (!sets_radius(body)) continue;
-            const auto length = add_radius(list, people[static_cast<std::size_t>(body.agent)], body, metrics);
-            if (moment.bodies.size() == 1) add(length);
-        }
-    }
-
-    if (!blocks.legend) list.legend.clear();
-    if (!view.labels) return list;
-    if (blocks.legend) {
-        add_legend(list, blocks.legend->min, metrics.small);
-        layout.reserve(*blocks.legend);
-    }
-    add_notes(list, layout, notes, metrics.scale);
-    for (const LabelRequest& label : floor_and_axis_labels(list, floor_extent, view.floor, false, metrics.small)) {
-        layout.place(label, list);
-    }
-    add_body_names(list, layout, people, moment, metrics);
-    return list;
+std::unique_ptr<Picture> moment_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                                        const FollowedChoice* choice) {
+    return std::make_unique<MomentPicture>(fitted, view, options, choice);
 }
 
 }  // namespace mobbscope

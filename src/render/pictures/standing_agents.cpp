@@ -126,7 +126,7 @@ void add_body_disk(DrawList& list, const Figure& f, float height, Rgba color) {
     disk.color = color;
     disk.id = {f.agent.index, ObjectId::Kind::disk, f.body.sample};
     disk.order = {kBodyLayer, 0, f.agent.index};
-    list.disks.push_back(disk);
+    list.disks.edit().push_back(disk);
 }
 
 /// The wall: clear where it is looked through, denser towards its outline, as glass is.

@@ -1,0 +1,91 @@
+#include <render/drawlist/shown_points.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kInBlock = 64;
+constexpr float kRounding = 1e-5f;  // of a block's bounds: what they rule out is ruled out for good
+
+}  // namespace
+
+const std::array<glm::vec3, 8>& rim_directions() {
+    static const std::array<glm::vec3, 8> directions = [] {
+        std::array<glm::vec3, 8> out;
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const double angle = static_cast<double>(i) * std::numbers::pi / 4;
+            out[i] = glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
+        }
+        return out;
+    }();
+    return directions;
+}
+
+ShownPoints::ShownPoints(SharedValues<DiskInstance> disks) : disks_(std::move(disks)) {
+    std::vector<Block> blocks;
+    blocks.reserve(disks_.size() / kInBlock + 1);
+    for (std::size_t i = 0; i < disks_.size(); ++i) {
+        const DiskInstance& disk = disks_[i];
+        const glm::vec3 around(disk.radius, disk.radius, 0);
+        const glm::vec3 low = disk.base - around;
+        const glm::vec3 high = disk.base + around + glm::vec3(0, 0, disk.height);
+        if (i % kInBlock == 0) blocks.push_back({low, high});
+        blocks.back() = {glm::min(blocks.back().min, low), glm::max(blocks.back().max, high)};
+    }
+    blocks_ = std::make_shared<const std::vector<Block>>(std::move(blocks));
+}
+
+glm::vec3 ShownPoints::front() const {
+    return disks_.empty() ? points_.front() : disks_.front().base + disks_.front().radius * rim_directions().front();
+}
+
+glm::vec3 ShownPoints::back() const {
+    if (!points_.empty()) return points_.back();
+    const DiskInstance& disk = disks_.back();
+    return disk.base + disk.radius * rim_directions().back() + glm::vec3(0, 0, disk.height);
+}
+
+float ShownPoints::most(glm::vec3 along, glm::vec3 also, float factor) const {
+    float most = std::numeric_limits<float>::lowest();
+    const auto see = [&](glm::vec3 p) { most = std::max(most, glm::dot(p, along) + glm::dot(p, also) * factor); };
+    for (const glm::vec3& point : points_) see(point);
+    if (disks_.empty()) return most;
+    const glm::vec3 way = along + also * factor;
+    const auto bound = [&](const Block& block) {
+        const glm::vec3 corner(way.x > 0 ? block.max.x : block.min.x, way.y > 0 ? block.max.y : block.min.y,
+                               way.z > 0 ? block.max.z : block.min.z);
+        const glm::vec3 terms = glm::abs(corner * way);
+        return glm::dot(corner, way) + kRounding * (terms.x + terms.y + terms.z);
+    };
+    const auto see_block = [&](std::size_t block) {
+        const std::size_t end = std::min(disks_.size(), (block + 1) * kInBlock);
+        for (std::size_t i = block * kInBlock; i < end; ++i) {
+            const DiskInstance& disk = disks_[i];
+            for (const glm::vec3& direction : rim_directions()) {
+                const glm::vec3 rim = disk.base + disk.radius * direction;
+                see(rim);
+                see(rim + glm::vec3(0, 0, disk.height));
+            }
+        }
+    };
+    // The block that may reach farthest first: then most others cannot.
+    const auto farthest = std::max_element(blocks_->begin(), blocks_->end(),
+                                           [&](const Block& a, const Block& b) { return bound(a) < bound(b); });
+    see_block(static_cast<std::size_t>(farthest - blocks_->begin()));
+    for (std::size_t block = 0; block < blocks_->size(); ++block) {
+        if (bound((*blocks_)[block]) > most) see_block(block);
+    }
+    return most;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,79 @@
+#include <render/layout/annotations.h>
+#include <render/layout/framing.h>
+#include <render/layout/legend.h>
+#include <render/pictures/picture.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace mobbscope {
+
+Picture::Picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options)
+    : fitted_(fitted),
+      view_(view),
+      options_(options),
+      metrics_(metrics_of(options.size, options.scale)),
+      agents_(drawn_agents(fitted, view)),
+      layout_(options.size) {
+    if (agents_.empty()) throw std::invalid_argument("the scene has nothing to draw: it has no clips");
+    list_.size = options.size;
+    list_.palette = palette_for(view.theme, options);
+    list_.background = options.background;
+    for (const DrawnAgent& agent : agents_) list_.participants.push_back(agent.name);
+}
+
+const PictureFrame& Picture::aim() {
+    float top = metrics_.pad;
+    glm::vec2 map(0);
+    if (view_.labels) {
+        Words said = words();
+        if (!view_.caption) said.caption = {};
+        said.caption.panel = scene_may_lie_behind(view_, options_);
+        if (!view_.legend) said.legend.clear();
+        TextBudget kept = fit_to_budget(said.caption, std::move(said.legend), said.map, list_.size, metrics_);
+        list_.legend = std::move(kept.legend);
+        map = kept.map;
+        top = add_caption(list_, said.caption, kept.caption, metrics_.pad, metrics_.scale);
+    }
+    layout_ = LabelLayout(list_);
+    blocks_ = find_places(top, map);
+    return list_;
+}
+
+Blocks Picture::find_places(float top, glm::vec2 map) {
+    return mobbscope::aim(list_, points_, widest_floor(), view_, metrics_, top, map, [&] { return busy(); });
+}
+
+std::vector<LabelRequest> Picture::floor_labels() const {
+    return floor_and_axis_labels(list_, floor_extent_, view_.floor, view_.time_axis, metrics_.small);
+}
+
+DrawList Picture::draw() {
+    aim();
+    const std::vector<LabelRequest> notes = content();
+    if (!blocks_.legend) list_.legend.clear();
+    if (!view_.labels) return std::move(list_);
+    if (blocks_.legend) {
+        add_legend(list_, blocks_.legend->min, metrics_.small);
+        layout_.reserve(*blocks_.legend);
+    }
+    if (blocks_.map) {
+        add_map(blocks_.map->min);
+        layout_.reserve(*blocks_.map);
+    }
+    add_notes(list_, layout_, notes, metrics_.scale);
+    for (const LabelRequest& label : floor_labels()) layout_.place(label, list_);
+    add_names_to(layout_);
+    return std::move(list_);
+}
+
+glm::dvec3 middle_of(const ShownPoints& points) {
+    if (points.empty()) return glm::dvec3(0);
+    const auto along = [&](glm::vec3 way) {
+        return 0.5 * (static_cast<double>(points.most(way)) - static_cast<double>(points.most(-way)));
+    };
+    return {along({1, 0, 0}), along({0, 1, 0}), along({0, 0, 1})};
+}
+
+}  // namespace mobbscope
