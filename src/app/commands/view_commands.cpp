@@ -262,6 +262,15 @@ void play(Session& session, const std::string&) {
     if (!session.view().time) set_time(session, session.time_span().t0);
 }
 
+bool is_split(const Session& session) { return session.view_count() > 1; }
+
+void toggle_split(Session& session, const std::string&) {
+    if (is_split(session)) return session.close_other_views();
+    mobb::FitOptions other = session.fitted().options();
+    other.tree = other.tree == mobb::TreeKind::umobb ? mobb::TreeKind::mobb : mobb::TreeKind::umobb;
+    session.split_view(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
+}
+
 }  // namespace
 
 std::span<const Command> view_commands() {
@@ -406,6 +415,29 @@ std::span<const Command> view_commands() {
          .enabled = has_scene,
          .run = toggle_moment,
          .checked = shows_moment},
+        {.id = "view.split",
+         .title = "Split",
+         .menu = "View",
+         .doc = "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
+                "UMOBB.",
+         .enabled = has_scene,
+         .run = toggle_split,
+         .checked = is_split},
+        {.id = "view.other",
+         .title = "Go to the other view",
+         .menu = "View",
+         .shortcut = "F6",
+         .doc = "Of a split view: commands and panels are about the next part from now on.",
+         .enabled = is_split,
+         .run = [](Session& session,
+                   const std::string&) { session.activate_view((session.active_place() + 1) % session.view_count()); }},
+        {.id = "view.link_cameras",
+         .title = "Link cameras",
+         .menu = "View",
+         .doc = "Of a split view: moving the camera of one part moves that of the other.",
+         .enabled = is_split,
+         .run = [](Session& session, const std::string&) { session.link_cameras(!session.document().linked_cameras); },
+         .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }},
         {.id = "view.disks",
          .title = "Disks",
          .menu = "View/Show",

@@ -19,6 +19,6 @@ void dialogs(Ui& ui);                               ///< open, save, palette, he
 void messages(Ui& ui);
 
 /// The whole window: panels with movable borders between them.
-void window_layout(Ui& ui, Viewport& viewport, QueryPictures& pictures);
+void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures);
 
 }  // namespace mobbscope::app

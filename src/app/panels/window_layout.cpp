@@ -1,6 +1,7 @@
 #include <app/panels/panels.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -38,9 +39,25 @@ void panel(const Ui& ui, const std::string& name, ImVec2 size, const Draw& draw)
     ImGui::EndChild();
 }
 
+/// Side by side, equally wide, with a line between them.
+void draw_views(Ui& ui, std::vector<Viewport>& viewports) {
+    if (viewports.size() == 1) return viewports.front().draw(ui, 0);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float line = std::max(1.0f, std::floor(ui.px(1)));
+    const float count = static_cast<float>(viewports.size());
+    const float width = std::floor((room.x - line * (count - 1)) / count);
+    for (std::size_t place = 0; place < viewports.size(); ++place) {
+        if (place > 0) ImGui::SameLine(0, line);
+        ImGui::BeginChild(("view " + std::to_string(place)).c_str(), {width, room.y}, false,
+                          ImGuiWindowFlags_NoBackground);
+        viewports[place].draw(ui, place);
+        ImGui::EndChild();
+    }
+}
+
 }  // namespace
 
-void window_layout(Ui& ui, Viewport& viewport, QueryPictures& pictures) {
+void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures) {
     const ImGuiIO& io = ImGui::GetIO();
     menu_bar(ui);
     const float top = ImGui::GetFrameHeight();
@@ -83,7 +100,8 @@ void window_layout(Ui& ui, Viewport& viewport, QueryPictures& pictures) {
     const float middle = room.x - left - right - 2 * bar;
     // Up to its borders.
     ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
-    viewport.draw(ui);
+    viewport_toolbar(ui);
+    draw_views(ui, viewports);
     ImGui::EndChild();
     settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});

@@ -159,6 +159,16 @@ Json state_json(const Session& session) {
     json["redo"] = text_or_null(session.history().redo_title());
     json["job"] = nullptr;
     if (const Job* job = session.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
+    if (session.view_count() > 1) {
+        json["views"] = Json::array();
+        for (std::size_t place = 0; place < session.view_count(); ++place) {
+            const SceneView seen = session.view_at(place);
+            json["views"].push_back({{"active", place == session.active_place()},
+                                     {"fit", seen.fitted->fits()[seen.fitted->fit_in_use()]->name},
+                                     {"tree", mobb::name(seen.fitted->options().tree)},
+                                     {"view", view_json(seen.view)}});
+        }
+    }
     return json;
 }
 

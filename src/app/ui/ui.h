@@ -23,13 +23,13 @@ class Marks {
     std::map<std::string, Rect> rects_;
 };
 
-/// Paints the viewport's picture for the panels to show.
+/// Paints the viewports' pictures for the panels to show.
 class Painter {
   public:
     virtual ~Painter() = default;
-    /// The texture of what the viewport shows, upper row first at v = 1 (OpenGL's way up). It is painted anew when a
-    /// frame is next looked at. `still`: it will stay a while, so it is worth smooth edges.
-    virtual ImTextureID paint(bool still) = 0;
+    /// The texture of what the viewport at that place shows, upper row first at v = 1 (OpenGL's way up). It is painted
+    /// anew when a frame is next looked at. `still`: it will stay a while, so it is worth smooth edges.
+    virtual ImTextureID paint(std::size_t place, bool still) = 0;
 };
 
 /// All that a panel gets.

@@ -1,5 +1,6 @@
 #include <app/commands/command.h>
 #include <app/viewport/viewport.h>
+#include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
 #include <render/drawlist/picture_options.h>
@@ -98,12 +99,33 @@ void Viewport::take_off(Ui& ui, const Key& next) {
     flight_.emplace(from, resolved_camera(next.view.camera, there), ui.now);
 }
 
+/// A camera that frames the scene by itself would frame the boxes of each fit in another way: it stands where that of
+/// the active view stands.
+void Viewport::link_camera(const Session& session, PictureSize size, double scale, ViewState& view) {
+    if (view.camera.target) return;
+    const SceneView active = session.view_at(session.active_place());
+    const Key key{active.fitted, active.view, size, scale};
+    if (!linked_ || !(linked_->to == key)) {
+        try {
+            const PictureFrame frame = picture_frame(*active.fitted, active.view, size, scale);
+            linked_ = Linked{key, resolved_camera(active.view.camera, frame), frame.space.time_height,
+                             frame.moment.has_value()};
+        } catch (const std::invalid_argument&) {
+            return;  // the active view says why there is no picture
+        }
+    }
+    view.camera = linked_->camera;
+    if (!linked_->moment) view.time_height = linked_->time_height;
+}
+
 void Viewport::update_picture(Ui& ui, PictureSize size) {
     const Session& session = ui.session;
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
-    const FollowedChoice* choice = session.view().candidates ? session.choice() : nullptr;
-    const Key next{session.shown(), session.view(), size, words,
+    SceneView seen = session.view_at(view_place_);
+    if (!is_active(ui) && session.document().linked_cameras) link_camera(session, size, words, seen.view);
+    const FollowedChoice* choice = seen.view.candidates && is_active(ui) ? session.choice() : nullptr;
+    const Key next{seen.fitted, seen.view, size, words,
                    choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1)};
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);
@@ -123,7 +145,7 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 void Viewport::paint(Ui& ui, ImVec2 corner) {
     const bool still = !ui.session.attended() || ui.now - changed_at_ >= kRest;
     if (!painted_ || (still && !painted_still_)) {
-        texture_ = ui.painter.paint(still);
+        texture_ = ui.painter.paint(view_place_, still);
         painted_ = true;
         painted_still_ = still;
     }
@@ -133,8 +155,8 @@ void Viewport::paint(Ui& ui, ImVec2 corner) {
     ImGui::GetWindowDrawList()->AddImage(texture_, corner, end, {0, 1}, {1, 0});
 }
 
-void Viewport::draw(Ui& ui) {
-    viewport_toolbar(ui);
+void Viewport::draw(Ui& ui, std::size_t place) {
+    view_place_ = place;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const PictureSize size{static_cast<int>(room.x), static_cast<int>(room.y)};
@@ -146,8 +168,10 @@ void Viewport::draw(Ui& ui) {
     }
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
-    ui.session.hooks.viewport_size = [size] { return size; };
-    ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
+    if (is_active(ui)) {
+        ui.session.hooks.viewport_size = [size] { return size; };
+        ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
+    }
     if (!list_) {
         ImGui::TextWrapped("%s", why_not_.c_str());
         return;
@@ -156,10 +180,32 @@ void Viewport::draw(Ui& ui) {
     ImGui::InvisibleButton(
         "##picture", room,
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
-    ui.mark("viewport");
+    ui.mark(is_active(ui) ? "viewport" : "viewport." + std::to_string(place));
     mouse(ui, picture);
     paint(ui, corner);
-    decorate(ui, {*list_, corner});
+    if (is_active(ui)) decorate(ui, {*list_, corner});
+    if (ui.session.view_count() > 1) name_fit(ui, corner);
+}
+
+/// Which fit a view is of, in its upper right corner; a frame in the accent's colour around the active view.
+void Viewport::name_fit(const Ui& ui, ImVec2 corner) const {
+    const FittedScene& fitted = *key_->fitted;
+    const mobb::FitOptions& options = fitted.options();
+    std::string name = fitted.fits()[fitted.fit_in_use()]->name;
+    if (name.empty()) name = upper_case(mobb::name(options.tree));
+    name = shortened(name, 24);
+    const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
+                     corner.y + static_cast<float>(list_->size.height)};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 text = ImGui::CalcTextSize(name.c_str());
+    const float gap = ui.px(8);
+    const ImVec2 at{end.x - text.x - 2 * gap, corner.y + gap};
+    const ImU32 color = is_active(ui) ? ui.style.accent : ui.style.border;
+    draw.AddRectFilled({at.x - gap, at.y - gap / 2}, {at.x + text.x + gap, at.y + text.y + gap / 2}, ui.style.panel,
+                       ui.px(4));
+    draw.AddRect({at.x - gap, at.y - gap / 2}, {at.x + text.x + gap, at.y + text.y + gap / 2}, color, ui.px(4));
+    draw.AddText(at, is_active(ui) ? ui.style.text : ui.style.quiet, name.c_str());
+    if (is_active(ui)) draw.AddRect(corner, end, color);
 }
 
 // --- the mouse
@@ -179,7 +225,11 @@ void Viewport::move_camera(Ui& ui, const Camera& camera) {
 void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
     const glm::vec2 pixel = mouse_pixel(picture);
     const bool over = ImGui::IsItemHovered();
-    if (over && ImGui::GetIO().MouseWheel != 0) wheel(ui, pixel);
+    const bool turned = over && ImGui::GetIO().MouseWheel != 0;
+    if (!is_active(ui) && (turned || ImGui::IsItemActivated())) {
+        ui.session.enqueue([&session = ui.session, place = view_place_] { session.activate_view(place); });
+    }
+    if (turned) wheel(ui, pixel);
     if (ImGui::IsItemActivated()) press(ui, picture, pixel);
     if (ImGui::IsItemActive()) {
         drag(ui, pixel);
@@ -187,9 +237,9 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
         release(ui, pixel);
     }
     if (drag_ == Drag::none) {
-        const auto held = over && list_ ? handles(ui, picture) : std::nullopt;
+        const auto held = over && list_ && is_active(ui) ? handles(ui, picture) : std::nullopt;
         lit_ = held ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
-        if (over && list_ && lit_ == Handle::none) {
+        if (over && list_ && is_active(ui) && lit_ == Handle::none) {
             hover(ui, pixel);
         } else if (place_) {
             place_.reset();
@@ -242,7 +292,7 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     ui.session.hovered = {};
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
-    } else if (const auto hold = take_hold(ui, picture, pixel)) {
+    } else if (const auto hold = is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;
         lit_ = hold->handle;
@@ -279,7 +329,7 @@ void Viewport::release(Ui& ui, glm::vec2 pixel) {
     const bool was_click = !moved_ && drag_ != Drag::pan;
     drag_ = Drag::none;
     ui.session.enqueue([&session = ui.session] { session.close_group(); });
-    if (was_click && list_) click(ui, pixel);
+    if (was_click && list_ && is_active(ui)) click(ui, pixel);
 }
 
 void Viewport::hover(Ui& ui, glm::vec2 pixel) {

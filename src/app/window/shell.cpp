@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -85,25 +86,30 @@ bool opened_by_person(const Session& session) {
     }
 }
 
-/// Has a texture of its own: the renderer's holds what else it draws soon.
+/// Has textures of its own: the renderer's holds what else it draws soon.
 class TexturePainter final : public Painter {
   public:
     explicit TexturePainter(Renderer& renderer) : renderer_(renderer) {}
 
-    ImTextureID paint(bool still) override {
-        samples_ = still || !renderer_.is_software() ? kPictureSamples : 1;
-        return texture_id(copy_.texture());
+    ImTextureID paint(std::size_t place, bool still) override {
+        while (pictures_.size() <= place) pictures_.emplace_back();
+        pictures_[place].samples = still || !renderer_.is_software() ? kPictureSamples : 1;
+        return texture_id(pictures_[place].copy.texture());
     }
 
     /// Paints what was asked for since the last time.
-    void draw(const DrawList& list) {
-        if (samples_ > 0) copy_.take(renderer_.paint(list, std::exchange(samples_, 0)), list.size);
+    void draw(std::size_t place, const DrawList& list) {
+        if (place >= pictures_.size() || pictures_[place].samples == 0) return;
+        pictures_[place].copy.take(renderer_.paint(list, std::exchange(pictures_[place].samples, 0)), list.size);
     }
 
   private:
+    struct Picture {
+        PictureCopy copy;
+        int samples = 0;  ///< 0: nothing was asked for
+    };
     Renderer& renderer_;
-    PictureCopy copy_;
-    int samples_ = 0;  ///< 0: nothing was asked for
+    std::deque<Picture> pictures_;  ///< by place
 };
 
 }  // namespace
@@ -220,7 +226,8 @@ struct Shell::State {
         marks.clear();
         Ui ui{session, style, marks, drawn->painter, now, kNever};
         ImGui::NewFrame();
-        window_layout(ui, viewport, pictures);
+        viewports.resize(session.view_count());
+        window_layout(ui, viewports, pictures);
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);
         ImGui::Render();
@@ -233,7 +240,9 @@ struct Shell::State {
         renderer.context().make_current();
         if (!std::exchange(undrawn, false)) return;
         ++frames_drawn;
-        if (const DrawList* picture = viewport.shown()) drawn->painter.draw(*picture);
+        for (std::size_t place = 0; place < viewports.size(); ++place) {
+            if (const DrawList* picture = viewports[place].shown()) drawn->painter.draw(place, *picture);
+        }
         if (!drawn->target || drawn->target->size() != size) drawn->target.emplace(size);
         const ImVec4 ground = ImGui::ColorConvertU32ToFloat4(style.window);
         drawn->target->clear({ground.x, ground.y, ground.z, 1});
@@ -245,7 +254,7 @@ struct Shell::State {
     std::unique_ptr<ImGuiContext, ImGuiContextDeleter> imgui;
     Renderer renderer;
     std::unique_ptr<Drawn> drawn;
-    Viewport viewport;
+    std::vector<Viewport> viewports;  ///< by place
     QueryPictures pictures;
     PictureSize size;  ///< of the last frame
     bool undrawn = false;
@@ -328,7 +337,8 @@ void Shell::present() {
 const Marks& Shell::marks() const { return state_->marks; }
 
 Image Shell::viewport_picture() {
-    const DrawList* shown = state_->viewport.shown();
+    const std::size_t place = state_->session.active_place();
+    const DrawList* shown = place < state_->viewports.size() ? state_->viewports[place].shown() : nullptr;
     if (!shown) throw std::invalid_argument("there is no picture yet: open a scene or a clip first");
     return state_->renderer.draw(*shown);
 }
