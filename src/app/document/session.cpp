@@ -101,6 +101,8 @@ void Session::edit(const EditName& name, const std::function<void(Scene&)>& chan
 /// The present excerpt stays one.
 void Session::change_document(Document next, const EditName& name) {
     next.origin = document().origin;
+    // A node of a tree that was fitted anew is another one, or none.
+    if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
     history_.change(std::move(next), name);
     changed();
 }
