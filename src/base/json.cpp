@@ -307,7 +307,7 @@ JsonPlace JsonPlace::require(std::string_view key) const& {
     fail("the key '" + std::string(key) + "' is missing; add it");
 }
 
-void JsonPlace::allow_only(std::initializer_list<std::string_view> keys) const {
+void JsonPlace::allow_only(std::span<const std::string_view> keys) const {
     for (const JsonMember& member : object()) {
         if (std::find(keys.begin(), keys.end(), member.key) != keys.end()) continue;
         const std::vector<std::string> names(keys.begin(), keys.end());

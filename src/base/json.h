@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -80,7 +81,10 @@ class JsonPlace {
     JsonPlace require(std::string_view key) const&;
     JsonPlace require(std::string_view key) const&& = delete;
     /// Throws InputError for the first member that is none of these, naming the nearest.
-    void allow_only(std::initializer_list<std::string_view> keys) const;
+    void allow_only(std::span<const std::string_view> keys) const;
+    void allow_only(std::initializer_list<std::string_view> keys) const {
+        allow_only(std::span(keys.begin(), keys.end()));
+    }
 
   private:
     JsonPlace(const JsonPlace& parent, const JsonMember& member)

@@ -78,6 +78,12 @@ std::optional<double> parse_double(std::string_view text) {
     return value;
 }
 
+double parse_number_within(std::string_view text, double low, double high) {
+    const std::optional<double> value = parse_double(text);
+    if (value && *value >= low && *value <= high) return *value;
+    throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " + brief(high));
+}
+
 std::optional<int> parse_int(std::string_view text) {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

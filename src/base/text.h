@@ -15,6 +15,8 @@ namespace mobbscope {
 /// The whole text as a finite decimal number; nothing for anything else ("", blanks, "nan", "1e999", "0x1", "1.5m").
 /// What is too small for a double ("1e-400") is zero.
 std::optional<double> parse_double(std::string_view text);
+/// The number within [low, high]; throws std::invalid_argument, saying what is allowed.
+double parse_number_within(std::string_view text, double low, double high);
 
 /// The whole text as a decimal int ("010" is 10); nothing for anything else.
 std::optional<int> parse_int(std::string_view text);

@@ -141,13 +141,7 @@ std::function<int(const std::string&)> whole_number_within(int least, int most) 
 }
 
 std::function<double(const std::string&)> number_within(double low, double high) {
-    return [low, high](const std::string& text) {
-        const std::optional<double> value = parse_double(text);
-        if (!value || !(*value >= low && *value <= high)) {
-            throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " + brief(high));
-        }
-        return *value;
-    };
+    return [low, high](const std::string& text) { return parse_number_within(text, low, high); };
 }
 
 std::uint64_t parse_seed(const std::string& text) {

@@ -5,7 +5,7 @@
 #include <render/drawlist/picture_options.h>
 #include <render/pictures/render.h>
 #include <scene/fit_json.h>
-#include <scene/view_json.h>
+#include <scene/view_options.h>
 
 #include <algorithm>
 #include <stdexcept>

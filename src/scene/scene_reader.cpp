@@ -9,7 +9,7 @@
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 #include <scene/trace_json.h>
-#include <scene/view_json.h>
+#include <scene/view_options.h>
 
 #include <cmath>
 #include <limits>

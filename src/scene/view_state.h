@@ -34,6 +34,10 @@ struct DiskProjection {
 inline constexpr double kLeastTimeWindow = 0.1;
 inline constexpr double kMostTimeWindow = 60;
 
+/// Metres drawn per second.
+inline constexpr double kLeastTimeHeight = 1e-6;
+inline constexpr double kMostTimeHeight = 1e6;
+
 /// Degrees.
 inline constexpr double kLeastFov = 0.5;
 inline constexpr double kMostFov = 150;

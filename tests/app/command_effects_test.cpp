@@ -1,5 +1,6 @@
 // What each command does to the session, and that undo takes it back where it edits.
 #include <render/drawlist/view_projection.h>
+#include <render/pictures/build_draw_list.h>
 
 #include "app/crossing_folder.h"
 
@@ -218,8 +219,6 @@ std::vector<Case> cases() {
              run_command(w.session, "view.pan", "-100 0");
              EXPECT_LT(moved.x, w.view().camera.target->x) << "the scene moves right, the eye left";
          }});
-    look("view.disks", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().disks); });
-    look("view.boxes", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().boxes); });
     add({"view.moment", "", {{"view.zoom_in", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().show, Show::moment);
              EXPECT_FALSE(w.view().camera.target) << "heights mean something else: the scene is framed anew";
@@ -237,11 +236,28 @@ std::vector<Case> cases() {
              EXPECT_FALSE(w.view().camera.target);
              run_command(w.session, "view.moment");
          }});
-    look("view.floor", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().floor); });
-    look("view.time_axis", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().time_axis); });
-    look("view.labels", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().labels); });
-    look("view.caption", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().caption); });
-    look("view.legend", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().legend); });
+    for (const ViewOption& option : view_options()) {
+        if (!option.toggle || !option.command.starts_with("view.")) continue;
+        look(std::string(option.command), "", [&option](CommandWorld& w) {
+            EXPECT_FALSE(w.view().*option.toggle) << option.key;
+            EXPECT_FALSE(find_command(option.command)->checked(w.session));
+        });
+    }
+    add({"view.projection", "", {{"go.sample", "A 7"}}, [](CommandWorld& w) {
+             const mobb::Node& leaf =
+                 w.session.fitted().tree(0).nodes()[static_cast<std::size_t>(w.view().projection.value().node)];
+             EXPECT_TRUE(leaf.is_leaf() && leaf.first <= 7 && 7 < leaf.end());
+             EXPECT_EQ(w.view().projection->participant, 0);
+             EXPECT_EQ(w.view().projection->sample, 7);
+             EXPECT_NO_THROW(build_draw_list(w.session.fitted(), w.view(), PictureSize{320, 240}));
+             w.session.select({});
+             run_command(w.session, "tree.levels", "1");
+             EXPECT_FALSE(w.view().projection) << "its leaf is gone";
+             EXPECT_FALSE(find_command("view.projection")->enabled(w.session));
+         }});
+    add({"view.projection", "", {{"go.sample", "A 7"}, {"view.projection", ""}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.view().projection) << "once more: all else again";
+         }});
     look("view.color_by", "", [](CommandWorld& w) { EXPECT_EQ(w.view().color_by, ColorBy::level); });
     look("view.color_by", "agent", [](CommandWorld& w) { EXPECT_EQ(w.view().color_by, ColorBy::agent); });
     in_query("view.level", "1:3", [](CommandWorld& w) {

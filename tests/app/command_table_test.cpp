@@ -258,11 +258,11 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     run_command(session, "view.color_by", "level");
     run_command(session, "view.iso");
     run_command(session, "view.perspective");
-    EXPECT_EQ(options(), " --view iso --ortho --level 1:3 --time 0.1 --theme light --color-by level");
+    EXPECT_EQ(options(), " --view iso --ortho --level 1:3 --time 0.1 --color-by level --theme light");
     run_command(session, "time.clear");
     run_command(session, "view.floor");
     run_command(session, "view.labels");
-    EXPECT_EQ(options(), " --view iso --ortho --level 1:3 --theme light --color-by level --no-labels --no-floor");
+    EXPECT_EQ(options(), " --view iso --ortho --level 1:3 --color-by level --theme light --no-floor --no-labels");
     run_command(session, "view.front");
     run_command(session, "view.zoom_in");
     EXPECT_NE(options().find("--view free --yaw -90 --pitch 0 --ortho --target "), std::string::npos) << copied;

@@ -1,10 +1,13 @@
 // assets/scene.schema.json and the reader know the same keys.
+#include <base/file.h>
 #include <scene/scene.h>
+#include <scene/view_options.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -85,6 +88,26 @@ TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
             testing::input_error([&] { parse_scene(scene_with(definition, object), "s.json", ""); });
         EXPECT_NE(message.find("unknown key 'unheard_of'"), std::string::npos) << definition << ": " << message;
     }
+}
+
+/// The schema of a view is made from the table of view options.
+TEST(Schema, OfAViewIsTheTableOfItsOptions) {
+    std::string made;
+    for (const ViewOption& option : view_options()) {
+        made += (made.empty() ? "" : ",\n") + ("        \"" + std::string(option.key)) +
+                "\": " + std::string(option.schema);
+    }
+    const std::filesystem::path file = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json";
+    std::string text = testing::slurp(file);
+    const std::string before = "\"properties\": {\n";
+    const std::size_t begin = text.find(before, text.find("    \"view\": {\n")) + before.size();
+    const std::size_t end = text.find("\n      }\n    }\n  }\n}", begin);
+    ASSERT_NE(end, std::string::npos);
+    if (std::getenv("MOBBSCOPE_UPDATE_SCHEMA"))
+        write_file(file, text.replace(begin, end - begin, made));
+    else
+        EXPECT_EQ(text.substr(begin, end - begin), made)
+            << "MOBBSCOPE_UPDATE_SCHEMA=1 build/test/bin/test_scene --gtest_filter=Schema.OfAView* writes it anew";
 }
 
 /// Whether parse_scene takes a scene with this value for a key of its view.

@@ -4,7 +4,9 @@
 
 #include <app/document/session.h>
 #include <app/input/key.h>
+#include <scene/view_options.h>
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,11 +27,11 @@ struct Command {
     /// Why not, where it is not enabled though a scene is open and no job under way.
     std::string_view (*why_not)(const Session&) = [](const Session&) { return std::string_view("not now"); };
     /// Throws InputError, MachineError or std::invalid_argument, in words for the person.
-    void (*run)(Session&, const std::string& argument) = nullptr;
-    bool (*checked)(const Session&) = nullptr;                      ///< of a toggle or a choice: whether it is on
-    std::vector<std::string> (*choices)(const Session&) = nullptr;  ///< arguments to choose from
+    std::function<void(Session&, const std::string& argument)> run{};
+    std::function<bool(const Session&)> checked{};                      ///< of a toggle: whether it is on
+    std::function<std::vector<std::string>(const Session&)> choices{};  ///< arguments to choose from
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
-    bool (*chosen)(const Session&, const std::string& choice) = nullptr;
+    std::function<bool(const Session&, const std::string& choice)> chosen{};
 
     bool needs_argument() const { return !argument.empty() && !argument.starts_with('['); }
 };
@@ -61,6 +63,9 @@ const Command* command_for(const Chord& chord);
 
 /// The first of a command's shortcuts, as menus show it; empty if it has none.
 std::string_view first_shortcut(const Command& command);
+
+/// The command of a toggle or a choice, from its row in the table of view options.
+Command option_command(const ViewOption& option);
 
 // The parts of the table, one file each.
 std::span<const Command> file_commands();

@@ -87,6 +87,39 @@ std::string_view first_shortcut(const Command& command) {
     return command.shortcut.substr(0, command.shortcut.find(' '));
 }
 
+Command option_command(const ViewOption& option) {
+    Command out{.id = option.command,
+                .title = option.title,
+                .menu = option.menu,
+                .shortcut = option.shortcut,
+                .doc = option.doc};
+    if (option.toggle) {
+        const auto value = option.toggle;
+        out.run = [value](Session& session, const std::string&) {
+            session.change_view([&](ViewState& view) { view.*value = !(view.*value); });
+        };
+        out.checked = [value](const Session& session) { return session.view().*value; };
+        return out;
+    }
+    out.argument = option.argument;
+    out.run = [&option](Session& session, const std::string& text) {
+        const std::vector<std::string>& all = option.choices;
+        // Without an argument the next one.
+        const auto now = std::ranges::find(all, option.text(session.view()));
+        const std::string& wanted = text.empty() ? (now + 1 == all.end() ? all.front() : *(now + 1)) : text;
+        if (std::ranges::find(all, wanted) == all.end()) {
+            throw std::invalid_argument(refusal_of(option.refused_in_window, wanted) + ": give " + all[0] + " or " +
+                                        all[1]);
+        }
+        session.change_view([&](ViewState& view) { option.parse(wanted, view); });
+    };
+    out.choices = [&option](const Session&) { return option.choices; };
+    out.chosen = [&option](const Session& session, const std::string& text) {
+        return option.text(session.view()) == text;
+    };
+    return out;
+}
+
 std::span<const Command> help_commands() {
     static const std::vector<Command> table{
         {.id = "help.shortcuts",

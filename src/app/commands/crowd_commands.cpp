@@ -86,6 +86,12 @@ void to_choice(Session& session, const std::string&) {
 
 // --- candidates
 
+Command candidates_command() {
+    Command out = option_command(view_option("candidates"));
+    out.enabled = [](const Session& session) { return session.crowd() != nullptr; };
+    return out;
+}
+
 bool has_candidates(const Session& session) { return session.choice() != nullptr; }
 
 void point_out(Session& session, const std::string& text) {
@@ -193,17 +199,7 @@ std::span<const Command> crowd_commands() {
          .doc = "Leaves the camera where it is.",
          .enabled = follows,
          .run = stop_following},
-        {.id = "crowd.candidates",
-         .title = "Candidates",
-         .menu = "Go/Crowd",
-         .shortcut = "A",
-         .doc = "Shows the moves that the followed agent could choose, and what became of each.",
-         .enabled = [](const Session& session) { return session.crowd() != nullptr; },
-         .run =
-             [](Session& session, const std::string&) {
-                 session.change_view([](ViewState& view) { view.candidates = !view.candidates; });
-             },
-         .checked = [](const Session& session) { return session.view().candidates; }},
+        candidates_command(),
         {.id = "crowd.window",
          .title = "Seconds around the time",
          .argument = "S",

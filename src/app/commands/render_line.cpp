@@ -2,6 +2,7 @@
 #include <app/commands/render_line.h>
 #include <base/text.h>
 #include <render/drawlist/view_projection.h>
+#include <scene/view_options.h>
 
 #include <initializer_list>
 #include <stdexcept>
@@ -46,41 +47,16 @@ std::string camera_options(const Camera& file, const Camera& now) {
     return out;
 }
 
-struct Toggle {
-    bool ViewState::*value;
-    const char* on;
-    const char* off;
-};
-constexpr Toggle kToggles[] = {{&ViewState::labels, " --labels", " --no-labels"},
-                               {&ViewState::caption, " --caption", " --no-caption"},
-                               {&ViewState::legend, " --legend", " --no-legend"},
-                               {&ViewState::floor, " --floor", " --no-floor"},
-                               {&ViewState::time_axis, " --time-axis", " --no-time-axis"},
-                               {&ViewState::boxes, " --boxes", " --no-boxes"},
-                               {&ViewState::disks, " --disks", " --no-disks"},
-                               {&ViewState::candidates, " --candidates", " --no-candidates"},
-                               {&ViewState::tested_before, " --tested-before", " --pair-only"}};
-
-std::string view_options(const ViewState& file, const ViewState& now) {
+std::string view_line(const ViewState& file, const ViewState& now) {
     std::string out = camera_options(file.camera, now.camera);
-    if (now.show != file.show) out += " --show " + std::string(name(now.show));
-    if (now.query) {
-        if (now.query != file.query) out += " --query " + std::to_string(*now.query);
-        if (now.step != file.step) out += " --step " + to_string(now.step);
-    } else if (now.levels != file.levels || file.query) {
-        out += " --level " + to_string(now.levels);
-    }
-    if (now.projection != file.projection) ask_to_save();
-    if (now.time != file.time) out += " --time " + (now.time ? short_double(*now.time) : "none");
-    if (now.time_window != file.time_window) out += " --time-window " + short_double(now.time_window);
-    if (now.follow != file.follow) out += " --follow " + (now.follow.empty() ? "none" : shell_word(now.follow));
-    if (now.time_height != file.time_height) {
-        out += " --time-height " + (now.time_height > 0 ? short_double(now.time_height) : "auto");
-    }
-    if (now.theme != file.theme) out += " --theme " + std::string(name(now.theme));
-    if (now.color_by != file.color_by) out += " --color-by " + std::string(name(now.color_by));
-    for (const Toggle& toggle : kToggles) {
-        if (now.*toggle.value != file.*toggle.value) out += now.*toggle.value ? toggle.on : toggle.off;
+    ViewState reached = file;  // as `render` applies the options
+    reached.camera = now.camera;
+    for (const ViewOption& option : view_options()) {
+        const bool needed = option.needed ? option.needed(reached, now) : !option.same(reached, now);
+        if (!needed) continue;
+        if (option.option.empty()) ask_to_save();
+        out += in_command_line(option, now);
+        option.parse(option.text(now), reached);
     }
     return out;
 }
@@ -95,7 +71,7 @@ std::string render_line(const Session& session) {
     const PictureSize size = viewport_size(session);
     const std::string scale = session.hooks.ui_scale ? " --scale " + short_double(session.hooks.ui_scale()) : "";
     // Of an unchanged scene, its `view` is the one in the file.
-    return "mobbscope render " + shell_word(file.string()) + view_options(session.scene().view, session.view()) +
+    return "mobbscope render " + shell_word(file.string()) + view_line(session.scene().view, session.view()) +
            " --size " + std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -110,16 +111,6 @@ void orbit_step(Session& session, const std::string&) {
 
 // --- what is drawn
 
-template <bool ViewState::*part>
-void toggle(Session& session, const std::string&) {
-    session.change_view([](ViewState& view) { view.*part = !(view.*part); });
-}
-
-template <bool ViewState::*part>
-bool is_on(const Session& session) {
-    return session.view().*part;
-}
-
 bool shows_moment(const Session& session) { return session.view().show == Show::moment; }
 
 /// Heights mean something else then, so the camera frames the scene anew; who it goes along with stays as near.
@@ -179,27 +170,21 @@ void set_time_height(Session& session, const std::string& metres) {
     session.change_view([&](ViewState& view) { view.time_height = height; });
 }
 
-std::vector<std::string> color_names(const Session&) { return {"agent", "level"}; }
-
-void set_color_by(Session& session, const std::string& text) {
-    const ColorBy other = session.view().color_by == ColorBy::agent ? ColorBy::level : ColorBy::agent;
-    const std::optional<ColorBy> color_by = text.empty() ? other : color_by_from_name(text);
-    if (!color_by) throw std::invalid_argument("colours cannot be by " + in_quotes(text) + ": give agent or level");
-    session.change_view([&](ViewState& view) { view.color_by = *color_by; });
+/// The selected sample's disk, and the leaf that holds it; none if it is not in the picture. The agents of a run are
+/// others at every time, so that none of them keeps its number.
+std::optional<DiskProjection> selected_disk(const Session& session) {
+    const Selection& selected = session.selection;
+    if (selected.kind != Selection::Kind::sample || session.crowd()) return std::nullopt;
+    const auto participant = index_in_view(session.fitted(), session.view(), selected.path);
+    if (!participant) return std::nullopt;
+    const mobb::Tree& tree = session.fitted().tree(placed_agent_of(session.fitted(), selected.path)->clip);
+    return DiskProjection{*participant, leaf_of_sample(tree, selected.index), selected.index};
 }
 
-bool is_colored_by(const Session& session, const std::string& text) { return name(session.view().color_by) == text; }
-
-std::vector<std::string> theme_names(const Session&) { return {"dark", "light"}; }
-
-void set_theme(Session& session, const std::string& text) {
-    const Theme other = session.view().theme == Theme::dark ? Theme::light : Theme::dark;
-    const std::optional<Theme> theme = text.empty() ? other : theme_from_name(text);
-    if (!theme) throw std::invalid_argument("a theme cannot be " + in_quotes(text) + ": give dark or light");
-    session.change_view([&](ViewState& view) { view.theme = *theme; });
+void toggle_projection(Session& session, const std::string&) {
+    const auto disk = session.view().projection ? std::nullopt : selected_disk(session);
+    session.change_view([&](ViewState& view) { view.projection = disk; });
 }
-
-bool is_theme(const Session& session, const std::string& text) { return name(session.view().theme) == text; }
 
 // --- the window
 
@@ -271,10 +256,10 @@ void toggle_split(Session& session, const std::string&) {
     session.split_view(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
 }
 
-}  // namespace
+// --- the tables
 
-std::span<const Command> view_commands() {
-    static const std::vector<Command> table{
+std::vector<Command> camera_table() {
+    return {
         {.id = "view.iso",
          .title = "View from a corner",
          .menu = "View",
@@ -438,63 +423,12 @@ std::span<const Command> view_commands() {
          .enabled = is_split,
          .run = [](Session& session, const std::string&) { session.link_cameras(!session.document().linked_cameras); },
          .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }},
-        {.id = "view.disks",
-         .title = "Disks",
-         .menu = "View/Show",
-         .shortcut = "D",
-         .doc = "Shows the samples: a disk for as long as it holds; at a moment those on the floor.",
-         .run = toggle<&ViewState::disks>,
-         .checked = is_on<&ViewState::disks>},
-        {.id = "view.boxes",
-         .title = "Boxes",
-         .menu = "View/Show",
-         .shortcut = "B",
-         .doc = "Shows the boxes of the trees; at a moment the walls of the cylinders.",
-         .run = toggle<&ViewState::boxes>,
-         .checked = is_on<&ViewState::boxes>},
-        {.id = "view.floor",
-         .title = "Floor",
-         .menu = "View/Show",
-         .shortcut = "G",
-         .doc = "Shows the grid in metres with the paths' traces on it.",
-         .run = toggle<&ViewState::floor>,
-         .checked = is_on<&ViewState::floor>},
-        {.id = "view.time_axis",
-         .title = "Time axis",
-         .menu = "View/Show",
-         .shortcut = "X",
-         .doc = "Shows the upright scale in seconds.",
-         .run = toggle<&ViewState::time_axis>,
-         .checked = is_on<&ViewState::time_axis>},
-        {.id = "view.labels",
-         .title = "Labels",
-         .menu = "View/Show",
-         .shortcut = "L",
-         .doc = "Shows all text in the picture.",
-         .run = toggle<&ViewState::labels>,
-         .checked = is_on<&ViewState::labels>},
-        {.id = "view.caption",
-         .title = "Caption",
-         .menu = "View/Show",
-         .doc = "Shows the sentences at the top of the picture.",
-         .run = toggle<&ViewState::caption>,
-         .checked = is_on<&ViewState::caption>},
-        {.id = "view.legend",
-         .title = "Legend",
-         .menu = "View/Show",
-         .shortcut = "K",
-         .doc = "Shows what colours and lines stand for.",
-         .run = toggle<&ViewState::legend>,
-         .checked = is_on<&ViewState::legend>},
-        {.id = "view.color_by",
-         .title = "Colour boxes by",
-         .menu = "View",
-         .shortcut = "C",
-         .argument = "[agent|level]",
-         .doc = "Colours the boxes of levels by whose they are, or by their level.",
-         .run = set_color_by,
-         .choices = color_names,
-         .chosen = is_colored_by},
+    };
+}
+
+std::vector<Command> shown_table() {
+    return {
+        option_command(view_option("color_by")),
         {.id = "view.level",
          .title = "Show levels",
          .argument = "N|A:B|leaves",
@@ -531,15 +465,16 @@ std::span<const Command> view_commands() {
          .doc = "Draws a second so many metres high; auto makes the scene about as tall as wide.",
          .enabled = has_scene,
          .run = set_time_height},
-        {.id = "view.theme",
-         .title = "Theme",
-         .menu = "View",
-         .shortcut = "T",
-         .argument = "[dark|light]",
-         .doc = "Changes between dark and light, for the window and its pictures.",
-         .run = set_theme,
-         .choices = theme_names,
-         .chosen = is_theme},
+        {.id = "view.projection",
+         .title = "Disk along the axes of its box",
+         .menu = "View/Show",
+         .doc =
+             "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
+         .enabled = [](const Session& session) { return session.view().projection || selected_disk(session); },
+         .why_not = [](const Session&) { return std::string_view("no sample in the picture is selected"); },
+         .run = toggle_projection,
+         .checked = [](const Session& session) { return session.view().projection.has_value(); }},
+        option_command(view_option("theme")),
         {.id = "window.scale",
          .title = "Scale of text and panels",
          .argument = "X",
@@ -627,6 +562,22 @@ std::span<const Command> view_commands() {
          .run = [](Session& session,
                    const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); }},
     };
+}
+
+/// What stands in the menu "View/Show": every toggle of the view that has no other menu.
+std::vector<Command> all_view_commands() {
+    std::vector<Command> out = camera_table();
+    for (const ViewOption& option : view_options()) {
+        if (option.menu == "View/Show") out.push_back(option_command(option));
+    }
+    std::ranges::move(shown_table(), std::back_inserter(out));
+    return out;
+}
+
+}  // namespace
+
+std::span<const Command> view_commands() {
+    static const std::vector<Command> table = all_view_commands();
     return table;
 }
 

@@ -64,6 +64,15 @@ bool exists(const FittedScene& fitted, const Selection& selection) {
                                                           : static_cast<std::size_t>(tree.clip().count()));
 }
 
+bool has_projection(const FittedScene& fitted, const ViewState& view) {
+    const DiskProjection& asked = *view.projection;
+    const AgentRef agent = agent_in_view(fitted, view, asked.participant);
+    if (!exists(fitted, {Selection::Kind::node, agent, asked.node})) return false;
+    const mobb::Node& node =
+        fitted.tree(placed_agent_of(fitted, agent)->clip).nodes()[static_cast<std::size_t>(asked.node)];
+    return asked.sample >= node.first && asked.sample < node.end();
+}
+
 namespace {
 
 /// Of a run the agents are others at another time: the person stays selected, and what is of one of its plays as long

@@ -38,6 +38,9 @@ std::optional<PlacedAgent> placed_agent_of(const FittedScene& fitted, const Agen
 /// Whether the scene has it.
 bool exists(const FittedScene& fitted, const Selection& selection);
 
+/// Whether a picture of `view` has the disk and the node of `view.projection`.
+bool has_projection(const FittedScene& fitted, const ViewState& view);
+
 /// What it is after a change of the scene: a node of a tree that was fitted anew is its path, as the number means
 /// another node now; what is gone is nothing.
 Selection still(const Selection& selection, const FittedScene& before, const FittedScene& now);

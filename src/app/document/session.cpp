@@ -152,6 +152,8 @@ void Session::edit_with_fits(const EditName& name, const std::function<void(Scen
 }
 
 void Session::change_document(Document next, const EditName& name) {
+    // A node of a tree that was fitted anew is another one, or none.
+    if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
     history_.change(std::move(next), name);
     changed();
 }

@@ -1,7 +1,7 @@
 #include <app/script/state_json.h>
 #include <explain/query_sentence.h>
 #include <render/pictures/candidates.h>
-#include <scene/view_json.h>
+#include <scene/view_options.h>
 
 #include <nlohmann/json.hpp>
 

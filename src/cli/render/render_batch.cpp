@@ -68,10 +68,10 @@ void drop_contradicted(const Command& line, RenderArguments& arguments) {
     };
     ViewArguments& view = arguments.view;
     if (says("--level")) {
-        drop("--query", view.query);
-        drop("--step", view.step);
+        if (!says("--query")) view.shown.erase("query");
+        if (!says("--step")) view.shown.erase("step");
     }
-    if (says("--query")) drop("--level", view.levels);
+    if (says("--query") && !says("--level")) view.shown.erase("levels");
     if (says("--view") || says("--yaw") || says("--pitch")) drop("--view", view.preset);
     if (says("--view")) {
         drop("--yaw", view.yaw);

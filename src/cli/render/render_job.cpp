@@ -72,9 +72,8 @@ void draw_scene(const RenderJob& job, const RenderPicture& picture, Renderer* re
 
 /// Whether --follow says where the camera is: it does unless there is a target.
 bool is_near_followed(const RenderJob& job) {
-    const std::optional<std::string>& follow = job.arguments.view.follow;
     const ViewState& view = job.pictures.front().view;
-    return follow && !follow->empty() && !view.camera.target && !view.projection;
+    return job.arguments.view.says("follow") && !view.follow.empty() && !view.camera.target && !view.projection;
 }
 
 /// One camera for all, so that none jumps.

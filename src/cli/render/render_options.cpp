@@ -8,7 +8,7 @@
 #include <render/drawlist/picture_options.h>
 #include <render/drawlist/view_projection.h>
 #include <render/pictures/render.h>
-#include <scene/view_json.h>
+#include <scene/view_options.h>
 
 #include <array>
 #include <cstddef>
@@ -50,19 +50,6 @@ glm::dvec2 parse_shift(const std::string& text) {
     const auto [right, up] = parse_numbers<2>(text, 1, "shift: give RIGHT,UP in widths and heights of the picture");
     return {right, up};
 }
-
-int parse_query(const std::string& text) {
-    const std::optional<int> index = parse_int(text);
-    if (!index || *index < 0) throw std::invalid_argument(in_quotes(text) + " is no query: give its number, from 0");
-    return *index;
-}
-
-std::optional<double> parse_time(const std::string& text) {
-    if (text == "none") return std::nullopt;
-    return number_within(-mobb::kMaxTime, mobb::kMaxTime)(text);
-}
-
-double parse_time_height(const std::string& text) { return text == "auto" ? 0 : number_within(1e-6, 1e6)(text); }
 
 std::pair<int, int> parse_frames(const std::string& text) {
     const std::size_t colon = text.find(':');
@@ -106,48 +93,23 @@ void add_camera_options(Command& command, ViewArguments& view) {
 
 void add_shown_options(Command& command, ViewArguments& view) {
     constexpr const char* kGroup = "What is shown (over the scene's)";
-    const auto add = [&](const char* name, auto& target, auto parse, const char* help, const char* placeholder) {
-        add_parsed(command, name, target, parse, help, placeholder).group(kGroup);
-    };
-    add("--view-state", view.state, parse_file_name,
-        "A view of its own: keys of a scene's view, or a scene's whole view", "FILE.json");
-    add("--show", view.show, one_of(show_from_name, "space-time, moment"),
-        "space-time, or the floor at one moment (--time)", "WHAT");
-    add("--level", view.levels, parse_level_range, "Levels: N, A:B or leaves", "LEVELS");
-    add("--query", view.query, parse_query, "A query instead of levels: its number, from 0", "K");
-    add("--step", view.step, parse_step, "Step of the query: an event number, a percentage (40%) or end", "STEP");
-    add("--time", view.time, parse_time, "Time cursor, global seconds, or none", "T");
-    add("--time-window", view.time_window, number_within(kLeastTimeWindow, kMostTimeWindow),
-        "Of a crowd's run: seconds before and after the time (2)", "S");
-    command
-        .add_option(
-            "--follow", [&view](const std::string& agent) { view.follow = agent == "none" ? "" : agent; },
-            "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with its last "
-            "choice; or none",
-            "AGENT")
+    add_parsed(command, "--view-state", view.state, parse_file_name,
+               "A view of its own: keys of a scene's view, or a scene's whole view", "FILE.json")
         .group(kGroup);
-    add("--time-height", view.time_height, parse_time_height, "Metres drawn per second; default: auto, as tall as wide",
-        "M");
-    add("--color-by", view.color_by, one_of(color_by_from_name, "agent, level"),
-        "What the colour of boxes says: agent or level", "WHAT");
-    add("--theme", view.theme, one_of(theme_from_name, "dark, light"), "dark or light", "NAME");
-    const auto toggle = [&](const char* names, bool ViewState::*value, const char* help) {
-        command
-            .add_flag(
-                names, [&view, value](bool shown) { view.toggles.emplace_back(value, shown); }, help)
-            .group(kGroup);
-    };
-    toggle("--labels,!--no-labels", &ViewState::labels, "All text");
-    toggle("--caption,!--no-caption", &ViewState::caption, "The sentences at the top");
-    toggle("--legend,!--no-legend", &ViewState::legend, "What colours and lines mean");
-    toggle("--floor,!--no-floor", &ViewState::floor, "The grid, and the paths' traces on it");
-    toggle("--time-axis,!--no-time-axis", &ViewState::time_axis, "Ticks in seconds");
-    toggle("--boxes,!--no-boxes", &ViewState::boxes, "Boxes of nodes");
-    toggle("--disks,!--no-disks", &ViewState::disks, "Disks of samples");
-    toggle("--candidates,!--no-candidates", &ViewState::candidates,
-           "The moves that the followed agent could choose, and what became of each");
-    toggle("--tested-before,!--pair-only", &ViewState::tested_before,
-           "With a query: the pairs before the step's, or it alone");
+    for (const ViewOption& option : view_options()) {
+        if (option.option.empty()) continue;
+        const auto set = [&view, &option](const std::string& text) {
+            ViewState ignored;
+            option.parse(text, ignored);
+            view.shown.insert_or_assign(std::string(option.key), text);
+        };
+        const std::string name(option.option);
+        const std::string help(option.help);
+        const Option added = option.toggle ? command.add_flag(
+                                                 name, [set](bool on) { set(on ? "true" : "false"); }, help)
+                                           : command.add_option(name, set, help, std::string(option.placeholder));
+        Option(added).group(kGroup);
+    }
 }
 
 void add_sequence_options(Command& command, SequenceArguments& sequence) {
@@ -240,9 +202,7 @@ void refuse_where_said(const std::filesystem::path& file, const std::string& key
 }
 
 /// Whether the command line says it itself.
-bool is_option_given(const ViewArguments& view, const std::string& key) {
-    return (key == "query" && view.query) || (key == "step" && view.step) || (key == "follow" && view.follow);
-}
+bool is_option_given(const ViewArguments& view, const std::string& key) { return view.says(key); }
 
 Camera camera_over(Camera camera, const ViewArguments& arguments) {
     if (arguments.preset) {
@@ -312,7 +272,7 @@ void check_together(const RenderArguments& arguments) {
     if (arguments.ui && arguments.outputs.image.empty()) throw UsageError("--output is required");
     if (!arguments.outputs.any()) throw UsageError("--output, --ids or --draw-list is required");
     const ViewArguments& view = arguments.view;
-    if (view.query && view.levels) {
+    if (view.says("query") && view.says("levels")) {
         contradict("--query", "--level", "a picture shows a query or levels; leave one out");
     }
     check_window(arguments);
@@ -323,21 +283,11 @@ void check_together(const RenderArguments& arguments) {
 ViewState view_over(ViewState view, const ViewArguments& arguments) {
     if (!arguments.state.empty()) view = view_of_file(arguments.state, view);
     view.camera = camera_over(view.camera, arguments);
-    if (arguments.show) view.show = *arguments.show;
-    if (arguments.levels) {
-        view.levels = *arguments.levels;
-        view.query.reset();
+    for (const ViewOption& option : view_options()) {
+        const auto given = arguments.shown.find(option.key);
+        if (given != arguments.shown.end()) option.parse(given->second, view);
     }
-    if (arguments.query) view.query = *arguments.query;
-    if (arguments.step) view.step = *arguments.step;
-    if (arguments.time) view.time = *arguments.time;
-    if (arguments.time_window) view.time_window = *arguments.time_window;
-    if (arguments.follow) view.follow = *arguments.follow;
-    if (arguments.time_height) view.time_height = *arguments.time_height;
-    if (arguments.color_by) view.color_by = *arguments.color_by;
-    if (arguments.theme) view.theme = *arguments.theme;
-    for (const auto& [toggle, value] : arguments.toggles) view.*toggle = value;
-    if (arguments.step && !view.query) throw InputError("--step: say with --query which query it is a step of");
+    if (arguments.says("step") && !view.query) throw InputError("--step: say with --query which query it is a step of");
     return view;
 }
 

@@ -11,9 +11,12 @@
 #include <glm/vec3.hpp>
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace mobbscope::cli {
 
@@ -26,17 +29,10 @@ struct ViewArguments {
     std::optional<glm::dvec3> target;
     std::optional<double> distance;
     std::optional<glm::dvec2> shift;
-    std::optional<Show> show;
-    std::optional<LevelRange> levels;
-    std::optional<int> query;
-    std::optional<Step> step;
-    std::optional<std::optional<double>> time;  ///< an empty one within: no time cursor
-    std::optional<double> time_window;
-    std::optional<std::string> follow;  ///< empty: nobody
-    std::optional<double> time_height;  ///< 0: chosen by itself
-    std::optional<ColorBy> color_by;
-    std::optional<Theme> theme;
-    std::vector<std::pair<bool ViewState::*, bool>> toggles;
+    /// The texts of those that the table of view options has (scene/view_options.h), by its keys.
+    std::map<std::string, std::string, std::less<>> shown;
+
+    bool says(std::string_view key) const { return shown.contains(key); }
 };
 
 /// Several pictures instead of one.

@@ -82,9 +82,10 @@ std::vector<RenderPicture> pictures_of(const FittedScene& fitted, const ViewStat
         throw InputError(option + " and " + other + " contradict each other: " + why + "; leave one out");
     };
     const bool of_query = !asked.turntable && view.query && view.show == Show::space_time;
-    if (of_query && arguments.view.step) contradict("--step", "the pictures are the query's steps");
+    if (of_query && arguments.view.says("step")) contradict("--step", "the pictures are the query's steps");
     if (of_query && asked.rate) contradict("--rate", "the pictures are a query's steps");
-    if (!asked.turntable && !of_query && arguments.view.time) contradict("--time", "the pictures go through the time");
+    if (!asked.turntable && !of_query && arguments.view.says("time"))
+        contradict("--time", "the pictures go through the time");
 
     const Sequence sequence = asked.turntable ? turntable(view, *asked.turntable)
                               : of_query      ? steps(fitted, view)

@@ -1,0 +1,457 @@
+#include <base/text.h>
+#include <mobb/clip.h>
+#include <scene/view_options.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kSmallestDistance = 1e-6;  // metres
+
+CameraPreset read_preset(const JsonPlace& place) {
+    if (const auto preset = camera_preset(place.string())) return *preset;
+    place.fail(in_quotes(place.string()) + " is no camera; give iso, top, front, side or free");
+}
+
+Camera read_camera(const JsonPlace& place) {
+    place.allow_only({"preset", "yaw_deg", "pitch_deg", "perspective", "fov_deg", "target", "distance", "shift"});
+    Camera camera;
+    if (const auto preset = place.find("preset")) camera.preset = read_preset(*preset);
+    if (const auto yaw = place.find("yaw_deg")) camera.yaw_deg = yaw->number(-1e9, 1e9);
+    if (const auto pitch = place.find("pitch_deg")) camera.pitch_deg = pitch->number(-90, 90);
+    if (const auto perspective = place.find("perspective")) camera.perspective = perspective->boolean();
+    if (const auto fov = place.find("fov_deg")) camera.fov_deg = fov->number(kLeastFov, kMostFov);
+    if (const auto target = place.find("target")) {
+        target->require_size(3, "[x, y, height] in metres");
+        glm::dvec3 point;
+        for (int i = 0; i < 3; ++i) point[i] = (*target)[i].number(-mobb::kMaxLength, mobb::kMaxLength);
+        camera.target = point;
+        camera.distance = place.require("distance").number(kSmallestDistance, mobb::kMaxLength);
+        if (const auto shift = place.find("shift")) {
+            shift->require_size(2, "[right, up] in widths and heights of the picture");
+            for (int i = 0; i < 2; ++i) camera.shift[i] = (*shift)[i].number(-1, 1);
+        }
+    } else if (const auto distance = place.find("distance")) {
+        distance->fail("a distance needs a target; add one, or leave both out and the camera frames the scene");
+    } else if (const auto shift = place.find("shift")) {
+        shift->fail("a shift needs a target; add one, or leave it out and the camera frames the scene");
+    }
+    return camera;
+}
+
+DiskProjection read_projection(const JsonPlace& place) {
+    place.allow_only({"participant", "node", "sample"});
+    DiskProjection projection;
+    if (const auto participant = place.find("participant")) projection.participant = participant->integer(0, kMaxInt);
+    if (const auto node = place.find("node")) projection.node = node->integer(0, kMaxInt);
+    if (const auto sample = place.find("sample")) projection.sample = sample->integer(0, kMaxInt);
+    return projection;
+}
+
+/// A whole number, or text that `parse` understands.
+template <class Parse>
+auto read_number_or_text(const JsonPlace& place, const Parse& parse) {
+    try {
+        return parse(place.is_number() ? std::to_string(place.integer(0, kMaxInt)) : place.string());
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
+    }
+}
+
+void write_camera(JsonWriter& out, const Camera& camera) {
+    const Camera standard;
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("preset", name(camera.preset));
+    if (camera.yaw_deg != standard.yaw_deg) out.member("yaw_deg", camera.yaw_deg);
+    if (camera.pitch_deg != standard.pitch_deg) out.member("pitch_deg", camera.pitch_deg);
+    if (camera.perspective != standard.perspective) out.member("perspective", camera.perspective);
+    if (camera.fov_deg != standard.fov_deg) out.member("fov_deg", camera.fov_deg);
+    if (camera.target) {
+        out.key("target");
+        out.numbers({camera.target->x, camera.target->y, camera.target->z});
+        out.member("distance", camera.distance);
+        if (camera.shift != standard.shift) {
+            out.key("shift");
+            out.numbers({camera.shift.x, camera.shift.y});
+        }
+    }
+    out.end_object();
+}
+
+void write_projection(JsonWriter& out, const DiskProjection& projection) {
+    out.begin_object(JsonWriter::Layout::row);
+    out.member("participant", projection.participant);
+    out.member("node", projection.node);
+    out.member("sample", projection.sample);
+    out.end_object();
+}
+
+// --- the rows
+
+/// A row about a member of the view that is no toggle and no choice; the caller says how it is read and written.
+template <auto member>
+ViewOption field(ViewOption row) {
+    row.same = [](const ViewState& a, const ViewState& b) { return a.*member == b.*member; };
+    return row;
+}
+
+/// A row about something that is shown or not.
+template <auto member>
+ViewOption toggle(ViewOption row) {
+    row.toggle = member;
+    if (row.schema.empty()) row.schema = R"({"type": "boolean"})";
+    row.read = [](const JsonPlace& place, ViewState& view) { view.*member = place.boolean(); };
+    row.write = [](JsonWriter& out, const ViewState& view) { out.value(view.*member); };
+    row.parse = [](const std::string& text, ViewState& view) { view.*member = text == "true"; };
+    row.text = [](const ViewState& view) { return std::string(view.*member ? "true" : "false"); };
+    return field<member>(std::move(row));
+}
+
+/// A row about one of a few, which `find` finds by name.
+template <auto member, auto find>
+ViewOption choice(ViewOption row) {
+    row.read = [names = row.choices, refused = row.refused_in_file](const JsonPlace& place, ViewState& view) {
+        const auto value = find(place.string());
+        if (!value) place.fail(refusal_of(refused, place.string()) + "; give " + names[0] + " or " + names[1]);
+        view.*member = *value;
+    };
+    row.write = [](JsonWriter& out, const ViewState& view) { out.value(name(view.*member)); };
+    row.parse = [names = row.choices](const std::string& text, ViewState& view) {
+        const auto value = find(text);
+        if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + names[0] + ", " + names[1]);
+        view.*member = *value;
+    };
+    row.text = [](const ViewState& view) { return std::string(name(view.*member)); };
+    return field<member>(std::move(row));
+}
+
+std::vector<ViewOption> all_view_options() {
+    return {
+        choice<&ViewState::show, show_from_name>(
+            {.key = "show",
+             .schema =
+                 R"({"description": "Stacks and boxes in space-time, or the floor at the time of `time`", "enum": ["space-time", "moment"]})",
+             .option = "--show",
+             .placeholder = "WHAT",
+             .help = "space-time, or the floor at one moment (--time)",
+             .choices = {"space-time", "moment"},
+             .refused_in_file = "a picture cannot show {}"}),
+        field<&ViewState::camera>(
+            {.key = "camera",
+             .schema = R"({
+          "type": "object",
+          "additionalProperties": false,
+          "properties": {
+            "preset": {"enum": ["iso", "top", "front", "side", "free"]},
+            "yaw_deg": {"description": "free: direction from the target to the eye", "$ref": "#/$defs/angle"},
+            "pitch_deg": {"description": "free: above the floor", "type": "number", "minimum": -90, "maximum": 90},
+            "perspective": {"type": "boolean"},
+            "fov_deg": {"description": "Vertical; with a target over the whole picture", "type": "number", "minimum": 0.5, "maximum": 150},
+            "target": {"description": "World metres, time drawn as height; without it the camera frames the scene", "type": "array", "items": {"$ref": "#/$defs/length"}, "minItems": 3, "maxItems": 3},
+            "distance": {"description": "From the target to the eye", "type": "number", "minimum": 1e-6, "maximum": 1e9},
+            "shift": {"description": "How far to the right and upwards of the picture's middle the target is seen, in widths and heights of the picture", "type": "array", "items": {"type": "number", "minimum": -1, "maximum": 1}, "minItems": 2, "maxItems": 2}
+          },
+          "dependentRequired": {"target": ["distance"], "distance": ["target"], "shift": ["target"]}
+        })",
+             .read = [](const JsonPlace& place, ViewState& view) { view.camera = read_camera(place); },
+             .write = [](JsonWriter& out, const ViewState& view) { write_camera(out, view.camera); }}),
+        field<&ViewState::levels>(
+            {.key = "levels",
+             .schema =
+                 R"({"description": "A level, a range such as 1:3, or leaves", "type": ["integer", "string"], "pattern": "^([0-9]+(:[0-9]+)?|leaves)$", "minimum": 0, "maximum": 1000})",
+             .option = "--level",
+             .placeholder = "LEVELS",
+             .help = "Levels: N, A:B or leaves",
+             .read = [](const JsonPlace& place,
+                        ViewState& view) { view.levels = read_number_or_text(place, parse_level_range); },
+             .write = [](JsonWriter& out, const ViewState& view) { out.value(to_string(view.levels)); },
+             .parse =
+                 [](const std::string& text, ViewState& view) {
+                     view.levels = parse_level_range(text);
+                     view.query.reset();
+                 },
+             .text = [](const ViewState& view) { return to_string(view.levels); },
+             .needed = [](const ViewState& from,
+                          const ViewState& to) { return !to.query && (to.levels != from.levels || from.query); }}),
+        field<&ViewState::query>(
+            {.key = "query",
+             .schema =
+                 R"({"description": "Index of the query whose state is drawn; null: none", "type": ["integer", "null"], "minimum": 0})",
+             .option = "--query",
+             .placeholder = "K",
+             .help = "A query instead of levels: its number, from 0",
+             .read =
+                 [](const JsonPlace& place, ViewState& view) {
+                     view.query = place.is_null() ? std::nullopt : std::optional(place.integer(0, kMaxInt));
+                 },
+             .write = [](JsonWriter& out, const ViewState& view) { out.value(*view.query); },
+             .parse =
+                 [](const std::string& text, ViewState& view) {
+                     const std::optional<int> index = parse_int(text);
+                     if (!index || *index < 0) {
+                         throw std::invalid_argument(in_quotes(text) + " is no query: give its number, from 0");
+                     }
+                     view.query = *index;
+                 },
+             .text = [](const ViewState& view) { return std::to_string(*view.query); }}),
+        field<&ViewState::step>(
+            {.key = "step",
+             .schema = R"({
+          "description": "An event number, a percentage such as 40%, or end",
+          "type": ["integer", "string"],
+          "pattern": "^([0-9]+|[+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)?%|end)$",
+          "minimum": 0,
+          "maximum": 2147483647
+        })",
+             .option = "--step",
+             .placeholder = "STEP",
+             .help = "Step of the query: an event number, a percentage (40%) or end",
+             .read = [](const JsonPlace& place,
+                        ViewState& view) { view.step = read_number_or_text(place, parse_step); },
+             .write = [](JsonWriter& out, const ViewState& view) { out.value(to_string(view.step)); },
+             .parse = [](const std::string& text, ViewState& view) { view.step = parse_step(text); },
+             .text = [](const ViewState& view) { return to_string(view.step); },
+             .needed = [](const ViewState& from, const ViewState& to) { return to.query && to.step != from.step; }}),
+        field<&ViewState::projection>(
+            {.key = "projection",
+             .schema = R"({
+          "description": "One disk's extent along the axes of a box, drawn instead of the levels; null: none",
+          "anyOf": [
+            {"type": "null"},
+            {
+              "type": "object",
+              "additionalProperties": false,
+              "properties": {
+                "participant": {"description": "Index into what is drawn", "type": "integer", "minimum": 0},
+                "node": {"type": "integer", "minimum": 0},
+                "sample": {"type": "integer", "minimum": 0}
+              }
+            }
+          ]
+        })",
+             .read =
+                 [](const JsonPlace& place, ViewState& view) {
+                     view.projection = place.is_null() ? std::nullopt : std::optional(read_projection(place));
+                 },
+             .write = [](JsonWriter& out, const ViewState& view) { write_projection(out, *view.projection); }}),
+        field<&ViewState::time>(
+            {.key = "time",
+             .schema =
+                 R"({"description": "The time cursor, global seconds; null: none", "anyOf": [{"$ref": "#/$defs/time"}, {"type": "null"}]})",
+             .option = "--time",
+             .placeholder = "T",
+             .help = "Time cursor, global seconds, or none",
+             .read =
+                 [](const JsonPlace& place, ViewState& view) {
+                     view.time =
+                         place.is_null() ? std::nullopt : std::optional(place.number(-mobb::kMaxTime, mobb::kMaxTime));
+                 },
+             .write = [](JsonWriter& out, const ViewState& view) { out.value(*view.time); },
+             .parse =
+                 [](const std::string& text, ViewState& view) {
+                     view.time.reset();
+                     if (text != "none") view.time = parse_number_within(text, -mobb::kMaxTime, mobb::kMaxTime);
+                 },
+             .text = [](const ViewState& view) { return view.time ? short_double(*view.time) : "none"; }}),
+        field<&ViewState::time_window>(
+            {.key = "time_window",
+             .schema =
+                 R"({"description": "Of a crowd's run: seconds before and after the time that space-time shows", "type": "number", "minimum": 0.1, "maximum": 60})",
+             .option = "--time-window",
+             .placeholder = "S",
+             .help = "Of a crowd's run: seconds before and after the time (2)",
+             .read = [](const JsonPlace& place,
+                        ViewState& view) { view.time_window = place.number(kLeastTimeWindow, kMostTimeWindow); },
+             .write = [](JsonWriter& out, const ViewState& view) { out.value(view.time_window); },
+             .parse =
+                 [](const std::string& text, ViewState& view) {
+                     view.time_window = parse_number_within(text, kLeastTimeWindow, kMostTimeWindow);
+                 },
+             .text = [](const ViewState& view) { return short_double(view.time_window); }}),
+        field<&ViewState::follow>(
+            {.key = "follow",
+             .schema =
+                 R"({"description": "The agent that the camera goes along with, by name; null: nobody", "type": ["string", "null"]})",
+             .option = "--follow",
+             .placeholder = "AGENT",
+             .help = "The agent that the camera goes along with, 5 m around it unless there is a target; of a run with "
+                     "its last choice; or none",
+             .read = [](const JsonPlace& place,
+                        ViewState& view) { view.follow = place.is_null() ? "" : place.string(); },
+             .write = [](JsonWriter& out, const ViewState& view) { out.value(view.follow); },
+             .parse = [](const std::string& text, ViewState& view) { view.follow = text == "none" ? "" : text; },
+             .text = [](const ViewState& view) { return view.follow.empty() ? "none" : view.follow; }}),
+        field<&ViewState::time_height>(
+            {.key = "time_height",
+             .schema =
+                 R"({"description": "Metres drawn per second; 0: chosen to suit", "type": "number", "minimum": 0, "maximum": 1e6})",
+             .option = "--time-height",
+             .placeholder = "M",
+             .help = "Metres drawn per second; default: auto, as tall as wide",
+             .read = [](const JsonPlace& place,
+                        ViewState& view) { view.time_height = place.number(0, kMostTimeHeight); },
+             .write = [](JsonWriter& out, const ViewState& view) { out.value(view.time_height); },
+             .parse =
+                 [](const std::string& text, ViewState& view) {
+                     view.time_height =
+                         text == "auto" ? 0 : parse_number_within(text, kLeastTimeHeight, kMostTimeHeight);
+                 },
+             .text =
+                 [](const ViewState& view) { return view.time_height > 0 ? short_double(view.time_height) : "auto"; }}),
+        choice<&ViewState::color_by, color_by_from_name>(
+            {.key = "color_by",
+             .schema = R"({"description": "What the colour of a level's boxes says", "enum": ["agent", "level"]})",
+             .option = "--color-by",
+             .placeholder = "WHAT",
+             .help = "What the colour of boxes says: agent or level",
+             .command = "view.color_by",
+             .title = "Colour boxes by",
+             .menu = "View",
+             .shortcut = "C",
+             .doc = "Colours the boxes of levels by whose they are, or by their level.",
+             .argument = "[agent|level]",
+             .choices = {"agent", "level"},
+             .refused_in_file = "boxes cannot be coloured by {}",
+             .refused_in_window = "colours cannot be by {}"}),
+        choice<&ViewState::theme, theme_from_name>(
+            {.key = "theme",
+             .schema = R"({"enum": ["dark", "light"]})",
+             .option = "--theme",
+             .placeholder = "NAME",
+             .help = "dark or light",
+             .command = "view.theme",
+             .title = "Theme",
+             .menu = "View",
+             .shortcut = "T",
+             .doc = "Changes between dark and light, for the window and its pictures.",
+             .argument = "[dark|light]",
+             .choices = {"dark", "light"},
+             .refused_in_file = "{} is no theme",
+             .refused_in_window = "a theme cannot be {}"}),
+        toggle<&ViewState::tested_before>(
+            {.key = "tested_before",
+             .schema =
+                 R"({"description": "With a query: the boxes of pairs tested before the step's too", "type": "boolean"})",
+             .option = "--tested-before,!--pair-only",
+             .help = "With a query: the pairs before the step's, or it alone",
+             .command = "view.tested_before",
+             .title = "Pairs tested before",
+             .menu = "View/Show",
+             .doc = "Shows with a query the boxes of the pairs that were tested before the step's too."}),
+        toggle<&ViewState::candidates>(
+            {.key = "candidates",
+             .schema =
+                 R"({"description": "Of a run's followed agent: the moves of its last choice, and what became of each", "type": "boolean"})",
+             .option = "--candidates,!--no-candidates",
+             .help = "The moves that the followed agent could choose, and what became of each",
+             .command = "crowd.candidates",
+             .title = "Candidates",
+             .menu = "Go/Crowd",
+             .shortcut = "A",
+             .doc = "Shows the moves that the followed agent could choose, and what became of each."}),
+        toggle<&ViewState::disks>(
+            {.key = "disks",
+             .option = "--disks,!--no-disks",
+             .help = "Disks of samples",
+             .command = "view.disks",
+             .title = "Disks",
+             .menu = "View/Show",
+             .shortcut = "D",
+             .doc = "Shows the samples: a disk for as long as it holds; at a moment those on the floor."}),
+        toggle<&ViewState::boxes>({.key = "boxes",
+                                   .option = "--boxes,!--no-boxes",
+                                   .help = "Boxes of nodes",
+                                   .command = "view.boxes",
+                                   .title = "Boxes",
+                                   .menu = "View/Show",
+                                   .shortcut = "B",
+                                   .doc = "Shows the boxes of the trees; at a moment the walls of the cylinders."}),
+        toggle<&ViewState::floor>({.key = "floor",
+                                   .option = "--floor,!--no-floor",
+                                   .help = "The grid, and the paths' traces on it",
+                                   .command = "view.floor",
+                                   .title = "Floor",
+                                   .menu = "View/Show",
+                                   .shortcut = "G",
+                                   .doc = "Shows the grid in metres with the paths' traces on it."}),
+        toggle<&ViewState::time_axis>({.key = "time_axis",
+                                       .option = "--time-axis,!--no-time-axis",
+                                       .help = "Ticks in seconds",
+                                       .command = "view.time_axis",
+                                       .title = "Time axis",
+                                       .menu = "View/Show",
+                                       .shortcut = "X",
+                                       .doc = "Shows the upright scale in seconds."}),
+        toggle<&ViewState::labels>({.key = "labels",
+                                    .option = "--labels,!--no-labels",
+                                    .help = "All text",
+                                    .command = "view.labels",
+                                    .title = "Labels",
+                                    .menu = "View/Show",
+                                    .shortcut = "L",
+                                    .doc = "Shows all text in the picture."}),
+        toggle<&ViewState::caption>({.key = "caption",
+                                     .option = "--caption,!--no-caption",
+                                     .help = "The sentences at the top",
+                                     .command = "view.caption",
+                                     .title = "Caption",
+                                     .menu = "View/Show",
+                                     .doc = "Shows the sentences at the top of the picture."}),
+        toggle<&ViewState::legend>({.key = "legend",
+                                    .option = "--legend,!--no-legend",
+                                    .help = "What colours and lines mean",
+                                    .command = "view.legend",
+                                    .title = "Legend",
+                                    .menu = "View/Show",
+                                    .shortcut = "K",
+                                    .doc = "Shows what colours and lines stand for."}),
+    };
+}
+
+}  // namespace
+
+std::span<const ViewOption> view_options() {
+    static const std::vector<ViewOption> table = all_view_options();
+    return table;
+}
+
+const ViewOption& view_option(std::string_view key) {
+    return *std::ranges::find(view_options(), key, &ViewOption::key);
+}
+
+std::string in_command_line(const ViewOption& option, const ViewState& view) {
+    if (!option.toggle) return ' ' + std::string(option.option) + ' ' + shell_word(option.text(view));
+    const std::size_t off = option.option.find(",!");
+    return ' ' + std::string(view.*option.toggle ? option.option.substr(0, off) : option.option.substr(off + 2));
+}
+
+std::string refusal_of(std::string_view refused, std::string_view text) {
+    return std::string(refused).replace(refused.find("{}"), 2, in_quotes(text));
+}
+
+ViewState read_view(const JsonPlace& place, ViewState view) {
+    std::vector<std::string_view> keys;
+    for (const ViewOption& option : view_options()) keys.push_back(option.key);
+    place.allow_only(keys);
+    for (const ViewOption& option : view_options()) {
+        if (const auto value = place.find(option.key)) option.read(*value, view);
+    }
+    return view;
+}
+
+void write_view(JsonWriter& out, const ViewState& view) {
+    out.begin_object();
+    for (const ViewOption& option : view_options()) {
+        if (option.same(view, ViewState{})) continue;
+        out.key(option.key);
+        option.write(out, view);
+    }
+    out.end_object();
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,80 @@
+/// The options of a view, one row each. From the table come the JSON of a view and its schema, the options of `render`,
+/// "Copy as command", and the window's commands with their menu items and help.
+///
+///     {"show": "space-time", "camera": {"preset": "iso", "yaw_deg": 45, "pitch_deg": 25, "perspective": true,
+///     "fov_deg": 12,
+///                 "target": [0, 0, 1], "distance": 12, "shift": [0, 0.1]},
+///      "levels": "1:3", "query": 0, "step": "40%", "tested_before": true,
+///      "projection": {"participant": 0, "node": 0, "sample": 3}, "time": 1.5, "time_height": 2,
+///      "color_by": "agent", "theme": "dark",
+///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true}
+///
+/// `levels` is a level or what `--level` takes, `step` an event number or what `--step` takes.
+#pragma once
+
+#include <base/json.h>
+#include <base/json_writer.h>
+#include <scene/view_state.h>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+struct ViewOption {
+    std::string_view key;       ///< of the view's JSON: ViewState's name for it
+    std::string_view schema{};  ///< JSON Schema of its value
+
+    // Of `render`; without `option` only a file says it.
+    std::string_view option{};  ///< "--theme"; of a toggle "--floor,!--no-floor"
+    std::string_view placeholder{};
+    std::string_view help{};
+
+    // In the window: a toggle, or a choice, has a command; those of the menu "View/Show" stand in it by themselves.
+    std::string_view command{};  ///< its id: "view.floor"; empty: none is made from the row
+    std::string_view title{};
+    std::string_view menu{};
+    std::string_view shortcut{};
+    std::string_view doc{};
+    std::string_view argument{};  ///< of a choice, as Command has it: "[dark|light]"
+
+    // Of a choice: its names, and what is said of another one ({}) in a file and in the window.
+    std::vector<std::string> choices{};
+    std::string_view refused_in_file{};
+    std::string_view refused_in_window{};
+
+    // What table rows leave to toggle(), choice() and field() in view_options.cpp.
+    bool ViewState::*toggle = nullptr;
+    std::function<void(const JsonPlace&, ViewState&)> read{};    ///< throws InputError
+    std::function<void(JsonWriter&, const ViewState&)> write{};  ///< its value
+    std::function<bool(const ViewState&, const ViewState&)> same{};
+    /// Reads an option's text, of a toggle "true" or "false"; throws std::invalid_argument.
+    std::function<void(const std::string&, ViewState&)> parse{};
+    std::function<std::string(const ViewState&)> text{};  ///< what `parse` reads
+    /// Whether a command line that says `from` needs the option to say `to`; empty: where the two are not the same.
+    std::function<bool(const ViewState& from, const ViewState& to)> needed{};
+};
+
+/// The table, in the order of files, menus and help.
+std::span<const ViewOption> view_options();
+
+/// Requires that there is one.
+const ViewOption& view_option(std::string_view key);
+
+/// " --theme dark", " --no-floor": the option that says what the view has, for a shell.
+std::string in_command_line(const ViewOption& option, const ViewState& view);
+
+/// `refused` with the text in quotes for its {}.
+std::string refusal_of(std::string_view refused, std::string_view text);
+
+/// The `view` of a scene file, every key of which is optional: what the keys say, over `base`. A key that is not there
+/// keeps its value, a camera replaces the whole camera, and null takes a query or a time out. Throws InputError.
+ViewState read_view(const JsonPlace& place, ViewState base = {});
+
+/// An object with what differs from the default.
+void write_view(JsonWriter& out, const ViewState& view);
+
+}  // namespace mobbscope
