@@ -40,13 +40,15 @@ int main(int argc, char** argv) {
     std::vector<Tree> trees;
     for (const double seconds : {42.0, 2.1}) {
         for (int i = 0; i < of_a_length; ++i) {
-            trees.emplace_back(bench::walk(random, seconds), FitOptions{.tree = only.value_or(static_cast<TreeKind>(i))});
+            trees.emplace_back(bench::walk(random, seconds),
+                               FitOptions{.tree = only.value_or(static_cast<TreeKind>(i))});
         }
     }
     std::vector<PlacedTree> placed;
     for (int k = 0; k < 2000; ++k) {
         for (int side = 0; side < 2; ++side) {
-            const Tree& tree = trees[static_cast<std::size_t>(k % 2 * of_a_length + random.integer(0, of_a_length - 1))];
+            const Tree& tree =
+                trees[static_cast<std::size_t>(k % 2 * of_a_length + random.integer(0, of_a_length - 1))];
             placed.emplace_back(tree, bench::somewhere(random, tree.clip().duration()));
         }
     }
