@@ -134,9 +134,9 @@ void ask(benchmark::State& state, const Sources& sources, const Queries& q) {
         hits += query(placed[i], placed[i + 1], statistics).has_value();
     }
     const double count = static_cast<double>(placed.size()) / 2;
-    state.counters["2D"] = static_cast<double>(statistics.tests.obb2d) / count;
-    state.counters["time"] = static_cast<double>(statistics.tests.time) / count;
-    state.counters["samples"] = static_cast<double>(statistics.tests.samples) / count;
+    state.counters["2D"] = static_cast<double>(statistics.tests[BoxKind::obb2d]) / count;
+    state.counters["time"] = static_cast<double>(statistics.tests[TestKind::time]) / count;
+    state.counters["samples"] = static_cast<double>(statistics.tests[TestKind::samples]) / count;
     state.counters["hits"] = hits / count;
     std::size_t i = 0;
     for (auto _ : state) {

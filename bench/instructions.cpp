@@ -2,6 +2,9 @@
 #include <mobb/query.h>
 
 #include <cstdio>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "walks.h"
@@ -22,16 +25,30 @@ extern "C" [[gnu::noinline]] int counted_queries(const std::vector<PlacedTree>& 
     return hits;
 }
 
-int main() {
+/// The kind of tree to query, or `mixed`: all of them, in pairs by chance. Without arguments: names the choices.
+int main(int argc, char** argv) {
+    const std::span<const std::string_view> kinds = tree_kind_names();
+    if (argc != 2) {
+        std::puts("mixed");
+        for (const std::string_view kind : kinds) std::printf("%s\n", kind.data());
+        return 0;
+    }
+    const std::optional<TreeKind> only = tree_kind_from_name(argv[1]);
+    if (!only && std::string_view(argv[1]) != "mixed") return 2;
+    const int of_a_length = only ? 4 : static_cast<int>(kinds.size());
     test::Random random(1);
     std::vector<Tree> trees;
-    for (int i = 0; i < 8; ++i) {
-        trees.emplace_back(bench::walk(random, i < 4 ? 42 : 2.1), FitOptions{.tree = static_cast<TreeKind>(i % 4)});
+    for (const double seconds : {42.0, 2.1}) {
+        for (int i = 0; i < of_a_length; ++i) {
+            trees.emplace_back(bench::walk(random, seconds),
+                               FitOptions{.tree = only.value_or(static_cast<TreeKind>(i))});
+        }
     }
     std::vector<PlacedTree> placed;
     for (int k = 0; k < 2000; ++k) {
         for (int side = 0; side < 2; ++side) {
-            const Tree& tree = trees[static_cast<std::size_t>(k % 2 * 4 + random.integer(0, 3))];
+            const Tree& tree =
+                trees[static_cast<std::size_t>(k % 2 * of_a_length + random.integer(0, of_a_length - 1))];
             placed.emplace_back(tree, bench::somewhere(random, tree.clip().duration()));
         }
     }

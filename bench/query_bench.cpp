@@ -35,11 +35,8 @@ void report(benchmark::State& state, const TestCounts& tests) {
     const auto per_query = [&](std::int64_t n) {
         return benchmark::Counter(static_cast<double>(n), benchmark::Counter::kAvgIterations);
     };
-    state.counters["2D"] = per_query(tests.obb2d);
-    state.counters["3D"] = per_query(tests.obb3d);
-    state.counters["moving"] = per_query(tests.moving);
-    state.counters["aabb"] = per_query(tests.aabb);
-    state.counters["samples"] = per_query(tests.samples);
+    for (const BoxKind kind : kBoxKinds) state.counters[std::string(info(kind).heading)] = per_query(tests[kind]);
+    state.counters["samples"] = per_query(tests[TestKind::samples]);
 }
 
 /// Times ask(a, b, observer) on the workload's pairs, over and over, and reports the tests it made.
@@ -80,8 +77,7 @@ const bool registered = [] {
     for (const double seconds : {42.0, 2.1}) {
         const std::string length = seconds > 10 ? "42s" : "2s";
         benchmark::RegisterBenchmark(("query/direct/" + length).c_str(), direct, seconds);
-        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2,
-                                    TreeKind::moving, TreeKind::aabb}) {
+        for (const TreeKind kind : kTreeKinds) {
             for (const int levels : {1, 0}) {
                 const std::string label = std::string(name(kind)) + (levels ? "_1level/" : "/") + length;
                 benchmark::RegisterBenchmark(("query/" + label).c_str(), tree, seconds,

@@ -2,6 +2,7 @@
 add_library(mobbscope_warnings INTERFACE)
 target_compile_options(mobbscope_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual
+  -Werror=switch  # a kind without a row is an error wherever this is built
   $<$<BOOL:${MOBBSCOPE_WERROR}>:-Werror>)
 # GCC 12 sees overlapping copies in its own std::string at -O3 (its bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -119,11 +119,13 @@ void add_query_command(Command& program, int& status) {
 
 void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer) {
     out << index << ": " << sentence(query, answer.contact) << '\n'
-        << "   Tests: " << answer.tests.time << " of time, " << answer.tests.obb2d << " of 2D boxes, "
-        << answer.tests.obb3d << " of 3D boxes";
-    if (answer.tests.moving > 0) out << ", " << answer.tests.moving << " of moving boxes";
-    if (answer.tests.aabb > 0) out << ", " << answer.tests.aabb << " of AABBs";
-    out << "; " << counted(answer.tests.samples, "pair", "pairs") << " of samples measured.\n";
+        << "   Tests: " << answer.tests[mobb::TestKind::time] << " of time";
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) {
+        if (mobb::info(kind).in_paper || answer.tests[kind] > 0) {
+            out << ", " << answer.tests[kind] << " of " << mobb::info(kind).plural;
+        }
+    }
+    out << "; " << counted(answer.tests[mobb::TestKind::samples], "pair", "pairs") << " of samples measured.\n";
     if (answer.contacts) {
         out << "   In contact:";
         if (answer.contacts->empty()) out << " never";

@@ -12,18 +12,20 @@ namespace mobbscope {
 
 namespace {
 
-/// The two boxes in the frame of A's path, of an aabb test in the world's directions, counted from the middle of A's
-/// box: far from the world's origin the numbers keep their digits.
+bool tries_world_axes(mobb::TestKind test) { return mobb::info(test.box()).axes == mobb::BoxAxes::world; }
+
 /// A box along the axes of a frame, wrapped again along the world's.
 mobb::Box along_the_world(const mobb::Box& box, glm::dvec2 center, const mobb::Rotation& to_world) {
     mobb::Box out;
-    out.kind = mobb::BoxKind::aabb;
+    out.kind = box.kind;
     const glm::dvec2 half = mobb::half_in_world(box, to_world);
     out.center = {center.x, center.y, 0};
     out.half = {half.x, half.y, box.half.z};
     return out;
 }
 
+/// The two boxes in the frame of A's clip, or turned into the world's directions if the test tries these. They are
+/// counted from the middle of A's box: far from the world's origin the numbers keep their digits.
 BoxPair boxes_of(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const mobb::PlacedTree& a = sides[0].placed;
     const mobb::PlacedTree& b = sides[1].placed;
@@ -33,7 +35,7 @@ BoxPair boxes_of(std::span<const DrawnAgent> sides, const mobb::Trace::Event& ev
     for (glm::dvec3& axis : pair.b.axes) axis = frame.direction(axis);
     pair.b.drift = frame.direction(pair.b.drift);
     pair.a.center = glm::dvec3(0);
-    if (event.test == mobb::TestKind::aabb) {
+    if (tries_world_axes(event.test)) {
         const mobb::Rotation& to_world = a.placed_clip().rotation();
         const glm::dvec2 middle_b = to_world(glm::dvec2(pair.b.center));
         pair.a = along_the_world(pair.a, glm::dvec2(0), to_world);
@@ -43,7 +45,7 @@ BoxPair boxes_of(std::span<const DrawnAgent> sides, const mobb::Trace::Event& ev
 }
 
 std::string name_of(std::span<const DrawnAgent> sides, const BoxPair& boxes, mobb::TestKind test, int axis) {
-    if (test == mobb::TestKind::aabb) return axis == 0 ? "x" : "y";
+    if (tries_world_axes(test)) return axis == 0 ? "x" : "y";
     const AxisOrigin origin = axis_origin(test, axis);
     const std::string a = origin.a < 0 ? "" : sides[0].label + ' ' + axis_word(boxes.a, test, origin.a);
     const std::string b = origin.b < 0 ? "" : sides[1].label + ' ' + axis_word(boxes.b, test, origin.b);
@@ -51,7 +53,7 @@ std::string name_of(std::span<const DrawnAgent> sides, const BoxPair& boxes, mob
 }
 
 /// Of one box, in a test.
-int own_axes(mobb::TestKind test) { return test == mobb::TestKind::obb3d ? 3 : 2; }
+int own_axes(mobb::TestKind test) { return mobb::info(test.box()).axes == mobb::BoxAxes::space_time ? 3 : 2; }
 
 glm::dvec3 axis_of(const mobb::Box& box, int i) { return box.axes[static_cast<std::size_t>(i)]; }
 
@@ -70,11 +72,12 @@ mobb::Box rectangle_at(mobb::Box box, double wt) {
 
 std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     std::vector<AxisInterval> out;
+    if (!event.test.is_box()) return out;
     const BoxPair boxes = boxes_of(sides, event);
     for (int axis = 0; axis < mobb::axis_count(event.test); ++axis) {
         if (!is_tried(boxes.a, boxes.b, event.test, axis)) continue;
         const glm::dvec3 direction = test_axis(boxes.a, boxes.b, event.test, axis);
-        const BoxPair tested = event.test == mobb::TestKind::moving ? at_nearest_moment(boxes, direction) : boxes;
+        const BoxPair tested = event.test == mobb::BoxKind::moving ? at_nearest_moment(boxes, direction) : boxes;
         const double middle = glm::dot(tested.a.center, direction);
         const Projection on_a = project(tested.a, direction).minus(middle);
         const Projection on_b = project(tested.b, direction).minus(middle);
@@ -92,7 +95,7 @@ Projection project(const mobb::Box& box, glm::dvec3 axis) {
 }
 
 AxisOrigin axis_origin(mobb::TestKind test, int axis) {
-    if (test == mobb::TestKind::aabb) return {};
+    if (tries_world_axes(test)) return {};
     const int own = own_axes(test);
     if (axis < own) return {axis, -1};
     if (axis < 2 * own) return {-1, axis - own};

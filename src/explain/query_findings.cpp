@@ -84,7 +84,7 @@ std::int64_t direct_pairs(const Clearance& clearance) {
 
 std::string gain_words(const mobb::TestCounts& tests, const Clearance& clearance) {
     const std::int64_t pairs = direct_pairs(clearance);
-    const std::int64_t all = tests.time + tests.boxes() + tests.samples;
+    const std::int64_t all = tests.all();
     std::string out = "The direct search would measure " + std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
                       " of samples; this took " + std::to_string(all) + (all == 1 ? " test" : " tests");
     if (all > 0 && pairs > all) {

@@ -15,7 +15,7 @@ std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
         return side.label + "'s " + axis_word(side.placed.node(node).box, event.test, axis) + " axis";
     };
-    if (event.test == mobb::TestKind::aabb) return event.axis == 0 ? "along x" : "along y";
+    if (mobb::info(event.test.box()).axes == mobb::BoxAxes::world) return event.axis == 0 ? "along x" : "along y";
     const AxisOrigin origin = axis_origin(event.test, event.axis);
     if (origin.b < 0) return "along " + axis_of(sides[0], event.a, origin.a);
     if (origin.a < 0) return "along " + axis_of(sides[1], event.b, origin.b);
@@ -77,19 +77,10 @@ std::string node_name(const DrawnAgent& agent, int node) {
 }
 
 std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
-    switch (event.test) {
-        case mobb::TestKind::time:
-            return time_outcome(sides, event);
-        case mobb::TestKind::samples:
-            return sample_outcome(sides, event);
-        case mobb::TestKind::obb2d:
-        case mobb::TestKind::obb3d:
-        case mobb::TestKind::moving:
-        case mobb::TestKind::aabb:
-            break;
-    }
+    if (event.test == mobb::TestKind::time) return time_outcome(sides, event);
+    if (event.test == mobb::TestKind::samples) return sample_outcome(sides, event);
     if (event.outcome == mobb::Outcome::separated) {
-        const char* when = event.test == mobb::TestKind::moving ? " at the nearest" : "";
+        const char* when = event.test == mobb::BoxKind::moving ? " at the nearest" : "";
         return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m") + when;
     }
     return "the boxes overlap, " + what_next(sides, event);
@@ -125,12 +116,12 @@ std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQue
     const mobb::TestCounts& tests = recorded.tests;
     std::string text =
         recorded.contact ? pair + " collide at " + with_unit(recorded.contact->time, "s") : pair + " never collide";
-    text += "; " + counted(tests.time, "time test", "time tests");
-    if (tests.obb2d > 0) text += ", " + counted(tests.obb2d, "2D box test", "2D box tests");
-    if (tests.obb3d > 0) text += ", " + counted(tests.obb3d, "3D box test", "3D box tests");
-    if (tests.moving > 0) text += ", " + counted(tests.moving, "moving box test", "moving box tests");
-    if (tests.aabb > 0) text += ", " + counted(tests.aabb, "AABB test", "AABB tests");
-    return text + ", " + counted(tests.samples, "pair of samples", "pairs of samples");
+    text += "; " + counted(tests[mobb::TestKind::time], "time test", "time tests");
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) {
+        const std::string test = std::string(mobb::info(kind).title) + " test";
+        if (tests[kind] > 0) text += ", " + counted(tests[kind], test, test + "s");
+    }
+    return text + ", " + counted(tests[mobb::TestKind::samples], "pair of samples", "pairs of samples");
 }
 
 }  // namespace mobbscope

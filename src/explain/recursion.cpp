@@ -5,33 +5,6 @@
 
 namespace mobbscope {
 
-namespace {
-
-void count(mobb::TestCounts& counts, const mobb::Trace::Event& event) {
-    switch (event.test) {
-        case mobb::TestKind::time:
-            ++counts.time;
-            break;
-        case mobb::TestKind::obb2d:
-            ++counts.obb2d;
-            break;
-        case mobb::TestKind::obb3d:
-            ++counts.obb3d;
-            break;
-        case mobb::TestKind::moving:
-            ++counts.moving;
-            break;
-        case mobb::TestKind::aabb:
-            ++counts.aabb;
-            break;
-        case mobb::TestKind::samples:
-            counts.samples += static_cast<std::int64_t>(event.pairs.size());
-            break;
-    }
-}
-
-}  // namespace
-
 Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, const mobb::PlacedTree& b) {
     Recursion out;
     const auto size = static_cast<std::size_t>(trace.size());
@@ -64,7 +37,8 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         pair.outcome = event.outcome;
         pair.hit = event.outcome == mobb::Outcome::hit;
         out.pair_of[static_cast<std::size_t>(step)] = static_cast<int>(out.pairs.size()) - 1;
-        count(tests, event);
+        const bool pairs = event.test == mobb::TestKind::samples;
+        tests[event.test] += pairs ? static_cast<std::int64_t>(event.pairs.size()) : 1;
         out.so_far[static_cast<std::size_t>(step)].tests = tests;
     }
     for (std::size_t i = out.pairs.size(); i-- > 0;) {
@@ -77,7 +51,7 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
     for (int step = 0; step < trace.size(); ++step) {
         const RecursionPair& pair = out.pairs[static_cast<std::size_t>(out.pair_of[static_cast<std::size_t>(step)])];
         const mobb::Trace::Event event = trace[step];
-        if (!is_box_test(event.test) || event.outcome != mobb::Outcome::overlap || pair.hit) continue;
+        if (!event.test.is_box() || event.outcome != mobb::Outcome::overlap || pair.hit) continue;
         ++out.so_far[static_cast<std::size_t>(pair.end) - 1].wasted;
     }
     std::int64_t wasted = 0;

@@ -1,26 +1,14 @@
 /// Boxes in space-time (x, y, w*t).
 #pragma once
 
+#include <mobb/kinds.h>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <cstdint>
-#include <string_view>
 
 namespace mobb {
-
-/// What a box is, and so which test two boxes get.
-enum class BoxKind : std::uint8_t {
-    obb2d,   ///< an oriented rectangle extruded in time: a MOBB node (paper, Section 3)
-    obb3d,   ///< a free oriented box: a UMOBB node (paper, Section 4)
-    moving,  ///< an oriented rectangle whose centre moves at a constant velocity, as in TPR-trees (Saltenis et al.
-             ///< 2000)
-    aabb,    ///< a rectangle along x and y, of the clip and again of the world, extruded in time
-};
-
-/// As in files: "obb2d", "obb3d", "moving", "aabb".
-std::string_view name(BoxKind kind);
 
 /// An oriented box, or one sheared along time. Every box is complete in three dimensions; all but an obb3d have (0, 0,
 /// 1) as their third axis, so that an obb2d can be tested against an obb3d. Lengths are metres; time is mixed in by the

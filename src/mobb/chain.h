@@ -172,7 +172,7 @@ inline Box Chain::box(const ChainNode& node) const {
     box.center = turned(box.center) + glm::dvec3{link.translate, time_scale_ * (link.first * dt_)};
     for (glm::dvec3& axis : box.axes) axis = turned(axis);
     box.drift = link.rotation(box.drift);
-    if (box.kind == BoxKind::aabb) box.kind = BoxKind::obb2d;  // turned, it no longer lies along x and y
+    if (info(box.kind).axes == BoxAxes::world) box.kind = BoxKind::obb2d;  // turned, it no longer lies along x and y
     return box;
 }
 

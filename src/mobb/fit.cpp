@@ -256,23 +256,20 @@ Box shrink_by_turning(const Clip& clip, SampleRange range, Box best, double w) {
 }
 
 Box smallest_box(const Clip& clip, SampleRange range, double w) {
-    Box best = fit_obb3d(clip, range, Axes::endpoints, w);
-    for (const Box& box : {fit_obb3d(clip, range, Axes::covariance, w), fit_obb2d(clip, range, Axes::minarea, w)}) {
+    Box best = fit(BoxKind::obb3d, clip, range, Axes::endpoints, w);
+    for (const Box& box :
+         {fit(BoxKind::obb3d, clip, range, Axes::covariance, w), fit(BoxKind::obb2d, clip, range, Axes::minarea, w)}) {
         if (volume(box, w) < volume(best, w)) best = box;
     }
     return shrink_by_turning(clip, range, best, w);
 }
 
-}  // namespace
-
 Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
-    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
     const std::span<const Disk> all = disks(clip, range);
     return rectangle_over_time(clip, range, axis_2d(all, travel_axis(all), axes), time_scale);
 }
 
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
-    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
     const bool along_time = range.count == 1 || glm::length(travel(disks(clip, range))) <= kStandingStill;
     if (along_time) return fit_obb2d(clip, range, axes, time_scale);
     switch (axes) {
@@ -287,7 +284,6 @@ Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale)
 }
 
 Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
-    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
     const std::span<const Disk> all = disks(clip, range);
     const glm::dvec2 per_sample = drift_per_sample(all);
     const std::vector<Disk> seen = drifting(all, per_sample);
@@ -298,13 +294,15 @@ Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale
 }
 
 Box fit_aabb(const Clip& clip, SampleRange range, double time_scale) {
-    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
     Box box = rectangle_over_time(clip, range, {1, 0}, time_scale);
     box.kind = BoxKind::aabb;
     return box;
 }
 
+}  // namespace
+
 Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double time_scale) {
+    assert(range.first >= 0 && range.count >= 1 && range.end() <= clip.count() && time_scale > 0);
     switch (kind) {
         case BoxKind::obb2d:
             return fit_obb2d(clip, range, axes, time_scale);

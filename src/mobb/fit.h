@@ -33,24 +33,14 @@ struct SampleRange {
 /// First and last centre nearer than this (metres) give no direction of travel.
 inline constexpr double kStandingStill = 1e-6;
 
-/// The tight oriented rectangle around the disks, extruded over their time. The range must lie in the clip and hold a
-/// sample; the time axis is scaled by w > 0 (m/s).
-Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale);
-
-/// The tight free box around the cylinders, under the same conditions. Where its first axis would be along time (one
-/// sample, or first and last centre within kStandingStill) the result is an obb2d: this is where the 2D tests in the
-/// paper's UMOBB rows come from.
-Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale);
-
-/// The tight moving rectangle, under the same conditions. Its centre moves at (last centre - first)/((count - 1)*dt), 0
-/// for one sample, and it holds each disk at both ends of the disk's hold interval. `axes` are those of the disks as
-/// they drift in the moving frame; endpoints keep the direction of travel. `time_scale` scales the time axis only.
-Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale);
-
-/// The tight rectangle along the clip's x and y, extruded over its time, under the same conditions.
-Box fit_aabb(const Clip& clip, SampleRange range, double time_scale);
-
-/// The box of that kind; an aabb has no axes to choose.
+/// The tight box around the cylinders of a range, which must lie in the clip and hold a sample. The time axis is scaled
+/// by w > 0 (m/s).
+///
+/// An obb2d, moving box or aabb is a rectangle extruded over the range's time. An obb3d whose first axis would be along
+/// time (one sample, or first and last centre within kStandingStill) comes out as an obb2d: this is where the 2D tests
+/// in the paper's UMOBB rows come from. The centre of a moving box moves at (last centre - first)/((count - 1)*dt), 0
+/// for one sample, and the box holds each disk at both ends of the disk's hold interval; its axes are those of the
+/// disks as they drift in the moving frame, but endpoints keep the direction of travel. An aabb has no axes to choose.
 Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double time_scale);
 
 }  // namespace mobb

@@ -9,10 +9,8 @@ namespace mobb {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kBoxKindNames{"obb2d", "obb3d", "moving", "aabb"};
 constexpr std::array<std::string_view, 3> kAxesNames{"endpoints", "covariance", "minarea"};
-constexpr std::array<std::string_view, 6> kTreeKindNames{"mobb", "umobb", "hybrid1", "hybrid2", "moving", "aabb"};
-constexpr std::array<std::string_view, 6> kTestKindNames{"time", "obb2d", "obb3d", "moving", "aabb", "samples"};
+constexpr auto kTreeKindNames = rows::table<TreeKind>([](TreeKind kind) { return info(kind).name; });
 constexpr std::array<std::string_view, 5> kOutcomeNames{"disjoint_in_time", "separated", "overlap", "hit", "no_hit"};
 
 /// `names` lists the names of the enumerators 0, 1, 2, ...
@@ -25,18 +23,23 @@ std::optional<Enum> from_name(std::span<const std::string_view> names, std::stri
 
 }  // namespace
 
-std::string_view name(BoxKind kind) { return kBoxKindNames[static_cast<std::size_t>(kind)]; }
+std::string_view name(BoxKind kind) { return info(kind).name; }
 
 std::string_view name(Axes axes) { return kAxesNames[static_cast<std::size_t>(axes)]; }
 std::optional<Axes> axes_from_name(std::string_view name) { return from_name<Axes>(kAxesNames, name); }
 std::span<const std::string_view> axes_names() { return kAxesNames; }
 
-std::string_view name(TreeKind kind) { return kTreeKindNames[static_cast<std::size_t>(kind)]; }
+std::string_view name(TreeKind kind) { return info(kind).name; }
 std::optional<TreeKind> tree_kind_from_name(std::string_view name) { return from_name<TreeKind>(kTreeKindNames, name); }
 std::span<const std::string_view> tree_kind_names() { return kTreeKindNames; }
 
-std::string_view name(TestKind test) { return kTestKindNames[static_cast<std::size_t>(test)]; }
-std::optional<TestKind> test_from_name(std::string_view name) { return from_name<TestKind>(kTestKindNames, name); }
+std::string_view name(TestKind test) {
+    return test.is_box() ? name(test.box()) : test == TestKind::time ? "time" : "samples";
+}
+std::optional<TestKind> test_from_name(std::string_view text) {
+    const auto found = std::ranges::find(kTestKinds, text, [](TestKind test) { return name(test); });
+    return found == kTestKinds.end() ? std::nullopt : std::optional(*found);
+}
 
 std::string_view name(Outcome outcome) { return kOutcomeNames[static_cast<std::size_t>(outcome)]; }
 std::optional<Outcome> outcome_from_name(std::string_view name) { return from_name<Outcome>(kOutcomeNames, name); }

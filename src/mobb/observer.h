@@ -5,21 +5,21 @@
 #include <mobb/box.h>
 #include <mobb/separation.h>
 
+#include <array>
 #include <concepts>
 #include <cstdint>
+#include <numeric>
 
 namespace mobb {
 
 /// How many tests of each kind a query made: what the paper's tables count, and those of the kinds beyond it.
 struct TestCounts {
-    std::int64_t time = 0;
-    std::int64_t obb2d = 0;
-    std::int64_t obb3d = 0;
-    std::int64_t moving = 0;
-    std::int64_t aabb = 0;
-    std::int64_t samples = 0;  ///< pairs (i, j) whose distance was measured
+    std::array<std::int64_t, kTestKindCount> by_kind{};  ///< of samples: pairs (i, j) whose distance was measured
 
-    std::int64_t boxes() const { return obb2d + obb3d + moving + aabb; }
+    std::int64_t& operator[](TestKind test) { return by_kind[test.index()]; }
+    std::int64_t operator[](TestKind test) const { return by_kind[test.index()]; }
+    std::int64_t all() const { return std::accumulate(by_kind.begin(), by_kind.end(), std::int64_t{0}); }
+    std::int64_t boxes() const { return all() - (*this)[TestKind::time] - (*this)[TestKind::samples]; }
 
     friend bool operator==(const TestCounts&, const TestCounts&) = default;
 };
@@ -56,24 +56,9 @@ concept TraversalObserver = !T::watches || requires(T & observer, const Separati
 struct Statistics : ObserverBase {
     TestCounts tests;
 
-    void time_test(bool) { ++tests.time; }
-    void box_test(BoxKind test, const Separation&) {
-        switch (test) {
-            case BoxKind::obb2d:
-                ++tests.obb2d;
-                break;
-            case BoxKind::obb3d:
-                ++tests.obb3d;
-                break;
-            case BoxKind::moving:
-                ++tests.moving;
-                break;
-            case BoxKind::aabb:
-                ++tests.aabb;
-                break;
-        }
-    }
-    void sample_pair(int, int, double) { ++tests.samples; }
+    void time_test(bool) { ++tests[TestKind::time]; }
+    void box_test(BoxKind test, const Separation&) { ++tests[test]; }
+    void sample_pair(int, int, double) { ++tests[TestKind::samples]; }
 };
 
 }  // namespace mobb

@@ -22,7 +22,7 @@ double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 }  // namespace
 
 RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
-    : rotation_(a.rotation.inverse() * b.rotation) {
+    : rotation_(a.rotation.inverse() * b.rotation), to_world_(a.rotation) {
     const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
     offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
     const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
@@ -131,7 +131,8 @@ Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& fram
     return {};
 }
 
-Separation separate_aabb(const Box& a, const Box& b, const Rotation& to_world, const RelativeFrame& frame) {
+Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame) {
+    const Rotation& to_world = frame.to_world();
     const glm::dvec3 center_b = frame.point(b.center);
     const glm::dvec2 d = to_world(glm::dvec2{center_b.x - a.center.x, center_b.y - a.center.y});
     const glm::dvec2 reach = half_in_world(a, to_world) + half_in_world(b, to_world * frame.rotation());

@@ -5,7 +5,11 @@
 #include <mobb/box.h>
 #include <mobb/clip.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <type_traits>
 
 namespace mobb {
 
@@ -34,6 +38,8 @@ class RelativeFrame {
         return {d.x + offset_.x, d.y + offset_.y, d.z + offset_.z};
     }
     const Rotation& rotation() const { return rotation_; }
+    /// From A's frame to the world's.
+    const Rotation& to_world() const { return to_world_; }
     double slack2d() const { return slack2d_; }
     double slack3d() const { return slack3d_; }
     /// Of times, in metres of w*t.
@@ -41,6 +47,7 @@ class RelativeFrame {
 
   private:
     Rotation rotation_;  ///< from B's frame to A's
+    Rotation to_world_;
     glm::dvec3 offset_;  ///< B's origin in A's frame, (x, y, w*t)
     double slack2d_;
     double slack3d_;
@@ -62,9 +69,35 @@ Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame
 /// side of the other: conservative, as between the ends the gap is linear in time. Both of one time scale.
 Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& frame);
 
-/// Two boxes along x and y of their clips, each wrapped again along x and y of the world: two axes. `to_world` is A's
-/// rotation.
-Separation separate_aabb(const Box& a, const Box& b, const Rotation& to_world, const RelativeFrame& frame);
+/// Two boxes along x and y of their clips, each wrapped again along x and y of the world: two axes.
+Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame);
+
+/// The test that two kinds of boxes get, in this order, and the kind it is counted as.
+struct PairTest {
+    BoxKind a;
+    BoxKind b;
+    BoxKind test;
+    Separation (*separate)(const Box&, const Box&, const RelativeFrame&);
+    bool mixes_time;  ///< boxes of trees of different time scales live in different spaces: they are not compared
+};
+
+/// A pair that is not here has no test in common: it counts as overlapping.
+inline constexpr PairTest kPairTests[] = {
+    {BoxKind::obb2d, BoxKind::obb2d, BoxKind::obb2d, separate_obb2d, false},
+    {BoxKind::obb3d, BoxKind::obb3d, BoxKind::obb3d, separate_obb3d, true},
+    {BoxKind::obb2d, BoxKind::obb3d, BoxKind::obb3d, separate_obb3d, true},
+    {BoxKind::obb3d, BoxKind::obb2d, BoxKind::obb3d, separate_obb3d, true},
+    {BoxKind::moving, BoxKind::moving, BoxKind::moving, separate_moving, true},
+    {BoxKind::aabb, BoxKind::aabb, BoxKind::aabb, separate_aabb, false},
+};
+
+static_assert(std::ranges::all_of(kBoxKinds,
+                                  [](BoxKind kind) {
+                                      return std::ranges::any_of(kPairTests, [=](const PairTest& test) {
+                                          return test.a == kind && test.b == kind;
+                                      });
+                                  }),
+              "a kind of box has no test against itself");
 
 /// Half extents along the world's x and y of a rectangle along x and y of a frame that `to_world` turns.
 inline glm::dvec2 half_in_world(const Box& box, const Rotation& to_world) {

@@ -6,38 +6,17 @@
 
 namespace mobb {
 
-namespace {
-
-TestKind test_kind(BoxKind kind) {
-    switch (kind) {
-        case BoxKind::obb2d:
-            return TestKind::obb2d;
-        case BoxKind::obb3d:
-            return TestKind::obb3d;
-        case BoxKind::moving:
-            return TestKind::moving;
-        case BoxKind::aabb:
-            return TestKind::aabb;
-    }
-    return TestKind::obb3d;
-}
-
-}  // namespace
-
 int axis_count(TestKind test) {
-    switch (test) {
-        case TestKind::obb2d:
-        case TestKind::moving:
+    if (!test.is_box()) return 0;
+    switch (info(test.box()).axes) {
+        case BoxAxes::floor:
             return 4;
-        case TestKind::obb3d:
+        case BoxAxes::space_time:
             return 15;
-        case TestKind::aabb:
-            return 2;
-        case TestKind::time:
-        case TestKind::samples:
+        case BoxAxes::world:
             break;
     }
-    return 0;
+    return 2;
 }
 
 Trace::Event Trace::operator[](int step) const& {
@@ -64,12 +43,8 @@ void Trace::push(const Event& event) {
 
 TestCounts Trace::counts() const {
     TestCounts counts;
-    counts.time = std::ranges::count(test_, TestKind::time);
-    counts.obb2d = std::ranges::count(test_, TestKind::obb2d);
-    counts.obb3d = std::ranges::count(test_, TestKind::obb3d);
-    counts.moving = std::ranges::count(test_, TestKind::moving);
-    counts.aabb = std::ranges::count(test_, TestKind::aabb);
-    counts.samples = static_cast<std::int64_t>(pool_.size());
+    for (const TestKind test : test_) ++counts[test];
+    counts[TestKind::samples] = static_cast<std::int64_t>(pool_.size());
     return counts;
 }
 
@@ -83,7 +58,7 @@ void TraceRecorder::time_test(bool overlap) {
 }
 
 void TraceRecorder::box_test(BoxKind test, const Separation& separation) {
-    push(test_kind(test), separation.separated() ? Outcome::separated : Outcome::overlap, separation);
+    push(test, separation.separated() ? Outcome::separated : Outcome::overlap, separation);
 }
 
 void TraceRecorder::sample_pair(int i, int j, double squared_distance) {

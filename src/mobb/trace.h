@@ -13,10 +13,8 @@
 
 namespace mobb {
 
-enum class TestKind : std::uint8_t { time, obb2d, obb3d, moving, aabb, samples };
 enum class Outcome : std::uint8_t { disjoint_in_time, separated, overlap, hit, no_hit };
 
-inline bool is_box_test(TestKind test) { return test != TestKind::time && test != TestKind::samples; }
 /// How many axes a box test may try (see Separation); 0 of another test.
 int axis_count(TestKind test);
 
@@ -40,7 +38,7 @@ class Trace {
         int depth = 0;    ///< in node pairs; 0 at the root
         int a = 0;        ///< node indices
         int b = 0;
-        TestKind test = TestKind::time;
+        TestKind test;
         Outcome outcome = Outcome::overlap;
         int axis = -1;                          ///< of a separation (see Separation); else -1
         double gap = 0;                         ///< of a separation, metres; else 0

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstddef>
+#include <iterator>
 
 namespace mobb {
 
@@ -167,25 +169,19 @@ class Traversal {
         return overlap;
     }
 
+    /// Looks the test of two kinds up in kPairTests, unrolled at compile time: each is called directly.
+    template <std::size_t i = 0>
     bool may_meet_in_space(const Box& a, const Box& b) {
-        if (a.kind == BoxKind::obb2d && b.kind == BoxKind::obb2d) {
-            return may_meet(BoxKind::obb2d, separate_obb2d(a, b, frame_));
+        if constexpr (i < std::size(kPairTests)) {
+            constexpr PairTest pair = kPairTests[i];
+            if (a.kind != pair.a || b.kind != pair.b) return may_meet_in_space<i + 1>(a, b);
+            if (pair.mixes_time && !same_scale_) return true;
+            const Separation separation = pair.separate(a, b, frame_);
+            if constexpr (Observer::watches) observer_.box_test(pair.test, separation);
+            return !separation.separated();
+        } else {
+            return true;
         }
-        // Boxes of different time scales live in different spaces: never compared, the pair counts as overlapping.
-        if (a.kind <= BoxKind::obb3d && b.kind <= BoxKind::obb3d) {
-            return !same_scale_ || may_meet(BoxKind::obb3d, separate_obb3d(a, b, frame_));
-        }
-        // So do boxes of kinds that have no test in common.
-        if (a.kind != b.kind) return true;
-        if (a.kind == BoxKind::aabb) {
-            return may_meet(BoxKind::aabb, separate_aabb(a, b, a_.frame().rotation, frame_));
-        }
-        return !same_scale_ || may_meet(BoxKind::moving, separate_moving(a, b, frame_));
-    }
-
-    bool may_meet([[maybe_unused]] BoxKind test, const Separation& separation) {
-        if constexpr (Observer::watches) observer_.box_test(test, separation);
-        return !separation.separated();
     }
 
     bool test_samples(const auto& na, const auto& nb) {

@@ -7,31 +7,9 @@
 
 namespace mobb {
 
-namespace {
-
-BoxKind box_kind(TreeKind kind, int level) {
-    switch (kind) {
-        case TreeKind::mobb:
-            return BoxKind::obb2d;
-        case TreeKind::umobb:
-            return BoxKind::obb3d;
-        case TreeKind::hybrid1:
-            return level > 0 ? BoxKind::obb3d : BoxKind::obb2d;
-        case TreeKind::hybrid2:
-            return level > 0 ? BoxKind::obb2d : BoxKind::obb3d;
-        case TreeKind::moving:
-            return BoxKind::moving;
-        case TreeKind::aabb:
-            return BoxKind::aabb;
-    }
-    return BoxKind::obb2d;
-}
-
-}  // namespace
-
 void check(const FitOptions& options) {
-    if (options.tree > TreeKind::aabb) throw std::invalid_argument("tree is no TreeKind");
-    if (options.axes > Axes::minarea) throw std::invalid_argument("axes is no Axes");
+    if (static_cast<std::size_t>(options.tree) >= kTreeKindCount) throw std::invalid_argument("tree is no TreeKind");
+    if (static_cast<std::size_t>(options.axes) >= axes_names().size()) throw std::invalid_argument("axes is no Axes");
     if (options.leaf < 1) throw std::invalid_argument("leaf must be at least 1");
     if (options.levels < 0) throw std::invalid_argument("levels must be 0 (all) or more");
     const double w = options.time_scale;
@@ -53,7 +31,8 @@ Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), op
 int Tree::build(SampleRange range, int parent, int level) {
     const int index = static_cast<int>(nodes_.size());
     Node node;
-    node.box = fit(box_kind(options_.tree, level), *clip_, range, options_.axes, options_.time_scale);
+    const TreeInfo& kinds = info(options_.tree);
+    node.box = fit(level == 0 ? kinds.root : kinds.below, *clip_, range, options_.axes, options_.time_scale);
     node.first = range.first;
     node.count = range.count;
     node.parent = parent;

@@ -5,22 +5,12 @@
 #include <mobb/clip.h>
 #include <mobb/fit.h>
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 namespace mobb {
-
-enum class TreeKind : std::uint8_t {
-    mobb,     ///< 2D oriented boxes extruded in time
-    umobb,    ///< free boxes in space-time
-    hybrid1,  ///< MOBB root, UMOBB below (paper, Section 5)
-    hybrid2,  ///< UMOBB root, MOBB below
-    moving,   ///< 2D oriented boxes that move with the walk
-    aabb,     ///< boxes along the axes: the baseline of other fields
-};
 
 struct FitOptions {
     TreeKind tree = TreeKind::mobb;  ///< the paper's best all round

@@ -93,24 +93,14 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
             throw DisagreementError("query " + std::to_string(i) + ": " + fitted.method->name +
                                     " and the direct search disagree");
         }
-        sum.time += counts.tests.time;
-        sum.obb2d += counts.tests.obb2d;
-        sum.obb3d += counts.tests.obb3d;
-        sum.moving += counts.tests.moving;
-        sum.aabb += counts.tests.aabb;
-        sum.samples += counts.tests.samples;
+        for (const mobb::TestKind test : mobb::kTestKinds) sum[test] += counts.tests[test];
         steps += counts.sample_steps;
     }
     const auto mean = [&](std::int64_t of) { return static_cast<double>(of) / static_cast<double>(truth.size()); };
     TableRow row;
     row.method = fitted.method->name;
     row.leaf = fitted.method->options ? fitted.method->options->leaf : 0;
-    row.time_tests = mean(sum.time);
-    row.obb2d = mean(sum.obb2d);
-    row.obb3d = mean(sum.obb3d);
-    row.moving = mean(sum.moving);
-    row.aabb = mean(sum.aabb);
-    row.samples = mean(sum.samples);
+    for (const mobb::TestKind test : mobb::kTestKinds) row[test] = mean(sum[test]);
     row.sample_steps = mean(steps);
     row.root_rejected = mean(rejected);
     row.root_box_tests = mean(root_boxes);
@@ -160,6 +150,12 @@ std::string processor() {
 }
 
 }  // namespace
+
+double TableRow::box_tests() const {
+    double sum = 0;
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) sum += (*this)[kind];
+    return sum;
+}
 
 TableRows measure(const Workload& workload, const std::vector<Method>& methods, int rounds,
                   const MeasureProgress& progress) {
@@ -229,11 +225,11 @@ std::vector<TableRow> sweep_leaf(const Workload& workload, mobb::FitOptions base
 
 std::vector<Method> hierarchical_methods(const mobb::FitOptions& base) {
     std::vector<Method> methods;
-    for (const std::string_view name : mobb::tree_kind_names()) {
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
         mobb::FitOptions options = base;
-        options.tree = *mobb::tree_kind_from_name(name);
+        options.tree = kind;
         options.levels = 0;
-        methods.push_back({std::string(name), options});
+        methods.push_back({std::string(mobb::name(kind)), options});
     }
     return methods;
 }

@@ -5,6 +5,7 @@
 #include <mobb/tree.h>
 #include <paper_tables/workload.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -26,15 +27,14 @@ struct TableRow {
     double time_ns = 0;     ///< median over the rounds of the round's mean
     double time_ns_q1 = 0;  ///< lower and upper quartile over the rounds
     double time_ns_q3 = 0;
-    double time_tests = 0;  ///< of two nodes' times
-    double obb2d = 0;
-    double obb3d = 0;
-    double moving = 0;
-    double aabb = 0;
-    double samples = 0;         ///< pairs (i, j) whose distance was measured
+    std::array<double, mobb::kTestKindCount> tests{};  ///< by TestKind::index(); of samples: pairs (i, j)
     double sample_steps = 0;    ///< samples of A among them: the paper's count, where a sample has one partner
     double root_rejected = 0;   ///< share of the queries that were answered by the test of the roots
     double root_box_tests = 0;  ///< of the two roots, per query
+
+    double& operator[](mobb::TestKind test) { return tests[test.index()]; }
+    double operator[](mobb::TestKind test) const { return tests[test.index()]; }
+    double box_tests() const;
 };
 
 struct TableRows {
@@ -61,7 +61,7 @@ struct DisagreementError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The paper's rows and the baselines: brute, mobb_1level, umobb_1level, mobb, umobb, hybrid1, hybrid2, moving, aabb.
+/// The paper's rows and the baselines: brute, mobb_1level, umobb_1level, and the kinds of trees.
 /// `base` gives all but the kind and the levels.
 std::vector<Method> table_methods(const mobb::FitOptions& base);
 

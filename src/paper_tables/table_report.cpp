@@ -53,12 +53,7 @@ void write_figures(JsonWriter& out, const TableRow& row) {
     out.member("time_ns", row.time_ns);
     out.key("time_ns_quartiles");
     out.numbers({row.time_ns_q1, row.time_ns_q3});
-    out.member("time", row.time_tests);
-    out.member("obb2d", row.obb2d);
-    out.member("obb3d", row.obb3d);
-    out.member("moving", row.moving);
-    out.member("aabb", row.aabb);
-    out.member("samples", row.samples);
+    for (const mobb::TestKind test : mobb::kTestKinds) out.member(mobb::name(test), row[test]);
     out.member("sample_steps", row.sample_steps);
     out.member("root_box_tests", row.root_box_tests);
     out.member("root_rejected", row.root_rejected);
@@ -81,6 +76,14 @@ std::string left(std::string_view text, int width) {
     return out;
 }
 
+std::string right(std::string_view text, int width) {
+    return std::string(std::max<std::size_t>(text.size(), static_cast<std::size_t>(width)) - text.size(), ' ') +
+           std::string(text);
+}
+
+/// Of the column of a kind's tests.
+int width_of(mobb::BoxKind kind) { return kind == mobb::kBoxKinds.front() ? 6 : 8; }
+
 std::string percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
@@ -88,17 +91,16 @@ std::string percent(double share) {
 }
 
 void write_rows(std::ostream& out, const TableReport& report) {
-    out << "method           ns/query   quartiles           2D      3D  moving    aabb  sample pairs   steps  "
-           "root rejects | paper: us      2D      3D  samples\n";
+    out << "method           ns/query   quartiles       ";
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) out << right(mobb::info(kind).heading, width_of(kind));
+    out << "  sample pairs   steps  root rejects | paper: us      2D      3D  samples\n";
     for (const TableRow& row : report.table.rows) {
         char quartiles[64];
         std::snprintf(quartiles, sizeof quartiles, "%.1f..%.1f", row.time_ns_q1, row.time_ns_q3);
-        out << left(row.method, 15) << cell(row.time_ns, 10, 1) << "   " << left(quartiles, 16) << cell(row.obb2d, 6, 2)
-            << cell(row.obb3d, 8, 2) << cell(row.moving, 8, 2) << cell(row.aabb, 8, 2) << cell(row.samples, 14, 2)
-            << cell(row.sample_steps, 8, 2) << "  "
-            << (row.leaf == 0 ? std::string("           -")
-                              : std::string(12 - std::min<std::size_t>(12, percent(row.root_rejected).size()), ' ') +
-                                    percent(row.root_rejected));
+        out << left(row.method, 15) << cell(row.time_ns, 10, 1) << "   " << left(quartiles, 16);
+        for (const mobb::BoxKind kind : mobb::kBoxKinds) out << cell(row[kind], width_of(kind), 2);
+        out << cell(row[mobb::TestKind::samples], 14, 2) << cell(row.sample_steps, 8, 2) << "  "
+            << right(row.leaf == 0 ? "-" : percent(row.root_rejected), 12);
         if (const std::optional<PaperRow> paper = paper_row(report.workload, row.method)) {
             out << " |" << cell(paper->time_us, 10, 1) << cell(paper->obb2d, 8, 2) << cell(paper->obb3d, 8, 2)
                 << cell(paper->samples, 9, 2);
@@ -111,19 +113,17 @@ void write_rows(std::ostream& out, const TableReport& report) {
 
 void write_costs(std::ostream& out, const TestCosts& costs) {
     const char* before = "One test costs, in ns: ";
-    const auto one = [&](const char* what, const std::optional<double>& cost) {
+    const auto one = [&](std::string_view what, const std::optional<double>& cost) {
         if (!cost) return;
         out << before << what << ' ' << cell(*cost, 0, 2);
         before = ", ";
     };
-    one("2D boxes", costs.obb2d);
-    one("3D boxes", costs.obb3d);
-    one("moving boxes", costs.moving);
-    one("aabb", costs.aabb);
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) one(mobb::info(kind).plural, costs[kind]);
     one("a pair of samples", costs.sample_pair);
     out << (before[0] == ',' ? ".\n" : "No test was made, so none has a price.\n");
-    if (costs.obb2d && costs.sample_pair) {
-        out << "A 2D box test is worth " << cell(*costs.obb2d / *costs.sample_pair, 0, 1)
+    const std::optional<double>& two_d = costs[mobb::BoxKind::obb2d];
+    if (two_d && costs.sample_pair) {
+        out << "A 2D box test is worth " << cell(*two_d / *costs.sample_pair, 0, 1)
             << " sample pairs; on the paper's machine it was worth n_min/2 = 5 steps.\n";
     }
 }
@@ -146,8 +146,8 @@ void write_sweep(std::ostream& out, const std::vector<TableRow>& sweep) {
         for (const std::string& method : methods) {
             const TableRow& row = *by.at({method, leaf});
             char text[96];
-            std::snprintf(text, sizeof text, "%.1f (%.1f; %.1f)", row.time_ns,
-                          row.obb2d + row.obb3d + row.moving + row.aabb, row.samples);
+            std::snprintf(text, sizeof text, "%.1f (%.1f; %.1f)", row.time_ns, row.box_tests(),
+                          row[mobb::TestKind::samples]);
             out << left(text, 26);
         }
         out << '\n';
@@ -200,10 +200,7 @@ void write_json(std::ostream& stream, const TableReport& report) {
     out.end_array();
     out.key("test_ns");
     out.begin_object(JsonWriter::Layout::row);
-    write_optional(out, "obb2d", report.costs.obb2d);
-    write_optional(out, "obb3d", report.costs.obb3d);
-    write_optional(out, "moving", report.costs.moving);
-    write_optional(out, "aabb", report.costs.aabb);
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) write_optional(out, mobb::name(kind), report.costs[kind]);
     write_optional(out, "sample_pair", report.costs.sample_pair);
     out.end_object();
     if (!report.sweep.empty()) {

@@ -28,13 +28,8 @@ struct BoxPair {
     std::size_t frame;  ///< index of the query's frame
 };
 
-struct QueryFrame {
-    mobb::RelativeFrame relative;
-    mobb::Rotation to_world;  ///< of A
-};
-
 struct BoxPairs {
-    std::vector<QueryFrame> frames;
+    std::vector<mobb::RelativeFrame> frames;
     std::vector<BoxPair> pairs;
 };
 
@@ -63,20 +58,19 @@ BoxPairs collect(const std::vector<mobb::Tree>& trees, const Workload& workload,
         for (const auto& [ia, ib] : collector.tested) {
             out.pairs.push_back({&a.node(ia).box, &b.node(ib).box, out.frames.size()});
         }
-        out.frames.push_back({{a.frame(), b.frame(), a.time_scale()}, a.frame().rotation});
+        out.frames.emplace_back(a.frame(), b.frame(), a.time_scale());
     }
     return out;
 }
 
-/// Nanoseconds of one call of `test` on a pair, over all pairs again and again.
-template <class Test>
-std::optional<double> time_pairs(const BoxPairs& pairs, Test test) {
+/// Nanoseconds of one call of the test on a pair, over all pairs again and again.
+std::optional<double> time_pairs(const BoxPairs& pairs, const mobb::PairTest& test) {
     if (pairs.pairs.empty()) return std::nullopt;
     std::int64_t calls = 0, separated = 0;
     const auto begin = Clock::now();
     do {
         for (const BoxPair& pair : pairs.pairs) {
-            separated += test(*pair.a, *pair.b, pairs.frames[pair.frame]).separated() ? 1 : 0;
+            separated += test.separate(*pair.a, *pair.b, pairs.frames[pair.frame]).separated() ? 1 : 0;
         }
         calls += static_cast<std::int64_t>(pairs.pairs.size());
     } while (nanoseconds(Clock::now() - begin) < kLeastSeconds * 1e9);
@@ -85,29 +79,14 @@ std::optional<double> time_pairs(const BoxPairs& pairs, Test test) {
     return separated <= calls ? spent / static_cast<double>(calls) : 0;
 }
 
-std::optional<double> time_box_tests(const Workload& workload, mobb::FitOptions options, mobb::TreeKind tree,
-                                     mobb::BoxKind box) {
-    options.tree = tree;
+std::optional<double> time_box_tests(const Workload& workload, mobb::FitOptions options, mobb::BoxKind box) {
+    const auto below = [](mobb::TreeKind kind) { return mobb::info(kind).below; };
+    options.tree = *std::ranges::find(mobb::kTreeKinds, box, below);
     options.levels = 0;
     std::vector<mobb::Tree> trees;
     trees.reserve(workload.clips.size());
     for (const mobb::ClipPtr& clip : workload.clips) trees.emplace_back(clip, options);
-    const BoxPairs pairs = collect(trees, workload, box);
-    switch (box) {
-        case mobb::BoxKind::obb2d:
-            return time_pairs(pairs,
-                              [](auto& a, auto& b, auto& at) { return mobb::separate_obb2d(a, b, at.relative); });
-        case mobb::BoxKind::obb3d:
-            return time_pairs(pairs,
-                              [](auto& a, auto& b, auto& at) { return mobb::separate_obb3d(a, b, at.relative); });
-        case mobb::BoxKind::moving:
-            return time_pairs(pairs,
-                              [](auto& a, auto& b, auto& at) { return mobb::separate_moving(a, b, at.relative); });
-        case mobb::BoxKind::aabb:
-            return time_pairs(
-                pairs, [](auto& a, auto& b, auto& at) { return mobb::separate_aabb(a, b, at.to_world, at.relative); });
-    }
-    return std::nullopt;
+    return time_pairs(collect(trees, workload, box), *std::ranges::find(mobb::kPairTests, box, &mobb::PairTest::test));
 }
 
 std::optional<double> time_sample_pairs(const Workload& workload) {
@@ -120,8 +99,8 @@ std::optional<double> time_sample_pairs(const Workload& workload) {
         const mobb::PlacedClip b(*workload.clips[static_cast<std::size_t>(query.clip_b)], query.b);
         mobb::Statistics counts;
         mobb::direct_search(a, b, counts);
-        if (counts.tests.samples == 0) continue;
-        pairs += counts.tests.samples;
+        if (counts.tests[mobb::TestKind::samples] == 0) continue;
+        pairs += counts.tests[mobb::TestKind::samples];
         searched.emplace_back(a, b);
     }
     if (searched.empty()) return std::nullopt;
@@ -139,10 +118,7 @@ std::optional<double> time_sample_pairs(const Workload& workload) {
 
 TestCosts measure_test_costs(const Workload& workload, const mobb::FitOptions& base) {
     TestCosts costs;
-    costs.obb2d = time_box_tests(workload, base, mobb::TreeKind::mobb, mobb::BoxKind::obb2d);
-    costs.obb3d = time_box_tests(workload, base, mobb::TreeKind::umobb, mobb::BoxKind::obb3d);
-    costs.moving = time_box_tests(workload, base, mobb::TreeKind::moving, mobb::BoxKind::moving);
-    costs.aabb = time_box_tests(workload, base, mobb::TreeKind::aabb, mobb::BoxKind::aabb);
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) costs[kind] = time_box_tests(workload, base, kind);
     costs.sample_pair = time_sample_pairs(workload);
     return costs;
 }

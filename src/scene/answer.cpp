@@ -60,12 +60,7 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
     write_contact(out, answer.contact);
     out.key("tests");
     out.begin_object(Layout::row);
-    out.member("time", answer.tests.time);
-    out.member("obb2d", answer.tests.obb2d);
-    out.member("obb3d", answer.tests.obb3d);
-    out.member("moving", answer.tests.moving);
-    out.member("aabb", answer.tests.aabb);
-    out.member("samples", answer.tests.samples);
+    for (const mobb::TestKind test : mobb::kTestKinds) out.member(mobb::name(test), answer.tests[test]);
     out.end_object();
     if (answer.contacts) {
         out.key("contacts");

@@ -37,7 +37,7 @@ void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
 void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     const mobb::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
     const mobb::Box& box = node.box;
-    const int dimensions = box.kind == mobb::BoxKind::obb3d ? 3 : 2;
+    const int dimensions = mobb::info(box.kind).axes == mobb::BoxAxes::space_time ? 3 : 2;
     out.begin_object(Layout::row);
     out.member("index", index);
     out.member("parent", node.parent);

@@ -23,7 +23,7 @@ bool fits(mobb::TestKind test, mobb::Outcome outcome) {
         case mobb::Outcome::disjoint_in_time:
             return test == mobb::TestKind::time;
         case mobb::Outcome::separated:
-            return mobb::is_box_test(test);
+            return test.is_box();
         case mobb::Outcome::overlap:
             return test != mobb::TestKind::samples;
         case mobb::Outcome::hit:
@@ -33,9 +33,16 @@ bool fits(mobb::TestKind test, mobb::Outcome outcome) {
     return false;
 }
 
+/// "time, obb2d, ... or samples".
+std::string test_names() {
+    std::string out(mobb::name(mobb::TestKind::time));
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) out += ", " + std::string(mobb::name(kind));
+    return out + " or " + std::string(mobb::name(mobb::TestKind::samples));
+}
+
 mobb::TestKind read_test(const JsonPlace& place) {
     if (const auto test = mobb::test_from_name(place.string())) return *test;
-    place.fail(in_quotes(place.string()) + " is no test; give time, obb2d, obb3d, moving, aabb or samples");
+    place.fail(in_quotes(place.string()) + " is no test; give " + test_names());
 }
 
 mobb::Outcome read_outcome(const JsonPlace& place, mobb::TestKind test) {

@@ -88,7 +88,7 @@ TEST(Recursion, CountsWhatHadBeenCountedAtEachStep) {
             for (int e = 0; e <= step; ++e) {
                 const Trace::Event event = asked.trace[e];
                 part.push(event);
-                const bool overlap = mobb::is_box_test(event.test) && event.outcome == Outcome::overlap;
+                const bool overlap = event.test.is_box() && event.outcome == Outcome::overlap;
                 if (!overlap) continue;
                 // Done when the next event belongs to no pair below it.
                 bool done = true;

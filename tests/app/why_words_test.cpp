@@ -81,7 +81,7 @@ TEST(WhyWords, TheGainCountsWhatTheDirectSearchWouldMeasure) {
     mobb::Statistics statistics;
     const SceneQuery query = fitted->queries()[0];
     static_cast<void>(ask(*fitted, query, Search::direct, statistics));
-    EXPECT_EQ(direct_pairs(findings.clearance), statistics.tests.samples);
+    EXPECT_EQ(direct_pairs(findings.clearance), statistics.tests[mobb::TestKind::samples]);
     EXPECT_EQ(gain_words(findings.recursion.total().tests, findings.clearance),
               "The direct search would measure 40 pairs of samples; this took 2 tests, 20 times fewer.");
 }
@@ -91,7 +91,7 @@ TEST(WhyWords, TheDirectSearchStopsAtTheFirstHit) {
     mobb::Statistics statistics;
     const SceneQuery query = fitted->queries()[0];
     static_cast<void>(ask(*fitted, query, Search::direct, statistics));
-    EXPECT_EQ(direct_pairs(findings_of(fitted).clearance), statistics.tests.samples);
+    EXPECT_EQ(direct_pairs(findings_of(fitted).clearance), statistics.tests[mobb::TestKind::samples]);
 }
 
 }  // namespace

@@ -45,12 +45,12 @@ TEST(Query, JsonIsTheAnswer) {
     EXPECT_EQ(found[0]["contact"]["time"], recorded.contact->time);
     EXPECT_EQ(found[0]["contact"]["a_sample"], recorded.contact->a_sample);
     EXPECT_EQ(found[0]["contact"]["distance"], recorded.contact->distance);
-    EXPECT_EQ(found[0]["tests"], (json{{"time", recorded.tests.time},
-                                       {"obb2d", recorded.tests.obb2d},
-                                       {"obb3d", recorded.tests.obb3d},
+    EXPECT_EQ(found[0]["tests"], (json{{"time", recorded.tests[mobb::TestKind::time]},
+                                       {"obb2d", recorded.tests[mobb::BoxKind::obb2d]},
+                                       {"obb3d", recorded.tests[mobb::BoxKind::obb3d]},
                                        {"moving", 0},
                                        {"aabb", 0},
-                                       {"samples", recorded.tests.samples}}));
+                                       {"samples", recorded.tests[mobb::TestKind::samples]}}));
 }
 
 TEST(Query, NoCollisionHasNoContact) {

@@ -85,7 +85,7 @@ TEST(Fit, EveryBoxIsTightAndContainsItsCylinders) {
 
 TEST(Fit, MobbAxesRunFromFirstToLastSample) {
     const Clip clip(0.1, {{0, 0, 0.5}, {5, -3, 0.2}, {3, 4, 0.4}});
-    const Box box = fit_obb2d(clip, {0, 3}, Axes::endpoints, 1);
+    const Box box = fit(BoxKind::obb2d, clip, {0, 3}, Axes::endpoints, 1);
     EXPECT_NEAR(box.axes[0].x, 0.6, 1e-15);
     EXPECT_NEAR(box.axes[0].y, 0.8, 1e-15);
     EXPECT_NEAR(box.axes[1].x, -0.8, 1e-15);
@@ -96,7 +96,7 @@ TEST(Fit, MobbAxesRunFromFirstToLastSample) {
 TEST(Fit, UmobbAxesOfTheRootAreThePapers) {
     const Clip clip(0.5, {{0, 0, 0.3}, {1, 0, 0.3}, {2, 2, 0.3}});
     const double w = 2;
-    const Box box = fit_obb3d(clip, {0, 3}, Axes::endpoints, w);
+    const Box box = fit(BoxKind::obb3d, clip, {0, 3}, Axes::endpoints, w);
     ASSERT_EQ(box.kind, BoxKind::obb3d);
     const glm::dvec3 a0 = glm::normalize(glm::dvec3{2, 2, w * 2 * 0.5});
     const glm::dvec3 a1 = glm::normalize(glm::cross(a0, glm::dvec3{0, 0, 1}));
@@ -110,7 +110,7 @@ TEST(Fit, OneDiskOnTheAxesOfFigure6) {
     // Two samples give the axes; the extents of the first one alone are those of Eq. "min_0 .. max_2" with a0_t > 0.
     const double r = 0.4, dt = 0.5;
     const Clip clip(dt, {{0, 0, r}, {0.3, 0, 0}});
-    const Box box = fit_obb3d(clip, {0, 2}, Axes::endpoints, 1);
+    const Box box = fit(BoxKind::obb3d, clip, {0, 2}, Axes::endpoints, 1);
     const glm::dvec3 a0 = box.axes[0], a2 = box.axes[2];
     const double low0 = glm::dot(box.center, a0) - box.half.x;
     const double high2 = glm::dot(box.center, a2) + box.half.z;
@@ -121,16 +121,16 @@ TEST(Fit, OneDiskOnTheAxesOfFigure6) {
 
 TEST(Fit, StandingStillFallsBackToPrincipalAxisThenX) {
     const Clip standing(0.1, {{5, 7, 0.5}, {5, 7, 0.4}, {5, 7, 0.5}});
-    EXPECT_EQ(fit_obb2d(standing, {0, 3}, Axes::endpoints, 1).axes[0], glm::dvec3(1, 0, 0));
+    EXPECT_EQ(fit(BoxKind::obb2d, standing, {0, 3}, Axes::endpoints, 1).axes[0], glm::dvec3(1, 0, 0));
     const Clip there_and_back(0.1, {{0, 0, 0.5}, {-1, -1, 0.5}, {-2, -2, 0.5}, {-1, -1, 0.5}, {0, 0, 0.5}});
-    const Box box = fit_obb2d(there_and_back, {0, 5}, Axes::endpoints, 1);
+    const Box box = fit(BoxKind::obb2d, there_and_back, {0, 5}, Axes::endpoints, 1);
     EXPECT_NEAR(box.axes[0].x, std::numbers::sqrt2 / 2, 1e-12);
     EXPECT_NEAR(box.axes[0].y, std::numbers::sqrt2 / 2, 1e-12);
 }
 
 TEST(Fit, FirstAndLastWithinAMicrometreGiveNoDirection) {
     const Clip clip(0.1, {{0, 0, 0.5}, {3, 4, 0.5}, {0, 5e-7, 0.5}});
-    const Box box = fit_obb2d(clip, {0, 3}, Axes::endpoints, 1);
+    const Box box = fit(BoxKind::obb2d, clip, {0, 3}, Axes::endpoints, 1);
     EXPECT_NEAR(box.axes[0].x, 0.6, 1e-6);
     EXPECT_NEAR(box.axes[0].y, 0.8, 1e-6);
 }
@@ -144,14 +144,14 @@ TEST(Fit, WhatHasNoPrincipalAxisTakesX) {
         }
         circle.pop_back();
         const Clip clip(0.1, circle);
-        EXPECT_EQ(fit_obb2d(clip, {0, 36}, Axes::covariance, 1).axes[0], glm::dvec3(1, 0, 0)) << x;
+        EXPECT_EQ(fit(BoxKind::obb2d, clip, {0, 36}, Axes::covariance, 1).axes[0], glm::dvec3(1, 0, 0)) << x;
     }
 }
 
 TEST(Fit, PrincipalAxisAlongYIsExactAndDoesNotFlip) {
     for (const double shift : {0.0, 1e-18, -1e-18}) {
         const Clip clip(0.1, {{shift, 0, 0.5}, {0, 1, 0.5}, {0, 2, 0.5}, {0, -3, 0.5}});
-        EXPECT_EQ(fit_obb2d(clip, {0, 4}, Axes::covariance, 1).axes[0], glm::dvec3(0, 1, 0)) << shift;
+        EXPECT_EQ(fit(BoxKind::obb2d, clip, {0, 4}, Axes::covariance, 1).axes[0], glm::dvec3(0, 1, 0)) << shift;
     }
 }
 
@@ -200,11 +200,11 @@ TEST(Fit, CovarianceAxesDiagonaliseTheCovariance) {
         const Clip clip(1.0 / 30, path);
         const double w = std::pow(10, random.real(-2, 4));
         const Covariance c = covariance(clip, w);
-        const Box flat = fit_obb2d(clip, {0, n}, Axes::covariance, w);
+        const Box flat = fit(BoxKind::obb2d, clip, {0, n}, Axes::covariance, w);
         EXPECT_LE(std::abs(c.along(flat.axes[0], flat.axes[1])), 1e-9 * c.along(flat.axes[0], flat.axes[0])) << round;
         EXPECT_GE(c.along(flat.axes[0], flat.axes[0]), c.along(flat.axes[1], flat.axes[1])) << round;
 
-        const Box box = fit_obb3d(clip, {0, n}, Axes::covariance, w);
+        const Box box = fit(BoxKind::obb3d, clip, {0, n}, Axes::covariance, w);
         free_boxes += box.kind == BoxKind::obb3d;
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3 u = box.axes[k], v = box.axes[(k + 1) % 3];
@@ -221,7 +221,7 @@ TEST(Fit, CovarianceOfAStraightWalkTakesTheFloorsDirection) {
         const double angle = degrees * std::numbers::pi / 180;
         std::vector<Disk> path;
         for (int i = 0; i < 30; ++i) path.push_back({0.05 * i * std::cos(angle), 0.05 * i * std::sin(angle), 0.3});
-        const Box box = fit_obb3d(Clip(0.1, path), {0, 30}, Axes::covariance, 1);
+        const Box box = fit(BoxKind::obb3d, Clip(0.1, path), {0, 30}, Axes::covariance, 1);
         ASSERT_EQ(box.kind, BoxKind::obb3d);
         EXPECT_NEAR(std::abs(box.axes[1].x * std::sin(angle) - box.axes[1].y * std::cos(angle)), 1, 1e-9) << degrees;
         EXPECT_NEAR(box.axes[1].z, 0, 1e-12) << degrees;
@@ -231,11 +231,11 @@ TEST(Fit, CovarianceOfAStraightWalkTakesTheFloorsDirection) {
 TEST(Fit, FreeBoxAlongTimeIsStoredAs2D) {
     for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
         const Clip one(0.1, {{1, 2, 0.5}});
-        EXPECT_EQ(fit_obb3d(one, {0, 1}, axes, 1).kind, BoxKind::obb2d);
+        EXPECT_EQ(fit(BoxKind::obb3d, one, {0, 1}, axes, 1).kind, BoxKind::obb2d);
         const Clip back_again(0.1, {{0, 0, 0.5}, {2, 0, 0.5}, {5e-7, 0, 0.5}});
-        EXPECT_EQ(fit_obb3d(back_again, {0, 3}, axes, 1).kind, BoxKind::obb2d);
+        EXPECT_EQ(fit(BoxKind::obb3d, back_again, {0, 3}, axes, 1).kind, BoxKind::obb2d);
         const Clip walk(0.1, {{0, 0, 0.01}, {1, 0, 0.01}, {2, 0.1, 0.01}});
-        EXPECT_EQ(fit_obb3d(walk, {0, 3}, axes, 1).kind, BoxKind::obb3d);
+        EXPECT_EQ(fit(BoxKind::obb3d, walk, {0, 3}, axes, 1).kind, BoxKind::obb3d);
     }
 }
 
@@ -256,7 +256,7 @@ TEST(Fit, MinareaIsWithinOnePercentOfTheBestOf1800Angles) {
         }
         const SampleRange all{0, clip->count()};
         const auto flat_area = [&](Axes axes) {
-            const Box box = fit_obb2d(*clip, all, axes, 1);
+            const Box box = fit(BoxKind::obb2d, *clip, all, axes, 1);
             return 4 * box.half.x * box.half.y;
         };
         const double found = flat_area(Axes::minarea);
@@ -268,13 +268,13 @@ TEST(Fit, MinareaIsWithinOnePercentOfTheBestOf1800Angles) {
 
 TEST(Fit, AMovingBoxMovesFromTheFirstCentreToTheLast) {
     const Clip clip(0.5, {{9, 9, 1}, {0, 0, 0.3}, {1, 3, 0.3}, {4, 2, 0.3}});
-    const Box box = fit_moving(clip, {1, 3}, Axes::endpoints, 2);
+    const Box box = fit(BoxKind::moving, clip, {1, 3}, Axes::endpoints, 2);
     EXPECT_EQ(box.kind, BoxKind::moving);
     // 4 m and 2 m in one second, over 1.5 s: half of that on either side of the middle.
     EXPECT_NEAR(glm::length(box.drift - glm::dvec2(3, 1.5)), 0, 1e-14);
     EXPECT_NEAR(glm::length(box.axes[0] - glm::normalize(glm::dvec3(4, 2, 0))), 0, 1e-14);
     EXPECT_NEAR(box.half.z, 2 * 0.75, 1e-14);
-    EXPECT_EQ(fit_moving(clip, {0, 1}, Axes::endpoints, 1).drift, glm::dvec2(0)) << "one sample stands still";
+    EXPECT_EQ(fit(BoxKind::moving, clip, {0, 1}, Axes::endpoints, 1).drift, glm::dvec2(0)) << "one sample stands still";
 }
 
 TEST(Fit, AMovingBoxIsAsNarrowAsAStraightWalk) {
@@ -283,7 +283,7 @@ TEST(Fit, AMovingBoxIsAsNarrowAsAStraightWalk) {
     for (int i = 0; i < 100; ++i) walk.push_back({0.03 * i, 0.04 * i, 0.4});
     const Clip clip(0.1, walk);
     for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
-        const Box box = fit_moving(clip, {0, 100}, axes, 1);
+        const Box box = fit(BoxKind::moving, clip, {0, 100}, axes, 1);
         EXPECT_NEAR(box.half.x, 0.4 + 0.05 / 2, 1e-12) << name(axes);
         EXPECT_NEAR(box.half.y, 0.4, 1e-12) << name(axes);
     }
@@ -293,7 +293,9 @@ TEST(Fit, MinareaOfMovingBoxesIsNeverLooserThanTheOthers) {
     Random random(6);
     for (int round = 0; round < 200; ++round) {
         const ClipPtr clip = test::random_clip(random, 200);
-        const auto size = [&](Axes axes) { return volume(fit_moving(*clip, {0, clip->count()}, axes, 1), 1); };
+        const auto size = [&](Axes axes) {
+            return volume(fit(BoxKind::moving, *clip, {0, clip->count()}, axes, 1), 1);
+        };
         EXPECT_LE(size(Axes::minarea), size(Axes::endpoints)) << round;
         EXPECT_LE(size(Axes::minarea), size(Axes::covariance)) << round;
     }
@@ -313,7 +315,7 @@ TEST(Fit, MinareaFindsANarrowOptimum) {
         for (int i = 0; i < 60; ++i) add(20, 1);
         for (int i = 20; i >= 3; --i) add(i, 1);
         const Clip clip(0.1, path);
-        const Box box = fit_obb2d(clip, {0, clip.count()}, Axes::minarea, 1);
+        const Box box = fit(BoxKind::obb2d, clip, {0, clip.count()}, Axes::minarea, 1);
         EXPECT_LE(4 * box.half.x * box.half.y, 1.01 * 20.04 * 1.04) << degrees;
     }
 }
@@ -324,9 +326,9 @@ TEST(Fit, MinareaInSpaceTimeBeatsBothOthersWhereTheyAreLoose) {
     for (int i = 0; i < 30; ++i) bend.push_back({i < 10 ? 0 : 0.1 * (i - 10), 0.02 * ((i * 7) % 3), 0.05});
     const Clip clip(0.1, bend);
     const SampleRange all{0, 30};
-    const auto size = [&](Axes axes) { return volume(fit_obb3d(clip, all, axes, 1), 1); };
+    const auto size = [&](Axes axes) { return volume(fit(BoxKind::obb3d, clip, all, axes, 1), 1); };
     EXPECT_LT(size(Axes::minarea), 0.97 * std::min(size(Axes::endpoints), size(Axes::covariance)));
-    EXPECT_LT(size(Axes::minarea), volume(fit_obb2d(clip, all, Axes::minarea, 1), 1));
+    EXPECT_LT(size(Axes::minarea), volume(fit(BoxKind::obb2d, clip, all, Axes::minarea, 1), 1));
 }
 
 TEST(Fit, MinareaInSpaceTimeIsNeverLooserThanTheOthers) {
@@ -335,10 +337,10 @@ TEST(Fit, MinareaInSpaceTimeIsNeverLooserThanTheOthers) {
         const ClipPtr clip = test::random_clip(random, 200);
         const SampleRange all{0, clip->count()};
         const double w = random.real(0.2, 5);
-        const double found = volume(fit_obb3d(*clip, all, Axes::minarea, w), w);
-        EXPECT_LE(found, volume(fit_obb3d(*clip, all, Axes::endpoints, w), w)) << round;
-        EXPECT_LE(found, volume(fit_obb3d(*clip, all, Axes::covariance, w), w)) << round;
-        EXPECT_LE(found, volume(fit_obb2d(*clip, all, Axes::minarea, w), w)) << round;
+        const double found = volume(fit(BoxKind::obb3d, *clip, all, Axes::minarea, w), w);
+        EXPECT_LE(found, volume(fit(BoxKind::obb3d, *clip, all, Axes::endpoints, w), w)) << round;
+        EXPECT_LE(found, volume(fit(BoxKind::obb3d, *clip, all, Axes::covariance, w), w)) << round;
+        EXPECT_LE(found, volume(fit(BoxKind::obb2d, *clip, all, Axes::minarea, w), w)) << round;
     }
 }
 

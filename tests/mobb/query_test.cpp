@@ -369,7 +369,11 @@ TEST(Query, OneLevelTreeMeasuresTheCommonTimeOnly) {
     Statistics statistics;
     // They share 10.5 frames, half a frame out of step: each sample has two partners but for the outermost.
     EXPECT_FALSE(query(PlacedTree(tree_a, {}), PlacedTree(tree_b, {.start = 9.895}), statistics));
-    EXPECT_EQ(statistics.tests, (TestCounts{.time = 1, .obb2d = 1, .obb3d = 0, .samples = 21}));
+    TestCounts expected;
+    expected[TestKind::time] = 1;
+    expected[BoxKind::obb2d] = 1;
+    expected[TestKind::samples] = 21;
+    EXPECT_EQ(statistics.tests, expected);
 }
 
 }  // namespace

@@ -151,15 +151,15 @@ class Replay {
         const double w = a_.time_scale();
         WorldBox a = world_box(box_a, a_.placed_clip().placement(), w);
         WorldBox b = world_box(box_b, b_.placed_clip().placement(), w);
-        const bool moving = event.test == mobb::TestKind::moving;
+        const bool moving = event.test == mobb::BoxKind::moving;
         const auto gap = moving ? moving_gap_along : gap_along;
 
         std::vector<glm::dvec3> axes;
-        if (event.test == mobb::TestKind::aabb) {
+        if (event.test == mobb::BoxKind::aabb) {
             a = wrapped(a);
             b = wrapped(b);
             axes = {{1, 0, 0}, {0, 1, 0}};
-        } else if (moving || event.test == mobb::TestKind::obb2d) {
+        } else if (moving || event.test == mobb::BoxKind::obb2d) {
             axes = {a.axes[0], a.axes[1], b.axes[0], b.axes[1]};
         } else {
             for (const auto& axis : a.axes) axes.push_back(axis);
@@ -282,7 +282,7 @@ TEST(Trace, FreeBoxesOfDifferentScalesAreNotTested) {
     const Tree tree_a(clip, {.tree = TreeKind::umobb}), tree_b(clip, {.tree = TreeKind::umobb, .time_scale = 2});
     Statistics statistics;
     EXPECT_TRUE(query(PlacedTree(tree_a, {}), PlacedTree(tree_b, {.translate = {0.5, 0}}), statistics));
-    EXPECT_EQ(statistics.tests.obb3d, 0);
+    EXPECT_EQ(statistics.tests[mobb::BoxKind::obb3d], 0);
 }
 
 TEST(Trace, BoxesWithoutACommonTestAreNotTested) {
@@ -294,8 +294,7 @@ TEST(Trace, BoxesWithoutACommonTestAreNotTested) {
     const auto box_tests = [](const Tree& a, const Tree& b) {
         Statistics statistics;
         EXPECT_FALSE(query(PlacedTree(a, {}), PlacedTree(b, {.translate = {0, 9}}), statistics));
-        const TestCounts& tests = statistics.tests;
-        return tests.obb2d + tests.obb3d + tests.moving + tests.aabb;
+        return statistics.tests.boxes();
     };
     EXPECT_EQ(box_tests(moving, moving), 1);
     EXPECT_EQ(box_tests(aligned, aligned), 1);
@@ -324,7 +323,7 @@ TEST(Trace, PushKeepsThePairsOfEachEventApart) {
                 .depth = 1,
                 .a = 5,
                 .b = 6,
-                .test = mobb::TestKind::obb3d,
+                .test = mobb::BoxKind::obb3d,
                 .outcome = Outcome::separated,
                 .axis = 7,
                 .gap = 2});
@@ -336,7 +335,10 @@ TEST(Trace, PushKeepsThePairsOfEachEventApart) {
     EXPECT_EQ(trace[1].b, 6);
     ASSERT_EQ(trace[2].pairs.size(), 2u);
     EXPECT_EQ(trace[2].pairs[1].j, 4);
-    EXPECT_EQ(trace.counts(), (TestCounts{.time = 0, .obb2d = 0, .obb3d = 1, .samples = 3}));
+    TestCounts expected;
+    expected[BoxKind::obb3d] = 1;
+    expected[mobb::TestKind::samples] = 3;
+    EXPECT_EQ(trace.counts(), expected);
 }
 
 }  // namespace

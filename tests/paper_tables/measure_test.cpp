@@ -34,21 +34,21 @@ TEST(Measure, CountsWhatEachMethodTests) {
 
     // With one level there is a box test where the roots overlap in time, and samples where their boxes do.
     const TableRow& one_level = row(table, "mobb_1level");
-    EXPECT_NEAR(one_level.obb2d, 1 / 1.2, 0.03);
-    EXPECT_DOUBLE_EQ(one_level.obb2d, one_level.root_box_tests);
-    EXPECT_EQ(one_level.obb3d, 0);
-    EXPECT_DOUBLE_EQ(row(table, "umobb_1level").obb3d, one_level.obb2d);
+    EXPECT_NEAR(one_level[mobb::BoxKind::obb2d], 1 / 1.2, 0.03);
+    EXPECT_DOUBLE_EQ(one_level[mobb::BoxKind::obb2d], one_level.root_box_tests);
+    EXPECT_EQ(one_level[mobb::BoxKind::obb3d], 0);
+    EXPECT_DOUBLE_EQ(row(table, "umobb_1level")[mobb::BoxKind::obb3d], one_level[mobb::BoxKind::obb2d]);
 
     // The hierarchy trades sample pairs for box tests: the paper's point.
-    const TableRow& mobb = row(table, "mobb");
-    EXPECT_LT(mobb.samples, one_level.samples / 5);
-    EXPECT_GT(mobb.obb2d, one_level.obb2d);
-    EXPECT_LE(one_level.samples, row(table, "brute").samples);
-    EXPECT_GT(row(table, "hybrid1").obb3d, 0);
-    EXPECT_DOUBLE_EQ(row(table, "hybrid2").obb3d, one_level.obb2d);
-    EXPECT_DOUBLE_EQ(mobb.root_rejected, one_level.root_rejected);
+    const TableRow& tree = row(table, "mobb");
+    EXPECT_LT(tree[mobb::TestKind::samples], one_level[mobb::TestKind::samples] / 5);
+    EXPECT_GT(tree[mobb::BoxKind::obb2d], one_level[mobb::BoxKind::obb2d]);
+    EXPECT_LE(one_level[mobb::TestKind::samples], row(table, "brute")[mobb::TestKind::samples]);
+    EXPECT_GT(row(table, "hybrid1")[mobb::BoxKind::obb3d], 0);
+    EXPECT_DOUBLE_EQ(row(table, "hybrid2")[mobb::BoxKind::obb3d], one_level[mobb::BoxKind::obb2d]);
+    EXPECT_DOUBLE_EQ(tree.root_rejected, one_level.root_rejected);
     for (const TableRow& each : table.rows) {
-        EXPECT_LE(each.sample_steps, each.samples) << each.method;
+        EXPECT_LE(each.sample_steps, each[mobb::TestKind::samples]) << each.method;
         EXPECT_GT(each.time_ns, 0) << each.method;
     }
 }
@@ -64,11 +64,11 @@ TEST(Measure, CountsAreThoseOfTheStatisticsObserver) {
         const mobb::Tree b(workload.clips[static_cast<std::size_t>(query.clip_b)], options);
         mobb::Statistics counts;
         mobb::query(mobb::PlacedTree(a, query.a), mobb::PlacedTree(b, query.b), counts);
-        boxes += counts.tests.obb3d;
-        pairs += counts.tests.samples;
+        boxes += counts.tests[mobb::BoxKind::obb3d];
+        pairs += counts.tests[mobb::TestKind::samples];
     }
-    EXPECT_DOUBLE_EQ(row(table, "umobb").obb3d, static_cast<double>(boxes) / 200);
-    EXPECT_DOUBLE_EQ(row(table, "umobb").samples, static_cast<double>(pairs) / 200);
+    EXPECT_DOUBLE_EQ(row(table, "umobb")[mobb::BoxKind::obb3d], static_cast<double>(boxes) / 200);
+    EXPECT_DOUBLE_EQ(row(table, "umobb")[mobb::TestKind::samples], static_cast<double>(pairs) / 200);
 }
 
 TEST(Measure, AnOffsetBetweenSamplesGivesEachTwoPartners) {
@@ -76,10 +76,10 @@ TEST(Measure, AnOffsetBetweenSamplesGivesEachTwoPartners) {
     Workload workload{"table2", "", {standing}, {}};
     workload.queries.push_back({0, 0, {}, {{5, 0}, 0, 0.5}});
     const TableRows table = measure(workload, {{"brute", std::nullopt}}, 1);
-    EXPECT_EQ(table.rows[0].samples, 19);  // the first of A and the last of B have one partner
+    EXPECT_EQ(table.rows[0][mobb::TestKind::samples], 19);  // the first of A and the last of B have one partner
     EXPECT_EQ(table.rows[0].sample_steps, 10);
     workload.queries[0].b.start = 0;
-    EXPECT_EQ(measure(workload, {{"brute", std::nullopt}}, 1).rows[0].samples, 10);
+    EXPECT_EQ(measure(workload, {{"brute", std::nullopt}}, 1).rows[0][mobb::TestKind::samples], 10);
 }
 
 TEST(Measure, SweepsLeaves) {
@@ -92,8 +92,8 @@ TEST(Measure, SweepsLeaves) {
 
 TEST(Measure, EveryTestHasACost) {
     const TestCosts costs = measure_test_costs(some_queries(50), {});
-    ASSERT_TRUE(costs.obb2d && costs.obb3d && costs.sample_pair);
-    EXPECT_GT(*costs.obb2d, 0);
+    ASSERT_TRUE(costs[mobb::BoxKind::obb2d] && costs[mobb::BoxKind::obb3d] && costs.sample_pair);
+    EXPECT_GT(*costs[mobb::BoxKind::obb2d], 0);
     EXPECT_GT(*costs.sample_pair, 0);
 }
 

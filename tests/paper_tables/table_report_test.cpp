@@ -21,10 +21,13 @@ TableReport report() {
     out.clips = 14;
     out.mean_duration = 42;
     out.table.positive = 0.28;
-    TableRow brute{.method = "brute", .time_ns = 2900, .time_ns_q1 = 2800, .time_ns_q3 = 3000, .samples = 600};
-    TableRow mobb{.method = "mobb", .leaf = 10, .time_ns = 190, .obb2d = 25.5, .samples = 7, .root_rejected = 0.4};
-    out.table.rows = {brute, mobb};
-    out.costs.obb2d = 6;
+    TableRow brute{.method = "brute", .time_ns = 2900, .time_ns_q1 = 2800, .time_ns_q3 = 3000};
+    brute[mobb::TestKind::samples] = 600;
+    TableRow tree{.method = "mobb", .leaf = 10, .time_ns = 190, .root_rejected = 0.4};
+    tree[mobb::BoxKind::obb2d] = 25.5;
+    tree[mobb::TestKind::samples] = 7;
+    out.table.rows = {brute, tree};
+    out.costs[mobb::BoxKind::obb2d] = 6;
     out.costs.sample_pair = 3;
     return out;
 }

@@ -31,15 +31,13 @@ Counts check_all(const FittedScene& fitted) {
         for (int step = 0; step < recorded.trace.size(); ++step) {
             const mobb::Trace::Event event = recorded.trace[step];
             const std::vector<AxisInterval> intervals = axis_intervals(sides, event);
-            const bool is_3d = event.test == mobb::TestKind::obb3d;
-            if (!mobb::is_box_test(event.test)) {
+            const bool is_3d = event.test == mobb::BoxKind::obb3d;
+            if (!event.test.is_box()) {
                 EXPECT_TRUE(intervals.empty());
                 continue;
             }
             // Of moving boxes more than enough: theirs depends on how fast they are.
-            const double slack = is_3d                                  ? frame.slack3d()
-                                 : event.test == mobb::TestKind::moving ? 1e-7
-                                                                        : frame.slack2d();
+            const double slack = is_3d ? frame.slack3d() : event.test == mobb::BoxKind::moving ? 1e-7 : frame.slack2d();
             const auto most = static_cast<std::size_t>(mobb::axis_count(event.test));
             EXPECT_LE(intervals.size(), most);
             EXPECT_GE(intervals.size(), is_3d ? 6u : most);
@@ -150,7 +148,7 @@ TEST(AxisIntervals, AxesAreNamedAsInTheSentence) {
     EXPECT_TRUE(found);
 
     mobb::Trace::Event root;
-    root.test = mobb::TestKind::obb3d;
+    root.test = mobb::BoxKind::obb3d;
     const std::vector<AxisInterval> all = axis_intervals(sides, root);
     EXPECT_EQ(all.at(0).name, "A long");
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const AxisInterval& i) { return i.name == "B short"; }));

@@ -262,7 +262,7 @@ TEST(QueryPicture, TheGapIsAsWideAsTheTraceSays) {
 
 TEST(QuerySentence, SaysWhatAStepShows) {
     const Query query(testing::miss_scene());
-    const int step = query.find(mobb::TestKind::obb2d, mobb::Outcome::separated);
+    const int step = query.find(mobb::BoxKind::obb2d, mobb::Outcome::separated);
     ASSERT_GE(step, 0);
     const std::string sentence = step_sentence(query.sides, query.recorded.trace, step);
     const std::string start =
@@ -282,11 +282,11 @@ TEST(QuerySentence, SaysWhatBoxesBeyondThePaperAre) {
         return step_sentence(query.sides, query.recorded.trace, step) + '\n' +
                answer_sentence(query.sides, query.recorded);
     };
-    const std::string moving = sentences(mobb::TreeKind::moving, mobb::TestKind::moving);
+    const std::string moving = sentences(mobb::TreeKind::moving, mobb::BoxKind::moving);
     EXPECT_NE(moving.find("'s long axis by "), std::string::npos) << moving;
     EXPECT_NE(moving.find(" m at the nearest"), std::string::npos) << moving;
     EXPECT_NE(moving.find(" moving box test"), std::string::npos) << moving;
-    const std::string aabb = sentences(mobb::TreeKind::aabb, mobb::TestKind::aabb);
+    const std::string aabb = sentences(mobb::TreeKind::aabb, mobb::BoxKind::aabb);
     EXPECT_NE(aabb.find("separated along y by "), std::string::npos) << aabb;
     EXPECT_NE(aabb.find(" AABB test"), std::string::npos) << aabb;
 }

@@ -38,17 +38,17 @@ TEST(FigureScenes, OfFourPairsOfChildrenTwoAreSeparatedOneIsApartInTimeAndOneGoe
     const Figure figure("inner_nodes.json");
     const mobb::Trace& trace = figure.trace;
     EXPECT_EQ(trace[1].outcome, Outcome::overlap);
-    ASSERT_EQ(trace[1].test, TestKind::obb2d);
+    ASSERT_EQ(trace[1].test, mobb::BoxKind::obb2d);
     ASSERT_FALSE(figure.a(1).is_leaf() || figure.b(1).is_leaf());
     const struct {
         int step;
         int a, b;  // which child
         TestKind test;
         Outcome outcome;
-    } steps[] = {{3, 0, 0, TestKind::obb2d, Outcome::separated},
+    } steps[] = {{3, 0, 0, mobb::BoxKind::obb2d, Outcome::separated},
                  {4, 0, 1, TestKind::time, Outcome::disjoint_in_time},
-                 {6, 1, 0, TestKind::obb2d, Outcome::separated},
-                 {8, 1, 1, TestKind::obb2d, Outcome::overlap}};
+                 {6, 1, 0, mobb::BoxKind::obb2d, Outcome::separated},
+                 {8, 1, 1, mobb::BoxKind::obb2d, Outcome::overlap}};
     for (const auto& step : steps) {
         EXPECT_EQ(trace[step.step].parent, 1);
         EXPECT_EQ(trace[step.step].a, figure.a(1).children[step.a]);

@@ -112,7 +112,7 @@ TEST(FittedScene, TheDirectSearchIsRecordedToo) {
     const FittedScene fitted(head_on(), {});
     const RecordedQuery direct = record(fitted, fitted.queries()[0], Search::direct);
     EXPECT_EQ(direct.contact, record(fitted, fitted.queries()[0]).contact);
-    EXPECT_EQ(direct.tests.time, 0);
+    EXPECT_EQ(direct.tests[mobb::TestKind::time], 0);
     EXPECT_EQ(direct.trace.size(), 1);
 }
 

@@ -149,6 +149,14 @@ TEST(Schema, BoundsAreTheReaders) {
     EXPECT_FALSE(view_is_read("levels", "1001"));
 }
 
+TEST(Schema, ListsEveryKindOfTreeAndTest) {
+    nlohmann::json trees, tests;
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) trees.push_back(mobb::name(kind));
+    for (const mobb::TestKind test : mobb::kTestKinds) tests.push_back(mobb::name(test));
+    EXPECT_EQ(properties("fit")["tree"]["enum"], trees);
+    EXPECT_EQ(properties("event")["test"]["enum"], tests);
+}
+
 /// Every key of every "properties" below `value`.
 void collect_properties(const nlohmann::json& value, std::set<std::string>& keys) {
     if (!value.is_structured()) return;

@@ -118,24 +118,6 @@ void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& co
     number_row(ui, "How deep", with_unit(contact.radii - contact.distance, "m"), contact.radii - contact.distance, "m");
 }
 
-struct Counter {
-    const char* label;
-    const char* doc;
-    std::int64_t (*of)(const StepCounts&);
-    bool beyond_the_paper = false;  ///< shown only where there was one
-};
-
-constexpr std::array<Counter, 7> kCounters{{
-    {"time tests", "Do two nodes share time?", [](const StepCounts& c) { return c.tests.time; }},
-    {"2D box tests", "Four axes on the floor", [](const StepCounts& c) { return c.tests.obb2d; }},
-    {"3D box tests", "Up to fifteen axes in space-time", [](const StepCounts& c) { return c.tests.obb3d; }},
-    {"moving box tests", "Four axes on the floor, at both ends of the common time",
-     [](const StepCounts& c) { return c.tests.moving; }, true},
-    {"AABB tests", "The world's x and y", [](const StepCounts& c) { return c.tests.aabb; }, true},
-    {"sample pairs", "Pairs of disks whose distance was measured", [](const StepCounts& c) { return c.tests.samples; }},
-    {"wasted", "Box tests that found an overlap which led to no hit", [](const StepCounts& c) { return c.wasted; }},
-}};
-
 void right_aligned(const std::string& text, float right, ImU32 color) {
     ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
@@ -233,17 +215,26 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
     right_aligned("so far", first, ui.style.quiet);
     right_aligned("in all", second, ui.style.quiet);
     ImGui::PopFont();
-    for (const Counter& counter : kCounters) {
-        if (counter.beyond_the_paper && counter.of(total) == 0) continue;
+    const auto row = [&](const std::string& label, std::string_view doc, std::int64_t so_far, std::int64_t in_all) {
         ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-        ImGui::TextUnformatted(counter.label);
+        ImGui::TextUnformatted(label.c_str());
         ImGui::PopStyleColor();
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", counter.doc);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(doc).c_str());
         ImGui::PushFont(ui.style.mono);
-        right_aligned(std::to_string(counter.of(now)), first, ui.style.text);
-        right_aligned(std::to_string(counter.of(total)), second, ui.style.quiet);
+        right_aligned(std::to_string(so_far), first, ui.style.text);
+        right_aligned(std::to_string(in_all), second, ui.style.quiet);
         ImGui::PopFont();
+    };
+    const auto tests = [&](const std::string& label, std::string_view doc, mobb::TestKind test) {
+        row(label, doc, now.tests[test], total.tests[test]);
+    };
+    tests("time tests", "Do two nodes share time?", mobb::TestKind::time);
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) {
+        const mobb::BoxInfo& box = mobb::info(kind);
+        if (box.in_paper || total.tests[kind] > 0) tests(std::string(box.title) + " tests", box.test, kind);
     }
+    tests("sample pairs", "Pairs of disks whose distance was measured", mobb::TestKind::samples);
+    row("wasted", "Box tests that found an overlap which led to no hit", now.wasted, total.wasted);
     words(ui.style.quiet, gain_words(total.tests, findings.clearance));
 }
 

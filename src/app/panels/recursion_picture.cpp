@@ -21,7 +21,7 @@ void merge(PairCell& cell, const Recursion& recursion, int pair) {
 EventMark mark_of(const RecursionPair& pair) {
     // A pair that went on to others stands for what they found.
     if (pair.has_children() && pair.hit) return EventMark::hit;
-    return mark_of(mobb::TestKind::obb2d, pair.outcome);
+    return mark_of(mobb::BoxKind::obb2d, pair.outcome);
 }
 
 std::vector<StripCell> strip_cells(const mobb::Trace& trace, int width) {

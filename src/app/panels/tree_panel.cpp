@@ -19,12 +19,14 @@ struct PanelChoice {
     const char* help;
 };
 
-constexpr std::array<PanelChoice, 6> kKinds{{{"mobb", "MOBB", "Boxes upright in time"},
-                                             {"umobb", "UMOBB", "Free boxes in space-time"},
-                                             {"hybrid1", "hybrid 1", "MOBB root, UMOBB below"},
-                                             {"hybrid2", "hybrid 2", "UMOBB root, MOBB below"},
-                                             {"moving", "moving", "Boxes that move with the walk"},
-                                             {"aabb", "AABB", "Boxes along x and y: the baseline of other fields"}}};
+constexpr auto kKinds = [] {
+    std::array<PanelChoice, mobb::kTreeKindCount> out{};
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
+        const mobb::TreeInfo& row = mobb::info(kind);
+        out[static_cast<std::size_t>(kind)] = {row.name.data(), row.label.data(), row.help.data()};
+    }
+    return out;
+}();
 constexpr std::array<PanelChoice, 3> kAxes{{{"endpoints", "endpoints", "Along first to last sample: the paper's"},
                                             {"covariance", "covariance", "Principal axes of the centres"},
                                             {"minarea", "minarea", "Smallest area or volume found"}}};
@@ -61,14 +63,10 @@ void whole(Ui& ui, const char* label, const char* command, int now, int least, c
     if (value != now && value >= least) invoke(ui.session, command, std::to_string(value));
 }
 
-bool has_free_boxes(mobb::TreeKind kind) {
-    return kind == mobb::TreeKind::umobb || kind == mobb::TreeKind::hybrid1 || kind == mobb::TreeKind::hybrid2;
-}
-
 void time_scale(Ui& ui) {
     const mobb::FitOptions& fit = ui.session.fitted().options();
     form_label(ui, "Time scale", "Metres per second that mix time with space in free boxes (w); no other boxes use it");
-    ImGui::BeginDisabled(!has_free_boxes(fit.tree));
+    ImGui::BeginDisabled(!mobb::info(fit.tree).uses_time_scale());
     ImGui::PushFont(ui.style.mono);
     double value = fit.time_scale;
     const double least = 1 / mobb::kMaxTimeScale;
@@ -215,7 +213,7 @@ void tree_panel(Ui& ui) {
     const mobb::FitOptions fit = session.fitted().options();
     choose(ui, "Kind", "tree.kind", kKinds, mobb::name(fit.tree), "What bounds the disks");
     whole(ui, "Leaf samples", "tree.leaf", fit.leaf, 1, "n_min: a node of at most so many samples is a leaf");
-    ImGui::BeginDisabled(fit.tree == mobb::TreeKind::aabb);
+    ImGui::BeginDisabled(!mobb::info(fit.tree).chooses_axes());
     choose(ui, "Axes", "tree.axes", kAxes, mobb::name(fit.axes), "How boxes are turned");
     ImGui::EndDisabled();
     whole(ui, "Levels", "tree.levels", fit.levels, 0, "0: all; 1 is the paper's \"1 level\" tree");

@@ -82,7 +82,8 @@ Json query_json(const Session& session) {
     if (!recorded) return nullptr;
     const int index = *session.view().query;
     const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(index)];
-    const mobb::TestCounts& tests = recorded->tests;
+    Json tests;
+    for (const mobb::TestKind test : mobb::kTestKinds) tests[mobb::name(test)] = recorded->tests[test];
     const mobb::Trace::Event event = recorded->trace[session.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
     return {{"index", index},
@@ -92,13 +93,7 @@ Json query_json(const Session& session) {
             {"contact_time", recorded->contact ? Json(recorded->contact->time) : Json(nullptr)},
             {"step", session.step()},
             {"steps", recorded->trace.size()},
-            {"tests",
-             {{"time", tests.time},
-              {"obb2d", tests.obb2d},
-              {"obb3d", tests.obb3d},
-              {"moving", tests.moving},
-              {"aabb", tests.aabb},
-              {"samples", tests.samples}}},
+            {"tests", std::move(tests)},
             {"outcome", mobb::name(event.outcome)},
             {"sentence", step_sentence(sides, recorded->trace, session.step())}};
 }

@@ -38,27 +38,14 @@ DrawnAgent subject_of(const FittedScene& fitted, const PlacedAgent& who) {
     return {fitted.placed(who), who.name, who.name, Rgba(1), 0};
 }
 
-const char* box_words(mobb::BoxKind kind) {
-    switch (kind) {
-        case mobb::BoxKind::obb2d:
-            return ", 2D box";
-        case mobb::BoxKind::obb3d:
-            return ", 3D box";
-        case mobb::BoxKind::moving:
-            return ", moving box";
-        case mobb::BoxKind::aabb:
-            return ", AABB";
-    }
-    return "";
-}
-
 void describe_node(Described& out, const DrawnAgent& agent, int index) {
     const mobb::PlacedTree& tree = agent.placed;
     const mobb::Node& node = tree.node(index);
     out.name = node_name(agent, index);
     const mobb::Box world = world_box(tree, index);
-    const bool upright = world.kind != mobb::BoxKind::obb3d;
-    out.facts = {{"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + box_words(world.kind)},
+    const bool upright = mobb::info(world.kind).axes != mobb::BoxAxes::space_time;
+    out.facts = {{"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + ", " +
+                              std::string(mobb::info(world.kind).title)},
                  {"level", std::to_string(node.level)},
                  {"samples", std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" +
                                  std::to_string(node.count) + ")"},

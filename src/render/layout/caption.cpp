@@ -39,18 +39,6 @@ void cut(std::vector<std::string>& lines, std::size_t most, float text_size, flo
     for (std::string& line : lines) line = fit_text(line, FontFace::text, text_size, room);
 }
 
-/// "mobb" as "MOBB", "moving" as "moving boxes", "hybrid1" as it stands.
-std::string tree_title(mobb::TreeKind kind) {
-    if (kind == mobb::TreeKind::moving) return "moving boxes";
-    if (kind == mobb::TreeKind::aabb) return "AABB";
-    std::string text(mobb::name(kind));
-    if (text.find("mobb") != std::string::npos) {
-        std::transform(text.begin(), text.end(), text.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    }
-    return text;
-}
-
 std::string levels_text(const LevelRange& levels, int last) {
     if (levels.leaves) return "leaves";
     const int first = std::min(levels.first, last);
@@ -92,8 +80,8 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
     Caption caption;
     caption.headlines = {fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string()};
     if (view.boxes) {
-        caption.detail = tree_title(fitted.options().tree) + ", leaf " + std::to_string(fitted.options().leaf) + kDot +
-                         boxes_text(agents, view.levels);
+        caption.detail = std::string(mobb::info(fitted.options().tree).title) + ", leaf " +
+                         std::to_string(fitted.options().leaf) + kDot + boxes_text(agents, view.levels);
     }
     if (!names_fit(agents.size())) {
         const std::string left_out = std::to_string(agents.size()) + " agents, unnamed here";
@@ -106,7 +94,7 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
                       int step) {
     Caption caption;
     caption.headlines = step_sentences(sides, recorded.trace, step);
-    caption.detail = tree_title(sides[0].placed.tree().options().tree) + ", leaf " +
+    caption.detail = std::string(mobb::info(sides[0].placed.tree().options().tree).title) + ", leaf " +
                      std::to_string(sides[0].placed.tree().options().leaf) + kDot + answer_sentence(sides, recorded);
     const mobb::Outcome outcome = recorded.trace[step].outcome;
     caption.mark = outcome_style(box_state(outcome), palette).color;

@@ -116,7 +116,7 @@ bool has_sheared_boxes(const DrawList& list, std::span<const DrawnAgent> agents)
     return std::any_of(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& box) {
         if (!box.pickable) return false;
         const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.participant)].placed;
-        return tree.node(box.id.index).box.kind == mobb::BoxKind::obb3d &&
+        return mobb::info(tree.node(box.id.index).box.kind).axes == mobb::BoxAxes::space_time &&
                std::abs(list.space.time_height / tree.time_scale() - 1) > 0.01;
     });
 }
@@ -126,9 +126,8 @@ std::optional<std::string> beyond_the_paper(const DrawList& list, std::span<cons
     for (const BoxInstance& box : list.boxes) {
         if (!box.pickable) continue;
         const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.participant)].placed;
-        const mobb::BoxKind kind = tree.node(box.id.index).box.kind;
-        if (kind == mobb::BoxKind::moving) return "boxes lean: each moves with its walk";
-        if (kind == mobb::BoxKind::aabb) return "boxes lie along the world's x and y";
+        const std::string_view looks = mobb::info(tree.node(box.id.index).box.kind).looks;
+        if (!looks.empty()) return std::string(looks);
     }
     return std::nullopt;
 }

@@ -161,7 +161,7 @@ mobb::Box world_box(const mobb::PlacedTree& tree, int node) {
         const glm::dvec2 turned = clip.rotation()(glm::dvec2(v.x, v.y));
         return glm::dvec3(turned.x, turned.y, v.z);
     };
-    if (box.kind == mobb::BoxKind::aabb) {
+    if (mobb::info(box.kind).axes == mobb::BoxAxes::world) {
         // Its test wraps it again along the world's axes.
         const glm::dvec2 half = mobb::half_in_world(box, clip.rotation());
         box.half = {half.x, half.y, box.half.z};

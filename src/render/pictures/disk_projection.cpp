@@ -297,7 +297,8 @@ DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample) {
         return length > 1e-12 ? flat / length : glm::dvec3(0);
     };
     out.heading = on_floor(box.axes[0]);
-    const std::array<int, 2> axes = box.kind == mobb::BoxKind::obb3d ? std::array{0, 2} : std::array{0, 1};
+    const std::array<int, 2> axes =
+        mobb::info(box.kind).axes == mobb::BoxAxes::space_time ? std::array{0, 2} : std::array{0, 1};
     for (std::size_t i = 0; i < 2; ++i) {
         AxisExtent& axis = out.along[i];
         axis.axis = axes[i];

@@ -1,0 +1,57 @@
+// The tables of kinds: what they say of every kind of box, test and tree.
+#include <mobb/trace.h>
+#include <mobb/tree.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace mobb {
+namespace {
+
+TEST(Kinds, EveryRowSaysAllThatPeopleRead) {
+    for (const BoxKind kind : kBoxKinds) {
+        const BoxInfo& row = info(kind);
+        EXPECT_FALSE(row.title.empty() || row.plural.empty() || row.heading.empty() || row.test.empty()) << row.name;
+        EXPECT_TRUE(row.in_paper || !row.looks.empty()) << row.name;
+    }
+    for (const TreeKind kind : kTreeKinds) {
+        const TreeInfo& row = info(kind);
+        EXPECT_FALSE(row.title.empty() || row.label.empty() || row.help.empty()) << row.name;
+    }
+}
+
+TEST(Kinds, NamesTellThemApartAndAreRead) {
+    std::set<std::string_view> trees, tests;
+    for (const TreeKind kind : kTreeKinds) {
+        EXPECT_TRUE(trees.insert(name(kind)).second) << name(kind);
+        EXPECT_EQ(tree_kind_from_name(name(kind)), kind);
+    }
+    for (const TestKind test : kTestKinds) {
+        EXPECT_TRUE(tests.insert(name(test)).second) << name(test);
+        EXPECT_EQ(test_from_name(name(test)), test);
+        EXPECT_EQ(kTestKinds[test.index()], test);
+    }
+    EXPECT_EQ(tests.size(), kBoxKinds.size() + 2);
+    EXPECT_FALSE(test_from_name("block"));
+}
+
+TEST(Kinds, OnlyFreeBoxesUseTheTimeScaleAndOnlyAabbsHaveNoAxesToChoose) {
+    for (const TreeKind kind : kTreeKinds) {
+        const bool free = kind == TreeKind::umobb || kind == TreeKind::hybrid1 || kind == TreeKind::hybrid2;
+        EXPECT_EQ(info(kind).uses_time_scale(), free) << name(kind);
+        EXPECT_EQ(info(kind).chooses_axes(), kind != TreeKind::aabb) << name(kind);
+    }
+}
+
+TEST(Kinds, ATestHasAsManyAxesAsTheContractSays) {
+    EXPECT_EQ(axis_count(BoxKind::obb2d), 4);
+    EXPECT_EQ(axis_count(BoxKind::obb3d), 15);
+    EXPECT_EQ(axis_count(BoxKind::moving), 4);
+    EXPECT_EQ(axis_count(BoxKind::aabb), 2);
+    EXPECT_EQ(axis_count(TestKind::time), 0);
+    EXPECT_EQ(axis_count(TestKind::samples), 0);
+}
+
+}  // namespace
+}  // namespace mobb
