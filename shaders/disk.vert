@@ -5,12 +5,11 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 base_and_radius;
 layout(location = 3) in vec4 top_and_radius;
 layout(location = 4) in vec4 color;
-layout(location = 5) in uvec2 id;
+layout(location = 5) in uvec2 id;  // 0 of a run
 
 uniform mat4 clip_from_world;
 uniform vec3 back;  // towards the eye
 uniform vec2 across;  // where x goes on the floor: cylinders are turned about their axes
-uniform bool runs;
 uniform float scale;  // pixels of a metre at distance 1, or anywhere without perspective
 
 out vec3 surface_normal;
@@ -29,7 +28,7 @@ void main() {
     face_shade = 1.0;
     surface_color = color;
     local = vec2(length(corner.xy), corner.z);
-    if (runs) {
+    if (id.x == 0u && abs(normal.z) < 0.5) {
         // Of each disk as much of the face is seen as its successor leaves free, beside its side.
         vec4 step = top_and_radius - base_and_radius;
         float face = max(0.0, -(dot(step.xy, surface_normal.xy) + step.w) * back.z);

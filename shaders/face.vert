@@ -5,12 +5,13 @@ layout(location = 1) in vec3 extent0;
 layout(location = 2) in vec3 extent1;
 layout(location = 3) in vec3 extent2;
 layout(location = 4) in vec4 fill;
-layout(location = 5) in uvec2 id;
+layout(location = 5) in uvec2 id;  // 0: cannot be pointed at
 
 uniform mat4 clip_from_world;
 uniform vec2 depth_range;  // nearest and farthest of the scene along the line of sight
 uniform bool perspective;
 uniform vec3 light;
+uniform bool ids;  // of all boxes that have one, faces drawn or not
 
 flat out vec4 face_color;
 out float nearness;  // 1 at the nearest of the scene, 0 at the farthest
@@ -21,6 +22,10 @@ const int corners[36] = int[36](0, 2, 4, 4, 2, 6, 1, 5, 3, 5, 7, 3,
                                 0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7);
 
 void main() {
+    if (ids ? id.x == 0u : fill.a <= 0.0) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
     int corner = corners[gl_VertexID];
     vec3 along = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;
     gl_Position = clip_from_world * vec4(center + along.x * extent0 + along.y * extent1 + along.z * extent2, 1.0);

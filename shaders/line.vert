@@ -1,11 +1,15 @@
 #version 330 core
 // A line as a rectangle that is so many pixels wide, whatever the distance.
-layout(location = 0) in vec3 from;
-layout(location = 1) in vec3 to;
-layout(location = 2) in vec4 color;
-layout(location = 3) in vec4 dash;
-layout(location = 4) in vec3 shape;  // width and cap in pixels, opacity kept when hidden
+// Of a box the twelve edges are drawn, six vertices each.
+layout(location = 0) in vec3 from;  // of a box: its centre
+layout(location = 1) in vec3 to;    // ... and half its edges
+layout(location = 2) in vec3 extent1;
+layout(location = 3) in vec3 extent2;
+layout(location = 4) in vec4 color;
+layout(location = 5) in vec4 dash;
+layout(location = 6) in vec3 shape;  // width and cap in pixels, opacity kept when hidden
 
+uniform bool edges;
 uniform mat4 clip_from_world;
 uniform vec2 viewport;
 uniform bool hidden;
@@ -17,14 +21,33 @@ flat out float half_width;
 noperspective out float across;  // pixels from the middle
 noperspective out float along;   // pixels from the start
 
+const int corners[6] = int[6](0, 1, 2, 2, 1, 3);
+
+vec3 box_corner(int bits) {
+    vec3 along = vec3(bits & 1, (bits >> 1) & 1, (bits >> 2) & 1) * 2.0 - 1.0;
+    return from + along.x * to + along.y * extent1 + along.z * extent2;
+}
+
 void main() {
+    vec3 begin = from;
+    vec3 finish = to;
+    int vertex = gl_VertexID;
+    if (edges) {
+        vertex = corners[gl_VertexID % 6];
+        int edge = gl_VertexID / 6;
+        int axis = edge / 4;
+        // The corners that are low along the axis, one after the other.
+        int low = ((edge % 4) & ((1 << axis) - 1)) | (((edge % 4) >> axis) << (axis + 1));
+        begin = box_corner(low);
+        finish = box_corner(low | (1 << axis));
+    }
     line_color = vec4(color.rgb, color.a * (hidden ? shape.z : 1.0));
     pattern = dash;
     half_width = 0.5 * shape.x;
     across = 0.0;
     along = 0.0;
-    vec4 a = clip_from_world * vec4(from, 1.0);
-    vec4 b = clip_from_world * vec4(to, 1.0);
+    vec4 a = clip_from_world * vec4(begin, 1.0);
+    vec4 b = clip_from_world * vec4(finish, 1.0);
     // What is behind the eye would be mirrored by the division; it is cut off at the near plane.
     float da = a.z + a.w;
     float db = b.z + b.w;
@@ -40,8 +63,8 @@ void main() {
     vec2 run = pb - pa;
     float span = length(run);
     vec2 direction = span > 1e-4 ? run / span : vec2(1.0, 0.0);
-    bool end = gl_VertexID >= 2;
-    float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
+    bool end = vertex >= 2;
+    float side = (vertex & 1) == 0 ? -1.0 : 1.0;
     across = side * (half_width + 0.5);
     along = end ? span + shape.y : -shape.y;
     vec2 pixel = (end ? pb : pa) + direction * (end ? shape.y : -shape.y) + vec2(-direction.y, direction.x) * across;

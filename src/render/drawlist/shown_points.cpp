@@ -14,8 +14,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kInBlock = 64;
-constexpr float kRounding = 1e-5f;  // of a block's bounds: what they rule out is ruled out for good
+constexpr std::size_t kInPointBlock = 64;
+constexpr float kBoundRounding = 1e-5f;  // of a block's bounds: what they rule out is ruled out for good
 
 }  // namespace
 
@@ -33,13 +33,13 @@ const std::array<glm::vec3, 8>& rim_directions() {
 
 ShownPoints::ShownPoints(SharedValues<DiskInstance> disks) : disks_(std::move(disks)) {
     std::vector<Block> blocks;
-    blocks.reserve(disks_.size() / kInBlock + 1);
+    blocks.reserve(disks_.size() / kInPointBlock + 1);
     for (std::size_t i = 0; i < disks_.size(); ++i) {
         const DiskInstance& disk = disks_[i];
         const glm::vec3 around(disk.radius, disk.radius, 0);
         const glm::vec3 low = disk.base - around;
         const glm::vec3 high = disk.base + around + glm::vec3(0, 0, disk.height);
-        if (i % kInBlock == 0) blocks.push_back({low, high});
+        if (i % kInPointBlock == 0) blocks.push_back({low, high});
         blocks.back() = {glm::min(blocks.back().min, low), glm::max(blocks.back().max, high)};
     }
     blocks_ = std::make_shared<const std::vector<Block>>(std::move(blocks));
@@ -65,11 +65,11 @@ float ShownPoints::most(glm::vec3 along, glm::vec3 also, float factor) const {
         const glm::vec3 corner(way.x > 0 ? block.max.x : block.min.x, way.y > 0 ? block.max.y : block.min.y,
                                way.z > 0 ? block.max.z : block.min.z);
         const glm::vec3 terms = glm::abs(corner * way);
-        return glm::dot(corner, way) + kRounding * (terms.x + terms.y + terms.z);
+        return glm::dot(corner, way) + kBoundRounding * (terms.x + terms.y + terms.z);
     };
     const auto see_block = [&](std::size_t block) {
-        const std::size_t end = std::min(disks_.size(), (block + 1) * kInBlock);
-        for (std::size_t i = block * kInBlock; i < end; ++i) {
+        const std::size_t end = std::min(disks_.size(), (block + 1) * kInPointBlock);
+        for (std::size_t i = block * kInPointBlock; i < end; ++i) {
             const DiskInstance& disk = disks_[i];
             for (const glm::vec3& direction : rim_directions()) {
                 const glm::vec3 rim = disk.base + disk.radius * direction;

@@ -1,6 +1,5 @@
 #include <render/drawlist/view_projection.h>
 #include <render/gl/disk_pass.h>
-#include <render/gl/disk_runs.h>
 #include <render/gl/gl_objects.h>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -8,20 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <cstdint>
 #include <numbers>
-#include <span>
+#include <utility>
 
 namespace mobbscope {
-
-struct DiskPass::Instance {
-    glm::vec3 base;
-    float radius;
-    glm::vec3 top;
-    float top_radius;
-    Rgba color;
-    GLuint id[2];
-};
 
 namespace {
 
@@ -30,12 +20,22 @@ struct Vertex {
     glm::vec3 normal;
 };
 
-/// Pixels that a shape may be off.
-constexpr float tolerance(Detail detail) { return detail == Detail::fine ? 0.17f : 0.9f; }
+using ColorBytes = std::array<std::uint8_t, 4>;
 
-/// Enough sides that a disk of so many pixels looks round.
-float sides_for(float radius, Detail detail) {
-    const float off = std::min(1.0f, tolerance(detail) / std::max(radius, 0.2f));
+constexpr std::size_t kMostInBatch = 32;  // blocks in one draw call: between calls the nearest come first
+
+ColorBytes bytes_of(Rgba color) {
+    ColorBytes out;
+    for (int i = 0; i < 4; ++i) {
+        out[static_cast<std::size_t>(i)] =
+            static_cast<std::uint8_t>(std::lround(std::clamp(color[i], 0.0f, 1.0f) * 255));
+    }
+    return out;
+}
+
+/// Enough sides that a disk of so many pixels looks round, off by at most so many pixels.
+float sides_for(float radius, float tolerance) {
+    const float off = std::min(1.0f, tolerance / std::max(radius, 0.2f));
     return std::numbers::pi_v<float> / std::acos(1 - off);
 }
 
@@ -44,36 +44,32 @@ bool behind(const DiskInstance& disk, const ViewProjection& projection) {
     return projection.perspective && projection.depth(disk.base) + disk.radius + disk.height < projection.near_depth;
 }
 
-/// Enough sides for the largest disk: one mesh for all, so that their edges fit.
-int fine_sides(std::span<const DiskInstance* const> disks, const ViewProjection& projection, const PixelScale& scale) {
-    float radius = 0;
-    for (const DiskInstance* disk : disks) {
-        if (!behind(*disk, projection)) radius = std::max(radius, disk->radius * scale.at(disk->base));
-    }
-    return std::clamp(4 * static_cast<int>(std::ceil(sides_for(radius, Detail::fine) / 4)), 12, 128);
-}
-
-/// Each disk has as many as it needs, of a few numbers: what is far away is most of a crowd.
+/// Each block has as many as it needs, of a few numbers: what is far away is most of a crowd.
 int coarse_sides(float radius) {
     constexpr std::array kSides{4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
-    const float needed = sides_for(radius, Detail::coarse);
+    const float needed = sides_for(radius, 0.9f);
     const auto enough = std::find_if(kSides.begin(), kSides.end() - 1,
                                      [needed](int sides) { return static_cast<float>(sides) >= needed; });
     return *enough;
 }
 
-/// What is hidden by what was drawn before need not be shaded.
-void nearest_first(DiskGroups& groups, const ViewProjection& projection) {
-    std::ranges::sort(groups.single, {},
-                      [&projection](const DiskInstance* disk) { return projection.depth(disk->base); });
-    std::ranges::sort(groups.runs, {}, [&projection](const DiskRun& run) { return projection.depth(run.base); });
+/// Whether some of a block may be in the picture: its ball reaches into what the camera sees.
+bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection) {
+    if (projection.perspective && projection.depth(block.middle) + block.reach < projection.near_depth) return false;
+    const glm::mat4 rows = glm::transpose(projection.clip_from_world);
+    const glm::vec4 middle(block.middle, 1);
+    for (const glm::vec4& across : {rows[0], -rows[0], rows[1], -rows[1]}) {
+        const glm::vec4 edge = rows[3] + across;
+        if (glm::dot(edge, middle) < -block.reach * glm::length(glm::vec3(edge))) return false;
+    }
+    return true;
 }
 
 }  // namespace
 
 DiskPass::DiskPass(GlContext& context) : program_(context, "disk") {}
 
-/// Side, upper face and lower face, in this order, so that the face that cannot be seen is left out.
+/// Upper face, side and lower face, in this order: each part is one range.
 const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
     Cylinder& made = cylinders_[sides];
     if (made.sides != 0) return made;
@@ -89,15 +85,7 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
         return glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
     };
     const glm::vec3 up(0, 0, 1);
-    for (int i = 0; i <= sides; ++i) {
-        const GLushort below = add(direction(i), direction(i));
-        const GLushort above = add(direction(i) + up, direction(i));
-        if (i == 0) continue;
-        const GLushort a = static_cast<GLushort>(below - 2);
-        const GLushort c = static_cast<GLushort>(above - 2);
-        indices.insert(indices.end(), {a, below, c, c, below, above});
-    }
-    for (const bool upper : {true, false}) {
+    const auto add_face = [&](bool upper) {
         const glm::vec3 level = upper ? up : glm::vec3(0);
         const glm::vec3 normal = upper ? up : -up;
         const GLushort middle = add(level, normal);
@@ -107,76 +95,188 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
             const GLushort a = static_cast<GLushort>(b - 1);
             indices.insert(indices.end(), {middle, upper ? a : b, upper ? b : a});
         }
+    };
+    add_face(true);
+    for (int i = 0; i <= sides; ++i) {
+        const GLushort below = add(direction(i), direction(i));
+        const GLushort above = add(direction(i) + up, direction(i));
+        if (i == 0) continue;
+        const GLushort a = static_cast<GLushort>(below - 2);
+        const GLushort c = static_cast<GLushort>(above - 2);
+        indices.insert(indices.end(), {a, below, c, c, below, above});
     }
+    add_face(false);
     glBindVertexArray(made.array.name());
     upload(made.vertices, vertices);
     const VertexLayout corner(sizeof(Vertex), 0);
     corner.floats(0, 3, offsetof(Vertex, corner));
     corner.floats(1, 3, offsetof(Vertex, normal));
-    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-    const VertexLayout disk(sizeof(Instance), 1);
-    disk.floats(2, 4, offsetof(Instance, base));
-    disk.floats(3, 4, offsetof(Instance, top));
-    disk.floats(4, 4, offsetof(Instance, color));
-    disk.integers(5, 2, offsetof(Instance, id));
     upload(made.indices, indices, GL_ELEMENT_ARRAY_BUFFER);
     return made;
 }
 
-void DiskPass::draw(const Cylinder& cylinder, const std::vector<Instance>& instances, Part part) const {
-    if (instances.empty()) return;
-    glBindVertexArray(cylinder.array.name());
-    upload(instances_, instances);
-    const GLsizei count = static_cast<GLsizei>(instances.size());
-    const GLsizei of_side = 6 * cylinder.sides;
-    const GLsizei of_face = 3 * cylinder.sides;
-    const GLsizei first = part == Part::side_and_upper_face ? of_side + of_face : of_side;
-    glDrawElementsInstanced(GL_TRIANGLES, first, GL_UNSIGNED_SHORT, nullptr, count);
-    if (part != Part::side_and_lower_face) return;
-    const std::size_t begin = sizeof(GLushort) * static_cast<std::size_t>(of_side + of_face);
-    glDrawElementsInstanced(GL_TRIANGLES, of_face, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(begin), count);
+/// The colours alone, where the shapes are those of before.
+void DiskPass::keep(const DrawList& list, DrawStatistics&) {
+    const bool same = levels_ && list.disks.shares_with(kept_);
+    kept_ = list.disks;
+    if (same) {
+        stays_ = true;
+        return;
+    }
+    const std::vector<const DiskInstance*> sorted = in_order(list.disks);
+    const auto forget_colors = [](Stored& stored) { stored.has_colors = false; };
+    if (levels_ && levels_->take_colors(sorted)) {
+        stays_ = true;
+        forget_colors(fine_);
+        std::for_each(coarse_.begin(), coarse_.end(), forget_colors);
+        return;
+    }
+    std::vector<DiskInstance> disks;
+    disks.reserve(sorted.size());
+    for (const DiskInstance* disk : sorted) disks.push_back(*disk);
+    levels_.emplace(std::move(disks));
+    stays_ = false;
+    const auto forget = [](Stored& stored) { stored.has_pieces = stored.has_colors = false; };
+    forget(fine_);
+    std::for_each(coarse_.begin(), coarse_.end(), forget);
 }
 
-void DiskPass::draw(const DrawList& list, Detail detail) {
+/// `sources`: the disks that have the pieces' colours; null: each its own.
+void DiskPass::store(Stored& stored, const std::vector<DiskPiece>& pieces, const std::vector<std::size_t>* sources,
+                     DrawStatistics& statistics) const {
+    if (!stored.has_pieces) statistics.world_bytes += upload(stored.pieces, pieces);
+    if (!stored.has_colors) {
+        std::vector<ColorBytes> colors;
+        const std::vector<DiskInstance>& disks = levels_->disks();
+        const std::size_t count = sources ? sources->size() : disks.size();
+        colors.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) colors.push_back(bytes_of(disks[sources ? (*sources)[i] : i].color));
+        statistics.state_bytes += upload(stored.colors, colors);
+    }
+    stored.has_pieces = stored.has_colors = true;
+}
+
+/// All in one. Enough sides for the largest disk: one shape for all, so that their edges fit.
+std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projection) const {
+    const PixelScale scale(projection);
+    float radius = 0;
+    bool from_above = true;
+    bool from_below = true;
+    for (const DiskBlock& block : levels_->blocks()) {
+        from_above = from_above && !projection.below(block.highest);
+        from_below = from_below && projection.below(block.lowest);
+        if (block.widest * scale.at_depth(projection.depth(block.middle) - block.reach) <= radius) continue;
+        for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+            const DiskInstance& disk = levels_->disks()[i];
+            if (!behind(disk, projection)) radius = std::max(radius, disk.radius * scale.at(disk.base));
+        }
+    }
+    const int sides = std::clamp(4 * static_cast<int>(std::ceil(sides_for(radius, 0.17f) / 4)), 12, 128);
+    const Part part = from_above ? Part::side_and_upper_face : from_below ? Part::side_and_lower_face : Part::all;
+    return {{0, sides, part, {0, levels_->disks().size()}, 0}};
+}
+
+std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& projection) {
+    const PixelScale scale(projection);
+    std::vector<Batch> out;
+    Batch tubes, disks;
+    std::size_t together = 0;
+    const auto flush = [&] {
+        for (Batch* batch : {&tubes, &disks}) {
+            if (batch->range.count > 0) out.push_back(*batch);
+            batch->range.count = 0;
+        }
+        together = 0;
+    };
+    for (std::size_t i = 0; i < levels_->blocks().size(); ++i) {
+        const DiskBlock& block = levels_->blocks()[i];
+        if (!block_may_be_seen(block, projection)) continue;
+        const float depth = projection.depth(block.middle) - block.reach;
+        const float pixels = scale.at_depth(depth);
+        const int level = DiskLevels::choose(block, pixels, projection);
+        const int sides = coarse_sides(block.widest * pixels);
+        const Part part = !projection.below(block.highest) ? Part::side_and_upper_face
+                          : projection.below(block.lowest) ? Part::side_and_lower_face
+                                                           : Part::all;
+        const DiskLevels::Level& made = levels_->level(level);
+        const bool alike = together > 0 && together < kMostInBatch && disks.level == level && disks.sides == sides &&
+                           disks.part == part &&
+                           (tubes.range.count == 0 || tubes.range.first + tubes.range.count == made.tubes[i].first) &&
+                           (disks.range.count == 0 || disks.range.first + disks.range.count == made.disks[i].first);
+        if (!alike) {
+            flush();
+            // Where the lower face of a path's first disk is seen, the tube that begins with it shows that.
+            tubes = {
+                level, sides, part == Part::side_and_upper_face ? Part::side : Part::side_and_lower_face, {}, depth};
+            disks = {level, sides, part, {}, depth};
+        }
+        const auto add = [&](Batch& batch, DiskLevels::Range range) {
+            if (batch.range.count == 0) batch.range.first = range.first;
+            batch.range.count += range.count;
+            batch.depth = std::min(batch.depth, depth);
+        };
+        add(tubes, made.tubes[i]);
+        add(disks, made.disks[i]);
+        ++together;
+    }
+    flush();
+    // What is hidden by what was drawn before need not be shaded.
+    std::ranges::stable_sort(out, {}, &Batch::depth);
+    return out;
+}
+
+void DiskPass::draw(const Batch& batch, const Stored& stored, DrawStatistics& statistics) {
+    const Cylinder& shape = cylinder(batch.sides);
+    glBindVertexArray(shape.array.name());
+    // OpenGL 3.3 has no first instance: the attributes begin there instead.
+    glBindBuffer(GL_ARRAY_BUFFER, stored.pieces.name());
+    const VertexLayout piece(sizeof(DiskPiece), 1);
+    const std::size_t begin = batch.range.first * sizeof(DiskPiece);
+    piece.floats(2, 4, begin + offsetof(DiskPiece, base));
+    piece.floats(3, 4, begin + offsetof(DiskPiece, top));
+    piece.integers(5, 2, begin + offsetof(DiskPiece, id));
+    glBindBuffer(GL_ARRAY_BUFFER, stored.colors.name());
+    VertexLayout(sizeof(ColorBytes), 1).bytes(4, 4, batch.range.first * sizeof(ColorBytes));
+    const std::size_t face = 3 * static_cast<std::size_t>(batch.sides);
+    const bool upper = batch.part == Part::side_and_upper_face || batch.part == Part::all;
+    const bool lower = batch.part == Part::side_and_lower_face || batch.part == Part::all;
+    const std::size_t indices = (upper ? face : 0) + 2 * face + (lower ? face : 0);
+    glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(indices), GL_UNSIGNED_SHORT,
+                            reinterpret_cast<const void*>(upper ? 0 : face * sizeof(GLushort)),
+                            static_cast<GLsizei>(batch.range.count));
+    statistics.triangles += indices / 3 * batch.range.count;
+    ++statistics.draw_calls;
+}
+
+void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statistics) {
+    keep(list, statistics);
     if (list.disks.empty()) return;
-    const PixelScale scale(list.projection);
-    DiskGroups groups;
-    groups.single = in_order(list.disks);
-    int sides = 0;
-    if (detail == Detail::coarse) {
-        groups = group_runs(groups.single, list.projection, tolerance(detail));
-    } else {
-        sides = fine_sides(groups.single, list.projection, scale);
+    const bool coarse = detail == Detail::coarse;
+    const std::vector<Batch> batches = coarse ? coarse_batches(list.projection) : fine_batches(list.projection);
+    if (!coarse && !(fine_.has_pieces && fine_.has_colors)) {
+        std::vector<DiskPiece> pieces;
+        if (!fine_.has_pieces) {
+            std::transform(levels_->disks().begin(), levels_->disks().end(), std::back_inserter(pieces), piece_of);
+        }
+        store(fine_, pieces, nullptr, statistics);
     }
-    struct OneShape {
-        std::vector<Instance> above, below, runs;
+    const auto store_level = [&](int level) {
+        Stored& stored = coarse_[static_cast<std::size_t>(level)];
+        if (stored.has_pieces && stored.has_colors) return;
+        store(stored, levels_->level(level).pieces, &levels_->level(level).sources, statistics);
     };
-    // What has more sides is nearer: first.
-    std::map<int, OneShape, std::greater<>> shapes;
-    const auto shape_of = [&](float radius, glm::vec3 at) -> OneShape& {
-        return shapes[detail == Detail::fine ? sides : coarse_sides(radius * scale.at(at))];
-    };
-    if (detail == Detail::coarse) nearest_first(groups, list.projection);
-    for (const DiskInstance* disk : groups.single) {
-        if (behind(*disk, list.projection)) continue;
-        const glm::vec3 top = disk->base + glm::vec3(0, 0, disk->height);
-        OneShape& shape = shape_of(disk->radius, disk->base);
-        std::vector<Instance>& seen_from = list.projection.below(disk->base.z) ? shape.below : shape.above;
-        seen_from.push_back({disk->base, disk->radius, top, disk->radius, disk->color, {disk->id.r(), disk->id.g()}});
-    }
-    for (const DiskRun& run : groups.runs) {
-        shape_of(std::max(run.radius, run.top_radius), run.base)
-            .runs.push_back({run.base, run.radius, run.top, run.top_radius, run.color, {0, 0}});
+    if (coarse && stays_) {
+        for (int level = 0; level < DiskLevels::kLevels; ++level) store_level(level);
     }
 
     program_.use();
     glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE,
                        glm::value_ptr(list.projection.clip_from_world));
     glUniform3fv(program_.uniform("light"), 1, glm::value_ptr(towards_light(list.projection)));
-    glUniform1f(program_.uniform("scale"), scale.near());
+    glUniform1f(program_.uniform("scale"), PixelScale(list.projection).near());
     glUniform3fv(program_.uniform("back"), 1, glm::value_ptr(list.projection.back));
     // With two corners at the sides the outline is right, however few the others are.
-    const glm::vec2 across = detail == Detail::coarse ? glm::vec2(list.projection.right) : glm::vec2(1, 0);
+    const glm::vec2 across = coarse ? glm::vec2(list.projection.right) : glm::vec2(1, 0);
     glUniform2fv(program_.uniform("across"), 1, glm::value_ptr(across));
     glUniform3fv(program_.uniform("background"), 1, glm::value_ptr(list.palette.background));
     glEnable(GL_DEPTH_TEST);
@@ -184,14 +284,9 @@ void DiskPass::draw(const DrawList& list, Detail detail) {
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    for (const auto& [count, shape] : shapes) {
-        const Cylinder& with = cylinder(count);
-        glUniform1i(program_.uniform("runs"), 0);
-        draw(with, shape.above, Part::side_and_upper_face);
-        draw(with, shape.below, Part::side_and_lower_face);
-        // The ends of runs lie within the path; its last disk is a single one.
-        glUniform1i(program_.uniform("runs"), 1);
-        draw(with, shape.runs, Part::side);
+    for (const Batch& batch : batches) {
+        if (coarse) store_level(batch.level);
+        draw(batch, coarse ? coarse_[static_cast<std::size_t>(batch.level)] : fine_, statistics);
     }
     glDisable(GL_CULL_FACE);
 }

@@ -16,13 +16,6 @@ namespace mobbscope {
 
 namespace {
 
-struct Instance {
-    glm::vec3 center;
-    glm::vec3 extents[3];
-    Rgba fill;
-    GLuint id[2];
-};
-
 bool has_faces(const BoxInstance& box) { return box.fill.a > 0; }
 
 constexpr int kSide = 32;  // pixels of a tile
@@ -41,16 +34,18 @@ Rect covered_by(const BoxInstance& box, const ViewProjection& projection, const 
 
 }  // namespace
 
-FacePass::FacePass(GlContext& context) : faces_(context, "face"), composite_(context, "composite") {
+FacePass::FacePass(GlContext& context, const BoxBuffer& boxes)
+    : boxes_(boxes), faces_(context, "face"), composite_(context, "composite") {
     glBindVertexArray(array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-    const VertexLayout box(sizeof(Instance), 1);
-    box.floats(0, 3, offsetof(Instance, center));
+    glBindBuffer(GL_ARRAY_BUFFER, boxes.shapes().name());
+    const VertexLayout shape(sizeof(BoxBuffer::Shape), 1);
+    shape.floats(0, 3, offsetof(BoxBuffer::Shape, center));
     for (GLuint axis = 0; axis < 3; ++axis) {
-        box.floats(1 + axis, 3, offsetof(Instance, extents) + axis * sizeof(glm::vec3));
+        shape.floats(1 + axis, 3, offsetof(BoxBuffer::Shape, extents) + axis * sizeof(glm::vec3));
     }
-    box.floats(4, 4, offsetof(Instance, fill));
-    box.integers(5, 2, offsetof(Instance, id));
+    shape.integers(5, 2, offsetof(BoxBuffer::Shape, id));
+    glBindBuffer(GL_ARRAY_BUFFER, boxes.look_buffer().name());
+    VertexLayout(sizeof(BoxBuffer::Look), 1).floats(4, 4, offsetof(BoxBuffer::Look, fill));
     glBindVertexArray(tile_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
     VertexLayout(sizeof(Rect), 1).floats(0, 4, 0);
@@ -58,34 +53,30 @@ FacePass::FacePass(GlContext& context) : faces_(context, "face"), composite_(con
 
 bool FacePass::needed(const DrawList& list) { return std::any_of(list.boxes.begin(), list.boxes.end(), has_faces); }
 
-void FacePass::draw(const DrawList& list, bool ids) {
-    std::vector<Instance> instances;
-    for (const BoxInstance* box : in_order(list.boxes)) {
-        if (ids ? !box->pickable : !has_faces(*box)) continue;
-        instances.push_back(
-            {box->center, {box->extents[0], box->extents[1], box->extents[2]}, box->fill, {box->id.r(), box->id.g()}});
-    }
-    if (instances.empty()) return;
+void FacePass::draw(const DrawList& list, bool ids, DrawStatistics& statistics) {
+    if (boxes_.size() == 0) return;
     glBindVertexArray(array_.name());
-    upload(instances_, instances);
     faces_.use();
     glUniformMatrix4fv(faces_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(list.projection.clip_from_world));
     glUniform2f(faces_.uniform("depth_range"), list.projection.near_depth, list.projection.far_depth);
     glUniform1i(faces_.uniform("perspective"), list.projection.perspective);
+    glUniform1i(faces_.uniform("ids"), ids);
     glUniform3fv(faces_.uniform("light"), 1, glm::value_ptr(towards_light(list.projection)));
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
-    glDrawArraysInstanced(GL_TRIANGLES, 0, 36, static_cast<GLsizei>(instances.size()));
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 36, static_cast<GLsizei>(boxes_.size()));
+    statistics.triangles += 12 * boxes_.size();
+    ++statistics.draw_calls;
 }
 
 /// Only what faces may cover is cleared and blended: these are the dearest pixels of a picture.
-void FacePass::clear(const DrawList& list) {
+void FacePass::clear(const DrawList& list, DrawStatistics& statistics) {
     std::vector<BoxInstance> boxes;
     std::copy_if(list.boxes.begin(), list.boxes.end(), std::back_inserter(boxes), has_faces);
     const std::vector<Rect> tiles = covering_tiles(boxes, list.projection);
     tile_count_ = static_cast<GLsizei>(tiles.size());
     if (tiles.empty()) return;
-    upload(tiles_, tiles);
+    statistics.overlay_bytes += upload(tiles_, tiles);
     Rect around = tiles.front();
     for (const Rect& tile : tiles) around = {glm::min(around.min, tile.min), glm::max(around.max, tile.max)};
     const glm::ivec2 corner(around.min.x, static_cast<float>(list.size.height) - around.max.y);
@@ -99,16 +90,16 @@ void FacePass::clear(const DrawList& list) {
     glDisable(GL_SCISSOR_TEST);
 }
 
-void FacePass::accumulate(const DrawList& list) {
-    clear(list);
+void FacePass::accumulate(const DrawList& list, DrawStatistics& statistics) {
+    clear(list, statistics);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     // Colours add up; alpha keeps the product of (1 - opacity).
     glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
-    draw(list, false);
+    draw(list, false, statistics);
 }
 
-void FacePass::composite(const Texture& sums, const Texture& weights, PictureSize size) {
+void FacePass::composite(const Texture& sums, const Texture& weights, PictureSize size, DrawStatistics& statistics) {
     glBindVertexArray(tile_array_.name());
     glDisable(GL_DEPTH_TEST);
     blend_over();
@@ -121,12 +112,14 @@ void FacePass::composite(const Texture& sums, const Texture& weights, PictureSiz
     glBindTexture(GL_TEXTURE_2D, sums.name());
     glUniform2f(composite_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tile_count_);
+    statistics.triangles += 2 * static_cast<std::size_t>(tile_count_);
+    ++statistics.draw_calls;
 }
 
-void FacePass::draw_ids(const DrawList& list) {
+void FacePass::draw_ids(const DrawList& list, DrawStatistics& statistics) {
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
-    draw(list, true);
+    draw(list, true, statistics);
 }
 
 std::vector<Rect> covering_tiles(std::span<const BoxInstance> boxes, const ViewProjection& projection) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
+#include <render/gl/box_buffer.h>
 #include <render/gl/gl_objects.h>
 
 #include <span>
@@ -11,26 +12,27 @@ namespace mobbscope {
 
 class FacePass {
   public:
-    explicit FacePass(GlContext& context);
+    /// `boxes`: of the lists that are drawn; they outlive this.
+    FacePass(GlContext& context, const BoxBuffer& boxes);
 
     /// True if the list has faces to blend.
     static bool needed(const DrawList& list);
 
     /// Sums the faces into the bound framebuffer (see Targets::faces), which need not be cleared.
-    void accumulate(const DrawList& list);
+    void accumulate(const DrawList& list, DrawStatistics& statistics);
     /// Blends the sums of the last accumulate over the bound framebuffer.
-    void composite(const Texture& sums, const Texture& weights, PictureSize size);
+    void composite(const Texture& sums, const Texture& weights, PictureSize size, DrawStatistics& statistics);
     /// Writes the ids of node boxes, faces drawn or not, to output 2, nearest first.
-    void draw_ids(const DrawList& list);
+    void draw_ids(const DrawList& list, DrawStatistics& statistics);
 
   private:
-    void clear(const DrawList& list);
-    void draw(const DrawList& list, bool ids);
+    void clear(const DrawList& list, DrawStatistics& statistics);
+    void draw(const DrawList& list, bool ids, DrawStatistics& statistics);
 
+    const BoxBuffer& boxes_;
     ShaderProgram faces_;
     ShaderProgram composite_;
     VertexArray array_;
-    Buffer instances_;
     VertexArray tile_array_;
     Buffer tiles_;
     GLsizei tile_count_ = 0;

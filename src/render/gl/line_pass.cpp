@@ -17,43 +17,49 @@ struct LinePass::Instance {
 
 namespace {
 
-/// How strongly the edges of a box show through disks.
-constexpr float kHiddenEdge = 0.38f;
+constexpr GLuint kColor = 4;
 
-/// The twelve edges, each from the corner with the lower number.
-void add_edges(const BoxInstance& box, std::vector<LineInstance>& lines) {
-    if (box.edge.a <= 0) return;
-    const auto corner = [&](unsigned bits) {
-        glm::vec3 p = box.center;
-        for (unsigned axis = 0; axis < 3; ++axis) p += box.extents[axis] * ((bits >> axis) & 1u ? 1.0f : -1.0f);
-        return p;
-    };
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        for (unsigned bits = 0; bits < 8; ++bits) {
-            if ((bits >> axis) & 1u) continue;
-            // The order is the box's: all its edges look alike.
-            lines.push_back({corner(bits), corner(bits | (1u << axis)), box.edge, box.width, box.dash, kHiddenEdge,
-                             box.width * 0.5f, box.order});
-        }
-    }
+/// Colour, dash, and width, cap and what is kept when hidden, of lines and of the edges of boxes.
+void describe_look(const VertexLayout& layout, std::size_t color, std::size_t dash, std::size_t line) {
+    layout.floats(kColor, 4, color);
+    layout.floats(kColor + 1, 4, dash);
+    layout.floats(kColor + 2, 3, line);
 }
 
 }  // namespace
 
-LinePass::LinePass(GlContext& context) : program_(context, "line") {
-    glBindVertexArray(array_.name());
+LinePass::LinePass(GlContext& context, const BoxBuffer& boxes) : boxes_(boxes), program_(context, "line") {}
+
+/// The attributes of lines from the first on, as OpenGL 3.3 has no first instance.
+void LinePass::bind_lines(std::size_t first) {
+    glBindVertexArray(line_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
     const VertexLayout line(sizeof(Instance), 1);
-    line.floats(0, 3, offsetof(Instance, from));
-    line.floats(1, 3, offsetof(Instance, to));
-    line.floats(2, 4, offsetof(Instance, color));
-    line.floats(3, 4, offsetof(Instance, dash));
-    line.floats(4, 3, offsetof(Instance, shape));
+    const std::size_t begin = first * sizeof(Instance);
+    line.floats(0, 3, begin + offsetof(Instance, from));
+    line.floats(1, 3, begin + offsetof(Instance, to));
+    describe_look(line, begin + offsetof(Instance, color), begin + offsetof(Instance, dash),
+                  begin + offsetof(Instance, shape));
 }
 
-void LinePass::begin(const std::vector<Instance>& instances, const glm::mat4& clip_from_world, PictureSize size) {
-    glBindVertexArray(array_.name());
-    upload(instances_, instances);
+void LinePass::bind_boxes(std::size_t first) {
+    glBindVertexArray(box_array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, boxes_.shapes().name());
+    const VertexLayout shape(sizeof(BoxBuffer::Shape), 1);
+    const std::size_t begin = first * sizeof(BoxBuffer::Shape);
+    shape.floats(0, 3, begin + offsetof(BoxBuffer::Shape, center));
+    for (GLuint axis = 0; axis < 3; ++axis) {
+        shape.floats(1 + axis, 3, begin + offsetof(BoxBuffer::Shape, extents) + axis * sizeof(glm::vec3));
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, boxes_.look_buffer().name());
+    const std::size_t look = first * sizeof(BoxBuffer::Look);
+    describe_look(VertexLayout(sizeof(BoxBuffer::Look), 1), look + offsetof(BoxBuffer::Look, edge),
+                  look + offsetof(BoxBuffer::Look, dash), look + offsetof(BoxBuffer::Look, line));
+}
+
+void LinePass::begin(const std::vector<Instance>& instances, const glm::mat4& clip_from_world, PictureSize size,
+                     DrawStatistics& statistics) {
+    statistics.overlay_bytes += upload(instances_, instances);
     program_.use();
     glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip_from_world));
     glUniform2f(program_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
@@ -63,36 +69,68 @@ void LinePass::begin(const std::vector<Instance>& instances, const glm::mat4& cl
     glDepthMask(GL_FALSE);
 }
 
-void LinePass::draw_scene(const DrawList& list) {
-    std::vector<LineInstance> lines;
-    lines.reserve(list.lines.size() + 12 * list.boxes.size());
-    lines = list.lines;
-    for (const BoxInstance* box : in_order(list.boxes)) add_edges(*box, lines);
-    if (lines.empty()) return;
+void LinePass::draw(const Batch& batch, DrawStatistics& statistics) {
+    glUniform1i(program_.uniform("edges"), batch.of_boxes);
+    const GLsizei count = static_cast<GLsizei>(batch.count);
+    if (batch.of_boxes) {
+        bind_boxes(batch.first);
+        glDrawArraysInstanced(GL_TRIANGLES, 0, 72, count);
+    } else {
+        bind_lines(batch.first);
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    }
+    statistics.triangles += (batch.of_boxes ? 24 : 2) * batch.count;
+    ++statistics.draw_calls;
+}
+
+/// Lines and the edges of boxes, in drawing order.
+std::vector<LinePass::Batch> LinePass::batches(const std::vector<const LineInstance*>& lines) const {
+    std::vector<Batch> out;
+    const auto add = [&](bool of_boxes, std::size_t index) {
+        if (out.empty() || out.back().of_boxes != of_boxes) out.push_back({of_boxes, index, 0});
+        out.back().count = index + 1 - out.back().first;
+    };
+    std::size_t line = 0;
+    for (std::size_t box = 0; box < boxes_.size(); ++box) {
+        // A box without edges is no reason to begin anew.
+        if (boxes_.looks()[box].edge.a <= 0) continue;
+        while (line < lines.size() && !(boxes_.orders()[box] < lines[line]->order)) add(false, line++);
+        add(true, box);
+    }
+    while (line < lines.size()) add(false, line++);
+    return out;
+}
+
+void LinePass::draw_scene(const DrawList& list, DrawStatistics& statistics) {
+    const std::vector<const LineInstance*> lines = in_order(list.lines);
+    const std::vector<Batch> all = batches(lines);
+    if (all.empty()) return;
     std::vector<Instance> instances;
     instances.reserve(lines.size());
-    bool some_show_through = false;
-    for (const LineInstance* line : in_order(lines)) {
+    bool some_show_through = std::any_of(all.begin(), all.end(), [](const Batch& batch) { return batch.of_boxes; });
+    for (const LineInstance* line : lines) {
         instances.push_back(
             {line->from, line->to, line->color, line->dash, glm::vec3(line->width, line->cap, line->hidden)});
         some_show_through = some_show_through || line->hidden > 0;
     }
-    begin(instances, list.projection.clip_from_world, list.size);
+    begin(instances, list.projection.clip_from_world, list.size, statistics);
     // Edges touch the disks that they bound; they lie in front of them, and the same edge must not be taken for hidden.
     glUniform1f(program_.uniform("depth_bias"), 8e-4f);
     glEnable(GL_DEPTH_TEST);
-    const GLsizei count = static_cast<GLsizei>(instances.size());
+    const auto draw_all = [&] {
+        for (const Batch& batch : all) draw(batch, statistics);
+    };
     if (some_show_through) {
         glDepthFunc(GL_GREATER);
         glUniform1i(program_.uniform("hidden"), 1);
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+        draw_all();
         glUniform1i(program_.uniform("hidden"), 0);
     }
     glDepthFunc(GL_LEQUAL);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+    draw_all();
 }
 
-void LinePass::draw_overlay(const DrawList& list) {
+void LinePass::draw_overlay(const DrawList& list, DrawStatistics& statistics) {
     if (list.overlay_lines.empty()) return;
     std::vector<Instance> instances;
     for (const OverlayLine& line : list.overlay_lines) {
@@ -103,9 +141,9 @@ void LinePass::draw_overlay(const DrawList& list) {
     pixels[0][0] = 2 / static_cast<float>(list.size.width);
     pixels[1][1] = -2 / static_cast<float>(list.size.height);
     pixels[3] = {-1, 1, 0, 1};
-    begin(instances, pixels, list.size);
+    begin(instances, pixels, list.size, statistics);
     glDisable(GL_DEPTH_TEST);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
+    draw({false, 0, instances.size()}, statistics);
 }
 
 }  // namespace mobbscope

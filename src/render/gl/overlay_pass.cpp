@@ -22,10 +22,10 @@ OverlayPass::OverlayPass(GlContext& context) : program_(context, "overlay") {
     item.floats(4, 2, offsetof(Instance, texel));
 }
 
-void OverlayPass::draw(const std::vector<Instance>& instances, PictureSize size) {
+void OverlayPass::draw(const std::vector<Instance>& instances, PictureSize size, DrawStatistics& statistics) {
     if (instances.empty()) return;
     glBindVertexArray(array_.name());
-    upload(instances_, instances);
+    statistics.overlay_bytes += upload(instances_, instances);
     glDisable(GL_DEPTH_TEST);
     blend_over();
     program_.use();
@@ -34,24 +34,29 @@ void OverlayPass::draw(const std::vector<Instance>& instances, PictureSize size)
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, atlas_.name());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
+    statistics.triangles += 2 * instances.size();
+    ++statistics.draw_calls;
 }
 
-void OverlayPass::draw(const std::vector<Panel>& panels, PictureSize size) {
+void OverlayPass::draw(const std::vector<Panel>& panels, PictureSize size, DrawStatistics& statistics) {
     std::vector<Instance> instances;
     instances.reserve(panels.size());
     for (const Panel& panel : panels) {
         instances.push_back(
             {panel.rect, panel.fill, panel.border, glm::vec2(panel.radius, panel.border_width), glm::vec2(-1)});
     }
-    draw(instances, size);
+    draw(instances, size, statistics);
 }
 
-void OverlayPass::draw_panels(const DrawList& list) { draw(list.panels, list.size); }
+void OverlayPass::draw_panels(const DrawList& list, DrawStatistics& statistics) {
+    draw(list.panels, list.size, statistics);
+}
 
-void OverlayPass::draw_texts(const DrawList& list) {
-    draw(list.marks, list.size);
+void OverlayPass::draw_texts(const DrawList& list, DrawStatistics& statistics) {
+    draw(list.marks, list.size, statistics);
     if (list.texts.empty()) return;
     const GlyphAtlas atlas = make_atlas(list.texts, glyphs_);
+    statistics.overlay_bytes += atlas.coverage.size();
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, atlas_.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE,
@@ -62,7 +67,7 @@ void OverlayPass::draw_texts(const DrawList& list) {
     for (const PlacedGlyph& glyph : atlas.glyphs) {
         instances.push_back({glyph.rect, glyph.color, Rgba(0), glm::vec2(0), glyph.texel});
     }
-    draw(instances, list.size);
+    draw(instances, list.size, statistics);
 }
 
 }  // namespace mobbscope

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
+#include <render/gl/draw_statistics.h>
 #include <render/gl/gl_objects.h>
 #include <render/gl/glyph_atlas.h>
 
@@ -11,14 +12,14 @@ class OverlayPass {
   public:
     explicit OverlayPass(GlContext& context);
 
-    void draw_panels(const DrawList& list);
+    void draw_panels(const DrawList& list, DrawStatistics& statistics);
     /// What lies over the lines: marks, then texts.
-    void draw_texts(const DrawList& list);
+    void draw_texts(const DrawList& list, DrawStatistics& statistics);
 
   private:
     struct Instance;
-    void draw(const std::vector<Instance>& instances, PictureSize size);
-    void draw(const std::vector<Panel>& panels, PictureSize size);
+    void draw(const std::vector<Instance>& instances, PictureSize size, DrawStatistics& statistics);
+    void draw(const std::vector<Panel>& panels, PictureSize size, DrawStatistics& statistics);
 
     ShaderProgram program_;
     VertexArray array_;

@@ -1,6 +1,7 @@
 #include <render/gl/renderer.h>
 
 #include <base/error.h>
+#include <render/gl/box_buffer.h>
 #include <render/gl/disk_pass.h>
 #include <render/gl/face_pass.h>
 #include <render/gl/gl_objects.h>
@@ -55,13 +56,14 @@ struct Renderer::State {
           version(gl_string(GL_VERSION)),
           software(draws_in_software(device)),
           disks(*context),
-          faces(*context),
-          lines(*context),
+          faces(*context, boxes),
+          lines(*context, boxes),
           overlay(*context) {
         context->check("compiling shaders");
     }
 
     void begin(PictureSize size) {
+        statistics = {};
         context->make_current();
         reset_state();
         glViewport(0, 0, size.width, size.height);
@@ -72,15 +74,16 @@ struct Renderer::State {
         glClearColor(ground.r, ground.g, ground.b, 1);
         glClearDepth(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        disks.draw(list, targets->samples() > 1 ? Detail::fine : Detail::coarse);
+        boxes.keep(list, statistics);
+        disks.draw(list, targets->samples() > 1 ? Detail::fine : Detail::coarse, statistics);
         if (FacePass::needed(list)) {
             targets->share_depth();
             glBindFramebuffer(GL_FRAMEBUFFER, targets->faces().name());
-            faces.accumulate(list);
+            faces.accumulate(list, statistics);
             glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
-            faces.composite(targets->sums(), targets->weights(), list.size);
+            faces.composite(targets->sums(), targets->weights(), list.size, statistics);
         }
-        lines.draw_scene(list);
+        lines.draw_scene(list, statistics);
     }
 
     /// Into the result's framebuffer, on a ground that is taken for opaque.
@@ -94,9 +97,9 @@ struct Renderer::State {
         draw_scene(list, ground);
         targets->resolve();
         glBindFramebuffer(GL_FRAMEBUFFER, targets->result().name());
-        overlay.draw_panels(list);
-        lines.draw_overlay(list);
-        overlay.draw_texts(list);
+        overlay.draw_panels(list, statistics);
+        lines.draw_overlay(list, statistics);
+        overlay.draw_texts(list, statistics);
         context->check("drawing");
     }
 
@@ -121,6 +124,8 @@ struct Renderer::State {
     std::string device;
     std::string version;
     bool software;
+    DrawStatistics statistics;
+    BoxBuffer boxes;
     DiskPass disks;
     FacePass faces;
     LinePass lines;
@@ -144,6 +149,8 @@ std::string_view Renderer::backend() const { return state_->context->name(); }
 const std::string& Renderer::device() const { return state_->device; }
 
 const std::string& Renderer::version() const { return state_->version; }
+
+const DrawStatistics& Renderer::statistics() const { return state_->statistics; }
 
 GlContext& Renderer::context() { return *state_->context; }
 
@@ -186,9 +193,10 @@ IdImage Renderer::draw_ids(const DrawList& list) {
     const GLfloat farthest = 1;
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     write_output(1);
-    s.disks.draw(list, Detail::fine);
+    s.disks.draw(list, Detail::fine, s.statistics);
     write_output(2);
-    s.faces.draw_ids(list);
+    s.boxes.keep(list, s.statistics);
+    s.faces.draw_ids(list, s.statistics);
 
     IdImage image{list.size.width, list.size.height, {}};
     image.rg.resize(2 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));

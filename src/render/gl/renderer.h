@@ -3,6 +3,7 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
+#include <render/gl/draw_statistics.h>
 #include <render/gl/gl_context.h>
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
@@ -40,6 +41,9 @@ class Renderer {
     GlContext& context();
     /// Whether the processor draws, by the device's name. Then multisampling is dear.
     bool is_software() const;
+
+    /// What the last picture took; of one that is seen through the second half.
+    const DrawStatistics& statistics() const;
 
     /// What the shader compiler remarked.
     const std::vector<std::string>& warnings() const;

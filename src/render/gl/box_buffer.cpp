@@ -1,0 +1,40 @@
+#include <render/gl/box_buffer.h>
+
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+/// How strongly the edges of a box show through disks.
+constexpr float kHiddenEdge = 0.38f;
+
+}  // namespace
+
+void BoxBuffer::keep(const DrawList& list, DrawStatistics& statistics) {
+    std::vector<Shape> shapes;
+    std::vector<Look> looks;
+    shapes.reserve(list.boxes.size());
+    looks.reserve(list.boxes.size());
+    orders_.clear();
+    for (const BoxInstance* box : in_order(list.boxes)) {
+        Shape shape{box->center, {box->extents[0], box->extents[1], box->extents[2]}, {0, 0}};
+        if (box->pickable) {
+            shape.id[0] = box->id.r();
+            shape.id[1] = box->id.g();
+        }
+        shapes.push_back(shape);
+        looks.push_back({box->fill, box->edge, box->dash, glm::vec3(box->width, 0.5f * box->width, kHiddenEdge)});
+        orders_.push_back(box->order);
+    }
+    if (shapes != shapes_) {
+        shapes_ = std::move(shapes);
+        statistics.world_bytes += upload(shape_buffer_, shapes_);
+    }
+    if (looks != looks_) {
+        looks_ = std::move(looks);
+        statistics.state_bytes += upload(look_buffer_, looks_);
+    }
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,199 @@
+#include <render/gl/disk_levels.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr float kTolerance = 0.9f;      // pixels that a tube may be off
+constexpr float kHighest = 1.8f;        // pixels of a disk's side: above it the edge that the shader draws is seen
+constexpr float kWidestStep = 0.5f;     // pixels of a disk's face that its successor leaves free
+constexpr float kColorStep = 0.04f;     // between neighbours; more is a hit, or an end of what is in focus
+constexpr std::size_t kLongest = 32;    // disks in a tube, so that the colour follows
+constexpr std::size_t kInBlock = 128;   // disks
+constexpr float kFinestLevel = 0.004f;  // metres that its tubes may be off
+
+glm::vec2 ground(glm::vec3 p) { return {p.x, p.y}; }
+
+bool follows(const DiskInstance& next, const DiskInstance& disk) {
+    return next.id.participant == disk.id.participant && next.id.index == disk.id.index + 1 &&
+           std::abs(next.base.z - disk.base.z - disk.height) <= 0.01f * disk.height;
+}
+
+DiskBlock measured(const std::vector<DiskInstance>& disks, DiskBlock block) {
+    glm::vec3 min(std::numeric_limits<float>::max());
+    glm::vec3 max(std::numeric_limits<float>::lowest());
+    const std::size_t end = block.first + block.count;
+    for (std::size_t i = block.first; i < end; ++i) {
+        const DiskInstance& disk = disks[i];
+        const glm::vec3 around(disk.radius, disk.radius, 0);
+        min = glm::min(min, disk.base - around);
+        max = glm::max(max, disk.base + around + glm::vec3(0, 0, disk.height));
+        block.widest = std::max(block.widest, disk.radius);
+        block.tallest = std::max(block.tallest, disk.height);
+        if (i + 1 == end && !block.continues) continue;
+        const DiskInstance& next = disks[i + 1];
+        const float step = glm::length(ground(next.base - disk.base)) + std::abs(next.radius - disk.radius);
+        block.widest_step = std::max(block.widest_step, step);
+    }
+    block.middle = 0.5f * (min + max);
+    block.reach = 0.5f * glm::length(max - min);
+    block.lowest = min.z;
+    block.highest = max.z;
+    return block;
+}
+
+std::vector<DiskBlock> blocks_of(const std::vector<DiskInstance>& disks) {
+    std::vector<DiskBlock> out;
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+        const bool goes_on = i > 0 && follows(disks[i], disks[i - 1]);
+        if (!goes_on || out.back().count == kInBlock) {
+            if (goes_on) out.back().continues = true;
+            out.emplace_back().first = i;
+        }
+        ++out.back().count;
+    }
+    for (DiskBlock& block : out) block = measured(disks, block);
+    return out;
+}
+
+/// The bits of a coordinate with two free bits after each.
+std::uint32_t spread(std::uint32_t bits) {
+    std::uint32_t out = 0;
+    for (unsigned i = 0; i < 10; ++i) out |= (bits >> i & 1u) << (3 * i);
+    return out;
+}
+
+/// Along a curve that fills space: neighbours in the list are neighbours in the scene, and so are drawn alike.
+void sort_by_place(std::vector<DiskBlock>& blocks) {
+    glm::vec3 min(std::numeric_limits<float>::max());
+    glm::vec3 max(std::numeric_limits<float>::lowest());
+    for (const DiskBlock& block : blocks) {
+        min = glm::min(min, block.middle);
+        max = glm::max(max, block.middle);
+    }
+    const glm::vec3 extent = glm::max(max - min, glm::vec3(1e-6f));
+    std::vector<std::pair<std::uint32_t, DiskBlock>> keyed;
+    for (const DiskBlock& block : blocks) {
+        const glm::uvec3 cell((block.middle - min) / extent * 1023.0f);
+        keyed.emplace_back(spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2, block);
+    }
+    std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::transform(keyed.begin(), keyed.end(), blocks.begin(), [](const auto& one) { return one.second; });
+}
+
+/// Whether the disks between two lie on the tube from one to the other.
+bool is_straight(const std::vector<DiskInstance>& disks, std::size_t first, std::size_t last, float most) {
+    const DiskInstance& a = disks[first];
+    const DiskInstance& b = disks[last];
+    for (std::size_t i = first + 1; i < last; ++i) {
+        const DiskInstance& disk = disks[i];
+        const float t = static_cast<float>(i - first) / static_cast<float>(last - first);
+        const float aside = glm::length(ground(disk.base - glm::mix(a.base, b.base, t)));
+        if (aside + std::abs(disk.radius - glm::mix(a.radius, b.radius, t)) > most) return false;
+    }
+    return true;
+}
+
+bool differ_in_shape(const DiskInstance& a, const DiskInstance& b) {
+    return a.base != b.base || a.radius != b.radius || a.height != b.height || a.id != b.id;
+}
+
+}  // namespace
+
+PixelScale::PixelScale(const ViewProjection& projection)
+    : projection_(&projection),
+      scale_(0.5f * static_cast<float>(projection.size.width) *
+             (projection.clip_from_world * glm::vec4(projection.right, 0)).x) {}
+
+float PixelScale::at_depth(float depth) const {
+    return projection_->perspective ? scale_ / std::max(depth, projection_->near_depth) : scale_;
+}
+
+DiskPiece piece_of(const DiskInstance& disk) {
+    return {disk.base, disk.radius, disk.base + glm::vec3(0, 0, disk.height), disk.radius, {disk.id.r(), disk.id.g()}};
+}
+
+float DiskLevels::tolerance(int level) {
+    return level == 0 ? 0 : kFinestLevel * std::exp2(0.5f * static_cast<float>(level - 1));
+}
+
+DiskLevels::DiskLevels(std::vector<DiskInstance> disks) : disks_(std::move(disks)), blocks_(blocks_of(disks_)) {
+    sort_by_place(blocks_);
+    note_colors();
+}
+
+void DiskLevels::note_colors() {
+    for (DiskBlock& block : blocks_) {
+        block.mixed = false;
+        for (std::size_t i = block.first + 1; i < block.first + block.count && !block.mixed; ++i) {
+            const glm::vec4 change = glm::abs(disks_[i].color - disks_[i - 1].color);
+            block.mixed = std::max({change.r, change.g, change.b, change.a}) >= kColorStep;
+        }
+    }
+}
+
+bool DiskLevels::take_colors(const std::vector<const DiskInstance*>& disks) {
+    if (disks.size() != disks_.size()) return false;
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+        if (differ_in_shape(disks_[i], *disks[i])) return false;
+    }
+    for (std::size_t i = 0; i < disks.size(); ++i) disks_[i].color = disks[i]->color;
+    note_colors();
+    return true;
+}
+
+const DiskLevels::Level& DiskLevels::level(int index) {
+    std::optional<Level>& made = levels_[static_cast<std::size_t>(index)];
+    if (made) return *made;
+    made.emplace();
+    std::vector<DiskPiece> single;
+    std::vector<std::size_t> of_single;
+    const float most = tolerance(index);
+    for (const DiskBlock& block : blocks_) {
+        made->tubes.push_back({made->pieces.size(), 0});
+        made->disks.push_back({single.size(), 0});
+        const std::size_t end = block.first + block.count;
+        // A tube ends at the lower face of a disk: the last of a path is no part of one.
+        const std::size_t limit = index == 0 ? block.first : block.continues ? end : end - 1;
+        for (std::size_t first = block.first; first < end;) {
+            std::size_t last = first;
+            while (last < limit && last - first < kLongest && is_straight(disks_, first, last + 1, most)) ++last;
+            if (last < first + 2) {
+                single.push_back(piece_of(disks_[first]));
+                of_single.push_back(first++);
+                continue;
+            }
+            const DiskInstance& a = disks_[first];
+            const DiskInstance& b = disks_[last];
+            made->pieces.push_back({a.base, a.radius, b.base, b.radius, {0, 0}});
+            made->sources.push_back((first + last) / 2);
+            first = last;
+        }
+        made->tubes.back().count = made->pieces.size() - made->tubes.back().first;
+        made->disks.back().count = single.size() - made->disks.back().first;
+    }
+    for (Range& range : made->disks) range.first += made->pieces.size();
+    made->pieces.insert(made->pieces.end(), single.begin(), single.end());
+    made->sources.insert(made->sources.end(), of_single.begin(), of_single.end());
+    return *made;
+}
+
+int DiskLevels::choose(const DiskBlock& block, float pixels, const ViewProjection& projection) {
+    const float upwards = std::sqrt(std::max(0.0f, 1 - projection.back.z * projection.back.z));
+    if (block.mixed || block.tallest * pixels * upwards >= kHighest ||
+        block.widest_step * pixels * std::abs(projection.back.z) >= kWidestStep) {
+        return 0;
+    }
+    const float levels = 2 * std::log2(kTolerance / (pixels * kFinestLevel));
+    return levels < 0 ? 0 : std::min(1 + static_cast<int>(levels), kLevels - 1);
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,94 @@
+/// Disks in levels of detail, which do not depend on the camera: it chooses a level for each block of disks.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace mobbscope {
+
+/// How many pixels of the picture a metre at `point` makes up, for many points.
+class PixelScale {
+  public:
+    explicit PixelScale(const ViewProjection& projection);
+    /// A point nearer than what is drawn counts as if it lay there, for it may be the middle of what is seen.
+    float at(glm::vec3 point) const { return at_depth(projection_->depth(point)); }
+    float at_depth(float depth) const;
+    /// At distance 1 from the eye; without perspective anywhere.
+    float near() const { return scale_; }
+
+  private:
+    const ViewProjection* projection_;
+    float scale_;
+};
+
+/// An upright cylinder, or a tube from the lower face of a disk to that of another farther up the path.
+struct DiskPiece {
+    glm::vec3 base{0};  ///< centre below, drawn space
+    float radius = 0;   ///< below
+    glm::vec3 top{0};   ///< centre above
+    float top_radius = 0;
+    std::array<std::uint32_t, 2> id{0, 0};  ///< of a disk; (0, 0): a tube, which has no upper face
+};
+
+/// A disk as a piece.
+DiskPiece piece_of(const DiskInstance& disk);
+
+/// Successive disks of a path. Far away they are drawn as tubes, as many as keep within a tolerance.
+struct DiskBlock {
+    std::size_t first = 0;  ///< in drawing order
+    std::size_t count = 0;
+    bool continues = false;  ///< the next disk in order stands on the last one
+    bool mixed = false;      ///< neighbours differ in colour: drawn disk by disk
+    glm::vec3 middle{0};     ///< of a ball around it
+    float reach = 0;         ///< the ball's radius
+    float lowest = 0;        ///< of the bases
+    float highest = 0;       ///< ... and of the tops
+    float widest = 0;        ///< radius
+    float tallest = 0;       ///< disk
+    float widest_step = 0;   ///< from a disk to its successor: what this leaves free of the face, metres
+};
+
+class DiskLevels {
+  public:
+    /// Level 0 has all disks. The others have tubes that are off by so many metres at most.
+    static constexpr int kLevels = 13;
+    static float tolerance(int level);
+
+    struct Range {
+        std::size_t first = 0, count = 0;
+    };
+    struct Level {
+        std::vector<DiskPiece> pieces;     ///< first tubes, then disks
+        std::vector<std::size_t> sources;  ///< of each piece: the disk that has its colour, in drawing order
+        std::vector<Range> tubes, disks;   ///< of each block
+    };
+
+    /// `disks`: in drawing order. They are copied.
+    explicit DiskLevels(std::vector<DiskInstance> disks);
+
+    const std::vector<DiskInstance>& disks() const { return disks_; }
+    /// Near ones near one another.
+    const std::vector<DiskBlock>& blocks() const { return blocks_; }
+    /// Made when first asked for.
+    const Level& level(int index);
+
+    /// True if `disks` (in drawing order) are these but for their colours; then they take those.
+    bool take_colors(const std::vector<const DiskInstance*>& disks);
+
+    /// The coarsest level whose tubes nobody tells from the disks of a block. `pixels`: of a metre, at its nearest.
+    static int choose(const DiskBlock& block, float pixels, const ViewProjection& projection);
+
+  private:
+    void note_colors();
+
+    std::vector<DiskInstance> disks_;
+    std::vector<DiskBlock> blocks_;
+    std::array<std::optional<Level>, kLevels> levels_;
+};
+
+}  // namespace mobbscope
