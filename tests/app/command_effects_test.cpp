@@ -236,6 +236,28 @@ std::vector<Case> cases() {
              EXPECT_FALSE(w.view().camera.target);
              run_command(w.session, "view.moment");
          }});
+    look("view.split", "", [](CommandWorld& w) {
+        ASSERT_EQ(w.session.view_count(), 2u);
+        EXPECT_EQ(w.session.view_at(0).fitted->options().tree, mobb::TreeKind::mobb);
+        EXPECT_EQ(w.session.view_at(1).fitted->options().tree, mobb::TreeKind::umobb);
+        run_command(w.session, "view.split");
+        EXPECT_EQ(w.session.view_count(), 1u);
+        run_command(w.session, "tree.kind", "umobb");
+        run_command(w.session, "view.split");
+        EXPECT_EQ(w.session.view_at(1).fitted->options().tree, mobb::TreeKind::mobb);
+    });
+    add({"view.other", "", {{"view.split", ""}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.active_place(), 1u);
+             EXPECT_EQ(w.session.fitted().options().tree, mobb::TreeKind::umobb);
+             run_command(w.session, "view.other");
+             EXPECT_EQ(w.session.active_place(), 0u);
+         }});
+    add({"view.link_cameras", "", {{"view.split", ""}}, [](CommandWorld& w) {
+             run_command(w.session, "view.top");
+             EXPECT_EQ(w.session.view_at(1).view.camera.preset, CameraPreset::iso);
+             run_command(w.session, "view.link_cameras");
+             EXPECT_EQ(w.session.view_at(1).view.camera.preset, CameraPreset::top);
+         }});
     for (const ViewOption& option : view_options()) {
         if (!option.toggle || !option.command.starts_with("view.")) continue;
         look(std::string(option.command), "", [&option](CommandWorld& w) {

@@ -223,6 +223,31 @@ TEST_P(ShellTest, AnExpectationThatFailsNamesItsLine) {
     EXPECT_THROW(run("click no.such.widget"), InputError);
 }
 
+TEST_P(ShellTest, APressMakesAViewTheActiveOneAndLinkedCamerasMoveTogether) {
+    window->resize({1200, 600});
+    run("run view.split");
+    const std::uint32_t width = static_cast<std::uint32_t>(window->shell().viewport_picture().width);
+    const Rect left = window->shell().marks().all().at("viewport");
+    const Rect right = window->shell().marks().all().at("viewport.1");
+    EXPECT_EQ(left.size(), right.size());
+    EXPECT_LT(left.max.x, right.min.x);
+    EXPECT_EQ(width, left.size().x);
+    const Image mobb = window->shell().viewport_picture();
+    const Camera before = session.view().camera;
+    run("drag viewport.1 40 20");
+    EXPECT_EQ(session.active_place(), 1u);
+    EXPECT_NE(session.view().camera, before);
+    EXPECT_EQ(session.view_at(0).view.camera, session.view().camera);
+    EXPECT_NE(window->shell().viewport_picture().rgba, mobb.rgba);
+    run("click viewport.0");
+    EXPECT_EQ(session.active_place(), 0u);
+    run("run view.link_cameras\nscroll viewport 3");
+    EXPECT_NE(session.view_at(1).view.camera, session.view().camera);
+    run("run view.split");
+    EXPECT_EQ(window->shell().marks().all().count("viewport.1"), 0u);
+    EXPECT_GT(window->shell().viewport_picture().width, 2 * static_cast<int>(width) - 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, ShellTest, ::testing::Values(Backend::osmesa, Backend::egl),
                          mobbscope::testing::backend_name);
 

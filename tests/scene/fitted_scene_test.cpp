@@ -61,8 +61,8 @@ TEST(FittedScene, HoldsSeveralFitsOfOneScene) {
     EXPECT_EQ(umobb.fits()[1]->name, "tilted");
     EXPECT_EQ(&umobb.placed(umobb.placed_agents()[0]).tree(), &umobb.tree(0));
     EXPECT_EQ(record(umobb, umobb.queries()[0]).contact, record(both, both.queries()[0]).contact);
-    EXPECT_GT(record(umobb, umobb.queries()[0]).tests.obb3d, 0);
-    EXPECT_EQ(record(both, both.queries()[0]).tests.obb3d, 0);
+    EXPECT_GT(record(umobb, umobb.queries()[0]).tests[mobb::BoxKind::obb3d], 0);
+    EXPECT_EQ(record(both, both.queries()[0]).tests[mobb::BoxKind::obb3d], 0);
 
     // A scene made of this one shares the trees of all its fits.
     EXPECT_EQ(&FittedScene(mobb.scene(), tilted, &both).tree(0), &umobb.tree(0));

@@ -190,9 +190,8 @@ void Viewport::draw(Ui& ui, std::size_t place) {
 /// Which fit a view is of, in its upper right corner; a frame in the accent's colour around the active view.
 void Viewport::name_fit(const Ui& ui, ImVec2 corner) const {
     const FittedScene& fitted = *key_->fitted;
-    const mobb::FitOptions& options = fitted.options();
     std::string name = fitted.fits()[fitted.fit_in_use()]->name;
-    if (name.empty()) name = upper_case(mobb::name(options.tree));
+    if (name.empty()) name = mobb::info(fitted.options().tree).label;
     name = shortened(name, 24);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
                      corner.y + static_cast<float>(list_->size.height)};
