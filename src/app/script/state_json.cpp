@@ -65,8 +65,8 @@ std::string name_of(const Session& session, const Selection& selection) {
 }
 
 Json selection_json(const Session& session, const Selection& selection) {
-    constexpr std::array<const char*, 6> kKinds{"none", "path", "node", "sample", "clip", "query"};
-    Json json{{"kind", kKinds[static_cast<std::size_t>(selection.kind)]}};
+    constexpr std::array<const char*, 6> kSelectionKinds{"none", "path", "node", "sample", "clip", "query"};
+    Json json{{"kind", kSelectionKinds[static_cast<std::size_t>(selection.kind)]}};
     if (selection.kind == Selection::Kind::none || !exists(session.fitted(), selection)) return json;
     json["name"] = name_of(session, selection);
     if (selection.on_path()) {
