@@ -10,7 +10,9 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -40,12 +42,19 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     std::cout << cleaned(clip) << ": " << counted(tree.clip().count(), "sample", "samples") << " in "
               << brief(tree.clip().duration()) << " s; " << mobb::name(options.tree) << " tree of "
               << counted(static_cast<long long>(tree.nodes().size()), "node", "nodes") << " (leaf " << options.leaf
-              << ", axes " << mobb::name(options.axes) << ", time scale " << brief(options.time_scale) << " m/s)\n"
-              << "  level   nodes   volume m^2*s   tightness\n";
+              << ", axes " << mobb::name(options.axes) << ", time scale " << brief(options.time_scale) << " m/s)\n";
+    std::vector<std::string> heads;
+    for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
+        heads.push_back(std::string(heads.empty() ? "  " : "   ") + column.key);
+        if (*column.unit != '\0') heads.back() += std::string(" ") + column.unit;
+        std::cout << heads.back();
+    }
+    std::cout << '\n';
     for (const mobb::LevelFigures& figures : mobb::level_figures(tree)) {
-        std::cout << std::setw(7) << figures.level << std::setw(8) << figures.nodes << std::setw(15)
-                  << brief(figures.volume) << std::setw(12) << (figures.tightness ? brief(*figures.tightness) : "-")
-                  << '\n';
+        for (std::size_t i = 0; i < heads.size(); ++i) {
+            std::cout << std::setw(static_cast<int>(heads[i].size())) << level_text(mobb::kLevelColumns[i], figures);
+        }
+        std::cout << '\n';
     }
 }
 

@@ -2,7 +2,9 @@
 #include <mobb/level_figures.h>
 #include <scene/fit_json.h>
 
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -66,11 +68,12 @@ void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
 
 void write_level(JsonWriter& out, const mobb::LevelFigures& figures) {
     out.begin_object(Layout::row);
-    out.member("level", figures.level);
-    out.member("nodes", figures.nodes);
-    out.member("volume", figures.volume);
-    out.key("tightness");
-    figures.tightness ? out.value(*figures.tightness) : out.null();
+    for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
+        const std::optional<double> value = column.of(figures);
+        out.key(column.key);
+        if (!value) out.null();
+        if (value) column.whole ? out.value(static_cast<std::int64_t>(*value)) : out.value(*value);
+    }
     out.end_object();
 }
 
@@ -86,6 +89,12 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
         fit.time_scale = scale->number(1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
     }
     return fit;
+}
+
+std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures) {
+    const std::optional<double> value = column.of(figures);
+    if (!value) return "-";
+    return column.whole ? std::to_string(static_cast<std::int64_t>(*value)) : brief(*value);
 }
 
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {

@@ -10,16 +10,6 @@ namespace mobbscope {
 
 namespace {
 
-template <class Items>
-std::string unused_name(const Items& items, std::string_view wanted) {
-    const auto taken = [&](std::string_view name) {
-        return std::any_of(items.begin(), items.end(), [&](const auto& item) { return item.name == name; });
-    };
-    std::string name(wanted);
-    for (int number = 2; taken(name); ++number) name = std::string(wanted) + ' ' + std::to_string(number);
-    return name;
-}
-
 Agent& agent_at(Scene& scene, int agent) { return scene.agents.at(static_cast<std::size_t>(agent)); }
 
 /// Queries as their agents are now.
@@ -84,8 +74,12 @@ void move_sources(Scene& scene, const std::filesystem::path& from, const std::fi
 
 }  // namespace
 
-std::string unused_clip_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.clips, wanted); }
-std::string unused_agent_name(const Scene& scene, std::string_view wanted) { return unused_name(scene.agents, wanted); }
+std::string UnusedNames::take(const std::string& wanted) {
+    std::string name = wanted;
+    int& number = last_number_.try_emplace(wanted, 1).first->second;
+    while (!taken_.insert(name).second) name = wanted + ' ' + std::to_string(++number);
+    return name;
+}
 
 void add_agents_for_clips(Scene& scene) {
     if (!scene.agents.empty()) return;
@@ -116,14 +110,14 @@ int add_agent(Scene& scene, int clip, const mobb::Placement& placement) {
     add_agents_for_clips(scene);
     const std::string& wanted = scene.clips.at(static_cast<std::size_t>(clip)).name;
     const PairInView shown(scene);
-    scene.agents.push_back({unused_agent_name(scene, wanted), clip, placement, {}});
+    scene.agents.push_back({UnusedNames(scene.agents).take(wanted), clip, placement, {}});
     shown.restore(scene);
     return static_cast<int>(scene.agents.size()) - 1;
 }
 
 int duplicate_agent(Scene& scene, int agent) {
     Agent copy = agent_at(scene, agent);
-    copy.name = unused_agent_name(scene, copy.name);
+    copy.name = UnusedNames(scene.agents).take(copy.name);
     copy.color.reset();  // the palette tells the two apart
     const PairInView shown(scene);
     scene.agents.push_back(std::move(copy));
@@ -203,12 +197,14 @@ void merge(Scene& scene, Scene other) {
     const PairInView shown(scene);
     const int first_clip = static_cast<int>(scene.clips.size());
     const int first_agent = static_cast<int>(scene.agents.size());
+    UnusedNames clip_names(scene.clips);
     for (SceneClip& clip : other.clips) {
-        clip.name = unused_clip_name(scene, clip.name);
+        clip.name = clip_names.take(clip.name);
         scene.clips.push_back(std::move(clip));
     }
+    UnusedNames agent_names(scene.agents);
     for (Agent& agent : other.agents) {
-        agent.name = unused_agent_name(scene, agent.name);
+        agent.name = agent_names.take(agent.name);
         agent.clip += first_clip;
         scene.agents.push_back(std::move(agent));
     }

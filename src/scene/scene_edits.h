@@ -6,13 +6,27 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace mobbscope {
 
-/// `wanted`, or with " 2", " 3", ... behind it: a name that no clip (no agent) of the scene has.
-std::string unused_clip_name(const Scene& scene, std::string_view wanted);
-std::string unused_agent_name(const Scene& scene, std::string_view wanted);
+/// Gives names that nothing has yet.
+class UnusedNames {
+  public:
+    UnusedNames() = default;
+    /// Of clips, or agents.
+    template <class Items>
+    explicit UnusedNames(const Items& items) {
+        for (const auto& item : items) taken_.insert(item.name);
+    }
+    /// `wanted`, or with " 2", " 3", ... behind it. Nobody gets it again.
+    std::string take(const std::string& wanted);
+
+  private:
+    std::unordered_set<std::string> taken_;
+    std::unordered_map<std::string, int> last_number_;  ///< up to which all that are wanted are taken
+};
 
 /// A scene without agents gets one for every clip, where it is: what was seen of it is then agents.
 void add_agents_for_clips(Scene& scene);

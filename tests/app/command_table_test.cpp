@@ -246,6 +246,16 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
         return copied.substr(file_end, copied.find(" --size") - file_end);
     };
     EXPECT_EQ(options(), "");
+    EXPECT_NE(copied.find(" --size 1280x720 -o"), std::string::npos) << "the scale that suits the size is not said";
+    session.hooks.ui_scale = [] { return 2.0; };
+    session.hooks.viewport_size = [] { return PictureSize{640, 360}; };
+    double scale = 0;
+    session.hooks.viewport_scale = [&] { return scale; };
+    EXPECT_EQ(options(), "");
+    EXPECT_NE(copied.find(" --size 640x360 -o"), std::string::npos) << copied;
+    scale = 1.75;
+    EXPECT_EQ(options(), "");
+    EXPECT_NE(copied.find(" --size 640x360 --scale 1.75 -o"), std::string::npos) << "the viewport's, not the panels'";
     EXPECT_NE(copied.find("o'\\''dd name.json'"), std::string::npos) << copied;
     run_command(session, "view.top");
     run_command(session, "query.select", "1");

@@ -1,6 +1,7 @@
 #include "run_program.h"
 
 #include <mobb/level_figures.h>
+#include <scene/fit_json.h>
 #include <scene/fitted_scene.h>
 #include <support/json_keys.h>
 
@@ -9,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
+#include <sstream>
+#include <string>
 
 namespace mobbscope {
 namespace {
@@ -70,6 +73,28 @@ TEST(Fit, JsonIsTheTree) {
     EXPECT_EQ(printed["levels"][2]["nodes"], figures[2].nodes);
     EXPECT_EQ(printed["levels"][2]["volume"], figures[2].volume);
     EXPECT_EQ(printed["levels"][2]["tightness"], *figures[2].tightness);
+    std::set<std::string> columns;
+    for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
+        columns.insert(column.key);
+        EXPECT_EQ(printed["levels"][2][column.key], *column.of(figures[2])) << column.key;
+    }
+    EXPECT_EQ(keys(printed["levels"][2]), columns);
+}
+
+TEST(Fit, TheTableHasTheColumnsOfALevel) {
+    const Result run = run_program({"fit", kFitScenes + "crossing.json"});
+    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s   tightness\n"), std::string::npos) << run.out;
+    const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {});
+    std::istringstream lines(run.out);
+    std::string line;
+    for (int i = 0; i < 3; ++i) std::getline(lines, line);
+    std::istringstream root(line);
+    for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
+        std::string shown;
+        root >> shown;
+        EXPECT_EQ(shown, level_text(column, mobb::level_figures(fitted.tree(0)).front())) << column.key;
+    }
+    EXPECT_EQ(line.size(), std::string("  level   nodes   volume m^2*s   tightness").size());
 }
 
 TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {

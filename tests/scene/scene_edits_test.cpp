@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -172,6 +175,19 @@ TEST(SceneEdits, MergingGivesNumbersToNamesThatAreTaken) {
     EXPECT_EQ(scene.queries[4].b.clip, 3);
     // It can be written and read again.
     EXPECT_EQ(asked(parse_scene(to_json(scene, true), "t.json", "")), asked(scene));
+}
+
+/// As files of one name from many folders are. Looking through all names for each number took a minute.
+TEST(SceneEdits, ThousandsOfNamesThatAreTakenTakeNoTime) {
+    const std::vector<Agent> alike(20'000, Agent{"walk", 0, {}, {}});
+    const std::clock_t begin = std::clock();
+    UnusedNames names;
+    std::string last;
+    for (const Agent& agent : alike) last = names.take(agent.name);
+    EXPECT_EQ(last, "walk 20000");
+    EXPECT_EQ(names.take("walk 7"), "walk 7 2") << "it is taken";
+    EXPECT_EQ(UnusedNames(alike).take("walk"), "walk 2");
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2);
 }
 
 TEST(SceneEdits, MergingBareClipsIntoAgentsMakesThemAgents) {

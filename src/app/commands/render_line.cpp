@@ -69,7 +69,9 @@ std::string render_line(const Session& session) {
         session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
     if (session.modified() || session.in_excerpt() || !one_file || file.empty()) ask_to_save();
     const PictureSize size = viewport_size(session);
-    const std::string scale = session.hooks.ui_scale ? " --scale " + short_double(session.hooks.ui_scale()) : "";
+    // 0: what suits the size, as `render` takes it without being told.
+    const double words = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
+    const std::string scale = words > 0 ? " --scale " + short_double(words) : "";
     // Of an unchanged scene, its `view` is the one in the file.
     return "mobbscope render " + shell_word(file.string()) + view_line(session.scene().view, session.view()) +
            " --size " + std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";

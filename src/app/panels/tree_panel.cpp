@@ -3,6 +3,7 @@
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <render/parts/node_boxes.h>
+#include <scene/fit_json.h>
 
 #include <algorithm>
 #include <array>
@@ -191,10 +192,12 @@ void level_bars(Ui& ui, int clip) {
                      ui.style.quiet, text);
         if (clicked) invoke(ui.session, "view.level", std::to_string(level.level));
         if (over) {
-            ImGui::SetTooltip(
-                "level %d: %d boxes, %.6g m\u00B2\u00B7s\nthe disks fill %.1f %% of them (tightness %.4f)\nclick to "
-                "show this level",
-                level.level, level.nodes, level.volume, 100 * level.tightness.value_or(0), level.tightness.value_or(0));
+            std::string figures_of_level;
+            for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
+                figures_of_level += std::string(column.key) + ' ' + level_text(column, level) +
+                                    (*column.unit != '\0' ? " " : "") + column.unit + '\n';
+            }
+            ImGui::SetTooltip("%sclick to show this level", figures_of_level.c_str());
         }
     };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});

@@ -164,7 +164,7 @@ class Builder {
     }
 
     /// The samples from the first cut up to the one before the second.
-    SceneClip part(const Piece& piece, const Scene& named) const {
+    SceneClip part(const Piece& piece, UnusedNames& names) const {
         const Recording& recording = recordings_[static_cast<std::size_t>(piece.begin.recording)];
         const SceneClip& whole = scene_.clips[static_cast<std::size_t>(recording.clip)];
         const double dt = recording.track.dt;
@@ -173,7 +173,7 @@ class Builder {
         const double end = file_begin + piece.end.frame * dt;
 
         SceneClip clip;
-        clip.name = unused_clip_name(named, whole.name + ' ' + two_decimals(begin) + '-' + two_decimals(end));
+        clip.name = names.take(whole.name + ' ' + two_decimals(begin) + '-' + two_decimals(end));
         clip.source = whole.source;
         clip.options = whole.options;
         // Half a step short: the frame at the end is the first of the move that follows.
@@ -216,10 +216,11 @@ class Builder {
         auto graph = std::make_shared<MotionGraph>();
         graph->bounds = options_.bounds;
         for (std::size_t h = 0; h < hubs_.size(); ++h) graph->hubs.push_back({letters(h)});
+        UnusedNames names;
         for (const Piece& move : moves_) {
             graph->moves.push_back(
                 {static_cast<int>(out.clips.size()), move.from, move.to, stance(move.begin), stance(move.end)});
-            out.clips.push_back(part(move, out));
+            out.clips.push_back(part(move, names));
         }
         out.graph = std::move(graph);
         return out;
