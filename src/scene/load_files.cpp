@@ -81,8 +81,7 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
         // It is named for all of them; sources go on leading from where they did.
         const bool folder = files.size() == 1;
         const std::filesystem::path name =
-            folder ? all.front().parent_path().filename()
-                   : std::filesystem::path(counted(static_cast<long long>(all.size()), "file", "files"));
+            folder ? all.front().parent_path().filename() : std::filesystem::path(counted(all.size(), "file", "files"));
         scene.file = scene.file.parent_path() / name;
     }
     return scene;
