@@ -10,9 +10,10 @@ class Uniform {
   public:
     explicit Uniform(std::uint64_t seed) : engine_(seed) {}
 
+    std::uint64_t next() { return engine_(); }
     /// In [low, high).
     double within(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+        return low + (high - low) * (static_cast<double>(next() >> 11) * 0x1p-53);
     }
     /// In [0, count), count > 0.
     int below(int count) { return static_cast<int>(within(0, count)); }

@@ -1,4 +1,4 @@
-/// Which hubs can be reached from which, there and back.
+/// Strongly connected components of a directed graph.
 #pragma once
 
 #include <utility>

@@ -4,8 +4,8 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <import/import.h>
 #include <import/tracks/csv.h>
-#include <import/tracks/tracks.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -26,7 +26,7 @@ struct ConvertCommandArguments {
 /// hold in clip time; tracks of trajectories keep the time of their file.
 std::string to_csv(const Scene& scene) {
     const bool several = scene.clips.size() > 1;
-    const bool has_common_time = is_track_extension(lower_extension(scene.file));
+    const bool has_common_time = contents_by_name(scene.file) == Contents::trajectories;
     std::string text = several ? "id,t,x,y,r\n" : "t,x,y,r\n";
     for (const SceneClip& clip : scene.clips) {
         const std::string id = several ? csv_field(clip.name) + ',' : "";

@@ -69,24 +69,23 @@ Progress tell(const std::string& doing, const std::string& things) {
     };
 }
 
-std::string moves_text(std::size_t count) { return counted(static_cast<long long>(count), "move", "moves"); }
+std::string moves_text(std::size_t count) { return counted(count, "move", "moves"); }
 
-std::string hubs_text(std::size_t count) { return counted(static_cast<long long>(count), "hub", "hubs"); }
+std::string hubs_text(std::size_t count) { return counted(count, "hub", "hubs"); }
 
 void print_report(const BuildReport& report) {
-    std::cout << "from " << counted(static_cast<long long>(report.recordings), "recording", "recordings") << ", "
-              << brief(report.seconds) << " s of " << counted(static_cast<long long>(report.rigs), "rig", "rigs")
-              << ": " << counted(static_cast<long long>(report.pieces), "piece", "pieces") << " between the hubs\n"
+    std::cout << "from " << counted(report.recordings, "recording", "recordings") << ", " << brief(report.seconds)
+              << " s of " << counted(report.rigs, "rig", "rigs") << ": " << counted(report.pieces, "piece", "pieces")
+              << " between the hubs\n"
               << "left out: " << report.alike << " that go like others or are more than --moves; "
               << moves_text(report.dead_ends) << " and " << hubs_text(report.dropped_hubs)
               << " at dead ends or in parts of fewer than --least-moves\n";
     if (report.rigs_left_out > 0) {
-        warn(counted(static_cast<long long>(report.rigs_left_out), "rig has", "rigs have") +
+        warn(counted(report.rigs_left_out, "rig has", "rigs have") +
              " no pose that comes again often enough, and no part in the graph");
     }
     if (report.without_joints > 0) {
-        warn(counted(static_cast<long long>(report.without_joints), "clip has", "clips have") +
-             " no joints, and no part in the graph");
+        warn(counted(report.without_joints, "clip has", "clips have") + " no joints, and no part in the graph");
     }
 }
 
@@ -97,8 +96,7 @@ BuiltGraph whole_graph(Scene recordings) {
 
 /// What names the input in a message.
 std::string place_of(const std::vector<std::filesystem::path>& places) {
-    return places.size() == 1 ? places.front().string()
-                              : counted(static_cast<long long>(places.size()), "place", "places");
+    return places.size() == 1 ? places.front().string() : counted(places.size(), "place", "places");
 }
 
 void build(const BuildArguments& arguments) {
@@ -132,14 +130,14 @@ Scene load_graph(const std::filesystem::path& file) {
 int info(const InfoArguments& arguments) {
     const Scene scene = load_graph(arguments.file);
     const GraphFigures figures = graph_figures(scene);
-    const JointMeasures joints = measure_joints(scene, tell("measured", "clips"));
+    const TransitionMeasures transitions = measure_transitions(scene, tell("measured", "clips"));
     if (arguments.json) {
-        write_graph_info(std::cout, scene, figures, joints);
+        write_graph_info(std::cout, scene, figures, transitions);
     } else {
-        print_graph_info(std::cout, scene, figures, joints);
+        print_graph_info(std::cout, scene, figures, transitions);
     }
     flush_results();
-    const std::vector<std::string> broken = broken_bounds(scene, joints);
+    const std::vector<std::string> broken = broken_bounds(scene, transitions);
     for (const std::string& sentence : broken) complain(arguments.file.string() + ": " + sentence);
     return broken.empty() ? kDone : kFailed;
 }

@@ -23,8 +23,8 @@ const std::string& clip_of_move(const Scene& scene, int move) {
 /// Three decimals: millimetres.
 std::string rounded(double value) { return brief(std::round(value * 1000) / 1000); }
 
-void print_spread(std::ostream& out, const Scene& scene, const char* what, const char* unit, const JointSpread& spread,
-                  double bound) {
+void print_spread(std::ostream& out, const Scene& scene, const char* what, const char* unit,
+                  const TransitionSpread& spread, double bound) {
     out << "  " << std::left << std::setw(16) << what << std::right;
     if (spread.count == 0) {
         out << "not measured: no two clips that join have one skeleton\n";
@@ -40,7 +40,7 @@ void print_more(std::ostream& out, std::size_t all) {
     if (all > kMostRows) out << "  and " << all - kMostRows << " more\n";
 }
 
-void write_spread(JsonWriter& out, const char* key, const Scene& scene, const JointSpread& spread) {
+void write_spread(JsonWriter& out, const char* key, const Scene& scene, const TransitionSpread& spread) {
     out.key(key);
     out.begin_object(Layout::row);
     out.member("count", static_cast<std::int64_t>(spread.count));
@@ -58,18 +58,18 @@ void write_spread(JsonWriter& out, const char* key, const Scene& scene, const Jo
 
 }  // namespace
 
-void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures, const JointMeasures& joints) {
+void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures,
+                      const TransitionMeasures& transitions) {
     const MotionGraph& graph = *scene.graph;
-    out << cleaned(scene.file.string()) << ": " << counted(static_cast<long long>(graph.hubs.size()), "hub", "hubs")
-        << ", " << counted(static_cast<long long>(figures.moves), "move", "moves") << ", " << brief(figures.seconds)
-        << " s of motion\n"
+    out << cleaned(scene.file.string()) << ": " << counted(graph.hubs.size(), "hub", "hubs") << ", "
+        << counted(figures.moves, "move", "moves") << ", " << brief(figures.seconds) << " s of motion\n"
         << "  a choice        every " << brief(figures.seconds_between_choices) << " s, among "
         << brief(figures.choices) << " moves on average\n";
-    print_spread(out, scene, "pose distance", "m", joints.pose_distance, graph.bounds.pose_distance);
-    print_spread(out, scene, "root velocity", "m/s", joints.root_speed, graph.bounds.root_speed);
-    if (joints.pose_distance.count > 0 && joints.pose_distance.count < joints.joints) {
-        out << "                  " << joints.joints - joints.pose_distance.count << " of " << joints.joints
-            << " joints have no pose distance: their clips have no skeleton, or another one\n";
+    print_spread(out, scene, "pose distance", "m", transitions.pose_distance, graph.bounds.pose_distance);
+    print_spread(out, scene, "root velocity", "m/s", transitions.root_speed, graph.bounds.root_speed);
+    if (transitions.pose_distance.count > 0 && transitions.pose_distance.count < transitions.count) {
+        out << "                  " << transitions.count - transitions.pose_distance.count << " of "
+            << transitions.count << " joints have no pose distance: their clips have no skeleton, or another one\n";
     }
     out << "  hub       begin here   end here   m/s\n";
     for (std::size_t h = 0; h < std::min(figures.hubs.size(), kMostRows); ++h) {
@@ -79,24 +79,24 @@ void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures&
             << (hub.begin == 0 ? "   dead end" : "") << '\n';
     }
     print_more(out, figures.hubs.size());
-    out << "  in " << counted(static_cast<long long>(figures.components.size()), "part", "parts")
-        << " whose hubs lead to each other\n";
+    out << "  in " << counted(figures.components.size(), "part", "parts") << " whose hubs lead to each other\n";
     for (std::size_t c = 0; figures.components.size() > 1 && c < std::min(figures.components.size(), kMostRows); ++c) {
         const ComponentFigures& part = figures.components[c];
-        out << "  part " << c << ": " << counted(static_cast<long long>(part.hubs.size()), "hub", "hubs") << " from "
+        out << "  part " << c << ": " << counted(part.hubs.size(), "hub", "hubs") << " from "
             << cleaned(figures.hubs[static_cast<std::size_t>(part.hubs.front())].name) << ", "
-            << counted(static_cast<long long>(part.moves), "move", "moves") << ", " << brief(part.seconds) << " s\n";
+            << counted(part.moves, "move", "moves") << ", " << brief(part.seconds) << " s\n";
     }
     if (figures.components.size() > 1) print_more(out, figures.components.size());
     for (std::size_t s = 0; s < std::min(figures.sources.size(), kMostRows); ++s) {
         const SourceFigures& source = figures.sources[s];
-        out << "  " << counted(static_cast<long long>(source.moves), "move", "moves") << ", " << brief(source.seconds)
-            << " s, from " << (source.file.empty() ? "samples in the file" : cleaned(source.file)) << '\n';
+        out << "  " << counted(source.moves, "move", "moves") << ", " << brief(source.seconds) << " s, from "
+            << (source.file.empty() ? "samples in the file" : cleaned(source.file)) << '\n';
     }
     print_more(out, figures.sources.size());
 }
 
-void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& figures, const JointMeasures& joints) {
+void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& figures,
+                      const TransitionMeasures& transitions) {
     const MotionGraph& graph = *scene.graph;
     JsonWriter out(to);
     out.begin_object();
@@ -121,9 +121,9 @@ void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& 
     out.end_object();
     out.key("joints");
     out.begin_object();
-    out.member("count", static_cast<std::int64_t>(joints.joints));
-    write_spread(out, "pose_distance", scene, joints.pose_distance);
-    write_spread(out, "root_speed", scene, joints.root_speed);
+    out.member("count", static_cast<std::int64_t>(transitions.count));
+    write_spread(out, "pose_distance", scene, transitions.pose_distance);
+    write_spread(out, "root_speed", scene, transitions.root_speed);
     out.end_object();
     out.member("choices", figures.choices);
     out.member("seconds_between_choices", figures.seconds_between_choices);
@@ -155,21 +155,21 @@ void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& 
         out.end_object();
     }
     out.end_array();
-    out.member("holds", broken_bounds(scene, joints).empty());
+    out.member("holds", broken_bounds(scene, transitions).empty());
     out.end_object();
 }
 
-std::vector<std::string> broken_bounds(const Scene& scene, const JointMeasures& joints) {
+std::vector<std::string> broken_bounds(const Scene& scene, const TransitionMeasures& transitions) {
     std::vector<std::string> out;
-    const auto hold = [&](const JointSpread& spread, double bound, const char* what, const char* unit) {
+    const auto hold = [&](const TransitionSpread& spread, double bound, const char* what, const char* unit) {
         if (!exceeds(spread, bound)) return;
         out.push_back(std::string(what) + " is " + brief(spread.largest) + ' ' + unit + " where " +
                       in_quotes(clip_of_move(scene, spread.before)) + " goes on with " +
                       in_quotes(clip_of_move(scene, spread.after)) + ", over the bound of " + brief(bound) + ' ' +
                       unit);
     };
-    hold(joints.pose_distance, scene.graph->bounds.pose_distance, "the pose distance", "m");
-    hold(joints.root_speed, scene.graph->bounds.root_speed, "the change of the root's velocity", "m/s");
+    hold(transitions.pose_distance, scene.graph->bounds.pose_distance, "the pose distance", "m");
+    hold(transitions.root_speed, scene.graph->bounds.root_speed, "the change of the root's velocity", "m/s");
     return out;
 }
 

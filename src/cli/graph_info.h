@@ -11,16 +11,18 @@
 namespace mobbscope::cli {
 
 /// For people.
-void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures, const JointMeasures& joints);
+void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures,
+                      const TransitionMeasures& transitions);
 
 /// {"file", "hubs":[{"name","begin","end","speed"}], "moves", "seconds", "bounds":{"pose_distance","root_speed"},
 /// "joints":{"count","pose_distance":{"count","median","largest","before","after"},"root_speed":{...}},
 /// "choices", "seconds_between_choices", "components":[{"hubs","moves","seconds"}], "dead_ends":[...],
 /// "sources":[{"file","moves","seconds"}], "holds"}. `before` and `after` are clips, null where nothing was measured;
 /// hubs are indices.
-void write_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures, const JointMeasures& joints);
+void write_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures,
+                      const TransitionMeasures& transitions);
 
 /// A sentence for each of the graph's bounds that what was measured breaks.
-std::vector<std::string> broken_bounds(const Scene& scene, const JointMeasures& joints);
+std::vector<std::string> broken_bounds(const Scene& scene, const TransitionMeasures& transitions);
 
 }  // namespace mobbscope::cli

@@ -3,6 +3,7 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <import/import.h>
 #include <mobb/predicate.h>
 
 #include <algorithm>
@@ -189,7 +190,8 @@ void add_info_command(Command& program) {
     const auto arguments = std::make_shared<InfoCommandArguments>();
     command
         .add_option("FILE", arguments->files,
-                    "Scenes (.json), clips (.bvh .gltf .glb .fbx .csv) and trajectories (.txt .ndjson .yaml)")
+                    "Scenes (.json), clips (" + listed_clip_extensions() + ") and trajectories (" +
+                        listed_trajectory_extensions() + ")")
         .required();
     command.add_flag("--json", arguments->json, "The same as JSON");
     add_import_options(command, arguments->import_options);

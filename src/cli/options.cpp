@@ -3,6 +3,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <scene/crowd_run.h>
+#include <scene/load_files.h>
 
 #include <algorithm>
 #include <charconv>
@@ -125,10 +126,7 @@ std::filesystem::path parse_file_name(const std::string& text) {
 }
 
 void add_scene_file(Command& command, std::filesystem::path& file) {
-    command
-        .add_option("FILE", file,
-                    "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)")
-        .required();
+    command.add_option("FILE", file, openable_files()).required();
 }
 
 std::function<int(const std::string&)> whole_number_within(int least, int most) {

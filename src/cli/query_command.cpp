@@ -91,7 +91,7 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
             break;
     }
     if (event.test == mobb::TestKind::samples) {
-        out << " (" << counted(static_cast<long long>(event.pairs.size()), "pair", "pairs") << " measured";
+        out << " (" << counted(event.pairs.size(), "pair", "pairs") << " measured";
         if (event.outcome == mobb::Outcome::hit) {
             const mobb::MeasuredPair& pair = event.pairs.back();
             out << ", samples " << pair.i << " and " << pair.j << " at " << brief(pair.distance) << " m";

@@ -165,8 +165,8 @@ void print_run_text(const Summary& summary) {
               << counted(c.queries, "query", "queries") << " in " << brief(summary.seconds)
               << " s: " << brief(std::round(queries_per_second(summary))) << " a second\n";
     if (summary.recorded) {
-        std::cout << "recorded " << counted(static_cast<long long>(summary.recorded->first), "query", "queries")
-                  << " of " << summary.recorded->second << '\n';
+        std::cout << "recorded " << counted(summary.recorded->first, "query", "queries") << " of "
+                  << summary.recorded->second << '\n';
     }
 }
 

@@ -11,10 +11,12 @@
 #include <import/tracks/track_clips.h>
 #include <import/tracks/tracks.h>
 
+#include <algorithm>
 #include <array>
-#include <map>
+#include <iterator>
+#include <memory>
 #include <stdexcept>
-#include <utility>
+#include <type_traits>
 
 namespace mobbscope {
 
@@ -24,27 +26,78 @@ std::unique_ptr<MotionFile> read_bvh(const std::filesystem::path& file) {
     return bvh_motion(parse_bvh(read_file(file), file.string()));
 }
 
-using MotionReader = std::unique_ptr<MotionFile> (*)(const std::filesystem::path&);
-constexpr std::array<std::pair<std::string_view, MotionReader>, 4> kReaders{
-    {{".bvh", read_bvh}, {".gltf", read_gltf}, {".glb", read_gltf}, {".fbx", read_fbx}}};
-
-MotionReader reader_for(std::string_view extension) {
-    for (const auto& [name, reader] : kReaders) {
-        if (name == extension) return reader;
+/// The clips of what `read` makes of a file.
+template <auto read, auto to_clips>
+ParsedFile parse_once(const std::filesystem::path& file) {
+    using Path = const std::filesystem::path&;
+    if constexpr (std::is_invocable_v<decltype(read), Path>) {
+        return [motion = std::shared_ptr(read(file))](Path from, const ImportOptions& options) {
+            return to_clips(*motion, from, options);
+        };
+    } else {
+        return [parsed = read(read_file(file), file.string())](Path from, const ImportOptions& options) {
+            return to_clips(parsed, from, options);
+        };
     }
-    return nullptr;
+}
+
+struct Format {
+    std::string_view extension;
+    Contents contents;
+    ParsedFile (*parse)(const std::filesystem::path&);
+    bool in_help = true;  ///< false of a second spelling
+};
+
+/// Every format, in the order of help and messages.
+constexpr Format kFormats[] = {
+    {".bvh", Contents::skeletons, parse_once<read_bvh, motion_clips>},
+    {".gltf", Contents::skeletons, parse_once<read_gltf, motion_clips>},
+    {".glb", Contents::skeletons, parse_once<read_gltf, motion_clips>},
+    {".fbx", Contents::skeletons, parse_once<read_fbx, motion_clips>},
+    {".csv", Contents::table, parse_once<parse_csv, csv_clips>},
+    {".txt", Contents::trajectories, parse_once<parse_text_tracks, track_clips>},
+    {".ndjson", Contents::trajectories, parse_once<parse_trajnetpp, track_clips>},
+    {".yaml", Contents::trajectories, parse_once<parse_mapf_plan, track_clips>},
+    {".yml", Contents::trajectories, parse_once<parse_mapf_plan, track_clips>, false},
+};
+
+const Format* format_of(const std::filesystem::path& file) {
+    const auto found = std::ranges::find(kFormats, lower_extension(file), &Format::extension);
+    return found == std::end(kFormats) ? nullptr : found;
+}
+
+/// ".bvh, .gltf and .fbx": `last` stands before the last one.
+std::string list_formats(bool trajectories, std::string_view separator, std::string_view last) {
+    std::vector<std::string_view> names;
+    for (const Format& format : kFormats) {
+        if (format.in_help && (format.contents == Contents::trajectories) == trajectories)
+            names.push_back(format.extension);
+    }
+    std::string out;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        out += (i == 0 ? "" : std::string(i + 1 == names.size() ? last : separator)) + std::string(names[i]);
+    }
+    return out;
 }
 
 }  // namespace
 
-struct Importer::ParsedFiles {
-    std::map<std::filesystem::path, CsvTable> tables;
-    std::map<std::filesystem::path, TrackFile> tracks;
-    std::map<std::filesystem::path, std::unique_ptr<MotionFile>> motions;
-};
+std::optional<Contents> contents_by_name(const std::filesystem::path& file) {
+    const Format* format = format_of(file);
+    return format ? std::optional(format->contents) : std::nullopt;
+}
 
-Importer::Importer() : parsed_(std::make_unique<ParsedFiles>()) {}
-Importer::~Importer() = default;
+std::span<const std::string_view> clip_extensions() {
+    static constexpr auto extensions = [] {
+        std::array<std::string_view, std::size(kFormats)> out{};
+        std::ranges::transform(kFormats, out.begin(), &Format::extension);
+        return out;
+    }();
+    return extensions;
+}
+
+std::string listed_clip_extensions(std::string_view separator) { return list_formats(false, separator, separator); }
+std::string listed_trajectory_extensions() { return list_formats(true, " ", " "); }
 
 std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, const ImportOptions& options) {
     try {
@@ -52,33 +105,18 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
     } catch (const std::invalid_argument& error) {
         throw InputError(file.string(), "", error.what());
     }
-    // The one place that knows which reader takes which extension.
-    const std::string extension = lower_extension(file);
-    if (extension == ".csv") {
-        auto table = parsed_->tables.find(file);
-        if (table == parsed_->tables.end()) {
-            table = parsed_->tables.emplace(file, parse_csv(read_file(file), file.string())).first;
-        }
-        return csv_clips(table->second, file, options);
-    }
-    if (is_motion_extension(extension)) {
-        std::unique_ptr<MotionFile>& motion = parsed_->motions[file];
-        if (!motion) motion = read_motion(file);
-        return motion_clips(*motion, file, options);
-    }
-    if (is_track_extension(extension)) {
-        auto tracks = parsed_->tracks.find(file);
-        if (tracks == parsed_->tracks.end()) tracks = parsed_->tracks.emplace(file, read_tracks(file)).first;
-        return track_clips(tracks->second, file, options);
+    if (const Format* format = format_of(file)) {
+        auto parsed = parsed_.find(file);
+        if (parsed == parsed_.end()) parsed = parsed_.emplace(file, format->parse(file)).first;
+        return parsed->second(file, options);
     }
     std::error_code ignored;
-    if (extension.empty() && !std::filesystem::exists(file, ignored)) {
+    if (lower_extension(file).empty() && !std::filesystem::exists(file, ignored)) {
         throw InputError(file.string(), "", "no such file or folder; check the path");
     }
-    throw InputError(
-        file.string(), "",
-        "no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, trajectories .txt, "
-        ".ndjson and .yaml, scenes .json");
+    throw InputError(file.string(), "",
+                     "no reader for this kind of file; clips can be " + list_formats(false, ", ", " and ") +
+                         ", trajectories " + list_formats(true, ", ", " and ") + ", scenes .json");
 }
 
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {
@@ -97,26 +135,18 @@ ApplicableOptions applicable(const ImportOptions& options, const std::filesystem
         option.reset();
         out.left_out.emplace_back(key);
     };
-    const std::string extension = lower_extension(file);
-    if (extension == ".csv" || is_track_extension(extension)) {
+    const Contents contents = contents_by_name(file).value_or(Contents::skeletons);
+    if (contents != Contents::skeletons) {
         leave_out(out.options.animation, "animation");
         leave_out(out.options.root, "root");
         leave_out(out.options.up, "up");
         // Without a body's height there is nothing to guess the unit from.
-        if (extension == ".csv" && out.options.unit == "auto") leave_out(out.options.unit, "unit");
+        if (contents == Contents::table && out.options.unit == "auto") leave_out(out.options.unit, "unit");
     } else {
         leave_out(out.options.id, "id");
         leave_out(out.options.dt, "dt");
     }
     return out;
-}
-
-bool is_motion_extension(const std::string& extension) { return reader_for(extension) != nullptr; }
-
-std::unique_ptr<MotionFile> read_motion(const std::filesystem::path& file) {
-    const MotionReader reader = reader_for(lower_extension(file));
-    if (!reader) throw InputError(file.string(), "", "is no motion file; give .bvh, .gltf, .glb or .fbx");
-    return reader(file);
 }
 
 }  // namespace mobbscope

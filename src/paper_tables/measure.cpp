@@ -252,8 +252,8 @@ std::string machine_words() {
 #else
     const char* const build = "with assertions: times are no measure";
 #endif
-    return processor() + ", " + counted(static_cast<long long>(std::thread::hardware_concurrency()), "core", "cores") +
-           ", " + (__VERSION__[0] >= '0' && __VERSION__[0] <= '9' ? "GCC " : "") + __VERSION__ + ", " + build;
+    return processor() + ", " + counted(std::thread::hardware_concurrency(), "core", "cores") + ", " +
+           (__VERSION__[0] >= '0' && __VERSION__[0] <= '9' ? "GCC " : "") + __VERSION__ + ", " + build;
 }
 
 }  // namespace mobbscope

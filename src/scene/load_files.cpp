@@ -1,24 +1,16 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
-#include <import/tracks/tracks.h>
+#include <import/import.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
-#include <array>
 #include <system_error>
 
 namespace mobbscope {
 
 namespace {
-
-constexpr std::array<std::string_view, 10> kExtensions{".json", ".csv", ".bvh",    ".glb",  ".gltf",
-                                                       ".fbx",  ".txt", ".ndjson", ".yaml", ".yml"};
-
-bool is_openable(const std::filesystem::path& file) {
-    return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(file)) != kExtensions.end();
-}
 
 bool is_scene(const std::filesystem::path& file) { return lower_extension(file) == ".json"; }
 
@@ -28,13 +20,14 @@ std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder)
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         std::error_code ignored;
-        if (entry.is_regular_file(ignored) && is_openable(entry.path()) && !is_scene(entry.path()) &&
-            !is_track_extension(lower_extension(entry.path())))
+        const std::optional<Contents> contents = contents_by_name(entry.path());
+        if (entry.is_regular_file(ignored) && contents && contents != Contents::trajectories)
             out.push_back(entry.path());
     }
     if (error) throw InputError(folder.string(), "", "the folder cannot be read: " + error.message());
     if (out.empty()) {
-        throw InputError(folder.string(), "", "there are no clips in this folder (.csv, .bvh, .glb, .gltf, .fbx)");
+        throw InputError(folder.string(), "",
+                         "there are no clips in this folder (" + listed_clip_extensions(", ") + ")");
     }
     std::sort(out.begin(), out.end());
     return out;
@@ -42,7 +35,21 @@ std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder)
 
 }  // namespace
 
-std::span<const std::string_view> openable_extensions() { return kExtensions; }
+std::span<const std::string_view> openable_extensions() {
+    static const std::vector<std::string_view> extensions = [] {
+        std::vector<std::string_view> out{".json"};
+        out.insert(out.end(), clip_extensions().begin(), clip_extensions().end());
+        return out;
+    }();
+    return extensions;
+}
+
+std::string openable_files() {
+    return "A scene (.json), a clip (" + listed_clip_extensions() + ") or trajectories (" +
+           listed_trajectory_extensions() + ")";
+}
+
+std::string openable_files_in_short() { return "scenes and captures .json, clips " + listed_clip_extensions(); }
 
 Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOptions& overrides,
                  const Progress& progress) {
@@ -74,8 +81,7 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
         // It is named for all of them; sources go on leading from where they did.
         const bool folder = files.size() == 1;
         const std::filesystem::path name =
-            folder ? all.front().parent_path().filename()
-                   : std::filesystem::path(counted(static_cast<long long>(all.size()), "file", "files"));
+            folder ? all.front().parent_path().filename() : std::filesystem::path(counted(all.size(), "file", "files"));
         scene.file = scene.file.parent_path() / name;
     }
     return scene;

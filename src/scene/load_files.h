@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace mobbscope {
 
 /// The extensions that can be opened, in lower case with their dots; a scene's first.
 std::span<const std::string_view> openable_extensions();
+
+/// What can be opened, in words for help, and shorter for the empty window.
+std::string openable_files();
+std::string openable_files_in_short();
 
 /// Scenes and clips merged into one scene; a folder stands for the clips in it, by name. `overrides` go
 /// over the import keys of every clip with a source. `progress` is told before each file, or of one scene before each

@@ -34,13 +34,12 @@ std::string to_string(const Color& color);
 
 struct SceneClip {
     std::string name;
-    std::optional<std::string> source;  ///< relative to the scene file; none: the samples stand in the scene
-    ImportOptions options;              ///< of the source; empty for inline samples
-    mobb::ClipPtr clip;                 ///< never null in a loaded scene
-    SourceFacts facts{};                ///< of the source
-    std::shared_ptr<const Skeleton>
-        skeleton{};    ///< null where the source has no joints, see import/skeleton/skeleton.h
-    double start = 0;  ///< seconds: when it starts among the tracks of its source
+    std::optional<std::string> source;           ///< relative to the scene file; none: the samples stand in the scene
+    ImportOptions options;                       ///< of the source; empty for inline samples
+    mobb::ClipPtr clip;                          ///< never null in a loaded scene
+    SourceFacts facts{};                         ///< of the source
+    std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton/motion.h
+    double start = 0;                            ///< seconds: when it starts among the tracks of its source
 };
 
 /// One side of a query: a clip and where it is placed.
@@ -56,12 +55,12 @@ struct Agent {
     int clip = 0;  ///< index into Scene::clips
     mobb::Placement placement;
     std::optional<Color> color;  ///< default: the palette's, by index
-    /// In a scene that was made of a run: who this is and, if of scene_at, which of the plays; else -1.
+    /// In a scene made from a run: the agent's index in the run, and its play if the scene shows a moment; else -1.
     int run_agent = -1;
     int play = -1;
 };
 
-/// What a capture says the answer was.
+/// The answer that a capture recorded.
 struct Expectation {
     bool collides = false;
     std::optional<mobb::Contact> contact;
@@ -84,9 +83,8 @@ struct Scene {
     std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };
 
-/// How many queries there are to ask: the scene's; without any, all pairs of agents; with neither 0. A run asks none:
-/// whom its agents collide with is said by the choices and conflicts (crowd/simulation/choice.h,
-/// conflicts/scene_conflicts.h).
+/// The number of queries: the scene's own; without any, all pairs of agents; without agents 0. A run has none: its
+/// collisions are found by choices (crowd/simulation/choice.h) and conflicts (conflicts/scene_conflicts.h).
 std::size_t query_count(const Scene& scene);
 /// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
 /// when asked for: the pairs of a crowd would fill the memory.
@@ -94,11 +92,11 @@ SceneQuery query_at(const Scene& scene, std::size_t index);
 /// The index of the query that asks agent a against b > a where all pairs are asked.
 std::size_t query_of_pair(const Scene& scene, std::size_t a, std::size_t b);
 
-/// What is drawn and asked about: the agents, or without any, every clip where it is.
+/// The agents; of a scene without agents every clip, unplaced.
 std::vector<PlacedAgent> placed_agents(const Scene& scene);
 
-/// Told how much of some long work is done, of how much in all; it may throw to end the work, and what it throws passes
-/// through. An empty one is told nothing.
+/// Called during long work with how much is done, of how much in all. It may throw to end the work; the exception
+/// passes through. It may be empty.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a trajectory file (a scene with an

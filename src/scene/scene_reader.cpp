@@ -3,7 +3,6 @@
 #include <base/json.h>
 #include <base/text.h>
 #include <import/import.h>
-#include <import/tracks/tracks.h>
 #include <scene/crowd_run.h>
 #include <scene/fit_json.h>
 #include <scene/motion_graph.h>
@@ -342,7 +341,7 @@ class SceneReader {
 
 Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& overrides) {
     Scene scene;
-    const bool is_crowd = is_track_extension(lower_extension(file));
+    const bool is_crowd = contents_by_name(file) == Contents::trajectories;
     std::vector<std::string> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
     for (ImportedClip& imported : import_clips(file, options)) {

@@ -93,8 +93,8 @@ ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area) {
 TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
     CrowdRun crowd;
     crowd.area = {20, 20};
-    ReservationTable world(moves, crowd.area, crowd.grace);
-    const Choice choice = choose(moves, world, crowd, at_wall(moves, crowd.area));
+    ReservationTable reservations(moves, crowd.area, crowd.grace);
+    const Choice choice = choose(moves, reservations, crowd, at_wall(moves, crowd.area));
     EXPECT_EQ(choice.kind, PlayKind::pivoted);
     double least = 360;
     for (const Candidate& candidate : choice.candidates) {
@@ -118,9 +118,9 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
     const double exit = moves.move(0).exit.position.x;
     const Play other{0, {{2 * exit + 1.5, 0}, 180, -0.8}, -0.8, PlayKind::chosen};
     for (const double grace : {0.0, 1.0}) {
-        ReservationTable committed(moves, crowd.area, grace);
-        committed.commit(1, 0, other);
-        const Choice choice = choose(moves, committed, crowd, point);
+        ReservationTable reservations(moves, crowd.area, grace);
+        reservations.reserve(1, 0, other);
+        const Choice choice = choose(moves, reservations, crowd, point);
         int in_the_way = 0;
         for (const Candidate& candidate : choice.candidates) {
             if (candidate.turn_deg == 0) in_the_way += candidate.in_the_way;
@@ -128,8 +128,8 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
         EXPECT_EQ(in_the_way > 0, grace > 0);
         EXPECT_FALSE(choice.candidates[choice.taken].in_the_way);
         // Once agent 1 has chosen, its room moves on with it.
-        committed.commit(1, 1, {0, {{2 * exit + 1.5, 20}, 180, 0.7}, 0.7, PlayKind::chosen});
-        for (const Candidate& candidate : choose(moves, committed, crowd, point).candidates) {
+        reservations.reserve(1, 1, {0, {{2 * exit + 1.5, 20}, 180, 0.7}, 0.7, PlayKind::chosen});
+        for (const Candidate& candidate : choose(moves, reservations, crowd, point).candidates) {
             EXPECT_FALSE(candidate.in_the_way);
         }
     }
@@ -138,14 +138,14 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
 TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
     CrowdRun crowd;
     crowd.area = {20, 20};
-    ReservationTable world(moves, crowd.area, crowd.grace);
+    ReservationTable reservations(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
     // Somebody stands all around: slow walkers at the very spot, a little later.
     for (int other = 1; other < 4; ++other) {
         const mobb::Placement at{{-9.3 + 0.2 * other, 0.1 * other}, 90.0 * other, point.time + 0.1 * other};
-        world.commit(other, 0, {4, at, 0, PlayKind::chosen});
+        reservations.reserve(other, 0, {4, at, 0, PlayKind::chosen});
     }
-    const Choice choice = choose(moves, world, crowd, point);
+    const Choice choice = choose(moves, reservations, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
     const Candidate& taken = choice.candidates[choice.taken];
     EXPECT_FALSE(taken.leaves_floor);
@@ -160,9 +160,9 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
 TEST_F(ChoiceTest, OnNoFloorAtAllTheLatestContactIsStillFound) {
     CrowdRun crowd;
     crowd.area = {0.5, 0.5};
-    ReservationTable world(moves, crowd.area, crowd.grace);
+    ReservationTable reservations(moves, crowd.area, crowd.grace);
     const ChoicePoint point = at_wall(moves, crowd.area);
-    const Choice choice = choose(moves, world, crowd, point);
+    const Choice choice = choose(moves, reservations, crowd, point);
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
     // In a room of one's own no contact is the latest.

@@ -1,4 +1,4 @@
-// Graphs cut out of recordings: what they promise holds at every joint.
+// Graphs cut out of recordings: what they promise holds at every transition.
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/graph_walk.h>
@@ -87,8 +87,8 @@ TEST_F(OwnGraph, EveryHubIsLeftAndReached) {
 }
 
 TEST_F(OwnGraph, BoundsHoldAtEveryJoint) {
-    const JointMeasures measured = measure_joints(scene());
-    EXPECT_EQ(measured.pose_distance.count, measured.joints);
+    const TransitionMeasures measured = measure_transitions(scene());
+    EXPECT_EQ(measured.pose_distance.count, measured.count);
     EXPECT_LE(measured.pose_distance.largest, graph().bounds.pose_distance);
     EXPECT_LE(measured.root_speed.largest, graph().bounds.root_speed);
     EXPECT_GT(measured.pose_distance.largest, 0.02);
@@ -181,9 +181,9 @@ TEST_F(OwnGraph, ItsFileGivesTheSameSamples) {
             ASSERT_NEAR(a[k].r, b[k].r, 1e-9);
         }
     }
-    const JointMeasures measured = measure_joints(read);
+    const TransitionMeasures measured = measure_transitions(read);
     EXPECT_FALSE(exceeds(measured.pose_distance, graph().bounds.pose_distance));
-    EXPECT_NEAR(measured.pose_distance.largest, measure_joints(scene()).pose_distance.largest, 1e-6);
+    EXPECT_NEAR(measured.pose_distance.largest, measure_transitions(scene()).pose_distance.largest, 1e-6);
 }
 
 TEST_F(OwnGraph, IsTheSameOnAnyNumberOfThreads) {
@@ -203,15 +203,15 @@ TEST_F(OwnGraph, ABodyMovedInItsFileBreaksABound) {
     auto changed = std::make_shared<MotionGraph>(graph());
     changed->moves[0].exit.heading_deg += 40;
     broken.graph = changed;
-    EXPECT_TRUE(exceeds(measure_joints(broken).pose_distance, graph().bounds.pose_distance));
+    EXPECT_TRUE(exceeds(measure_transitions(broken).pose_distance, graph().bounds.pose_distance));
     changed = std::make_shared<MotionGraph>(graph());
     changed->moves[0].exit.position += glm::dvec2(0.1, 0);
     broken.graph = changed;
-    EXPECT_TRUE(exceeds(measure_joints(broken).root_speed, graph().bounds.root_speed));
+    EXPECT_TRUE(exceeds(measure_transitions(broken).root_speed, graph().bounds.root_speed));
     changed = std::make_shared<MotionGraph>(graph());
     changed->moves[0].entry.position += glm::dvec2(0.1, 0);
     broken.graph = changed;
-    EXPECT_TRUE(exceeds(measure_joints(broken).root_speed, graph().bounds.root_speed)) << "a leap at each begin";
+    EXPECT_TRUE(exceeds(measure_transitions(broken).root_speed, graph().bounds.root_speed)) << "a leap at each begin";
 }
 
 TEST_F(OwnGraph, OptionsAreKept) {
@@ -230,7 +230,7 @@ TEST_F(OwnGraph, OptionsAreKept) {
         EXPECT_GE(clip.clip->duration(), 2 - 1e-9);
         EXPECT_LE(clip.clip->duration(), 3 + 1e-9);
     }
-    const JointMeasures measured = measure_joints(small.scene);
+    const TransitionMeasures measured = measure_transitions(small.scene);
     EXPECT_LE(measured.pose_distance.largest, 0.1);
     EXPECT_LE(measured.root_speed.largest, 0.3);
 }
@@ -295,8 +295,8 @@ TEST_F(RealRecordings, ALongWalkBecomesAGraphWhoseBoundsHold) {
     EXPECT_GT(figures.choices, 10);
     const auto file = folder_.write("graph.json", to_json(built.scene));
     const Scene read = load_scene(file);
-    const JointMeasures measured = measure_joints(read);
-    EXPECT_EQ(measured.pose_distance.count, measured.joints);
+    const TransitionMeasures measured = measure_transitions(read);
+    EXPECT_EQ(measured.pose_distance.count, measured.count);
     EXPECT_FALSE(exceeds(measured.pose_distance, read.graph->bounds.pose_distance));
     EXPECT_FALSE(exceeds(measured.root_speed, read.graph->bounds.root_speed));
 }
@@ -317,8 +317,8 @@ TEST_F(RealRecordings, TPosesBeforeAMotionAreNoCuts) {
 TEST_F(RealRecordings, WholeClipsMakeAGraphOfOneHub) {
     Scene scene = load("short");
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
-    const JointMeasures measured = measure_joints(scene);
-    EXPECT_EQ(measured.joints, 51u * 51);
+    const TransitionMeasures measured = measure_transitions(scene);
+    EXPECT_EQ(measured.count, 51u * 51);
     EXPECT_GT(measured.pose_distance.count, 1000u);
     EXPECT_FALSE(exceeds(measured.pose_distance, scene.graph->bounds.pose_distance));
 }

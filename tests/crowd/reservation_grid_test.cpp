@@ -1,4 +1,4 @@
-// The world's check_all are those of the direct search over all that is committed.
+// The grid's blockers are those of the direct search over all that is reserved.
 #include "walker_moves.h"
 
 #include <base/random.h>
@@ -29,9 +29,9 @@ class WorldTest : public ::testing::Test {
         return moves.motion(agent, play, move, {at, 360 * random.unit(), seconds * random.unit()});
     }
 
-    static std::optional<Blocker> direct(const PlayedMove& candidate, const std::vector<PlayedMove>& committed) {
+    static std::optional<Blocker> direct(const PlayedMove& candidate, const std::vector<PlayedMove>& reserved) {
         std::optional<Blocker> first;
-        for (const PlayedMove& other : committed) {
+        for (const PlayedMove& other : reserved) {
             if (other.agent == candidate.agent) continue;
             const mobb::PlacedClip a(candidate.tree->clip(), candidate.placement);
             const mobb::PlacedClip b(other.tree->clip(), other.placement);
@@ -47,24 +47,24 @@ class WorldTest : public ::testing::Test {
 
 TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     const glm::dvec2 area{23, 17};
-    ReservationGrid world(area);
-    std::vector<PlayedMove> committed;
+    ReservationGrid reservations(area);
+    std::vector<PlayedMove> reserved;
     for (int agent = 0; agent < 60; ++agent) {
         for (int play = 0; play < 3; ++play) {
-            committed.push_back(random_motion(agent, play, area, 8));
-            world.commit(committed.back());
+            reserved.push_back(random_motion(agent, play, area, 8));
+            reservations.reserve(reserved.back());
         }
     }
-    EXPECT_EQ(world.size(), 180u);
+    EXPECT_EQ(reservations.size(), 180u);
     std::vector<PlayedMove> candidates;
     for (int i = 0; i < 1500; ++i) candidates.push_back(random_motion(i % 60, 9, area, 8));
     std::vector<AskedPair> asked;
-    const std::vector<CandidateCheck> check_all = world.check_all(candidates, &asked);
+    const std::vector<CandidateCheck> checks = reservations.check_all(candidates, &asked);
     int ruled_out = 0, all_asked = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        EXPECT_EQ(check_all[i].blocker, direct(candidates[i], committed)) << i;
-        ruled_out += check_all[i].blocker.has_value();
-        all_asked += check_all[i].asked;
+        EXPECT_EQ(checks[i].blocker, direct(candidates[i], reserved)) << i;
+        ruled_out += checks[i].blocker.has_value();
+        all_asked += checks[i].asked;
     }
     EXPECT_GT(ruled_out, 200);
     EXPECT_LT(ruled_out, 1300);
@@ -74,20 +74,20 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     // On one thread and on many.
     for (const int threads : {1, 5}) {
         tbb::task_arena arena(threads);
-        const std::vector<CandidateCheck> again = arena.execute([&] { return world.check_all(candidates); });
-        for (std::size_t i = 0; i < check_all.size(); ++i) {
-            EXPECT_EQ(again[i].blocker, check_all[i].blocker);
-            EXPECT_EQ(again[i].asked, check_all[i].asked);
+        const std::vector<CandidateCheck> again = arena.execute([&] { return reservations.check_all(candidates); });
+        for (std::size_t i = 0; i < checks.size(); ++i) {
+            EXPECT_EQ(again[i].blocker, checks[i].blocker);
+            EXPECT_EQ(again[i].asked, checks[i].asked);
         }
     }
 }
 
 TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
-    ReservationGrid world({20, 20});
+    ReservationGrid reservations({20, 20});
     const mobb::Placement placement{{1, 2}, 30, 0};
-    for (const int agent : {7, 3, 5}) world.commit(moves.motion(agent, agent, 0, placement));
+    for (const int agent : {7, 3, 5}) reservations.reserve(moves.motion(agent, agent, 0, placement));
     const PlayedMove candidate = moves.motion(3, 0, 1, placement);
-    const CandidateCheck check = world.check_all({&candidate, 1}).front();
+    const CandidateCheck check = reservations.check_all({&candidate, 1}).front();
     ASSERT_TRUE(check.blocker);
     EXPECT_EQ(check.blocker->agent, 5);
     EXPECT_EQ(check.blocker->play, 5);
@@ -96,62 +96,62 @@ TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
 
 TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     const glm::dvec2 area{30, 30};
-    ReservationGrid world(area);
-    std::vector<PlayedMove> committed;
+    ReservationGrid reservations(area);
+    std::vector<PlayedMove> reserved;
     for (int i = 0; i < 300; ++i) {
-        committed.push_back(random_motion(i % 40, i / 40, area, 20));
-        world.commit(committed.back());
+        reserved.push_back(random_motion(i % 40, i / 40, area, 20));
+        reservations.reserve(reserved.back());
     }
     for (const double now : {4.0, 9.0, 15.0}) {
-        world.forget_before(now);
-        std::erase_if(committed, [&](const PlayedMove& motion) {
+        reservations.forget_before(now);
+        std::erase_if(reserved, [&](const PlayedMove& motion) {
             const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
             return clip.time(clip.count()) <= now;
         });
-        EXPECT_EQ(world.size(), committed.size());
+        EXPECT_EQ(reservations.size(), reserved.size());
         for (int i = 0; i < 30; ++i) {
-            committed.push_back(random_motion(i, 9, area, 20));
-            committed.back().placement.start += now;
-            world.commit(committed.back());
+            reserved.push_back(random_motion(i, 9, area, 20));
+            reserved.back().placement.start += now;
+            reservations.reserve(reserved.back());
         }
         std::vector<PlayedMove> candidates;
         for (int i = 0; i < 200; ++i) {
             candidates.push_back(random_motion(99, 0, area, 20));
             candidates.back().placement.start += now;
         }
-        const std::vector<CandidateCheck> check_all = world.check_all(candidates);
+        const std::vector<CandidateCheck> checks = reservations.check_all(candidates);
         for (std::size_t i = 0; i < candidates.size(); ++i) {
-            EXPECT_EQ(check_all[i].blocker, direct(candidates[i], committed));
+            EXPECT_EQ(checks[i].blocker, direct(candidates[i], reserved));
         }
     }
 }
 
 TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
-    ReservationGrid world({20, 20});
+    ReservationGrid reservations({20, 20});
     const mobb::Placement placement{{1, 2}, 30, 0};
-    const std::size_t first = world.commit(moves.motion(1, 0, 0, placement));
-    world.commit(moves.motion(2, 0, 0, placement));
+    const std::size_t first = reservations.reserve(moves.motion(1, 0, 0, placement));
+    reservations.reserve(moves.motion(2, 0, 0, placement));
     const PlayedMove candidate = moves.motion(0, 0, 0, placement);
-    EXPECT_EQ(world.check_all({&candidate, 1}).front().blocker->agent, 1);
-    world.withdraw(first);
-    EXPECT_EQ(world.check_all({&candidate, 1}).front().blocker->agent, 2);
+    EXPECT_EQ(reservations.check_all({&candidate, 1}).front().blocker->agent, 1);
+    reservations.withdraw(first);
+    EXPECT_EQ(reservations.check_all({&candidate, 1}).front().blocker->agent, 2);
     std::vector<AskedPair> pairs;
-    world.all_pairs(candidate, 0, pairs);
+    reservations.all_pairs(candidate, 0, pairs);
     EXPECT_EQ(pairs.size(), 1u);
-    world.forget_before(1000);
-    EXPECT_EQ(world.size(), 0u);
-    EXPECT_FALSE(world.check_all({&candidate, 1}).front().blocker);
+    reservations.forget_before(1000);
+    EXPECT_EQ(reservations.size(), 0u);
+    EXPECT_FALSE(reservations.check_all({&candidate, 1}).front().blocker);
 }
 
 TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
-    ReservationGrid world({40, 20});
+    ReservationGrid reservations({40, 20});
     const auto at = [&](int agent, double x, double start) { return moves.motion(agent, 0, 0, {{x, 0}, 90, start}); };
-    for (int agent = 0; agent < 5; ++agent) world.commit(at(agent, 4.0 * agent - 8, 100.0 * agent));
+    for (int agent = 0; agent < 5; ++agent) reservations.reserve(at(agent, 4.0 * agent - 8, 100.0 * agent));
     const auto others = [&](double range) {
         std::vector<AskedPair> pairs;
-        world.all_pairs(at(2, 0, 0), range, pairs);
+        reservations.all_pairs(at(2, 0, 0), range, pairs);
         std::vector<int> agents;
-        for (const AskedPair& pair : pairs) agents.push_back(pair.committed.agent);
+        for (const AskedPair& pair : pairs) agents.push_back(pair.reserved.agent);
         return agents;
     };
     EXPECT_EQ(others(std::numeric_limits<double>::infinity()), (std::vector<int>{0, 1, 3, 4}));

@@ -36,12 +36,14 @@ TEST(Kinds, NamesTellThemApartAndAreRead) {
     EXPECT_FALSE(test_from_name("block"));
 }
 
-TEST(Kinds, OnlyFreeBoxesUseTheTimeScaleAndOnlyAabbsHaveNoAxesToChoose) {
-    for (const TreeKind kind : kTreeKinds) {
-        const bool free = kind == TreeKind::umobb || kind == TreeKind::hybrid1 || kind == TreeKind::hybrid2;
-        EXPECT_EQ(info(kind).uses_time_scale(), free) << name(kind);
-        EXPECT_EQ(info(kind).chooses_axes(), kind != TreeKind::aabb) << name(kind);
+TEST(Kinds, OnlyFreeBoxesUseTheTimeScaleAndAabbsHaveNoAxesToChoose) {
+    for (const TreeKind kind : {TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2}) {
+        EXPECT_TRUE(info(kind).uses_time_scale() && info(kind).chooses_axes()) << name(kind);
     }
+    for (const TreeKind kind : {TreeKind::mobb, TreeKind::moving}) {
+        EXPECT_TRUE(!info(kind).uses_time_scale() && info(kind).chooses_axes()) << name(kind);
+    }
+    EXPECT_TRUE(!info(TreeKind::aabb).uses_time_scale() && !info(TreeKind::aabb).chooses_axes());
 }
 
 TEST(Kinds, ATestHasAsManyAxesAsTheContractSays) {

@@ -20,7 +20,7 @@ struct PanelChoice {
     const char* help;
 };
 
-constexpr auto kKinds = [] {
+constexpr auto kTreeChoices = [] {
     std::array<PanelChoice, mobb::kTreeKindCount> out{};
     for (const mobb::TreeKind kind : mobb::kTreeKinds) {
         const mobb::TreeInfo& row = mobb::info(kind);
@@ -214,7 +214,7 @@ void tree_panel(Ui& ui) {
     ImGui::PushID("tree");
     heading(ui, "TREE");
     const mobb::FitOptions fit = session.fitted().options();
-    choose(ui, "Kind", "tree.kind", kKinds, mobb::name(fit.tree), "What bounds the disks");
+    choose(ui, "Kind", "tree.kind", kTreeChoices, mobb::name(fit.tree), "What bounds the disks");
     whole(ui, "Leaf samples", "tree.leaf", fit.leaf, 1, "n_min: a node of at most so many samples is a leaf");
     ImGui::BeginDisabled(!mobb::info(fit.tree).chooses_axes());
     choose(ui, "Axes", "tree.axes", kAxes, mobb::name(fit.axes), "How boxes are turned");

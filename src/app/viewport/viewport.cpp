@@ -7,6 +7,7 @@
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/render.h>
 #include <scene/drawn_agent.h>
+#include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
 #include <glm/geometric.hpp>
@@ -50,7 +51,7 @@ void welcome(Ui& ui) {
     ImGui::TextUnformatted("Drop a scene or motion clips here");
     ImGui::PopFont();
     ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-    ImGui::TextUnformatted("scenes and captures .json, clips .bvh .glb .gltf .fbx .csv");
+    ImGui::TextUnformatted(openable_files_in_short().c_str());
     ImGui::PopStyleColor();
     ImGui::Dummy({0, ui.px(6)});
     if (ImGui::Button("Open...")) invoke(ui.session, "file.open");

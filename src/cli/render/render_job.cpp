@@ -187,8 +187,7 @@ void RenderPlan::check_outputs(const RenderJob& job, OutputCheck& outputs) {
 
 void RenderPlan::draw(Backend backend) const {
     if (!missing_glyphs_.empty()) {
-        warn("the fonts of pictures lack " +
-             counted(static_cast<long long>(missing_glyphs_.size()), "character", "characters") +
+        warn("the fonts of pictures lack " + counted(missing_glyphs_.size(), "character", "characters") +
              " of this scene's names; boxes stand for them");
     }
     std::optional<Renderer> renderer;

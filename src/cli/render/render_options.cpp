@@ -8,6 +8,7 @@
 #include <render/drawlist/picture_options.h>
 #include <render/drawlist/view_projection.h>
 #include <render/pictures/render.h>
+#include <scene/load_files.h>
 #include <scene/view_options.h>
 
 #include <array>
@@ -242,8 +243,7 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 }  // namespace
 
 void add_render_options(Command& command, RenderArguments& arguments) {
-    command.add_option("FILE", arguments.file,
-                       "A scene (.json), a clip (.bvh .gltf .glb .fbx .csv) or trajectories (.txt .ndjson .yaml)");
+    command.add_option("FILE", arguments.file, openable_files());
     add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name, "The picture, a PNG file", "OUT.png");
     add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
                "OUT.png");

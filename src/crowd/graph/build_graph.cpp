@@ -1,3 +1,4 @@
+#include <base/random.h>
 #include <base/strong_components.h>
 #include <base/text.h>
 #include <crowd/graph/build_graph.h>
@@ -16,7 +17,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -49,13 +49,12 @@ std::vector<HubMoment> draw_moments(const std::vector<Recording>& recordings, in
     }
     const std::size_t count =
         std::min(static_cast<std::size_t>(options.candidates), (usable.size() + kFramesApart - 1) / kFramesApart);
-    // An engine's numbers are the same everywhere, a distribution's are not.
-    std::mt19937_64 random(options.seed);
+    Uniform random(options.seed);
     std::vector<HubMoment> out;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t from = i * usable.size() / count;
         const std::size_t to = (i + 1) * usable.size() / count;
-        const auto [recording, frame] = usable[from + random() % (to - from)];
+        const auto [recording, frame] = usable[from + random.next() % (to - from)];
         out.push_back(hub_moment(recordings, recording, frame));
     }
     return out;

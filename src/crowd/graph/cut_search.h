@@ -1,4 +1,4 @@
-/// Where recordings come by a given moment: the places at which they may be cut.
+/// Finds the frames of recordings that are like a given moment: the places at which they may be cut.
 #pragma once
 
 #include <crowd/graph/pose_distance.h>
@@ -11,23 +11,23 @@
 
 namespace mobbscope {
 
-/// A recording made ready to be cut.
+/// A recording prepared for the search for cuts.
 struct Recording {
     int clip = 0;  ///< index into the clips of the scene of recordings
     PoseTrack track;
     PoseWindows windows;
-    int first = 0;  ///< frames [first, end) may be cuts: a moment fits in, and the T-pose before a motion is left out
+    int first = 0;  ///< frames [first, end) may be cuts: far enough from both ends, after the T-pose
     int end = 0;
 };
 
 /// The scene's clips that have a skeleton, in their order.
 std::vector<Recording> recordings_of(const Scene& scene, Rigs& rigs);
 
-/// A moment that clips may begin and end in.
+/// A frame at which clips may begin and end.
 struct HubMoment {
     int recording = 0;
     int frame = 0;
-    double heading_deg = 0;  ///< in the recording: where the root goes, over the time around or else after it
+    double heading_deg = 0;  ///< in the recording: the root's direction of travel around the frame, or else after it
     glm::dvec2 velocity{0};  ///< of the root, metres per second, with the heading along +x
 };
 
@@ -41,8 +41,9 @@ struct Cut {
     double distance = 0;     ///< of the poses, metres
 };
 
-/// Every place where a recording of the hub's rig is within half of each bound of the hub: of a time that is alike the
-/// most alike frame. Ordered by recording and frame. The root's velocity counts from the frame before and to the next.
+/// All cuts at a hub: of each run of frames that differ from the hub by at most half of each bound, the most similar
+/// one. Only recordings of the hub's rig are searched. Ordered by recording and frame. The root's velocity is measured
+/// from the frame before and to the next.
 std::vector<Cut> cuts_like(const std::vector<Recording>& recordings, const HubMoment& hub, const GraphBounds& bounds);
 
 }  // namespace mobbscope

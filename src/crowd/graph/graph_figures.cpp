@@ -32,7 +32,7 @@ EndSpeeds end_speeds(const mobb::Clip& clip, const GraphMove& move) {
     return {step(samples.front(), second) / clip.dt(), step(samples.back(), move.exit.position) / clip.dt()};
 }
 
-constexpr std::size_t kMostJoints = 20'000'000;
+constexpr std::size_t kMostTransitions = 20'000'000;
 
 constexpr double kRounding = 1e-6;  // relative, and in metres or metres per second
 
@@ -81,16 +81,16 @@ EndVelocities velocities_of(const mobb::Clip& clip, const GraphMove& move) {
             mobb::Rotation::from_degrees(-move.exit.heading_deg)((at(last + 1) - at(last)) / clip.dt())};
 }
 
-JointSpread spread_of(const std::vector<std::pair<int, int>>& joints, const std::vector<double>& values) {
-    JointSpread out;
+TransitionSpread spread_of(const std::vector<std::pair<int, int>>& transitions, const std::vector<double>& values) {
+    TransitionSpread out;
     std::vector<double> measured;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (std::size_t i = 0; i < transitions.size(); ++i) {
         if (values[i] < 0) continue;
         measured.push_back(values[i]);
         if (out.before >= 0 && values[i] <= out.largest) continue;
         out.largest = values[i];
-        out.before = joints[i].first;
-        out.after = joints[i].second;
+        out.before = transitions[i].first;
+        out.after = transitions[i].second;
     }
     out.count = measured.size();
     if (measured.empty()) return out;
@@ -100,16 +100,16 @@ JointSpread spread_of(const std::vector<std::pair<int, int>>& joints, const std:
     return out;
 }
 
-std::vector<std::pair<int, int>> joints_of(const MotionGraph& graph) {
+std::vector<std::pair<int, int>> transitions_of(const MotionGraph& graph) {
     const std::vector<std::vector<int>> begin_in = moves_by_hub(graph);
-    std::size_t joints = 0;
-    for (const GraphMove& move : graph.moves) joints += begin_in[static_cast<std::size_t>(move.to)].size();
-    if (joints > kMostJoints) {
-        throw InputError("the graph has " + std::to_string(joints) + " joints, more than the " +
-                         std::to_string(kMostJoints) + " that are measured; give it fewer moves a hub");
+    std::size_t transitions = 0;
+    for (const GraphMove& move : graph.moves) transitions += begin_in[static_cast<std::size_t>(move.to)].size();
+    if (transitions > kMostTransitions) {
+        throw InputError("the graph has " + std::to_string(transitions) + " joints, more than the " +
+                         std::to_string(kMostTransitions) + " that are measured; give it fewer moves a hub");
     }
     std::vector<std::pair<int, int>> out;
-    out.reserve(joints);
+    out.reserve(transitions);
     for (int m = 0; m < static_cast<int>(graph.moves.size()); ++m) {
         const int hub = graph.moves[static_cast<std::size_t>(m)].to;
         for (const int next : begin_in[static_cast<std::size_t>(hub)]) out.emplace_back(m, next);
@@ -171,7 +171,7 @@ GraphFigures graph_figures(const Scene& scene) {
     return out;
 }
 
-JointMeasures measure_joints(const Scene& scene, const Progress& progress) {
+TransitionMeasures measure_transitions(const Scene& scene, const Progress& progress) {
     const MotionGraph& graph = *scene.graph;
     Importer importer;
     Rigs rigs;
@@ -184,12 +184,12 @@ JointMeasures measure_joints(const Scene& scene, const Progress& progress) {
         velocities.push_back(velocities_of(*clip.clip, graph.moves[m]));
     }
 
-    const std::vector<std::pair<int, int>> joints = joints_of(graph);
-    std::vector<double> distances(joints.size(), -1);  // negative: not measured
-    std::vector<double> speeds(joints.size());
-    tbb::parallel_for(std::size_t{0}, joints.size(), [&](std::size_t i) {
-        const auto a = static_cast<std::size_t>(joints[i].first);
-        const auto b = static_cast<std::size_t>(joints[i].second);
+    const std::vector<std::pair<int, int>> transitions = transitions_of(graph);
+    std::vector<double> distances(transitions.size(), -1);  // negative: not measured
+    std::vector<double> speeds(transitions.size());
+    tbb::parallel_for(std::size_t{0}, transitions.size(), [&](std::size_t i) {
+        const auto a = static_cast<std::size_t>(transitions[i].first);
+        const auto b = static_cast<std::size_t>(transitions[i].second);
         speeds[i] = glm::distance(velocities[a].exit, velocities[b].entry);
         const std::optional<PoseTrack>& before = poses[a].track;
         const std::optional<PoseTrack>& after = poses[b].track;
@@ -197,10 +197,10 @@ JointMeasures measure_joints(const Scene& scene, const Progress& progress) {
         distances[i] = joined_distance(*before, poses[a].exit, graph.moves[a].exit.heading_deg, *after, poses[b].entry,
                                        graph.moves[b].entry.heading_deg);
     });
-    return {joints.size(), spread_of(joints, distances), spread_of(joints, speeds)};
+    return {transitions.size(), spread_of(transitions, distances), spread_of(transitions, speeds)};
 }
 
-bool exceeds(const JointSpread& measured, double bound) {
+bool exceeds(const TransitionSpread& measured, double bound) {
     return measured.count > 0 && measured.largest > bound * (1 + kRounding) + kRounding;
 }
 

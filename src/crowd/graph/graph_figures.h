@@ -49,27 +49,28 @@ GraphFigures graph_figures(const Scene& scene);
 /// Metres that the root goes in a move, from its first sample to its exit.
 double way_of(const mobb::Clip& clip, const GraphMove& move);
 
-/// What was measured at joints.
-struct JointSpread {
-    std::size_t count = 0;  ///< joints measured
+/// What was measured over all transitions: a transition is a move and one that may follow it.
+struct TransitionSpread {
+    std::size_t count = 0;  ///< transitions measured
     double median = 0;
     double largest = 0;
-    int before = -1;  ///< the moves at the joint with the largest: indices into the graph's moves
+    int before = -1;  ///< the moves of the transition with the largest: indices into the graph's moves
     int after = -1;
 };
 
-struct JointMeasures {
-    std::size_t joints = 0;     ///< pairs of a move and one that may follow it
-    JointSpread pose_distance;  ///< metres: joined_distance, as the stances join the bodies
-    JointSpread root_speed;     ///< metres per second: change of the root's velocity, over the steps next to the joint
+struct TransitionMeasures {
+    std::size_t count = 0;           ///< transitions of the graph
+    TransitionSpread pose_distance;  ///< metres: joined_distance, as the stances join the bodies
+    TransitionSpread root_speed;     ///< metres per second: change of the root's velocity between the last step before
+                                     ///< and the first one after
 };
 
-/// Measures every joint. Poses come from the clips' sources, a few frames beyond each clip included; joints between
-/// clips without a skeleton, or of different ones, have no pose distance. The scene has a graph. `progress` is told
+/// Measures every transition. Poses come from the clips' sources, a few frames beyond each clip included; between clips
+/// without a skeleton, or of different ones, there is no pose distance. The scene has a graph. `progress` is told
 /// before each clip's poses are read. Throws InputError.
-JointMeasures measure_joints(const Scene& scene, const Progress& progress = {});
+TransitionMeasures measure_transitions(const Scene& scene, const Progress& progress = {});
 
 /// Whether what was measured exceeds a bound by more than rounding does.
-bool exceeds(const JointSpread& measured, double bound);
+bool exceeds(const TransitionSpread& measured, double bound);
 
 }  // namespace mobbscope

@@ -1,4 +1,4 @@
-/// Which moments become hubs: those that recur most, so that much of the recordings lies between them.
+/// Chooses the hubs of a motion graph: moments that recur, so that the moves between them cover much of the recordings.
 #pragma once
 
 #include <crowd/graph/cut_search.h>
@@ -12,7 +12,7 @@ namespace mobbscope {
 
 /// How a motion graph is cut out of recordings.
 struct GraphOptions {
-    /// Of every joint. Half a bound to a hub on either side makes a whole one from side to side.
+    /// Of every transition. A cut may differ from its hub by half of each bound, two cuts at one hub by a whole one.
     GraphBounds bounds{0.16, 0.6};
     double least_seconds = 1;  ///< that a move lasts, over 0
     double most_seconds = 4;   ///< at least least_seconds
@@ -23,7 +23,7 @@ struct GraphOptions {
     std::uint64_t seed = 1;    ///< decides which moments are looked at
 };
 
-/// A moment and where recordings come by it.
+/// A moment, and the places in the recordings that are like it.
 struct Hub {
     HubMoment moment;
     std::vector<Cut> cuts;
@@ -42,8 +42,8 @@ struct Piece {
 std::vector<Piece> pieces_between(const std::vector<Recording>& recordings, const std::vector<Hub>& hubs,
                                   const GraphOptions& options);
 
-/// Takes hub after hub of one rig, each the candidate that lets pieces which lead to each other cover the most seconds
-/// more; ends at options.hubs, or when another would add less than a second. `candidates`: all of one rig.
+/// A greedy choice among the candidates, all of one rig: takes the one that adds most to the seconds of the pieces that
+/// lead to each other, again and again, up to options.hubs; ends when another would add less than a second.
 std::vector<Hub> choose_hubs(const std::vector<Recording>& recordings, const std::vector<Hub>& candidates,
                              const GraphOptions& options);
 

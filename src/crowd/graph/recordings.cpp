@@ -1,6 +1,6 @@
 #include <base/file.h>
 #include <crowd/graph/recordings.h>
-#include <import/skeleton/motion.h>
+#include <import/import.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
@@ -14,8 +14,8 @@ namespace mobbscope {
 namespace {
 
 bool is_clip(const std::filesystem::path& file) {
-    const std::string extension = lower_extension(file);
-    return is_motion_extension(extension) || extension == ".csv";
+    const std::optional<Contents> contents = contents_by_name(file);
+    return contents && contents != Contents::trajectories;
 }
 
 std::vector<std::filesystem::path> clips_below(const std::filesystem::path& folder) {
@@ -29,7 +29,8 @@ std::vector<std::filesystem::path> clips_below(const std::filesystem::path& fold
     }
     if (error) throw InputError(folder.string(), "", "the folder cannot be read: " + error.message());
     if (out.empty()) {
-        throw InputError(folder.string(), "", "there are no clips in this folder (.bvh, .glb, .gltf, .fbx, .csv)");
+        throw InputError(folder.string(), "",
+                         "there are no clips in this folder (" + listed_clip_extensions(", ") + ")");
     }
     std::sort(out.begin(), out.end());
     return out;

@@ -8,7 +8,7 @@
 
 namespace mobbscope {
 
-/// The clip files (.bvh .glb .gltf .fbx .csv) among files and in folders and their subfolders; those of a folder by
+/// The clip files (no trajectories) among files and in folders and their subfolders; those of a folder by
 /// name. Throws InputError for a folder that cannot be read or holds none, and for a scene file.
 std::vector<std::filesystem::path> clip_files(const std::vector<std::filesystem::path>& places);
 

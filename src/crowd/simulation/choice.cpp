@@ -18,9 +18,9 @@ constexpr double kHalfTurn = 180;
 
 class Chooser {
   public:
-    Chooser(const MoveSet& moves, const ReservationTable& committed, const CrowdRun& run, const ChoicePoint& point,
+    Chooser(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
             std::vector<AskedPair>* asked)
-        : moves_(moves), committed_(committed), run_(run), point_(point), asked_(asked) {
+        : moves_(moves), reservations_(reservations), run_(run), point_(point), asked_(asked) {
         choice_.time = point.time;
     }
 
@@ -32,7 +32,7 @@ class Chooser {
             add_candidates(turn);
             if (turn > 0 && turn < kHalfTurn) add_candidates(-turn);
             if (turn == 0) straight = choice_.candidates.size();
-            judge(first);
+            check_candidates(first);
             if (take_clear()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
         }
         if (take_free()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
@@ -60,8 +60,8 @@ class Chooser {
     }
 
     /// Those from `first` on.
-    void judge(std::size_t first) {
-        find_rulings(first, false);
+    void check_candidates(std::size_t first) {
+        find_blockers(first, false);
         std::vector<Play> plays;
         std::vector<std::size_t> of;
         for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
@@ -70,12 +70,12 @@ class Chooser {
             plays.push_back({candidate.move, candidate.placement, point_.time, PlayKind::chosen});
             of.push_back(i);
         }
-        const std::vector<bool> in_the_way = committed_.in_the_way(point_.agent, point_.play, plays);
+        const std::vector<bool> in_the_way = reservations_.in_the_way(point_.agent, point_.play, plays);
         for (std::size_t i = 0; i < of.size(); ++i) choice_.candidates[of[i]].in_the_way = in_the_way[i];
     }
 
     /// Of the candidates from `first` on that leave the floor, or of those that do not.
-    void find_rulings(std::size_t first, bool off_floor) {
+    void find_blockers(std::size_t first, bool off_floor) {
         std::vector<PlayedMove> motions;
         std::vector<std::size_t> of;
         for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
@@ -84,10 +84,10 @@ class Chooser {
             motions.push_back(moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement));
             of.push_back(i);
         }
-        const std::vector<CandidateCheck> check_all = committed_.motions().check_all(motions, asked_);
+        const std::vector<CandidateCheck> checks = reservations_.motions().check_all(motions, asked_);
         for (std::size_t i = 0; i < of.size(); ++i) {
-            choice_.candidates[of[i]].blocker = check_all[i].blocker;
-            choice_.queries += check_all[i].asked;
+            choice_.candidates[of[i]].blocker = checks[i].blocker;
+            choice_.queries += checks[i].asked;
         }
     }
 
@@ -113,7 +113,7 @@ class Chooser {
         }
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
         const bool some_stay = std::any_of(choice_.candidates.begin(), choice_.candidates.end(), stays);
-        if (!some_stay) find_rulings(0, true);
+        if (!some_stay) find_blockers(0, true);
         const auto contact = [](const Candidate& candidate) {
             return candidate.blocker ? candidate.blocker->contact.time : std::numeric_limits<double>::infinity();
         };
@@ -138,7 +138,7 @@ class Chooser {
     double seconds_of_contact(const Candidate& candidate) const {
         if (!candidate.blocker) return 0;
         const PlayedMove motion = moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
-        return committed_.motions().seconds_of_contact(motion, *candidate.blocker);
+        return reservations_.motions().seconds_of_contact(motion, *candidate.blocker);
     }
 
     template <class Allowed>
@@ -155,17 +155,17 @@ class Chooser {
     }
 
     const MoveSet& moves_;
-    const ReservationTable& committed_;
+    const ReservationTable& reservations_;
     const CrowdRun& run_;
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
     Choice choice_;
 };
 
-/// Commits what `agent` was committed to at a choice: what has not ended, and its last play before the choice, which
+/// Commits what `agent` was reservations to at a choice: what has not ended, and its last play before the choice, which
 /// may end at it.
-void commit_plays(ReservationTable& committed, const MoveSet& moves, const CrowdRun& run, int agent,
-                  const ChoicePoint& point) {
+void reserve_plays(ReservationTable& reservations, const MoveSet& moves, const CrowdRun& run, int agent,
+                   const ChoicePoint& point) {
     const std::vector<Play>& plays = run.agents[static_cast<std::size_t>(agent)].plays;
     const auto made_before = [&](const Play& play) {
         return play.chosen_at < point.time || (play.chosen_at == point.time && agent < point.agent);
@@ -175,15 +175,15 @@ void commit_plays(ReservationTable& committed, const MoveSet& moves, const Crowd
     const auto end = std::partition_point(plays.begin() + 1, plays.end(), made_before);
     const auto begin = std::partition_point(plays.begin(), end - 1, ended);
     for (auto play = begin; play != end; ++play) {
-        committed.commit(agent, static_cast<int>(play - plays.begin()), *play);
+        reservations.reserve(agent, static_cast<int>(play - plays.begin()), *play);
     }
 }
 
 }  // namespace
 
-Choice choose(const MoveSet& moves, const ReservationTable& committed, const CrowdRun& run, const ChoicePoint& point,
+Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked) {
-    return Chooser(moves, committed, run, point, asked).choose();
+    return Chooser(moves, reservations, run, point, asked).choose();
 }
 
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
@@ -191,11 +191,11 @@ Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play)
     const Play& made = plays.at(static_cast<std::size_t>(play));
     if (play == 0) return {made.chosen_at, made.kind, {{made.move, 0, made.placement, false, {}, false}}, 0, 0};
     const ChoicePoint point{agent, play, plays[static_cast<std::size_t>(play) - 1], made.chosen_at};
-    ReservationTable committed(moves, run.area, run.grace);
+    ReservationTable reservations(moves, run.area, run.grace);
     for (int other = 0; other < static_cast<int>(run.agents.size()); ++other) {
-        if (other != agent) commit_plays(committed, moves, run, other, point);
+        if (other != agent) reserve_plays(reservations, moves, run, other, point);
     }
-    return choose(moves, committed, run, point);
+    return choose(moves, reservations, run, point);
 }
 
 std::optional<int> last_chosen(const CrowdAgent& agent, double time) {

@@ -48,7 +48,7 @@ ReservationGrid::Held ReservationGrid::held(const PlayedMove& motion) const {
     return {motion, bounds, cells_of(bounds), placed.time(0), placed.time(placed.count())};
 }
 
-std::size_t ReservationGrid::commit(const PlayedMove& motion) {
+std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
     auto slot = static_cast<std::uint32_t>(motions_.size());
     if (free_.empty()) {
         motions_.push_back(held(motion));
@@ -65,10 +65,10 @@ std::size_t ReservationGrid::commit(const PlayedMove& motion) {
     return slot;
 }
 
-void ReservationGrid::withdraw(std::size_t committed) {
+void ReservationGrid::withdraw(std::size_t reservation) {
     // Its slot is used again when it would have ended.
-    take_from_cells(static_cast<std::uint32_t>(committed));
-    motions_[committed].motion.tree = nullptr;
+    take_from_cells(static_cast<std::uint32_t>(reservation));
+    motions_[reservation].motion.tree = nullptr;
 }
 
 void ReservationGrid::take_from_cells(std::uint32_t slot) {
@@ -149,12 +149,12 @@ std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMov
 }
 
 double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, const Blocker& blocker) const {
-    const auto committed = std::find_if(motions_.begin(), motions_.end(), [&blocker](const Held& held) {
+    const auto reserved = std::find_if(motions_.begin(), motions_.end(), [&blocker](const Held& held) {
         return held.motion.tree && held.motion.agent == blocker.agent && held.motion.play == blocker.play;
     });
-    assert(committed != motions_.end());
+    assert(reserved != motions_.end());
     const mobb::PlacedTree a(*candidate.tree, candidate.placement);
-    const mobb::PlacedTree b(*committed->motion.tree, committed->motion.placement);
+    const mobb::PlacedTree b(*reserved->motion.tree, reserved->motion.placement);
     double seconds = 0;
     for (const mobb::Interval& interval : mobb::contact_intervals(a, b)) seconds += interval.t1 - interval.t0;
     return seconds;

@@ -1,4 +1,4 @@
-/// What many agents are committed to, and which candidates it rules out.
+/// The motions that agents have chosen, by place and time, and which candidates collide with them.
 #pragma once
 
 #include <crowd/simulation/clip_bounds.h>
@@ -13,63 +13,63 @@
 
 namespace mobbscope {
 
-/// A clip as an agent plays it, or may. The tree and the bounds are of the same clip and must outlive the world.
+/// A clip that an agent plays, or may play. The tree and the bounds are of that clip and must outlive the grid.
 struct PlayedMove {
     int agent = 0;
-    int play = 0;  ///< which of the agent's: handed back with what it rules out
+    int play = 0;  ///< index among the agent's plays; a Blocker repeats it
     const mobb::Tree* tree = nullptr;
     const ClipBounds* clip_bounds = nullptr;
     mobb::Placement placement;
 };
 
-/// The committed motion that rules a candidate out: the one that it meets first; of those met at the same time the one
-/// of the first agent.
+/// The reserved motion that a candidate collides with first; of those met at the same time, that of the agent with the
+/// lowest index.
 struct Blocker {
     int agent = 0;
     int play = 0;
-    mobb::Contact contact;  ///< a is the candidate, b the committed motion
+    mobb::Contact contact;  ///< a: the candidate; b: the reserved motion
 
     friend bool operator==(const Blocker&, const Blocker&) = default;
 };
 
-/// A pair that was given to the trees.
+/// A pair whose trees were queried.
 struct AskedPair {
     PlayedMove candidate;
-    PlayedMove committed;
+    PlayedMove reserved;
 };
 
-/// What becomes of a candidate.
+/// The result of checking a candidate against the reserved motions.
 struct CandidateCheck {
     std::optional<Blocker> blocker;  ///< none: it collides with nobody
-    int asked = 0;                   ///< how many pairs the trees were asked
+    int asked = 0;                   ///< number of tree queries made
 };
 
-/// The committed motions of a crowd in a grid over the floor, with the time of each. It grows with what is committed
-/// and not yet forgotten. Verdicts may be asked from any number of threads while nothing is committed or forgotten.
+/// The reserved motions of a crowd in a grid over the floor, each with its time. Memory grows with the motions that are
+/// not yet forgotten. Const calls are safe from any number of threads while nothing is reserved or forgotten.
 class ReservationGrid {
   public:
     /// The grid covers the floor from -area/2 to area/2, in metres; what lies beyond is kept at its edges.
     explicit ReservationGrid(glm::dvec2 area);
 
-    /// Returns what `withdraw` takes until the motion is forgotten.
-    std::size_t commit(const PlayedMove& motion);
-    /// From now on the motion rules nothing out.
-    void withdraw(std::size_t committed);
+    /// Returns a number for `withdraw`, valid until the motion is forgotten.
+    std::size_t reserve(const PlayedMove& motion);
+    /// The motion blocks nothing any more.
+    void withdraw(std::size_t reservation);
     /// Motions that end at `now` or before are dropped: no candidate that begins later can meet them.
     void forget_before(double now);
     std::size_t size() const { return motions_.size() - free_.size(); }  ///< motions not forgotten
 
-    /// For each candidate the motion of another agent that rules it out, or none. With `asked`, the pairs that the
-    /// trees were asked are appended to it, in the order of candidates. The same on any number of threads.
+    /// Checks each candidate against the motions of the other agents. The pairs whose trees were queried are appended
+    /// to `asked`, in the order of the candidates. The results do not depend on the number of threads.
     std::vector<CandidateCheck> check_all(std::span<const PlayedMove> candidates,
                                           std::vector<AskedPair>* asked = nullptr) const;
 
-    /// How long the candidate collides with the motion that rules it out, which must still be held.
+    /// How long the candidate collides with its blocker (seconds), which must not have been forgotten.
     double seconds_of_contact(const PlayedMove& candidate, const Blocker& blocker) const;
 
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
-    /// metres of its own, at whatever time: what the trees were asked if nobody looked at times before them, and with
-    /// an infinite range if there were no grid at all.
+    /// metres of the candidate's, at any time: the pairs that would be queried if times were not compared first, and
+    /// with an infinite range those that would be queried without a grid.
     void all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const;
 
   private:

@@ -32,14 +32,14 @@ PlayedMove ReservationTable::stand(int agent, int index, const Play& play) const
     return {agent, index, &stand.tree, &stand.clip_bounds, {at, 0, placed.start + moves_.duration(play.move)}};
 }
 
-void ReservationTable::commit(int agent, int index, const Play& play) {
-    motions_.commit(moves_.motion(agent, index, play.move, play.placement));
+void ReservationTable::reserve(int agent, int index, const Play& play) {
+    motions_.reserve(moves_.motion(agent, index, play.move, play.placement));
     if (stand_of_clip_.empty()) return;
     const auto place = static_cast<std::size_t>(agent);
     if (place >= stand_of_agent_.size()) stand_of_agent_.resize(place + 1);
     // The stand after the play before begins with this play, and is not yet forgotten.
     if (stand_of_agent_[place]) stands_.withdraw(*stand_of_agent_[place]);
-    stand_of_agent_[place] = stands_.commit(stand(agent, index, play));
+    stand_of_agent_[place] = stands_.reserve(stand(agent, index, play));
 }
 
 void ReservationTable::forget_before(double now) {

@@ -1,4 +1,4 @@
-/// What a crowd is committed to: every agent's moves, and the room that it needs where they end.
+/// The moves that the agents of a crowd have reserved, and the room kept free where they end.
 #pragma once
 
 #include <crowd/simulation/clip_bounds.h>
@@ -14,7 +14,7 @@
 
 namespace mobbscope {
 
-/// Refers to the scene, which must outlive it and have a graph.
+/// The moves of a motion graph, fitted. Refers to the scene, which must outlive it and have a graph.
 class MoveSet {
   public:
     explicit MoveSet(const FittedScene& fitted);
@@ -41,23 +41,22 @@ class MoveSet {
     std::vector<std::vector<int>> by_hub_;
 };
 
-/// Refers to the moves, which must outlive it.
+/// Every agent's reserved moves. Refers to the moves, which must outlive it.
 class ReservationTable {
   public:
     /// The floor of `area` metres; room is kept for `grace` seconds, 0: none.
     ReservationTable(const MoveSet& moves, glm::dvec2 area, double grace);
 
-    /// An agent's play, later than all it is committed to.
-    void commit(int agent, int index, const Play& play);
+    /// Reserves an agent's play, which must begin after all that the agent has reserved.
+    void reserve(int agent, int index, const Play& play);
     /// Drops what ends at `now` or before.
     void forget_before(double now);
 
     const ReservationGrid& motions() const { return motions_; }
 
-    /// For each play that might follow: whether it runs through the place where another agent's moves end, in the grace
-    /// after that; whether it ends where another agent will pass or stand in the grace after it; or whether there is no
-    /// room before the wall where it ends. Whoever takes such a one leaves somebody, perhaps himself, without a choice.
-    /// Without a grace all are false.
+    /// For each play that might follow, whether it would leave some agent, perhaps this one, without a free choice: it
+    /// runs through the place where another agent's moves end, within the grace after that; or it ends where another
+    /// agent passes or stands within the grace; or it ends too near a wall. Without a grace all are false.
     std::vector<bool> in_the_way(int agent, int index, std::span<const Play> plays) const;
 
   private:

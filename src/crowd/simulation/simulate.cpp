@@ -36,7 +36,7 @@ class Simulator {
           options_(options),
           sample_(sample),
           progress_(progress),
-          world_(moves, options.area, options.grace) {
+          reservations_(moves, options.area, options.grace) {
         CrowdRun& run = simulation_.run;
         run.area = options.area;
         run.seconds = options.seconds;
@@ -51,7 +51,7 @@ class Simulator {
         while (!turns_.empty()) {
             const Turn turn = turns_.top();
             turns_.pop();
-            world_.forget_before(turn.time);
+            reservations_.forget_before(turn.time);
             make_choice(turn);
             if (turn.time >= counts().simulated + options_.seconds / kReports) tell(turn.time);
         }
@@ -102,10 +102,10 @@ class Simulator {
             placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
             const PlayedMove motion = moves_.motion(agent, 0, move, placement);
             if (leaves_floor({motion.tree->clip(), placement}, *motion.clip_bounds, options_.area)) continue;
-            if (world_.motions().check_all({&motion, 1}).front().blocker) continue;
+            if (reservations_.motions().check_all({&motion, 1}).front().blocker) continue;
             const Play play{move, placement, placement.start, PlayKind::chosen};
             // Where the floor is nearly full, any place will do.
-            if (i < kTries / 2 && world_.in_the_way(agent, 0, {&play, 1}).front()) continue;
+            if (i < kTries / 2 && reservations_.in_the_way(agent, 0, {&play, 1}).front()) continue;
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
             ++counts().agents;
             commit(agent, play);
@@ -121,7 +121,7 @@ class Simulator {
         const ChoicePoint point{turn.agent, static_cast<int>(plays.size()), plays.back(), turn.time};
         asked_.clear();
         const bool records_asked = sample_ && sample_->recorded() == Recorded::asked;
-        const Choice choice = choose(moves_, world_, simulation_.run, point, records_asked ? &asked_ : nullptr);
+        const Choice choice = choose(moves_, reservations_, simulation_.run, point, records_asked ? &asked_ : nullptr);
         const Candidate& taken = choice.candidates[choice.taken];
         if (sample_) record(choice, point);
         count(choice);
@@ -131,8 +131,9 @@ class Simulator {
     void record(const Choice& choice, const ChoicePoint& point) {
         if (sample_->recorded() == Recorded::all) {
             for (const Candidate& candidate : choice.candidates) {
-                world_.motions().all_pairs(moves_.motion(point.agent, point.play, candidate.move, candidate.placement),
-                                           sample_->range(), asked_);
+                reservations_.motions().all_pairs(
+                    moves_.motion(point.agent, point.play, candidate.move, candidate.placement), sample_->range(),
+                    asked_);
             }
         }
         sample_->offer(asked_);
@@ -158,10 +159,10 @@ class Simulator {
 
     void commit(int agent, const Play& play) {
         std::vector<Play>& plays = simulation_.run.agents[static_cast<std::size_t>(agent)].plays;
-        world_.commit(agent, static_cast<int>(plays.size()), play);
+        reservations_.reserve(agent, static_cast<int>(plays.size()), play);
         plays.push_back(play);
         ++counts().plays;
-        counts().most_held = std::max(counts().most_held, world_.motions().size());
+        counts().most_held = std::max(counts().most_held, reservations_.motions().size());
         const double end = play.placement.start + moves_.duration(play.move);
         if (end < options_.seconds) turns_.push({std::max(0.0, end - options_.ahead), agent});
     }
@@ -170,7 +171,7 @@ class Simulator {
     const SimulateOptions& options_;
     QuerySample* sample_;
     const SimulationProgress& progress_;
-    ReservationTable world_;
+    ReservationTable reservations_;
     Simulation simulation_;
     std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
     std::vector<AskedPair> asked_;  ///< at the present choice point
@@ -229,7 +230,7 @@ Scene QuerySample::workload(const Scene& scene) const {
     std::sort(ordered.begin(), ordered.end(), [](const Kept& a, const Kept& b) { return a.number < b.number; });
     out.queries.reserve(ordered.size());
     for (const Kept& kept : ordered) {
-        out.queries.push_back({participant(kept.pair.candidate), participant(kept.pair.committed), {}, {}});
+        out.queries.push_back({participant(kept.pair.candidate), participant(kept.pair.reserved), {}, {}});
     }
     return out;
 }

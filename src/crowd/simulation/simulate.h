@@ -17,7 +17,7 @@ namespace mobbscope {
 /// Which queries a workload is drawn from.
 enum class Recorded {
     asked,  ///< those that the trees were asked: the pairs that are near each other in space and time
-    all,    ///< candidate against every motion that another agent is committed to, near or far, at any time
+    all,    ///< candidate against every motion that another agent has reserved, near or far, at any time
 };
 
 /// A uniform sample without repetition of all queries that it is offered (reservoir sampling: Vitter 1985, Algorithm
@@ -82,12 +82,12 @@ struct SimulationCounts {
     std::int64_t choices = 0;
     std::int64_t candidates = 0;  ///< at choice points
     std::int64_t off_floor = 0;   ///< candidates discarded because they leave the floor
-    std::int64_t colliding = 0;   ///< candidates discarded because they collide with a committed motion
+    std::int64_t colliding = 0;   ///< candidates discarded because they collide with a reserved motion
     std::int64_t in_the_way = 0;  ///< candidates passed over because they end in somebody's way
     std::int64_t queries = 0;     ///< pairs that the trees were asked to discard candidates
     std::int64_t pivots = 0;
     std::int64_t forced = 0;
-    std::size_t most_held = 0;  ///< committed motions held at one time
+    std::size_t most_held = 0;  ///< reserved motions held at one time
 };
 
 /// Told now and then how far a run is; it may throw to end it, and what it throws passes through.

@@ -1,10 +1,9 @@
-/// Motion as files hold it: joints that move in time. Where the readers of BVH, glTF and FBX meet skeleton_disks.h.
+/// Joints that move in time, as files hold them: what readers of skeletons give, and motion_clips.h samples.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,12 +64,6 @@ class MotionFile {
     /// outlive the file. Throws InputError.
     virtual std::shared_ptr<const Motion> motion(std::size_t animation) const = 0;
 };
-
-/// True for an extension in lower case (".bvh") that read_motion takes.
-bool is_motion_extension(const std::string& extension);
-
-/// Reads a motion file by its extension. Throws InputError.
-std::unique_ptr<MotionFile> read_motion(const std::filesystem::path& file);
 
 /// Joint positions at every sample of a clip.
 struct Skeleton {

@@ -99,7 +99,7 @@ class TextTracksParser {
 
     static std::string columns(std::size_t count) {
         if (count > kMaxColumns) return "more than " + std::to_string(kMaxColumns) + " columns";
-        return counted(static_cast<long long>(count), "column", "columns");
+        return counted(count, "column", "columns");
     }
 
     /// A comment ahead of the rows may tell the frame rate, the unit and the columns.

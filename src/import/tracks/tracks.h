@@ -76,10 +76,4 @@ TrackFile parse_trajnetpp(std::string_view text, const std::string& file);
 /// A plan of multi-agent path finding in YAML: `schedule:` with a list of t, x, y for each agent. Throws InputError.
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
 
-/// ".txt", ".ndjson", ".yaml", ".yml".
-bool is_track_extension(std::string_view extension);
-
-/// Reads a file by its extension, which must be one of those. Throws InputError.
-TrackFile read_tracks(const std::filesystem::path& file);
-
 }  // namespace mobbscope
