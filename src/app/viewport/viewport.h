@@ -6,6 +6,7 @@
 #include <app/viewport/flight.h>
 #include <app/viewport/viewport_overlay.h>
 #include <render/drawlist/draw_list.h>
+#include <render/pictures/kept_paths.h>
 
 #include <memory>
 #include <optional>
@@ -34,6 +35,7 @@ class Viewport {
     enum class Drag { none, orbit, pan, handle };
 
     void update_picture(Ui& ui, PictureSize size);
+    KeptPaths& paths_of(const Key& key);
     void build(const Key& key, const FollowedChoice* choice);
     void take_off(Ui& ui, const Key& next);
     void paint(Ui& ui, ImVec2 corner);
@@ -57,7 +59,8 @@ class Viewport {
     static std::optional<Handles> handles(Ui& ui, const ShownPicture& picture);
     std::optional<HandleDrag> take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const;
 
-    std::optional<Key> key_;  ///< what the document asks for, a flight apart
+    std::optional<KeptPaths> paths_;  ///< of key_'s scene
+    std::optional<Key> key_;          ///< what the document asks for, a flight apart
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;
