@@ -72,6 +72,7 @@ TEST_P(KeptBuffersTest, ScrubbingUploadsNothingOfTheDisks) {
     for (int i = 0; i < 10; ++i) {
         *view.time += 0.1;
         const DrawStatistics statistics = draw(view, 1);
+        EXPECT_LT(statistics.triangles, 3000u) << "disks are taken from the picture before";
         // The plane of the cursor is a box.
         EXPECT_LT(statistics.world_bytes, 2000u) << i;
         EXPECT_LT(statistics.state_bytes, 2000u) << i;
@@ -93,7 +94,6 @@ TEST_P(KeptBuffersTest, SteppingUploadsColorsAtMost) {
 
 /// What is kept shows what a renderer without a past would.
 TEST_P(KeptBuffersTest, WhatIsKeptIsWhatIsShown) {
-    Renderer other(GetParam());
     ViewState view;
     for (int i = 0; i < 6; ++i) {
         if (i % 2 == 1) view.query = 0;
@@ -105,8 +105,11 @@ TEST_P(KeptBuffersTest, WhatIsKeptIsWhatIsShown) {
         const DrawList kept = build_draw_list(paths_, view, {.size = kSmallSize});
         const DrawList fresh = build_draw_list(*paths_.fitted(), view, {.size = kSmallSize});
         Renderer anew(GetParam());
-        EXPECT_EQ(renderer().draw(kept).rgba, anew.draw(fresh).rgba) << i;
-        EXPECT_EQ(renderer().draw(kept, 1).rgba, anew.draw(fresh, 1).rgba) << i;
+        const Image first = anew.draw(fresh);
+        for (int again = 0; again < 3; ++again) EXPECT_EQ(renderer().draw(kept).rgba, first.rgba) << i;
+        for (int again = 0; again < 3; ++again) {
+            EXPECT_EQ(renderer().draw(kept, 1).rgba, anew.draw(fresh, 1).rgba) << i;
+        }
     }
 }
 
