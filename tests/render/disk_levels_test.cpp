@@ -11,7 +11,7 @@
 namespace mobbscope {
 namespace {
 
-constexpr float kTolerance = 0.9f;  // the program's
+constexpr float kTolerance = 0.95f;  // pixels: the program's
 
 /// A camera from the side that shows so many pixels per metre.
 ViewProjection lens_of(float pixels_per_metre, double pitch_deg = 20) {

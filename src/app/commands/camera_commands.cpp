@@ -32,12 +32,6 @@ void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
     }
 }
 
-bool is_selected(const Session& session, const Selection& selected, int index, int clip) {
-    if (selected.on_path()) return index_in_view(session.fitted(), session.view(), selected.path) == index;
-    if (selected.kind == Selection::Kind::clip) return clip == selected.index;
-    return selected.kind == Selection::Kind::query && session.view().query == selected.index;
-}
-
 }  // namespace
 
 PictureSize viewport_size(const Session& session) {
@@ -58,12 +52,15 @@ void move_camera(Session& session, const std::function<Camera(const Camera&, con
 std::optional<Bounds> box_of(const Session& session, const Selection& selected) {
     Bounds bounds;
     const std::vector<DrawnAgent> shown = drawn_agents(session.fitted(), session.view());
+    const std::optional<int> index =
+        selected.on_path() ? index_in_view(session.fitted(), session.view(), selected.path) : std::nullopt;
+    const mobb::Clip* of_clip = selected.kind == Selection::Kind::clip
+                                    ? session.scene().clips[static_cast<std::size_t>(selected.index)].clip.get()
+                                    : nullptr;
+    const bool all = selected.kind == Selection::Kind::query && session.view().query == selected.index;
     for (const DrawnAgent& agent : shown) {
         const mobb::PlacedClip& clip = agent.clip();
-        const auto is_clip = [&](const auto& known) { return known.clip.get() == &clip.clip(); };
-        const auto& clips = session.scene().clips;
-        const auto at = std::find_if(clips.begin(), clips.end(), is_clip);
-        if (!is_selected(session, selected, agent.index, static_cast<int>(at - clips.begin()))) continue;
+        if (!all && index != agent.index && of_clip != &clip.clip()) continue;
         if (selected.kind == Selection::Kind::node) {
             add_box(bounds, agent.placed, selected.index);
         } else if (selected.kind == Selection::Kind::sample) {

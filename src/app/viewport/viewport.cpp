@@ -66,12 +66,17 @@ void welcome(Ui& ui) {
 
 // --- the picture
 
+KeptPaths& Viewport::paths_of(const Key& key) {
+    if (!paths_ || paths_->fitted() != key.fitted) paths_.emplace(key.fitted);
+    return *paths_;
+}
+
 void Viewport::build(const Key& key, const FollowedChoice* choice) {
     list_.reset();
     why_not_.clear();
     try {
         check(key.size);
-        list_ = build_draw_list(*key.fitted, key.view, {.size = key.size, .scale = key.scale}, choice);
+        list_ = build_draw_list(paths_of(key), key.view, {.size = key.size, .scale = key.scale}, choice);
     } catch (const std::invalid_argument& error) {
         why_not_ = error.what();
     }
@@ -89,7 +94,7 @@ void Viewport::take_off(Ui& ui, const Key& next) {
         return;
     }
     Camera from = resolved_camera(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
-    const PictureFrame there = picture_frame(*next.fitted, next.view, next.size, next.scale);
+    const PictureFrame there = picture_frame(paths_of(next), next.view, next.size, next.scale);
     // Heights must mean the same all the way.
     if (there.space.time_height != list_->space.time_height || there.moment.has_value() != list_->moment.has_value()) {
         return;

@@ -6,6 +6,7 @@
 #include <app/viewport/flight.h>
 #include <app/viewport/viewport_overlay.h>
 #include <render/drawlist/draw_list.h>
+#include <render/pictures/kept_paths.h>
 
 #include <memory>
 #include <optional>
@@ -38,6 +39,7 @@ class Viewport {
     void name_fit(const Ui& ui, ImVec2 corner) const;
     void link_camera(const Session& session, PictureSize size, double scale, ViewState& view);
     void update_picture(Ui& ui, PictureSize size);
+    KeptPaths& paths_of(const Key& key);
     void build(const Key& key, const FollowedChoice* choice);
     void take_off(Ui& ui, const Key& next);
     void paint(Ui& ui, ImVec2 corner);
@@ -61,8 +63,9 @@ class Viewport {
     static std::optional<Handles> handles(Ui& ui, const ShownPicture& picture);
     std::optional<HandleDrag> take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const;
 
-    std::size_t view_place_ = 0;  ///< of the session's views
-    std::optional<Key> key_;      ///< what the document asks for, a flight apart
+    std::optional<KeptPaths> paths_;  ///< of key_'s scene
+    std::size_t view_place_ = 0;      ///< of the session's views
+    std::optional<Key> key_;          ///< what the document asks for, a flight apart
     /// The camera of the active view, as it stands.
     struct Linked {
         Key to;

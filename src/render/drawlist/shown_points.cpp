@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace mobbscope {
 
@@ -43,6 +44,12 @@ ShownPoints::ShownPoints(SharedValues<DiskInstance> disks) : disks_(std::move(di
         blocks.back() = {glm::min(blocks.back().min, low), glm::max(blocks.back().max, high)};
     }
     blocks_ = std::make_shared<const std::vector<Block>>(std::move(blocks));
+}
+
+ShownPoints ShownPoints::of_like(SharedValues<DiskInstance> disks) const {
+    ShownPoints out = *this;
+    out.disks_ = std::move(disks);
+    return out;
 }
 
 glm::vec3 ShownPoints::front() const {

@@ -25,6 +25,9 @@ class ShownPoints {
     void add(glm::vec3 point) { points_.push_back(point); }
     void add(std::span<const glm::vec3> points) { points_.insert(points_.end(), points.begin(), points.end()); }
 
+    /// The same points of disks that differ from these in colour alone: nothing is measured again.
+    ShownPoints of_like(SharedValues<DiskInstance> disks) const;
+
     bool empty() const { return points_.empty() && disks_.empty(); }
     /// The first and the last that were added, disks first. Not of an empty set.
     glm::vec3 front() const;

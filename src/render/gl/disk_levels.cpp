@@ -12,12 +12,13 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kTolerance = 0.9f;      // pixels that a tube may be off
+constexpr float kTolerance = 0.8f;      // pixels that a tube is off, or 0.95 as the nearest level is taken
 constexpr float kHighest = 1.8f;        // pixels of a disk's side: above it the edge that the shader draws is seen
 constexpr float kWidestStep = 0.5f;     // pixels of a disk's face that its successor leaves free
 constexpr float kColorStep = 0.04f;     // between neighbours; more is a hit, or an end of what is in focus
 constexpr std::size_t kLongest = 32;    // disks in a tube, so that the colour follows
 constexpr std::size_t kInBlock = 128;   // disks
+constexpr float kLeap = 1.6f;           // times the mean step of its block: no tube goes over one that is larger
 constexpr float kFinestLevel = 0.004f;  // metres that its tubes may be off
 
 glm::vec2 ground(glm::vec3 p) { return {p.x, p.y}; }
@@ -25,6 +26,11 @@ glm::vec2 ground(glm::vec3 p) { return {p.x, p.y}; }
 bool follows(const DiskInstance& next, const DiskInstance& disk) {
     return next.id.participant == disk.id.participant && next.id.index == disk.id.index + 1 &&
            std::abs(next.base.z - disk.base.z - disk.height) <= 0.01f * disk.height;
+}
+
+/// What the successor of a disk leaves free of its face, metres.
+float step_between(const DiskInstance& disk, const DiskInstance& next) {
+    return glm::length(ground(next.base - disk.base)) + std::abs(next.radius - disk.radius);
 }
 
 DiskBlock measured(const std::vector<DiskInstance>& disks, DiskBlock block) {
@@ -38,10 +44,14 @@ DiskBlock measured(const std::vector<DiskInstance>& disks, DiskBlock block) {
         max = glm::max(max, disk.base + around + glm::vec3(0, 0, disk.height));
         block.widest = std::max(block.widest, disk.radius);
         block.tallest = std::max(block.tallest, disk.height);
-        if (i + 1 == end && !block.continues) continue;
-        const DiskInstance& next = disks[i + 1];
-        const float step = glm::length(ground(next.base - disk.base)) + std::abs(next.radius - disk.radius);
-        block.widest_step = std::max(block.widest_step, step);
+    }
+    const std::size_t steps = block.continues ? block.count : block.count - 1;
+    float sum = 0;
+    for (std::size_t i = block.first; i < block.first + steps; ++i) sum += step_between(disks[i], disks[i + 1]);
+    block.longest_step = kLeap * sum / static_cast<float>(std::max<std::size_t>(steps, 1));
+    for (std::size_t i = block.first; i < block.first + steps; ++i) {
+        const float step = step_between(disks[i], disks[i + 1]);
+        if (step <= block.longest_step) block.widest_step = std::max(block.widest_step, step);
     }
     block.middle = 0.5f * (min + max);
     block.reach = 0.5f * glm::length(max - min);
@@ -165,7 +175,11 @@ const DiskLevels::Level& DiskLevels::level(int index) {
         const std::size_t limit = index == 0 ? block.first : block.continues ? end : end - 1;
         for (std::size_t first = block.first; first < end;) {
             std::size_t last = first;
-            while (last < limit && last - first < kLongest && is_straight(disks_, first, last + 1, most)) ++last;
+            while (last < limit && last - first < kLongest &&
+                   step_between(disks_[last], disks_[last + 1]) <= block.longest_step &&
+                   is_straight(disks_, first, last + 1, most)) {
+                ++last;
+            }
             if (last < first + 2) {
                 single.push_back(piece_of(disks_[first]));
                 of_single.push_back(first++);
@@ -192,8 +206,8 @@ int DiskLevels::choose(const DiskBlock& block, float pixels, const ViewProjectio
         block.widest_step * pixels * std::abs(projection.back.z) >= kWidestStep) {
         return 0;
     }
-    const float levels = 2 * std::log2(kTolerance / (pixels * kFinestLevel));
-    return levels < 0 ? 0 : std::min(1 + static_cast<int>(levels), kLevels - 1);
+    const float levels = std::round(2 * std::log2(kTolerance / (pixels * kFinestLevel)));
+    return levels < 0 ? 0 : 1 + static_cast<int>(std::min(levels, static_cast<float>(kLevels - 2)));
 }
 
 }  // namespace mobbscope

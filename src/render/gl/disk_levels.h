@@ -50,7 +50,8 @@ struct DiskBlock {
     float highest = 0;       ///< ... and of the tops
     float widest = 0;        ///< radius
     float tallest = 0;       ///< disk
-    float widest_step = 0;   ///< from a disk to its successor: what this leaves free of the face, metres
+    float longest_step = 0;  ///< tubes do not go over steps that are longer
+    float widest_step = 0;   ///< of the others: what a disk's successor leaves free of its face, metres
 };
 
 class DiskLevels {

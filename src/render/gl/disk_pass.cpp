@@ -22,6 +22,7 @@ struct Vertex {
 
 using ColorBytes = std::array<std::uint8_t, 4>;
 
+constexpr float kFlatBlock = 0.15f;       // of its distance: how far a block may reach and still have one scale
 constexpr std::size_t kMostInBatch = 32;  // blocks in one draw call: between calls the nearest come first
 
 ColorBytes bytes_of(Rgba color) {
@@ -46,7 +47,7 @@ bool behind(const DiskInstance& disk, const ViewProjection& projection) {
 
 /// Each block has as many as it needs, of a few numbers: what is far away is most of a crowd.
 int coarse_sides(float radius) {
-    constexpr std::array kSides{4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
+    constexpr std::array kSides{4, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 80, 96, 128};
     const float needed = sides_for(radius, 0.9f);
     const auto enough = std::find_if(kSides.begin(), kSides.end() - 1,
                                      [needed](int sides) { return static_cast<float>(sides) >= needed; });
@@ -191,8 +192,10 @@ std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& proj
     for (std::size_t i = 0; i < levels_->blocks().size(); ++i) {
         const DiskBlock& block = levels_->blocks()[i];
         if (!block_may_be_seen(block, projection)) continue;
-        const float depth = projection.depth(block.middle) - block.reach;
-        const float pixels = scale.at_depth(depth);
+        const float middle = projection.depth(block.middle);
+        const float depth = middle - block.reach;
+        // What is little nearer than the middle is little larger.
+        const float pixels = scale.at_depth(block.reach < kFlatBlock * middle ? middle : depth);
         const int level = DiskLevels::choose(block, pixels, projection);
         const int sides = coarse_sides(block.widest * pixels);
         const Part part = !projection.below(block.highest) ? Part::side_and_upper_face

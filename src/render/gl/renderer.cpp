@@ -69,13 +69,26 @@ struct Renderer::State {
         glViewport(0, 0, size.width, size.height);
     }
 
-    void draw_scene(const DrawList& list, Rgba ground) {
+    /// The ground and the disks: the dearest part of a picture. Where the one before had the same they are taken from
+    /// it: a time cursor moves through them. A camera that moves pays nothing for that.
+    void draw_disks(const DrawList& list, Rgba ground) {
+        const bool again = ground_and_disks && ground_and_disks->shows(list, ground);
+        if (again && kept) return targets->restore_scene();
+        kept = false;
+        ground_and_disks = GroundAndDisks{list.disks, list.projection, list.palette.background, ground};
         glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
         glClearColor(ground.r, ground.g, ground.b, 1);
         glClearDepth(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        boxes.keep(list, statistics);
         disks.draw(list, targets->samples() > 1 ? Detail::fine : Detail::coarse, statistics);
+        if (!again) return;
+        targets->keep_scene();
+        kept = true;
+    }
+
+    void draw_scene(const DrawList& list, Rgba ground) {
+        boxes.keep(list, statistics);
+        draw_disks(list, ground);
         if (FacePass::needed(list)) {
             targets->share_depth();
             glBindFramebuffer(GL_FRAMEBUFFER, targets->faces().name());
@@ -93,6 +106,7 @@ struct Renderer::State {
         if (!targets || targets->size() != list.size || targets->samples() != samples) {
             targets.reset();
             targets.emplace(list.size, samples);
+            ground_and_disks.reset();
         }
         draw_scene(list, ground);
         targets->resolve();
@@ -124,7 +138,22 @@ struct Renderer::State {
     std::string device;
     std::string version;
     bool software;
+    /// What draw_disks drew last.
+    struct GroundAndDisks {
+        SharedValues<DiskInstance> disks;
+        ViewProjection projection;
+        Rgba background{0}, ground{0};
+
+        bool shows(const DrawList& list, Rgba on) const {
+            return disks.shares_with(list.disks) && projection.clip_from_world == list.projection.clip_from_world &&
+                   projection.right == list.projection.right && projection.back == list.projection.back &&
+                   background == list.palette.background && ground == on;
+        }
+    };
+
     DrawStatistics statistics;
+    std::optional<GroundAndDisks> ground_and_disks;
+    bool kept = false;  ///< the targets have those
     BoxBuffer boxes;
     DiskPass disks;
     FacePass faces;

@@ -75,6 +75,23 @@ void Targets::resolve() const {
     if (samples_ > 1) blit(scene_, result_, size_, GL_COLOR_BUFFER_BIT);
 }
 
+void Targets::keep_scene() {
+    if (!kept_) {
+        kept_.emplace();
+        glBindFramebuffer(GL_FRAMEBUFFER, kept_->framebuffer.name());
+        attach_renderbuffer(kept_->color, GL_COLOR_ATTACHMENT0, GL_RGBA8, size_, samples_);
+        attach_renderbuffer(kept_->depth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size_, samples_);
+        require_complete("a framebuffer");
+    }
+    blit(scene_, kept_->framebuffer, size_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
+}
+
+void Targets::restore_scene() const {
+    blit(kept_->framebuffer, scene_, size_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
+}
+
 IdTarget::IdTarget(PictureSize size) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     attach_renderbuffer(ids_, GL_COLOR_ATTACHMENT0, GL_RG32UI, size, 1);

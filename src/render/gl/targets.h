@@ -4,6 +4,8 @@
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
 
+#include <optional>
+
 namespace mobbscope {
 
 /// Framebuffers of one size and number of samples. Without multisampling the scene is drawn straight into the result,
@@ -29,12 +31,22 @@ class Targets {
     /// Brings the scene into the result: averages its samples.
     void resolve() const;
 
+    /// Keeps the colours and the depth of the scene as they are now; brings them back.
+    void keep_scene();
+    void restore_scene() const;
+
   private:
     PictureSize size_;
     int samples_;
     Framebuffer scene_, faces_, result_;
     Renderbuffer scene_color_, scene_depth_, faces_depth_;
     Texture sums_, weights_, picture_;
+
+    struct Copy {
+        Framebuffer framebuffer;
+        Renderbuffer color, depth;
+    };
+    std::optional<Copy> kept_;  ///< made when first needed
 };
 
 /// The framebuffer that object ids are drawn in: no multisampling, the nearest wins.

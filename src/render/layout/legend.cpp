@@ -50,7 +50,7 @@ void add_level_colors(std::vector<LegendEntry>& entries, const DrawList& list, s
     for (int i = 0; i < count; ++i) {
         const std::size_t which =
             count < 2 ? 0 : (static_cast<std::size_t>(i) * (levels.size() - 1)) / static_cast<std::size_t>(count - 1);
-        const Rgba color = level_color(levels[which], agents, list.palette);
+        const Rgba color = level_color(levels[which], deepest_level(agents), list.palette);
         entries.push_back({LegendEntry::Mark::box, outlining(color, list.palette), with_alpha(color, 0.3f), 1.5f,
                            kSolid, "level " + std::to_string(levels[which])});
     }

@@ -129,21 +129,26 @@ void refine_crowded_boxes(DrawList& list, float scale) {
     }
 }
 
-Rgba level_color(int level, std::span<const DrawnAgent> agents, const Palette& palette) {
+int deepest_level(std::span<const DrawnAgent> agents) {
     int deepest = 1;
     for (const DrawnAgent& agent : agents) deepest = std::max(deepest, agent.placed.tree().depth() - 1);
+    return deepest;
+}
+
+Rgba level_color(int level, int deepest, const Palette& palette) {
     return quantity_color(static_cast<float>(level) / static_cast<float>(deepest), palette);
 }
 
 void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
                      float scale) {
+    const int deepest = deepest_level(agents);
     for (const DrawnAgent& agent : agents) {
         const mobb::Tree& tree = agent.placed.tree();
         const int last = last_shown_level(tree, levels);
         for (const int node : shown_nodes(tree, levels)) {
             const int level = agent.placed.node(node).level;
             const LevelStyle style = levels.leaves ? level_style(0, 0, 0) : level_style(level, levels.first, last);
-            const Rgba color = color_by == ColorBy::level ? level_color(level, agents, list.palette) : agent.color;
+            const Rgba color = color_by == ColorBy::level ? level_color(level, deepest, list.palette) : agent.color;
             BoxInstance box = node_box(agent, node, list.space);
             box.state = BoxState::level;
             box.fill = with_alpha(color, style.face);

@@ -17,8 +17,11 @@ std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
 void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
                      float scale);
 
-/// The colour of a level where boxes are coloured by it: that level's in all pictures of these trees.
-Rgba level_color(int level, std::span<const DrawnAgent> agents, const Palette& palette);
+/// The last level of the deepest of their trees, at least 1.
+int deepest_level(std::span<const DrawnAgent> agents);
+
+/// The colour of a level where boxes are coloured by it: that level's in all pictures of trees that are so deep.
+Rgba level_color(int level, int deepest, const Palette& palette);
 
 /// Makes boxes of levels finer where they are small in the picture, and fainter where many lie over one another, as
 /// they would bury what is inside. Needs the projection. `scale`: of line widths.

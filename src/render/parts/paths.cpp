@@ -1,6 +1,8 @@
 #include <mobb/predicate.h>
 #include <render/parts/paths.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -40,6 +42,14 @@ void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, 
     }
 }
 
+std::size_t color_disks(std::vector<DiskInstance>& disks, std::size_t first, const Palette& palette,
+                        const DrawnAgent& agent, const PathFocus& focus) {
+    for (; first < disks.size() && disks[first].id.participant == agent.index; ++first) {
+        disks[first].color = disk_color(palette, agent, focus, disks[first].id.index);
+    }
+    return first;
+}
+
 void add_thin_path(DrawList& list, const DrawnAgent& agent, float width) {
     const mobb::PlacedClip& clip = agent.clip();
     double widest = 0;
@@ -47,16 +57,23 @@ void add_thin_path(DrawList& list, const DrawnAgent& agent, float width) {
     const float pixels = list.projection.pixels_per_metre(glm::vec3(0));
     // 0: the scene's middle lies behind the eye, which therefore is near.
     if (pixels <= 0 || static_cast<float>(widest) * pixels > 0.7f) return;
+    const auto centre = [&](int i) {
+        const mobb::Disk disk = clip.disk(std::min(i, clip.count() - 1));
+        return list.space.point(disk.x, disk.y, clip.time(i));
+    };
+    glm::vec3 from = centre(0);
     for (int i = 0; i < clip.count(); ++i) {
-        const mobb::Disk disk = clip.disk(i);
-        const mobb::Disk next = clip.disk(std::min(i + 1, clip.count() - 1));
+        const glm::vec3 to = centre(i + 1);
+        // Pieces shorter than a pixel are not seen as such.
+        if (i + 1 < clip.count() && glm::distance(from, to) * pixels < 1) continue;
         LineInstance line;
-        line.from = list.space.point(disk.x, disk.y, clip.time(i));
-        line.to = list.space.point(next.x, next.y, clip.time(i + 1));
+        line.from = from;
+        line.to = to;
         line.color = agent.color;
         line.width = width;
         line.order = {0, 2, (static_cast<std::int64_t>(agent.index) << 32) + i};
         list.lines.push_back(line);
+        from = to;
     }
 }
 

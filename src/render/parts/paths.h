@@ -6,8 +6,10 @@
 #include <scene/drawn_agent.h>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -23,10 +25,22 @@ struct PathFocus {
     std::optional<mobb::SampleRange> range;  ///< none: all
     std::optional<int> hit;                  ///< a sample that collides
     bool behind = false;                     ///< the boxes' colours matter more: all disks step back
+
+    friend bool operator==(const PathFocus& a, const PathFocus& b) {
+        const auto range = [](const PathFocus& focus) {
+            return focus.range ? std::pair(focus.range->first, focus.range->count) : std::pair(-1, -1);
+        };
+        return range(a) == range(b) && a.hit == b.hit && a.behind == b.behind;
+    }
 };
 
 /// `together`: so many samples are drawn as one disk, which is as high as all of them.
 void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, int together = 1);
+
+/// Gives the disks from `first` on, which add_disks made of this agent, the colours of another focus. Returns where the
+/// next agent's begin.
+std::size_t color_disks(std::vector<DiskInstance>& disks, std::size_t first, const Palette& palette,
+                        const DrawnAgent& agent, const PathFocus& focus);
 
 /// The line of centres, where the disks are too small to be seen.
 void add_thin_path(DrawList& list, const DrawnAgent& agent, float width);

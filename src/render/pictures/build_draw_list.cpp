@@ -13,6 +13,7 @@
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/crowd_picture.h>
 #include <render/pictures/disk_projection.h>
+#include <render/pictures/kept_paths.h>
 #include <render/pictures/moment_picture.h>
 #include <render/pictures/picture.h>
 #include <render/query/query_boxes.h>
@@ -38,18 +39,19 @@ struct QueryAtStep {
     QueryAtStep& operator=(const QueryAtStep&) = delete;
 };
 
-void add_paths(DrawList& list, std::span<const DrawnAgent> agents, const Emphasis& emphasis,
-               const QueryProgress* progress, bool behind) {
-    for (const DrawnAgent& agent : agents) {
-        PathFocus focus;
-        focus.behind = behind;
-        if (progress) {
-            const mobb::Node& tested = agent.placed.node(agent.index == 0 ? progress->event.a : progress->event.b);
-            focus.range = mobb::SampleRange{tested.first, tested.count};
-            if (emphasis.hits) focus.hit = (*emphasis.hits)[static_cast<std::size_t>(agent.index)];
-        }
-        add_disks(list, agent, focus);
+/// What matters of each path; `behind`: all step back.
+std::vector<PathFocus> foci_of(std::span<const DrawnAgent> agents, const Emphasis& emphasis,
+                               const QueryProgress* progress, bool behind) {
+    std::vector<PathFocus> out(agents.size());
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+        out[i].behind = behind;
+        if (!progress) continue;
+        const DrawnAgent& agent = agents[i];
+        const mobb::Node& tested = agent.placed.node(agent.index == 0 ? progress->event.a : progress->event.b);
+        out[i].range = mobb::SampleRange{tested.first, tested.count};
+        if (emphasis.hits) out[i].hit = (*emphasis.hits)[static_cast<std::size_t>(agent.index)];
     }
+    return out;
 }
 
 void add_floor_and_axes(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& floor_extent,
@@ -70,12 +72,13 @@ void add_floor_and_axes(DrawList& list, std::span<const DrawnAgent> agents, cons
 /// Paths and boxes in space-time.
 class SpaceTimePicture final : public Picture {
   public:
-    SpaceTimePicture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options)
-        : Picture(fitted, view, options) {
-        const Bounds bounds = bounds_of(agents_);
+    /// `kept`: of this scene.
+    SpaceTimePicture(KeptPaths& kept, const ViewState& view, const PictureOptions& options)
+        : Picture(*kept.fitted(), view, options) {
+        const Bounds& bounds = kept.bounds(agents_, view_);
         list_.space = space_for(bounds, view_);
-        list_.space.anchor = camera_anchor(fitted, view_, view_.time.value_or(bounds.min.z));
-        if (view_.query) query_.emplace(fitted, view_);
+        list_.space.anchor = camera_anchor(fitted_, view_, view_.time.value_or(bounds.min.z));
+        if (view_.query) query_.emplace(fitted_, view_);
         emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, progress());
         if (view_.boxes && progress()) {
             add_query_boxes(list_, agents_, *progress(), pair_outline(view_), metrics_.scale);
@@ -83,13 +86,13 @@ class SpaceTimePicture final : public Picture {
         const bool levels = view_.boxes && !progress();
         if (levels) add_level_boxes(list_, agents_, view_.levels, view_.color_by, metrics_.scale);
         if (view_.disks) {
-            add_paths(list_, agents_, emphasis_, progress(), levels && view_.color_by == ColorBy::level);
+            const bool behind = levels && view_.color_by == ColorBy::level;
+            points_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, progress(), behind));
         }
         const Bounds all = with_boxes(bounds, list_);
         floor_extent_ = floor_extent_of(all.min, all.max);
         floor_extent_.t0 = bounds.min.z;
         floor_extent_.t1 = bounds.max.z;
-        points_ = ShownPoints(list_.disks);
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
         list_.middle = middle_of(points_);
         add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
@@ -143,22 +146,32 @@ void check_scale(double scale) {
                                 short_double(kLeastScale) + " to " + short_double(kMostScale));
 }
 
-/// Hands `use` what is seen of the scene: of a run the scene at the view's time, with its followed agent's choice.
-template <class Use>
-auto with_scene_at(const FittedScene& fitted, const ViewState& view, const FollowedChoice* choice, Use use) {
-    if (!is_run(fitted.scene())) return use(fitted, choice);
-    const FittedScene seen = fitted_at(fitted, view);
-    if (view.follow.empty() || !view.candidates) return use(seen, nullptr);
-    const auto own = choice_in_view(MoveSet(fitted), view);
-    return use(seen, own ? &*own : nullptr);
-}
-
-std::unique_ptr<Picture> picture_of(const FittedScene& seen, const ViewState& view, const PictureOptions& options,
+std::unique_ptr<Picture> picture_of(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                     const FollowedChoice* choice) {
+    const FittedScene& seen = *kept.fitted();
     if (view.show == Show::moment) return moment_picture(seen, view, options, choice);
     if (seen.scene().crowd) return crowd_picture(seen, view, options, choice);
     if (view.projection) return disk_projection_picture(seen, view, options);
-    return std::make_unique<SpaceTimePicture>(seen, view, options);
+    return std::make_unique<SpaceTimePicture>(kept, view, options);
+}
+
+/// Hands `use` the picture: of a run that of the scene at the view's time, with its followed agent's choice.
+template <class Use>
+auto with_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options, const FollowedChoice* choice,
+                  Use use) {
+    check_scale(options.scale);
+    const FittedScene& fitted = *kept.fitted();
+    if (!is_run(fitted.scene())) return use(*picture_of(kept, view, options, choice));
+    KeptPaths seen(std::make_shared<const FittedScene>(fitted_at(fitted, view)));
+    if (view.follow.empty() || !view.candidates) return use(*picture_of(seen, view, options, nullptr));
+    const MoveSet moves(fitted);
+    const auto own = choice_in_view(moves, view);
+    return use(*picture_of(seen, view, options, own ? &*own : nullptr));
+}
+
+/// Of a scene that outlives the picture.
+KeptPaths nothing_kept(const FittedScene& fitted) {
+    return KeptPaths(std::shared_ptr<const FittedScene>(&fitted, [](const FittedScene*) {}));
 }
 
 }  // namespace
@@ -176,17 +189,23 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
 
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
                          const FollowedChoice* choice) {
-    check_scale(options.scale);
-    return with_scene_at(fitted, view, choice, [&](const FittedScene& seen, const FollowedChoice* own) {
-        return picture_of(seen, view, options, own)->draw();
-    });
+    KeptPaths kept = nothing_kept(fitted);
+    return build_draw_list(kept, view, options, choice);
+}
+
+DrawList build_draw_list(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
+                         const FollowedChoice* choice) {
+    return with_picture(kept, view, options, choice, [](Picture& picture) { return picture.draw(); });
 }
 
 PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {
-    check_scale(scale);
-    return with_scene_at(fitted, view, nullptr, [&](const FittedScene& seen, const FollowedChoice* own) {
-        return picture_of(seen, view, {.size = size, .scale = scale}, own)->aim();
-    });
+    KeptPaths kept = nothing_kept(fitted);
+    return picture_frame(kept, view, size, scale);
+}
+
+PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize size, double scale) {
+    return with_picture(kept, view, {.size = size, .scale = scale}, nullptr,
+                        [](Picture& picture) { return picture.aim(); });
 }
 
 }  // namespace mobbscope

@@ -24,9 +24,16 @@ DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, Pictu
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
                          const FollowedChoice* choice = nullptr);
 
+class KeptPaths;  // render/pictures/kept_paths.h
+
+/// The same of the scene that they are of, with its paths where the last picture had them.
+DrawList build_draw_list(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
+                         const FollowedChoice* choice = nullptr);
+
 /// The frame of the picture that build_draw_list would make, without making it: for what moves the camera. Throws as it
 /// does.
 PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
+PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize size, double scale = 0);
 
 /// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
 std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);

@@ -1,0 +1,31 @@
+#include <render/pictures/kept_paths.h>
+
+namespace mobbscope {
+
+const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewState& view) {
+    if (!bounds_ || bounds_->first != view.query) bounds_.emplace(view.query, bounds_of(agents));
+    return bounds_->second;
+}
+
+const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
+                                           const std::vector<PathFocus>& foci) {
+    const Shapes shapes{view.query, list.space.origin, list.space.time_height};
+    const Colors colors{view.theme, foci};
+    if (shapes_ != shapes) {
+        for (std::size_t i = 0; i < agents.size(); ++i) add_disks(list, agents[i], foci[i]);
+        disks_ = list.disks;
+        points_ = ShownPoints(disks_);
+        shapes_ = shapes;
+    } else if (colors_ != colors) {
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < agents.size(); ++i) {
+            first = color_disks(disks_.edit(), first, list.palette, agents[i], foci[i]);
+        }
+        points_ = points_.of_like(disks_);
+    }
+    colors_ = colors;
+    list.disks = disks_;
+    return points_;
+}
+
+}  // namespace mobbscope

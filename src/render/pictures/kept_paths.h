@@ -1,0 +1,55 @@
+/// What pictures of one scene have in common: the disks of its paths, from whatever side and at whatever time.
+#pragma once
+
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/shown_points.h>
+#include <render/layout/framing.h>
+#include <render/parts/paths.h>
+#include <scene/fitted_scene.h>
+#include <scene/view_state.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace mobbscope {
+
+/// Keeps what the last picture in space-time had. The same pictures come out as without. Not for several threads.
+class KeptPaths {
+  public:
+    explicit KeptPaths(std::shared_ptr<const FittedScene> fitted) : fitted_(std::move(fitted)) {}
+
+    const std::shared_ptr<const FittedScene>& fitted() const { return fitted_; }
+
+    /// bounds_of the agents of a view.
+    const Bounds& bounds(std::span<const DrawnAgent> agents, const ViewState& view);
+
+    /// Sets the list's disks to those of the agents' paths, each with its focus. Needs the list's space. Returns them
+    /// as points that the picture has to show.
+    const ShownPoints& add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
+                                    const std::vector<PathFocus>& foci);
+
+  private:
+    struct Shapes {
+        std::optional<int> query;
+        glm::dvec3 origin{0};
+        double time_height = 0;
+        friend bool operator==(const Shapes&, const Shapes&) = default;
+    };
+    struct Colors {
+        Theme theme = Theme::dark;
+        std::vector<PathFocus> foci;
+        friend bool operator==(const Colors&, const Colors&) = default;
+    };
+
+    std::shared_ptr<const FittedScene> fitted_;
+    std::optional<std::pair<std::optional<int>, Bounds>> bounds_;  ///< by the view's query
+    std::optional<Shapes> shapes_;
+    Colors colors_;
+    SharedValues<DiskInstance> disks_;
+    ShownPoints points_;
+};
+
+}  // namespace mobbscope

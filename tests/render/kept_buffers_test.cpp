@@ -1,0 +1,119 @@
+// What is uploaded for a picture: nothing of the world where only the camera, the time or the step is another.
+#include <render/drawlist/camera.h>
+#include <render/pictures/build_draw_list.h>
+#include <render/pictures/kept_paths.h>
+
+#include "render/backends.h"
+#include "render/pictures.h"
+#include "render/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace mobbscope {
+namespace {
+
+using testing::kSmallSize;
+
+class KeptBuffersTest : public testing::OnEachBackend {
+  protected:
+    /// Draws the view twice, so that all that can be kept is.
+    void settle(const ViewState& view, int samples) {
+        for (int i = 0; i < 2; ++i) draw(view, samples);
+    }
+    DrawStatistics draw(const ViewState& view, int samples) {
+        renderer().paint(build_draw_list(paths_, view, {.size = kSmallSize}), samples);
+        return renderer().statistics();
+    }
+
+    KeptPaths paths_{
+        std::make_shared<const FittedScene>(testing::scene_of({{}, {{1, -1}, 90, 0.25}}, 300), mobb::FitOptions{})};
+};
+
+TEST_P(KeptBuffersTest, OrbitingUploadsNothingOfTheWorld) {
+    for (const int samples : {1, 4}) {
+        ViewState view;
+        view.camera.preset = CameraPreset::free;
+        settle(view, samples);
+        for (int i = 0; i < 24; ++i) {
+            view.camera.yaw_deg += 15;
+            view.camera.pitch_deg = -80 + 7 * i;
+            const DrawStatistics statistics = draw(view, samples);
+            EXPECT_EQ(statistics.world_bytes, 0u) << i;
+            EXPECT_GT(statistics.overlay_bytes, 0u);
+            EXPECT_GT(statistics.triangles, 100u);
+            EXPECT_LT(statistics.draw_calls, 40u);
+        }
+    }
+}
+
+TEST_P(KeptBuffersTest, ZoomingUploadsNothingOfTheWorld) {
+    ViewState view;
+    view.camera = resolved_camera(view.camera, build_draw_list(paths_, view, {.size = kSmallSize}));
+    settle(view, 1);
+    const double distance = view.camera.distance;
+    std::size_t nearest = 0;
+    for (const double factor : {0.1, 0.5, 1.0, 2.0, 10.0, 100.0}) {
+        view.camera.distance = factor * distance;
+        const DrawStatistics statistics = draw(view, 1);
+        EXPECT_EQ(statistics.world_bytes, 0u) << factor;
+        if (factor == 1.0) nearest = statistics.triangles;
+        if (factor > 1) {
+            EXPECT_LT(statistics.triangles, nearest) << "farther away";
+        }
+    }
+}
+
+TEST_P(KeptBuffersTest, ScrubbingUploadsNothingOfTheDisks) {
+    ViewState view;
+    view.time = 1;
+    settle(view, 1);
+    for (int i = 0; i < 10; ++i) {
+        *view.time += 0.1;
+        const DrawStatistics statistics = draw(view, 1);
+        EXPECT_LT(statistics.triangles, 3000u) << "disks are taken from the picture before";
+        // The plane of the cursor is a box.
+        EXPECT_LT(statistics.world_bytes, 2000u) << i;
+        EXPECT_LT(statistics.state_bytes, 2000u) << i;
+    }
+}
+
+TEST_P(KeptBuffersTest, SteppingUploadsColorsAtMost) {
+    ViewState view;
+    view.query = 0;
+    view.boxes = false;
+    for (int i = 0; i < 10; ++i) {
+        view.step = {Step::Unit::percent, 10.0 * i};
+        const DrawStatistics statistics = draw(view, 1);
+        if (i >= 2) {
+            EXPECT_LT(statistics.world_bytes, 2000u) << i;
+        }
+    }
+}
+
+/// What is kept shows what a renderer without a past would.
+TEST_P(KeptBuffersTest, WhatIsKeptIsWhatIsShown) {
+    ViewState view;
+    for (int i = 0; i < 6; ++i) {
+        if (i % 2 == 1) view.query = 0;
+        if (i % 2 == 0) view.query.reset();
+        view.step = {Step::Unit::percent, 20.0 * i};
+        view.time_height = i / 2;
+        view.time = 0.3 * i;
+        view.theme = i < 3 ? Theme::dark : Theme::light;
+        const DrawList kept = build_draw_list(paths_, view, {.size = kSmallSize});
+        const DrawList fresh = build_draw_list(*paths_.fitted(), view, {.size = kSmallSize});
+        Renderer anew(GetParam());
+        const Image first = anew.draw(fresh);
+        for (int again = 0; again < 3; ++again) EXPECT_EQ(renderer().draw(kept).rgba, first.rgba) << i;
+        for (int again = 0; again < 3; ++again) {
+            EXPECT_EQ(renderer().draw(kept, 1).rgba, anew.draw(fresh, 1).rgba) << i;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, KeptBuffersTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
+
+}  // namespace
+}  // namespace mobbscope
