@@ -76,7 +76,7 @@ void History::change_view(const ViewState& view) {
         states_[now_].document.view = view;
         return;
     }
-    append({{now().fitted, view, now().origin}, {title, ""}, true, 0});
+    append({{now().fitted, view, now().excerpt_of}, {title, ""}, true, 0});
     open_ = false;
 }
 

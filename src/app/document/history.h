@@ -12,8 +12,8 @@
 
 namespace mobbscope::app {
 
-/// Where an excerpt was taken from: two paths of a run or a crowd, opened as a scene of their own.
-struct Origin {
+/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
+struct ExcerptSource {
     std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
     ViewState view;                             ///< of the whole, when it was left
     std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
@@ -24,7 +24,7 @@ struct Origin {
 struct Document {
     std::shared_ptr<const FittedScene> fitted;  ///< never null
     ViewState view;
-    std::shared_ptr<const Origin> origin{};  ///< of an excerpt; else null
+    std::shared_ptr<const ExcerptSource> excerpt_of{};  ///< of an excerpt; else null
 };
 
 /// Groups what belongs together: one drag, one number typed.

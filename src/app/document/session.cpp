@@ -100,7 +100,7 @@ void Session::edit(const EditName& name, const std::function<void(Scene&)>& chan
 
 /// The present excerpt stays one.
 void Session::change_document(Document next, const EditName& name) {
-    next.origin = document().origin;
+    next.excerpt_of = document().excerpt_of;
     // A node of a tree that was fitted anew is another one, or none.
     if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
     history_.change(std::move(next), name);
@@ -250,9 +250,9 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
     excerpt.view.theme = view().theme;
     excerpt.view.query = 0;
     Document next = document_of(std::move(excerpt), document().fitted.get());
-    const std::shared_ptr<const Origin> before = document().origin;
-    next.origin = std::make_shared<const Origin>(
-        Origin{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
+    const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
+    next.excerpt_of = std::make_shared<const ExcerptSource>(
+        ExcerptSource{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
     stop();
     selection = {};
     hovered = {};
@@ -263,7 +263,7 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
 
 void Session::leave_excerpt() {
     require_no_job();
-    const std::shared_ptr<const Origin> origin = document().origin;
+    const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
     stop();
     selection = {};
     hovered = {};
@@ -274,7 +274,7 @@ void Session::leave_excerpt() {
 // --- files
 
 bool Session::modified() const {
-    const std::shared_ptr<const Origin>& origin = document().origin;
+    const std::shared_ptr<const ExcerptSource>& origin = document().excerpt_of;
     if (!origin) return document().fitted != saved_;
     return origin->fitted != saved_ || document().fitted != origin->saved;
 }
@@ -291,7 +291,7 @@ std::string Session::title() const {
 
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
     document.view = fitting(document.view, *document.fitted);
-    document.origin = nullptr;
+    document.excerpt_of = nullptr;
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
     opened_ = opened;
@@ -387,7 +387,8 @@ void Session::save_as(const std::filesystem::path& file) {
     if (in_excerpt()) {
         // The whole stays what is open; the excerpt has a file of its own.
         Document now = document();
-        now.origin = std::make_shared<const Origin>(Origin{now.origin->fitted, now.origin->view, now.fitted});
+        now.excerpt_of = std::make_shared<const ExcerptSource>(
+            ExcerptSource{now.excerpt_of->fitted, now.excerpt_of->view, now.fitted});
         history_.amend(std::move(now));
     } else {
         // The document is the file's now: messages and further sources refer to it.
