@@ -1,6 +1,8 @@
 #include <base/text.h>
 #include <scene/view_state.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -12,6 +14,18 @@ constexpr int kMaxLevel = 1000;  // far beyond the depth of any tree: halving 2^
 std::optional<int> level(std::string_view text) {
     const std::optional<int> value = parse_int(text);
     return value && *value >= 0 && *value <= kMaxLevel ? value : std::nullopt;
+}
+
+// In the order of their enumerations.
+constexpr std::array<std::string_view, 5> kPresets{"iso", "top", "front", "side", "free"};
+constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};
+constexpr std::array<std::string_view, 2> kColorings{"agent", "level"};
+constexpr std::array<std::string_view, 2> kShows{"space-time", "moment"};
+
+template <class E, std::size_t count>
+std::optional<E> named(const std::array<std::string_view, count>& names, std::string_view text) {
+    const auto at = std::ranges::find(names, text);
+    return at == names.end() ? std::nullopt : std::optional(static_cast<E>(at - names.begin()));
 }
 
 }  // namespace
@@ -61,52 +75,16 @@ std::string to_string(const Step& step) {
     return "end";
 }
 
-std::optional<CameraPreset> camera_preset(const std::string& name) {
-    for (const CameraPreset preset :
-         {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side, CameraPreset::free}) {
-        if (name == mobbscope::name(preset)) return preset;
-    }
-    return std::nullopt;
-}
+std::optional<CameraPreset> camera_preset(const std::string& name) { return named<CameraPreset>(kPresets, name); }
+std::string_view name(CameraPreset preset) { return kPresets[static_cast<std::size_t>(preset)]; }
 
-std::string_view name(CameraPreset preset) {
-    switch (preset) {
-        case CameraPreset::iso:
-            return "iso";
-        case CameraPreset::top:
-            return "top";
-        case CameraPreset::front:
-            return "front";
-        case CameraPreset::side:
-            return "side";
-        case CameraPreset::free:
-            return "free";
-    }
-    return "";
-}
+std::optional<Theme> theme_from_name(std::string_view text) { return named<Theme>(kThemes, text); }
+std::string_view name(Theme theme) { return kThemes[static_cast<std::size_t>(theme)]; }
 
-std::string_view name(Theme theme) { return theme == Theme::dark ? "dark" : "light"; }
+std::optional<ColorBy> color_by_from_name(std::string_view text) { return named<ColorBy>(kColorings, text); }
+std::string_view name(ColorBy color_by) { return kColorings[static_cast<std::size_t>(color_by)]; }
 
-std::optional<Theme> theme_from_name(std::string_view text) {
-    if (text == "dark") return Theme::dark;
-    if (text == "light") return Theme::light;
-    return std::nullopt;
-}
-
-std::string_view name(ColorBy color_by) { return color_by == ColorBy::agent ? "agent" : "level"; }
-
-std::optional<ColorBy> color_by_from_name(std::string_view text) {
-    if (text == "agent") return ColorBy::agent;
-    if (text == "level") return ColorBy::level;
-    return std::nullopt;
-}
-
-std::string_view name(Show show) { return show == Show::space_time ? "space-time" : "moment"; }
-
-std::optional<Show> show_from_name(std::string_view text) {
-    if (text == "space-time") return Show::space_time;
-    if (text == "moment") return Show::moment;
-    return std::nullopt;
-}
+std::optional<Show> show_from_name(std::string_view text) { return named<Show>(kShows, text); }
+std::string_view name(Show show) { return kShows[static_cast<std::size_t>(show)]; }
 
 }  // namespace mobbscope

@@ -1,6 +1,6 @@
 // A run in the session: its time, following, choices, conflicts, and two of it opened as a scene.
 #include <app/commands/command.h>
-#include <app/document/run_agents.h>
+#include <app/document/agents.h>
 #include <base/error.h>
 #include <base/file.h>
 #include <mobb/predicate.h>
@@ -59,12 +59,12 @@ TEST_F(CrowdTest, OpensInItsMiddle) {
 }
 
 TEST_F(CrowdTest, APersonStaysSelectedWhileTimeRuns) {
-    select_in_crowd(session, session.crowd()->agents[5].name);
+    select_agent_named(session, session.crowd()->agents[5].name);
     for (double time = 0; time < 20; time += 0.7) {
         run("time.at", std::to_string(time));
         ASSERT_EQ(session.selection.kind, Selection::Kind::path);
         EXPECT_EQ(session.fitted().scene().agents[5].run_agent, 5);
-        EXPECT_EQ(agent_in_question(session), session.crowd()->agents[5].name);
+        EXPECT_EQ(current_agent(session), session.crowd()->agents[5].name);
     }
 }
 
@@ -95,7 +95,7 @@ TEST_F(CrowdTest, FollowingMovesTheCameraAlongAndStoppingLeavesIt) {
 }
 
 TEST_F(CrowdTest, WhatIsPlayedIsNotEdited) {
-    select_in_crowd(session, session.crowd()->agents[1].name);
+    select_agent_named(session, session.crowd()->agents[1].name);
     for (const char* id : {"agent.remove", "agent.duplicate"}) EXPECT_THROW(run(id), std::invalid_argument) << id;
     EXPECT_THROW(run("agent.move", "1 2"), std::invalid_argument);
     EXPECT_THROW(run("agent.add", "ahead"), std::invalid_argument);
@@ -148,7 +148,7 @@ TEST_F(CrowdTest, BothWaysLeadBackFromTwoToAll) {
     const ViewState before = session.view();
     run("view.moment");
     const std::string other = session.crowd()->agents[4].name;
-    select_in_crowd(session, session.crowd()->agents[3].name);
+    select_agent_named(session, session.crowd()->agents[3].name);
     run("crowd.open_pair", other);
     ASSERT_TRUE(session.in_excerpt());
     EXPECT_FALSE(session.modified()) << "nothing was changed yet";
@@ -167,9 +167,9 @@ TEST_F(CrowdTest, BothWaysLeadBackFromTwoToAll) {
 }
 
 TEST_F(CrowdTest, AnExcerptIsSavedBesideTheRunAndNeverOverIt) {
-    select_in_crowd(session, session.crowd()->agents[3].name);
+    select_agent_named(session, session.crowd()->agents[3].name);
     run("crowd.open_pair", session.crowd()->agents[4].name);
-    select_in_crowd(session, session.scene().agents[0].name);
+    select_agent_named(session, session.scene().agents[0].name);
     run("agent.move", "1 2");
     EXPECT_TRUE(session.modified());
     EXPECT_THROW(session.save_as(file), InputError);
@@ -193,7 +193,7 @@ TEST_F(CrowdTest, AConflictIsSeenJustBeforeItHappens) {
     const SceneConflict first = session.conflicts()->front();
     EXPECT_NEAR(*session.view().time, std::max(0.0, first.begin() - 0.5), 1e-12);
     EXPECT_EQ(session.view().follow, first.a.name);
-    EXPECT_EQ(agent_in_question(session), first.a.name);
+    EXPECT_EQ(current_agent(session), first.a.name);
     run("conflicts.open");
     ASSERT_TRUE(session.in_excerpt());
     ASSERT_TRUE(session.recorded()->contact);

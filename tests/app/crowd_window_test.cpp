@@ -1,5 +1,5 @@
 // A run in the window, by keys and clicks: who is followed stays in the picture, and buttons do what they say.
-#include <app/document/run_agents.h>
+#include <app/document/agents.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 #include <render/image/png.h>
@@ -72,7 +72,7 @@ struct CrowdWindow {
         const DrawList shown = list();
         ViewState of = session.view();
         of.follow = name(agent);
-        const double time = run_or_cursor_time(session);
+        const double time = shown_time(session);
         const glm::dvec2 at = *followed_place(session.fitted(), of, time);
         const auto pixel = shown.projection.project(shown.space.point(at.x, at.y, shown.moment ? 0.9 : time));
         if (!pixel) return glm::vec2(1e9f);

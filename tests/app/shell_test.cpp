@@ -1,8 +1,7 @@
 // The window without its frame, on every backend.
 #include <app/script/script.h>
 #include <app/window/headless_window.h>
-#include <app/window/ui_pass.h>
-#include <app/window/window_target.h>
+#include <app/window/window_gl.h>
 #include <base/error.h>
 #include <render/gl/renderer.h>
 #include <render/image/png.h>

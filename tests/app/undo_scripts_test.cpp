@@ -36,7 +36,7 @@ std::string as_json(const Document& document) {
     Scene scene = document.fitted->scene();
     scene.view = document.view;
     std::string text = to_json(scene);
-    if (document.origin) text += as_json({document.origin->fitted, document.origin->view});
+    if (document.excerpt_of) text += as_json({document.excerpt_of->fitted, document.excerpt_of->view});
     return text;
 }
 

@@ -1,5 +1,5 @@
 #include <app/commands/camera_commands.h>
-#include <app/document/run_agents.h>
+#include <app/document/agents.h>
 #include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
@@ -82,13 +82,13 @@ bool follows(const Session& session) { return !session.view().follow.empty(); }
 
 void follow_agent(Session& session, const std::string& name, double metres) {
     if (!can_follow(session.scene(), name)) {
-        std::vector<std::string> names = names_in_crowd(session);
+        std::vector<std::string> names = agent_names(session);
         throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
     }
     session.candidate = -1;
     session.change_view([&](ViewState& view) { view.follow = name; });
     frame_followed(session, metres);
-    select_in_crowd(session, name);
+    select_agent_named(session, name);
 }
 
 void frame_followed(Session& session, double metres) {

@@ -1,7 +1,7 @@
 #include <app/commands/arguments.h>
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
-#include <app/document/run_agents.h>
+#include <app/document/agents.h>
 #include <base/text.h>
 #include <render/layout/follow.h>
 #include <render/pictures/candidates.h>
@@ -24,7 +24,7 @@ constexpr double kBefore = 0.5;  // seconds before a conflict
 
 void stop_following(Session& session, const std::string&) {
     session.candidate = -1;
-    const double time = run_or_cursor_time(session);
+    const double time = shown_time(session);
     const glm::dvec3 anchor = camera_anchor(session.fitted(), session.view(), time);
     session.change_view([&](ViewState& view) {
         view.follow.clear();
@@ -35,7 +35,7 @@ void stop_following(Session& session, const std::string&) {
 
 void follow(Session& session, const std::string& name) {
     if (!name.empty()) return follow_agent(session, name, kAroundFollowed);
-    const std::string who = agent_in_question(session);
+    const std::string who = current_agent(session);
     if (who.empty()) return session.tell(Message::Level::info, "Click somebody first to follow them");
     if (who == session.view().follow) return stop_following(session, "");
     follow_agent(session, who, kAroundFollowed);
@@ -44,7 +44,7 @@ void follow(Session& session, const std::string& name) {
 // --- plays and choices
 
 const CrowdAgent* followed(const Session& session) {
-    const auto run_agent = run_agent_in_question(session);
+    const auto run_agent = current_run_agent(session);
     return run_agent ? &session.crowd()->agents[static_cast<std::size_t>(*run_agent)] : nullptr;
 }
 
@@ -170,11 +170,10 @@ void open_conflict(Session& session, const std::string& text) {
 }
 
 void open_pair(Session& session, const std::string& name) {
-    const auto path = path_in_question(session);
-    const auto other = path_in_crowd(session, name);
+    const auto path = current_path(session);
+    const auto other = path_of_agent(session, name);
     if (!other) {
-        throw std::invalid_argument("there is no agent " + in_quotes(name) +
-                                    did_you_mean(name, names_in_crowd(session)));
+        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, agent_names(session)));
     }
     if (other->name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
     session.open_excerpt(*path, *other);
@@ -249,7 +248,7 @@ std::span<const Command> crowd_commands() {
          .menu = "Go/Crowd",
          .argument = "AGENT",
          .doc = "Opens what the selected agent and another walk now as a scene with the query between them.",
-         .enabled = [](const Session& session) { return session.is_crowd() && path_in_question(session).has_value(); },
+         .enabled = [](const Session& session) { return session.is_crowd() && current_path(session).has_value(); },
          .run = open_pair},
         {.id = "conflicts.find",
          .title = "Find conflicts",

@@ -1,6 +1,6 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
-#include <app/commands/selected_agent.h>
+#include <app/document/agents.h>
 #include <base/text.h>
 #include <render/parts/node_boxes.h>
 

@@ -1,6 +1,6 @@
 #include <app/commands/arguments.h>
 #include <app/commands/palette_entries.h>
-#include <app/commands/selected_agent.h>
+#include <app/document/agents.h>
 
 #include <algorithm>
 #include <cctype>

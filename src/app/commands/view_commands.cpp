@@ -1,7 +1,7 @@
 #include <app/commands/arguments.h>
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
-#include <app/document/run_agents.h>
+#include <app/document/agents.h>
 #include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/view_projection.h>
@@ -58,25 +58,26 @@ void frame_all(Session& session, const std::string&) {
     session.change_view([](ViewState& view) { frame_by_itself(view.camera); });
 }
 
-/// Whether it is somebody that is selected, and not a part of what they walk; at a moment they stand where a sample is.
-bool is_somebody(const Session& session) {
+/// Whether an agent is selected, and no part of its path; in the picture of a moment an agent stands where a sample is.
+bool is_agent_selected(const Session& session) {
     const Selection& selected = session.selection;
     if (!selected.on_path() || selected.path.participant < 0) return false;
     return selected.kind == Selection::Kind::path ||
            (selected.kind == Selection::Kind::sample && session.view().show == Show::moment);
 }
 
-/// Going along with one, no other stays in the picture: who is selected then is followed instead.
-void frame_somebody_along(Session& session) {
-    const std::string who = agent_in_question(session);
+/// Frames the selected agent while the camera follows one: it follows the selected one from now on, as nobody else
+/// stays in its picture.
+void frame_selected_agent(Session& session) {
+    const std::string who = current_agent(session);
     if (who == session.view().follow) return frame_followed(session, kAroundFollowed);
     follow_agent(session, who, kAroundFollowed);
 }
 
 void frame_selection(Session& session, const std::string& none) {
     const Selection selected = session.selection;
-    if (follows(session) && (selected.kind == Selection::Kind::none || is_somebody(session))) {
-        return frame_somebody_along(session);
+    if (follows(session) && (selected.kind == Selection::Kind::none || is_agent_selected(session))) {
+        return frame_selected_agent(session);
     }
     const std::optional<Bounds> box = box_of(session, selected);
     if (!box) return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session, none);

@@ -12,8 +12,8 @@
 
 namespace mobbscope::app {
 
-/// Where an excerpt was taken from: two paths of a run or a crowd, opened as a scene of their own.
-struct Origin {
+/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
+struct ExcerptSource {
     std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
     ViewState view;                             ///< of the whole, when it was left
     std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
@@ -29,12 +29,12 @@ struct SceneView {
 /// it. All views are of one scene and one time. Values: a state once reached can be returned to at no cost, as the
 /// scene is immutable and shared.
 struct Document {
-    std::shared_ptr<const FittedScene> fitted;  ///< with the active view's fit in use; never null
-    ViewState view;                             ///< the active one
-    std::shared_ptr<const Origin> origin{};     ///< of an excerpt; else null
-    std::vector<SceneView> beside{};            ///< the other views, from left to right
-    std::size_t place = 0;                      ///< how many of them stand to the left of the active one
-    bool linked_cameras = true;                 ///< all views have one camera
+    std::shared_ptr<const FittedScene> fitted;          ///< with the active view's fit in use; never null
+    ViewState view;                                     ///< the active one
+    std::shared_ptr<const ExcerptSource> excerpt_of{};  ///< of an excerpt; else null
+    std::vector<SceneView> beside{};                    ///< the other views, from left to right
+    std::size_t place = 0;                              ///< how many of them stand to the left of the active one
+    bool linked_cameras = true;                         ///< all views have one camera
 };
 
 /// Groups what belongs together: one drag, one number typed.

@@ -8,10 +8,10 @@
 
 namespace mobbscope::app {
 
-/// A path that is seen: an agent, or in a scene without agents a clip, or one side of a query that places a clip
-/// itself.
+/// An agent that can be selected. In a scene without agents each clip counts as one, and so does a side of a query that
+/// places a clip by itself.
 struct AgentRef {
-    int participant = -1;  ///< index into FittedScene::participants(), or -1:
+    int participant = -1;  ///< index into FittedScene::placed_agents(), or -1:
     int query = -1;        ///< then the side of this query
     int side = 0;          ///< 0 a, 1 b
     friend bool operator==(const AgentRef&, const AgentRef&) = default;
@@ -20,19 +20,19 @@ struct AgentRef {
 struct Selection {
     enum class Kind { none, path, node, sample, clip, query };
     Kind kind = Kind::none;
-    AgentRef path;   ///< of a path, node or sample
+    AgentRef path;   ///< of an agent (Kind::path), or the agent of a node or sample
     int index = -1;  ///< node, sample, clip or query
     friend bool operator==(const Selection&, const Selection&) = default;
 
     bool on_path() const { return kind == Kind::path || kind == Kind::node || kind == Kind::sample; }
 };
 
-/// The path that ObjectId::participant means in a picture of `view`.
+/// The agent that ObjectId::participant means in a picture of `view`.
 AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int participant);
 /// ... and back: its index in the picture's participants; none if it is not in the picture.
 std::optional<int> index_in_view(const FittedScene& fitted, const ViewState& view, const AgentRef& path);
 
-/// Who it is and where; none if there is no such path (any more).
+/// Its clip and placement; none if there is no such agent (any more).
 std::optional<PlacedAgent> placed_agent_of(const FittedScene& fitted, const AgentRef& path);
 
 /// Whether the scene has it.

@@ -378,9 +378,9 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
     excerpt.view.theme = view().theme;
     excerpt.view.query = 0;
     Document next = document_of(std::move(excerpt), document().fitted.get());
-    const std::shared_ptr<const Origin> before = document().origin;
-    next.origin = std::make_shared<const Origin>(
-        Origin{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
+    const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
+    next.excerpt_of = std::make_shared<const ExcerptSource>(
+        ExcerptSource{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
     stop();
     selection = {};
     hovered = {};
@@ -391,7 +391,7 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
 
 void Session::leave_excerpt() {
     require_no_job();
-    const std::shared_ptr<const Origin> origin = document().origin;
+    const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
     stop();
     selection = {};
     hovered = {};
@@ -404,7 +404,7 @@ void Session::leave_excerpt() {
 bool Session::modified() const {
     // Views of one scene share it, whichever fit they use.
     const auto differ = [](const auto& a, const auto& b) { return &a->scene() != &b->scene(); };
-    const std::shared_ptr<const Origin>& origin = document().origin;
+    const std::shared_ptr<const ExcerptSource>& origin = document().excerpt_of;
     if (!origin) return differ(document().fitted, saved_);
     return differ(origin->fitted, saved_) || differ(document().fitted, origin->saved);
 }
@@ -422,7 +422,7 @@ std::string Session::title() const {
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
     jobs_.clear();
     document.view = fitting(document.view, *document.fitted);
-    document.origin = nullptr;
+    document.excerpt_of = nullptr;
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
     opened_ = opened;
@@ -525,7 +525,8 @@ void Session::save_as(const std::filesystem::path& file) {
     if (in_excerpt()) {
         // The whole stays what is open; the excerpt has a file of its own.
         Document now = document();
-        now.origin = std::make_shared<const Origin>(Origin{now.origin->fitted, now.origin->view, now.fitted});
+        now.excerpt_of = std::make_shared<const ExcerptSource>(
+            ExcerptSource{now.excerpt_of->fitted, now.excerpt_of->view, now.fitted});
         history_.amend(std::move(now));
     } else {
         // The document is the file's now: messages and further sources refer to it.

@@ -151,7 +151,7 @@ class Session {
     /// Opens two paths as a scene of their own, with the query between them. Undo leads back, and so does
     /// leave_excerpt.
     void open_excerpt(const PlacedAgent& a, const PlacedAgent& b);
-    bool in_excerpt() const { return document().origin != nullptr; }
+    bool in_excerpt() const { return document().excerpt_of != nullptr; }
     void leave_excerpt();
 
     // What is pointed at.

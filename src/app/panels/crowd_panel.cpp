@@ -1,5 +1,5 @@
 #include <app/commands/command.h>
-#include <app/document/run_agents.h>
+#include <app/document/agents.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 #include <render/pictures/candidates.h>
@@ -27,7 +27,7 @@ std::string at_time(double time) {
 void following(Ui& ui) {
     const Session& session = ui.session;
     const std::string& followed = session.view().follow;
-    const std::string who = agent_in_question(session);
+    const std::string who = current_agent(session);
     if (who.empty()) {
         words(ui.style.quiet, "Click somebody to follow them.");
         return;
@@ -124,7 +124,7 @@ void last_choice_list(Ui& ui) {
 
 void plays(Ui& ui) {
     Session& session = ui.session;
-    const auto run_agent = run_agent_in_question(session);
+    const auto run_agent = current_run_agent(session);
     if (!run_agent) return;
     const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(*run_agent)];
     const std::size_t now = play_at(agent, run_time(session.scene(), session.view()));

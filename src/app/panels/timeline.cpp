@@ -1,5 +1,5 @@
 #include <app/commands/command.h>
-#include <app/document/run_agents.h>
+#include <app/document/agents.h>
 #include <app/panels/panels.h>
 #include <app/panels/query_parts.h>
 #include <app/ui/widgets.h>
@@ -47,7 +47,7 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(dou
         const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
         return session.scene().clips[static_cast<std::size_t>(move.clip)].clip->duration();
     };
-    if (const auto run_agent = run_agent_in_question(session)) {
+    if (const auto run_agent = current_run_agent(session)) {
         PlacedAgent who;
         const Rgba own = agent_color(session.fitted().scene(), who, *run_agent);
         const float gap = ui.px(1);

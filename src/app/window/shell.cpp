@@ -2,8 +2,7 @@
 #include <app/input/input_queue.h>
 #include <app/panels/panels.h>
 #include <app/window/shell.h>
-#include <app/window/ui_pass.h>
-#include <app/window/window_target.h>
+#include <app/window/window_gl.h>
 #include <base/file.h>
 #include <render/gl/renderer.h>
 #include <render/image/png.h>

@@ -1,14 +1,17 @@
-/// The agent that commands edit: the selected one, or the one whose node or sample is selected.
+/// Agents by name and by selection: which one commands edit, and which one the panels of a crowd are about.
 #pragma once
 
 #include <app/document/session.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
+
+// The agent that commands edit: the selected one, or the one whose node or sample is selected.
 
 /// Whether an agent is selected; in a scene without agents a clip that is seen counts as one, as an edit makes it one.
 bool has_selected_agent(const Session& session);
@@ -32,5 +35,30 @@ std::vector<std::string> path_names(const Session& session);
 
 /// The index of a path among them. Throws std::invalid_argument, with the nearest name, if there is none.
 int path_by_name(const Session& session, const std::string& name);
+
+// The current agent: the selected one, else the one that the view follows.
+
+/// Its name; empty if there is none.
+std::string current_agent(const Session& session);
+
+/// Its index in CrowdRun::agents; none without a run, or if no agent is current.
+std::optional<int> current_run_agent(const Session& session);
+
+/// Its clip and placement at the view's time.
+std::optional<PlacedAgent> current_path(const Session& session);
+
+/// The clip and placement of an agent at the view's time; none if no agent has that name.
+std::optional<PlacedAgent> path_of_agent(const Session& session, const std::string& name);
+
+/// The names of all agents of a run, or of a scene.
+std::vector<std::string> agent_names(const Session& session);
+
+void select_agent_named(Session& session, const std::string& name);
+
+/// The time that the picture shows, seconds; without a time cursor the begin of the first path.
+double shown_time(const Session& session);
+
+/// Whether there are two agents that could collide.
+bool can_conflict(const Session& session);
 
 }  // namespace mobbscope::app

@@ -1,12 +1,35 @@
-/// The window's own framebuffer, and copies of pictures for its panels. All need a current context, also when they are
-/// destroyed.
+/// The window in OpenGL: its framebuffer, copies of pictures for its panels, and what Dear ImGui made of a frame. All
+/// need a current context, also when they are destroyed.
 #pragma once
 
 #include <render/drawlist/palette.h>
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
 
+#include <imgui.h>
+
 namespace mobbscope::app {
+
+/// The texture as Dear ImGui hands it around.
+ImTextureID texture_id(const Texture& texture);
+
+/// Draws what Dear ImGui made of a frame. Its stock renderer loads libGL by itself, which does not reach every context.
+class UiPass {
+  public:
+    explicit UiPass(GlContext& context);
+
+    /// Uploads the glyphs; again when they were made anew.
+    void upload(ImFontAtlas& fonts);
+
+    /// Into the framebuffer that is bound, whose size in pixels is given; what is there is opaque and stays so.
+    void draw(const ImDrawData& data, PictureSize size);
+
+  private:
+    ShaderProgram textured_, plain_;
+    VertexArray array_;
+    Buffer vertices_, indices_;
+    Texture glyphs_;
+};
 
 /// Opaque RGBA8 without multisampling: panels bring their smooth edges along.
 class WindowTarget {

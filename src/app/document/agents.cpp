@@ -1,0 +1,120 @@
+#include <app/document/agents.h>
+#include <base/text.h>
+#include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
+#include <scene/scene_edits.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// Of a run the first participants are its people.
+std::optional<int> participant_named(const Session& session, const std::string& name) {
+    if (session.crowd()) return run_agent_by_name(*session.crowd(), name);
+    const auto& all = session.fitted().placed_agents();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const PlacedAgent& who) { return who.name == name; });
+    if (at == all.end()) return std::nullopt;
+    return static_cast<int>(at - all.begin());
+}
+
+}  // namespace
+
+bool has_selected_agent(const Session& session) {
+    // What a run's agents play is the simulation's.
+    return !session.crowd() && session.selection.on_path() && session.selection.path.participant >= 0;
+}
+
+std::string_view why_no_agent(const Session& session) {
+    if (session.crowd()) return "a run is not edited";
+    return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
+}
+
+int selected_agent(const Session& session) { return session.selection.path.participant; }
+
+std::string selected_agent_name(const Session& session) {
+    return placed_agent_of(session.fitted(), session.selection.path)->name;
+}
+
+void edit_selected_agent(Session& session, const std::string& doing,
+                         const std::function<void(Scene&, int agent)>& change) {
+    const int agent = selected_agent(session);
+    session.edit({doing + ' ' + selected_agent_name(session), ""}, [&](Scene& scene) {
+        add_agents_for_clips(scene);
+        change(scene, agent);
+    });
+}
+
+std::vector<std::string> clip_names(const Session& session) {
+    std::vector<std::string> out;
+    for (const SceneClip& clip : session.scene().clips) out.push_back(clip.name);
+    return out;
+}
+
+std::vector<std::string> path_names(const Session& session) {
+    std::vector<std::string> out;
+    for (const PlacedAgent& participant : session.fitted().placed_agents()) out.push_back(participant.name);
+    return out;
+}
+
+int path_by_name(const Session& session, const std::string& name) {
+    const std::vector<std::string> names = path_names(session);
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) {
+        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
+    }
+    return static_cast<int>(at - names.begin());
+}
+
+std::string current_agent(const Session& session) {
+    if (session.selection.on_path() && session.selection.path.participant >= 0) {
+        const auto index = static_cast<std::size_t>(session.selection.path.participant);
+        if (!session.crowd()) return session.fitted().placed_agents()[index].name;
+        const int run_agent = session.fitted().scene().agents[index].run_agent;
+        return session.crowd()->agents[static_cast<std::size_t>(run_agent)].name;
+    }
+    return session.view().follow;
+}
+
+std::optional<int> current_run_agent(const Session& session) {
+    if (!session.crowd()) return std::nullopt;
+    return run_agent_by_name(*session.crowd(), current_agent(session));
+}
+
+std::optional<PlacedAgent> current_path(const Session& session) {
+    return path_of_agent(session, current_agent(session));
+}
+
+std::optional<PlacedAgent> path_of_agent(const Session& session, const std::string& name) {
+    const auto index = participant_named(session, name);
+    if (!index) return std::nullopt;
+    return session.fitted().placed_agents()[static_cast<std::size_t>(*index)];
+}
+
+std::vector<std::string> agent_names(const Session& session) {
+    std::vector<std::string> out;
+    if (session.crowd()) {
+        for (const CrowdAgent& agent : session.crowd()->agents) out.push_back(agent.name);
+    } else {
+        for (const PlacedAgent& who : session.fitted().placed_agents()) out.push_back(who.name);
+    }
+    return out;
+}
+
+void select_agent_named(Session& session, const std::string& name) {
+    if (const auto index = participant_named(session, name))
+        session.select({Selection::Kind::path, {*index, -1, 0}, -1});
+}
+
+double shown_time(const Session& session) {
+    if (session.crowd()) return run_time(session.scene(), session.view());
+    return session.view().time.value_or(session.time_span().t0);
+}
+
+bool can_conflict(const Session& session) {
+    return (session.crowd() ? session.crowd()->agents.size() : session.fitted().placed_agents().size()) > 1;
+}
+
+}  // namespace mobbscope::app
