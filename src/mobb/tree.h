@@ -25,7 +25,7 @@ struct FitOptions {
 /// Largest time_scale taken (m/s); the smallest is its inverse.
 inline constexpr double kMaxTimeScale = 1e6;
 
-/// As in files and on the command line: "mobb", "umobb", "hybrid1", "hybrid2", "moving", "aabb".
+/// As in files and on the command line; mobb/kinds.h has them.
 std::string_view name(TreeKind kind);
 std::optional<TreeKind> tree_kind_from_name(std::string_view name);
 std::span<const std::string_view> tree_kind_names();

@@ -24,8 +24,8 @@ void change_sides(Scene& scene, int agent, const Change& change) {
     }
 }
 
-/// Where all pairs are asked the numbers of queries change with the agents. Made before they do, its `restore` shows
-/// the two that were shown again, or no query if one of them is gone.
+/// Keeps the query in the view while agents change: where all pairs of agents are queries, their indices change too. It
+/// is made before the change; `restore` then shows the same pair again, or no query if one of the two is gone.
 class PairInView {
   public:
     explicit PairInView(const Scene& scene) {

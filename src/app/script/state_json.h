@@ -7,7 +7,7 @@
 ///
 /// `scene` is as in scene files, but clips say their number of `samples` and queries have no traces; `view` is as in
 /// scene files, so what is as always is left out. `query` is what is asked in the view: {"index", "a", "b", "collides",
-/// "contact_time", "step", "steps", "tests": {"time", "obb2d", "obb3d", "moving", "aabb", "samples"}, "outcome",
+/// "contact_time", "step", "steps", "tests": one count for each kind of test, "outcome",
 /// "sentence"}, the last two of the step. `undo` and `redo` are titles.
 #pragma once
 

@@ -19,7 +19,8 @@ enum class Origin { keep, start, start_heading };
 inline constexpr double kDefaultFps = 30;
 
 /// How a file becomes clips: the import keys of a scene's clip and the import options of the command line.
-/// An empty option takes the default of the contract, section 2; see `applicable` in import/import.h for those that mean nothing for a format.
+/// An empty option takes the default of the contract, section 2. `applicable` (import/import.h) tells which options
+/// mean nothing for a format.
 struct ImportOptions {
     std::optional<std::string> animation;           ///< index (from 0) or name; a number counts as an index
     std::optional<std::string> root;                ///< joint name
