@@ -117,7 +117,7 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
 }
 
 /// The colours alone, where the shapes are those of before.
-void DiskPass::keep(const DrawList& list, DrawStatistics&) {
+void DiskPass::keep(const DrawList& list) {
     const bool same = levels_ && list.disks.shares_with(kept_);
     kept_ = list.disks;
     if (same) {
@@ -142,19 +142,41 @@ void DiskPass::keep(const DrawList& list, DrawStatistics&) {
     std::for_each(coarse_.begin(), coarse_.end(), forget);
 }
 
-/// `sources`: the disks that have the pieces' colours; null: each its own.
-void DiskPass::store(Stored& stored, const std::vector<DiskPiece>& pieces, const std::vector<std::size_t>* sources,
-                     DrawStatistics& statistics) const {
-    if (!stored.has_pieces) statistics.world_bytes += upload(stored.pieces, pieces);
-    if (!stored.has_colors) {
-        std::vector<ColorBytes> colors;
-        const std::vector<DiskInstance>& disks = levels_->disks();
-        const std::size_t count = sources ? sources->size() : disks.size();
-        colors.reserve(count);
-        for (std::size_t i = 0; i < count; ++i) colors.push_back(bytes_of(disks[sources ? (*sources)[i] : i].color));
-        statistics.state_bytes += upload(stored.colors, colors);
+const DiskPass::Stored& DiskPass::store_shapes(int level, DrawStatistics& statistics) {
+    Stored& stored = coarse_[static_cast<std::size_t>(level)];
+    if (!stored.has_pieces) statistics.world_bytes += upload(stored.pieces, levels_->level(level).pieces);
+    stored.has_pieces = true;
+    return stored;
+}
+
+const DiskPass::Stored& DiskPass::store(int level, DrawStatistics& statistics) {
+    store_shapes(level, statistics);
+    Stored& stored = coarse_[static_cast<std::size_t>(level)];
+    if (stored.has_colors) return stored;
+    std::vector<ColorBytes> colors;
+    const std::vector<std::size_t>& sources = levels_->level(level).sources;
+    colors.reserve(sources.size());
+    for (const std::size_t source : sources) colors.push_back(bytes_of(levels_->disks()[source].color));
+    statistics.state_bytes += upload(stored.colors, colors);
+    stored.has_colors = true;
+    return stored;
+}
+
+const DiskPass::Stored& DiskPass::store_fine(DrawStatistics& statistics) {
+    const std::vector<DiskInstance>& disks = levels_->disks();
+    if (!fine_.has_pieces) {
+        std::vector<DiskPiece> pieces(disks.size());
+        std::transform(disks.begin(), disks.end(), pieces.begin(), piece_of);
+        statistics.world_bytes += upload(fine_.pieces, pieces);
     }
-    stored.has_pieces = stored.has_colors = true;
+    if (!fine_.has_colors) {
+        std::vector<ColorBytes> colors(disks.size());
+        std::transform(disks.begin(), disks.end(), colors.begin(),
+                       [](const DiskInstance& disk) { return bytes_of(disk.color); });
+        statistics.state_bytes += upload(fine_.colors, colors);
+    }
+    fine_.has_pieces = fine_.has_colors = true;
+    return fine_;
 }
 
 /// All in one. Enough sides for the largest disk: one shape for all, so that their edges fit.
@@ -252,24 +274,12 @@ void DiskPass::draw(const Batch& batch, const Stored& stored, DrawStatistics& st
 }
 
 void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statistics) {
-    keep(list, statistics);
+    keep(list);
     if (list.disks.empty()) return;
     const bool coarse = detail == Detail::coarse;
     const std::vector<Batch> batches = coarse ? coarse_batches(list.projection) : fine_batches(list.projection);
-    if (!coarse && !(fine_.has_pieces && fine_.has_colors)) {
-        std::vector<DiskPiece> pieces;
-        if (!fine_.has_pieces) {
-            std::transform(levels_->disks().begin(), levels_->disks().end(), std::back_inserter(pieces), piece_of);
-        }
-        store(fine_, pieces, nullptr, statistics);
-    }
-    const auto store_level = [&](int level) {
-        Stored& stored = coarse_[static_cast<std::size_t>(level)];
-        if (stored.has_pieces && stored.has_colors) return;
-        store(stored, levels_->level(level).pieces, &levels_->level(level).sources, statistics);
-    };
     if (coarse && stays_) {
-        for (int level = 0; level < DiskLevels::kLevels; ++level) store_level(level);
+        for (int level = 0; level < DiskLevels::kLevels; ++level) store_shapes(level, statistics);
     }
 
     program_.use();
@@ -288,8 +298,7 @@ void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statist
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     for (const Batch& batch : batches) {
-        if (coarse) store_level(batch.level);
-        draw(batch, coarse ? coarse_[static_cast<std::size_t>(batch.level)] : fine_, statistics);
+        draw(batch, coarse ? store(batch.level, statistics) : store_fine(statistics), statistics);
     }
     glDisable(GL_CULL_FACE);
 }

@@ -46,10 +46,12 @@ class DiskPass {
         float depth = 0;  ///< of the nearest
     };
 
-    void keep(const DrawList& list, DrawStatistics& statistics);
+    void keep(const DrawList& list);
     const Cylinder& cylinder(int sides);
-    void store(Stored& stored, const std::vector<DiskPiece>& pieces, const std::vector<std::size_t>* sources,
-               DrawStatistics& statistics) const;
+    /// Upload what is missing of a level, or of all disks. Colours only of levels that are drawn.
+    const Stored& store_shapes(int level, DrawStatistics& statistics);
+    const Stored& store(int level, DrawStatistics& statistics);
+    const Stored& store_fine(DrawStatistics& statistics);
     std::vector<Batch> fine_batches(const ViewProjection& projection) const;
     std::vector<Batch> coarse_batches(const ViewProjection& projection);
     void draw(const Batch& batch, const Stored& stored, DrawStatistics& statistics);
