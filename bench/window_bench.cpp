@@ -95,7 +95,7 @@ void orbit(benchmark::State& state, Backend backend, int agents, Panels panels) 
 /// Two clips of `seconds`, their query in the view; the second agent is dragged by its handle.
 void drag(benchmark::State& state, Backend backend, double seconds) {
     BenchWindow window(backend, bench::pair(seconds));
-    window.session().select({Selection::Kind::path, {.participant = 1}, -1});
+    window.session().select({Selection::Kind::path, {.agent = 1}, -1});
     window.rest();
     const glm::vec2 handle = window.middle_of("handle.move");
     window.move(handle);

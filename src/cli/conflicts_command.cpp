@@ -181,7 +181,7 @@ void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     const mobb::FitOptions options = arguments.fit.over(scene.fit);
     const FittedScene fitted(std::move(scene), options);
     std::vector<mobb::PlacedTree> crowd;
-    for (const PlacedAgent& participant : fitted.placed_agents()) crowd.push_back(fitted.placed(participant));
+    for (const PlacedAgent& who : fitted.placed_agents()) crowd.push_back(fitted.placed(who));
     Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
     std::erase_if(conflicts.found,
                   [&fitted](const Conflict& conflict) { return same_person(fitted.scene(), conflict); });

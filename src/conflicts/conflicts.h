@@ -49,7 +49,7 @@ struct SceneConflict {
     double begin() const { return facts.intervals.front().t0; }  ///< of the contact, global seconds
 };
 
-/// All of them, by when they begin: of a scene between its participants, of a run between all that its people play.
+/// All of them, by when they begin: of a scene between its agents, of a run between all that those play.
 /// `progress` is told of pairs.
 std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progress& progress = {});
 

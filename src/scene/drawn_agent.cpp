@@ -19,15 +19,15 @@ constexpr std::size_t kLongestLabel = 24;
 constexpr std::array<std::uint32_t, 8> kAgentColors{0xE69F00, 0x56B4E9, 0xCC79A7, 0x0072B2,
                                                     0xF3CF80, 0xABDAF4, 0xE6BCD3, 0x6BA9D0};
 
-DrawnAgent make_subject(const FittedScene& fitted, const PlacedAgent& participant, int index, int color_index) {
+DrawnAgent make_drawn_agent(const FittedScene& fitted, const PlacedAgent& who, int index, int color_index) {
     const Scene& scene = fitted.scene();
-    return {fitted.placed(participant),
-            participant.name,
-            shortened(participant.name, kLongestLabel),
-            agent_color(scene, participant, color_index),
+    return {fitted.placed(who),
+            who.name,
+            shortened(who.name, kLongestLabel),
+            agent_color(scene, who, color_index),
             index,
-            scene.clips[static_cast<std::size_t>(participant.clip)].skeleton.get(),
-            participant.agent >= 0 ? scene.agents[static_cast<std::size_t>(participant.agent)].run_agent : -1};
+            scene.clips[static_cast<std::size_t>(who.clip)].skeleton.get(),
+            who.agent >= 0 ? scene.agents[static_cast<std::size_t>(who.agent)].run_agent : -1};
 }
 
 /// The samples that hold at some time between two.
@@ -40,9 +40,9 @@ mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, do
 
 }  // namespace
 
-Rgba agent_color(const Scene& scene, const PlacedAgent& participant, int index) {
-    if (participant.agent >= 0) {
-        const Agent& agent = scene.agents[static_cast<std::size_t>(participant.agent)];
+Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index) {
+    if (who.agent >= 0) {
+        const Agent& agent = scene.agents[static_cast<std::size_t>(who.agent)];
         if (agent.color) return Rgba(agent.color->r, agent.color->g, agent.color->b, 255) / 255.0f;
         // All that one person plays looks alike.
         if (agent.run_agent >= 0) index = agent.run_agent;
@@ -53,9 +53,9 @@ Rgba agent_color(const Scene& scene, const PlacedAgent& participant, int index) 
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view) {
     std::vector<DrawnAgent> out;
     if (!view.query) {
-        for (const PlacedAgent& participant : fitted.placed_agents()) {
+        for (const PlacedAgent& who : fitted.placed_agents()) {
             const int index = static_cast<int>(out.size());
-            out.push_back(make_subject(fitted, participant, index, index));
+            out.push_back(make_drawn_agent(fitted, who, index, index));
         }
         if (fitted.scene().crowd && view.show == Show::space_time) {
             const double time = run_time(fitted.scene(), view);
@@ -72,10 +72,10 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
     }
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(*view.query)];
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
-    out.push_back(make_subject(fitted, query.a, 0, color_a));
-    out.push_back(make_subject(fitted, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
+    out.push_back(make_drawn_agent(fitted, query.a, 0, color_a));
+    out.push_back(make_drawn_agent(fitted, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
     // Two sides of one colour or name could not be told apart.
-    if (out[1].color == out[0].color) out[1] = make_subject(fitted, query.b, 1, color_a + 1);
+    if (out[1].color == out[0].color) out[1] = make_drawn_agent(fitted, query.b, 1, color_a + 1);
     if (out[1].name == out[0].name) {
         out[0].name += " (A)";
         out[1].name += " (B)";

@@ -16,7 +16,7 @@ struct DrawnAgent {
     std::string name;
     std::string label;  ///< the name as pictures say it: short enough to leave room for what is said of it
     Rgba color;
-    int index = 0;                       ///< in DrawList::participants
+    int index = 0;                       ///< in DrawList::agents
     const Skeleton* skeleton = nullptr;  ///< of the clip; null: none
     int run_agent = -1;                  ///< of a run: who plays it, as Agent::person; else -1
     /// Of a run in space-time: the samples within the view's window, maybe none; nothing: all of them.
@@ -29,9 +29,9 @@ struct DrawnAgent {
 };
 
 /// The colour of an agent: its own, or the palette's by index. None of them is an outcome's colour.
-Rgba agent_color(const Scene& scene, const PlacedAgent& participant, int index);
+Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index);
 
-/// The scene's participants, of a run made a scene (scene/crowd_scene.h) cut to the view's window of time; with a query
+/// The scene's agents, of a run made a scene (scene/crowd_scene.h) cut to the view's window of time; with a query
 /// in the view, its two sides. Throws std::invalid_argument if the scene has no such query.
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view);
 

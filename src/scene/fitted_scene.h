@@ -62,9 +62,7 @@ class FittedScene {
     QueryList queries() const { return QueryList(*scene_); }  ///< what is asked; valid as long as this or a copy
     const std::vector<PlacedAgent>& placed_agents() const { return *placed_agents_; }  ///< what is drawn
 
-    mobb::PlacedTree placed(const PlacedAgent& participant) const {
-        return {tree(participant.clip), participant.placement};
-    }
+    mobb::PlacedTree placed(const PlacedAgent& who) const { return {tree(who.clip), who.placement}; }
 
     /// Memory for what this holds and `other` does not share: its lists, clips and trees.
     std::size_t bytes_beyond(const FittedScene& other) const;

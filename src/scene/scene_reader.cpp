@@ -325,8 +325,8 @@ class SceneReader {
         }
     }
 
-    const mobb::Clip& clip_of(const PlacedAgent& participant) const {
-        return *scene_.clips[static_cast<std::size_t>(participant.clip)].clip;
+    const mobb::Clip& clip_of(const PlacedAgent& who) const {
+        return *scene_.clips[static_cast<std::size_t>(who.clip)].clip;
     }
 
     const JsonPlace& root_;

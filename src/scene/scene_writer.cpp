@@ -75,11 +75,11 @@ void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
     out.end_object();
 }
 
-void write_participant(JsonWriter& out, const Scene& scene, const PlacedAgent& participant) {
-    if (participant.agent >= 0) return out.value(scene.agents[static_cast<std::size_t>(participant.agent)].name);
+void write_participant(JsonWriter& out, const Scene& scene, const PlacedAgent& who) {
+    if (who.agent >= 0) return out.value(scene.agents[static_cast<std::size_t>(who.agent)].name);
     out.begin_object(Layout::row);
-    out.member("clip", scene.clips[static_cast<std::size_t>(participant.clip)].name);
-    write_placement(out, participant.placement);
+    out.member("clip", scene.clips[static_cast<std::size_t>(who.clip)].name);
+    write_placement(out, who.placement);
     out.end_object();
 }
 

@@ -47,7 +47,7 @@ Camera read_camera(const JsonPlace& place) {
 DiskProjection read_projection(const JsonPlace& place) {
     place.allow_only({"participant", "node", "sample"});
     DiskProjection projection;
-    if (const auto participant = place.find("participant")) projection.participant = participant->integer(0, kMaxInt);
+    if (const auto agent = place.find("participant")) projection.agent = agent->integer(0, kMaxInt);
     if (const auto node = place.find("node")) projection.node = node->integer(0, kMaxInt);
     if (const auto sample = place.find("sample")) projection.sample = sample->integer(0, kMaxInt);
     return projection;
@@ -85,7 +85,7 @@ void write_camera(JsonWriter& out, const Camera& camera) {
 
 void write_projection(JsonWriter& out, const DiskProjection& projection) {
     out.begin_object(JsonWriter::Layout::row);
-    out.member("participant", projection.participant);
+    out.member("participant", projection.agent);
     out.member("node", projection.node);
     out.member("sample", projection.sample);
     out.end_object();

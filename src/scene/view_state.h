@@ -24,9 +24,9 @@ enum class Show { space_time, moment };
 
 /// One disk and how far it reaches along the axes of a box around it (the paper's Fig. 6).
 struct DiskProjection {
-    int participant = 0;  ///< index into what is drawn
-    int node = 0;         ///< of its tree
-    int sample = 0;       ///< of its clip
+    int agent = 0;   ///< index into what is drawn
+    int node = 0;    ///< of its tree
+    int sample = 0;  ///< of its clip
     friend bool operator==(const DiskProjection&, const DiskProjection&) = default;
 };
 

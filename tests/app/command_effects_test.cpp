@@ -126,14 +126,14 @@ std::vector<Case> cases() {
     edit("agent.add", "stand", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "stand");
-        EXPECT_EQ(w.session.selection.path.participant, 3);
+        EXPECT_EQ(w.session.selection.path.agent, 3);
         EXPECT_GT(w.agent(3).placement.translate.y, 9.4) << "beside the others";
     });
     edit("agent.duplicate", "", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "B 2");
         EXPECT_NEAR(glm::distance(w.agent(3).placement.translate, w.agent(1).placement.translate), 1, 1e-9);
-        EXPECT_EQ(w.session.selection.path.participant, 3);
+        EXPECT_EQ(w.session.selection.path.agent, 3);
     });
     edit("agent.remove", "", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 2u);
@@ -269,7 +269,7 @@ std::vector<Case> cases() {
              const mobb::Node& leaf =
                  w.session.fitted().tree(0).nodes()[static_cast<std::size_t>(w.view().projection.value().node)];
              EXPECT_TRUE(leaf.is_leaf() && leaf.first <= 7 && 7 < leaf.end());
-             EXPECT_EQ(w.view().projection->participant, 0);
+             EXPECT_EQ(w.view().projection->agent, 0);
              EXPECT_EQ(w.view().projection->sample, 7);
              EXPECT_NO_THROW(build_draw_list(w.session.fitted(), w.view(), PictureSize{320, 240}));
              w.session.select({});

@@ -253,7 +253,7 @@ TEST_F(CrowdPicture, OutsideOfTheRunNobodyIsThereAndNothingIsChosen) {
 
 /// Whether some panel has all words of the caption on it.
 bool has_caption_on_a_panel(const DrawList& list) {
-    const auto holds = [&](const Panel& panel) {
+    const auto holds = [&](const OverlayPanel& panel) {
         return std::count_if(list.texts.begin(), list.texts.end(), [&](const TextRun& text) {
                    return panel.rect.contains(text.box) && text.box.min.y < 60;
                }) >= 2;

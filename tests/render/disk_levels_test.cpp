@@ -151,7 +151,7 @@ TEST(DiskLevels, WhatStandsOutIsDrawnDiskByDisk) {
 TEST(DiskLevels, PathsDoNotJoinUp) {
     auto disks = path();
     // A second path goes on where the first ends.
-    for (std::size_t i = 30; i < disks.size(); ++i) disks[i].id.participant = 1;
+    for (std::size_t i = 30; i < disks.size(); ++i) disks[i].id.agent = 1;
     DiskLevels levels(disks);
     ASSERT_EQ(levels.blocks().size(), 2u);
     for (const std::size_t block : {0u, 1u}) {

@@ -65,8 +65,7 @@ TEST(DrawList, DrawnBoxesHoldTheirDisks) {
             const glm::mat3 inverse = glm::inverse(glm::mat3(box.extents[0], box.extents[1], box.extents[2]));
             const mobb::Node& node = fitted.tree(0).nodes()[static_cast<std::size_t>(box.id.index)];
             for (const DiskInstance& disk : list.disks) {
-                if (disk.id.participant != box.id.participant || disk.id.index < node.first ||
-                    disk.id.index >= node.end())
+                if (disk.id.agent != box.id.agent || disk.id.index < node.first || disk.id.index >= node.end())
                     continue;
                 for (int i = 0; i < 16; ++i) {
                     const float angle = static_cast<float>(i) * 0.3926991f;

@@ -50,8 +50,8 @@ void recolour(DrawList& list, const std::function<void(Rgba&)>& change) {
     for (OverlayLine& line : list.overlay_lines) change(line.color);
     for (TextRun& text : list.texts) change(text.color);
     for (LegendEntry& entry : list.legend) change(entry.color), change(entry.fill);
-    for (std::vector<Panel>* panels : {&list.panels, &list.marks}) {
-        for (Panel& panel : *panels) change(panel.fill), change(panel.border);
+    for (std::vector<OverlayPanel>* panels : {&list.panels, &list.marks}) {
+        for (OverlayPanel& panel : *panels) change(panel.fill), change(panel.border);
     }
 }
 

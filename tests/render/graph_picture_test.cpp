@@ -32,8 +32,8 @@ TEST(GraphPicture, KeepsWithinItsEdges) {
         const DrawList list = graph_picture(small_graph(), size, Theme::light);
         const Rect picture{{0, 0}, {size.width, size.height}};
         for (const TextRun& text : list.texts) EXPECT_TRUE(picture.contains(text.box)) << text.text;
-        for (const Panel& panel : list.panels) EXPECT_TRUE(picture.contains(panel.rect));
-        for (const Panel& mark : list.marks) EXPECT_TRUE(picture.contains(mark.rect));
+        for (const OverlayPanel& panel : list.panels) EXPECT_TRUE(picture.contains(panel.rect));
+        for (const OverlayPanel& mark : list.marks) EXPECT_TRUE(picture.contains(mark.rect));
         for (const OverlayLine& line : list.overlay_lines) {
             EXPECT_TRUE(picture.contains({glm::min(line.from, line.to), glm::max(line.from, line.to)}));
         }

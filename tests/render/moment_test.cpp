@@ -243,7 +243,7 @@ TEST(Moment, AQueryShowsItsTwoSidesAlone) {
     ViewState view = at(0.5);
     view.query = 2;  // B against C
     const DrawList list = build_draw_list(scene, view, kGoldenSize);
-    EXPECT_EQ(list.participants, (std::vector<std::string>{"B", "C"}));
+    EXPECT_EQ(list.agents, (std::vector<std::string>{"B", "C"}));
     EXPECT_EQ(list.disks.size(), 2u);
     EXPECT_EQ(list.headline, "B and C at 0.50 s; 2.200 m of clearance");
 }

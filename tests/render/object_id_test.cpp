@@ -43,10 +43,10 @@ TEST_P(ObjectIdTest, TheNearestBoxHidesTheDisksInIt) {
     const DrawList list = build_draw_list(fitted, view, PictureSize{320, 240});
     const IdImage ids = renderer().draw_ids(list);
     // The later box of each path is the upper one.
-    for (int participant = 0; participant < 2; ++participant) {
+    for (int agent = 0; agent < 2; ++agent) {
         const int node = fitted.tree(0).nodes()[0].children[1];
         const auto box = std::find_if(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) {
-            return b.id == ObjectId{participant, ObjectId::Kind::box, node};
+            return b.id == ObjectId{agent, ObjectId::Kind::box, node};
         });
         ASSERT_NE(box, list.boxes.end());
         const glm::vec2 at = list.projection.project(box->center + 0.9f * box->extents[0]).value();

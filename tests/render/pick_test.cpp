@@ -31,7 +31,7 @@ FittedScene demo_scene(const std::string& name) {
 
 std::string describe(const std::optional<ObjectId>& id) {
     if (!id) return "nothing";
-    return std::to_string(id->participant) + (id->kind == ObjectId::Kind::disk ? " disk " : " box ") +
+    return std::to_string(id->agent) + (id->kind == ObjectId::Kind::disk ? " disk " : " box ") +
            std::to_string(id->index);
 }
 
@@ -162,7 +162,7 @@ TEST_P(PickedPlaces, LieOnWhatIsPicked) {
                     float depth = -1e9f;
                     for (const Pick& one : pick(list, middle_of_pixel(x, y))) {
                         ++picked;
-                        const mobb::PlacedTree& tree = paths[static_cast<std::size_t>(one.id.participant)].placed;
+                        const mobb::PlacedTree& tree = paths[static_cast<std::size_t>(one.id.agent)].placed;
                         const double off = one.id.kind == ObjectId::Kind::disk
                                                ? off_surface(tree.placed_clip(), one.id.index, one.place)
                                                : off_surface(tree, one.id.index, one.place);

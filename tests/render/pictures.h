@@ -23,7 +23,7 @@ inline Image filled(int width, int height, std::uint8_t level, std::uint8_t opac
 
 inline std::set<int> who_has_a_disk(const DrawList& list) {
     std::set<int> out;
-    for (const DiskInstance& disk : list.disks) out.insert(disk.id.participant);
+    for (const DiskInstance& disk : list.disks) out.insert(disk.id.agent);
     return out;
 }
 

@@ -82,7 +82,7 @@ TEST(QueryPicture, ThePairUnderTestIsFilled) {
         for (const BoxInstance& box : list.boxes) {
             if (box.state != BoxState::under_test) continue;
             ++filled;
-            EXPECT_EQ(box.id.index, box.id.participant == 0 ? event.a : event.b);
+            EXPECT_EQ(box.id.index, box.id.agent == 0 ? event.a : event.b);
             EXPECT_GT(box.fill.a, 0);
         }
         EXPECT_EQ(filled, 2);
@@ -158,7 +158,7 @@ TEST(QueryPicture, TheHitDisksAreMarked) {
         if (disk.color != list.palette.hit) continue;
         ++marked;
         EXPECT_EQ(disk.id.index,
-                  disk.id.participant == 0 ? query.recorded.contact->a_sample : query.recorded.contact->b_sample);
+                  disk.id.agent == 0 ? query.recorded.contact->a_sample : query.recorded.contact->b_sample);
     }
     EXPECT_EQ(marked, 2);
 }
@@ -231,7 +231,7 @@ TEST(QueryPicture, LongNamesLeaveTheOutcomeWhole) {
     const std::string outcome = with_unit(query.recorded.contact->time, "s");
     for (const PictureSize size : {PictureSize{320, 180}, PictureSize{640, 360}, PictureSize{1280, 720}}) {
         const DrawList list = query.at(last, size);
-        EXPECT_EQ(list.participants[0].size(), 56u) << "the whole name is kept where there is room";
+        EXPECT_EQ(list.agents[0].size(), 56u) << "the whole name is kept where there is room";
         std::string said;
         for (const TextRun& run : list.texts) said += run.text + ' ';
         EXPECT_NE(said.find("hit at " + outcome), std::string::npos) << said;

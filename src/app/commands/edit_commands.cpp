@@ -36,10 +36,10 @@ struct FloorBounds {
 mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
     FloorBounds others, own;
     double start = std::numeric_limits<double>::max();
-    for (const PlacedAgent& participant : fitted.placed_agents()) {
-        const mobb::PlacedTree tree = fitted.placed(participant);
+    for (const PlacedAgent& who : fitted.placed_agents()) {
+        const mobb::PlacedTree tree = fitted.placed(who);
         others.add(tree.placed_clip());
-        start = std::min(start, participant.placement.start);
+        start = std::min(start, who.placement.start);
     }
     own.add(mobb::PlacedClip(clip, {}));
     const double x = 0.5 * (others.min.x + others.max.x - own.min.x - own.max.x);

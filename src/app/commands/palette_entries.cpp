@@ -107,10 +107,10 @@ void add_node(Collector& out, const Session& session, const std::string& text) {
             std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return std::tolower(c); });
             return low;
         };
-        for (const PlacedAgent& participant : session.fitted().placed_agents()) {
-            if (lower(participant.name) != lower(name)) continue;
-            static_cast<void>(node_at(session.fitted().tree(participant.clip), place));
-            const std::string named = participant.name + ' ' + std::string(place);
+        for (const PlacedAgent& who : session.fitted().placed_agents()) {
+            if (lower(who.name) != lower(name)) continue;
+            static_cast<void>(node_at(session.fitted().tree(who.clip), place));
+            const std::string named = who.name + ' ' + std::string(place);
             out.add("go.node", named, named, "Node", {{named}});
         }
     } catch (const std::invalid_argument&) {

@@ -61,7 +61,7 @@ void frame_all(Session& session, const std::string&) {
 /// Whether an agent is selected, and no part of its path; in the picture of a moment an agent stands where a sample is.
 bool is_agent_selected(const Session& session) {
     const Selection& selected = session.selection;
-    if (!selected.on_path() || selected.path.participant < 0) return false;
+    if (!selected.on_path() || selected.path.agent < 0) return false;
     return selected.kind == Selection::Kind::path ||
            (selected.kind == Selection::Kind::sample && session.view().show == Show::moment);
 }
@@ -127,8 +127,8 @@ void toggle_moment(Session& session, const std::string&) {
 /// Levels of the deepest tree in the picture.
 int depth_in_view(const Session& session) {
     int depth = 1;
-    for (const PlacedAgent& participant : session.fitted().placed_agents()) {
-        depth = std::max(depth, session.fitted().tree(participant.clip).depth());
+    for (const PlacedAgent& who : session.fitted().placed_agents()) {
+        depth = std::max(depth, session.fitted().tree(who.clip).depth());
     }
     return depth;
 }
@@ -176,10 +176,10 @@ void set_time_height(Session& session, const std::string& metres) {
 std::optional<DiskProjection> selected_disk(const Session& session) {
     const Selection& selected = session.selection;
     if (selected.kind != Selection::Kind::sample || session.crowd()) return std::nullopt;
-    const auto participant = index_in_view(session.fitted(), session.view(), selected.path);
-    if (!participant) return std::nullopt;
+    const auto who = index_in_view(session.fitted(), session.view(), selected.path);
+    if (!who) return std::nullopt;
     const mobb::Tree& tree = session.fitted().tree(placed_agent_of(session.fitted(), selected.path)->clip);
-    return DiskProjection{*participant, leaf_of_sample(tree, selected.index), selected.index};
+    return DiskProjection{*who, leaf_of_sample(tree, selected.index), selected.index};
 }
 
 void toggle_projection(Session& session, const std::string&) {
@@ -219,15 +219,13 @@ void set_time(Session& session, double time) {
 /// The shortest sample of the paths in the picture, seconds.
 double sample_time(const Session& session) {
     double dt = std::numeric_limits<double>::max();
-    const auto add = [&](const PlacedAgent& participant) {
-        dt = std::min(dt, session.fitted().tree(participant.clip).clip().dt());
-    };
+    const auto add = [&](const PlacedAgent& who) { dt = std::min(dt, session.fitted().tree(who.clip).clip().dt()); };
     if (session.view().query) {
         const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(*session.view().query)];
         add(query.a);
         add(query.b);
     } else {
-        for (const PlacedAgent& participant : session.fitted().placed_agents()) add(participant);
+        for (const PlacedAgent& who : session.fitted().placed_agents()) add(who);
     }
     return dt;
 }

@@ -11,7 +11,7 @@ namespace mobbscope::app {
 
 namespace {
 
-/// Of a run the first participants are its people.
+/// The first placed agents of a run are its agents.
 std::optional<int> participant_named(const Session& session, const std::string& name) {
     if (session.crowd()) return run_agent_by_name(*session.crowd(), name);
     const auto& all = session.fitted().placed_agents();
@@ -24,7 +24,7 @@ std::optional<int> participant_named(const Session& session, const std::string& 
 
 bool has_selected_agent(const Session& session) {
     // What a run's agents play is the simulation's.
-    return !session.crowd() && session.selection.on_path() && session.selection.path.participant >= 0;
+    return !session.crowd() && session.selection.on_path() && session.selection.path.agent >= 0;
 }
 
 std::string_view why_no_agent(const Session& session) {
@@ -32,7 +32,7 @@ std::string_view why_no_agent(const Session& session) {
     return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
 }
 
-int selected_agent(const Session& session) { return session.selection.path.participant; }
+int selected_agent(const Session& session) { return session.selection.path.agent; }
 
 std::string selected_agent_name(const Session& session) {
     return placed_agent_of(session.fitted(), session.selection.path)->name;
@@ -55,7 +55,7 @@ std::vector<std::string> clip_names(const Session& session) {
 
 std::vector<std::string> path_names(const Session& session) {
     std::vector<std::string> out;
-    for (const PlacedAgent& participant : session.fitted().placed_agents()) out.push_back(participant.name);
+    for (const PlacedAgent& who : session.fitted().placed_agents()) out.push_back(who.name);
     return out;
 }
 
@@ -69,8 +69,8 @@ int path_by_name(const Session& session, const std::string& name) {
 }
 
 std::string current_agent(const Session& session) {
-    if (session.selection.on_path() && session.selection.path.participant >= 0) {
-        const auto index = static_cast<std::size_t>(session.selection.path.participant);
+    if (session.selection.on_path() && session.selection.path.agent >= 0) {
+        const auto index = static_cast<std::size_t>(session.selection.path.agent);
         if (!session.crowd()) return session.fitted().placed_agents()[index].name;
         const int run_agent = session.fitted().scene().agents[index].run_agent;
         return session.crowd()->agents[static_cast<std::size_t>(run_agent)].name;

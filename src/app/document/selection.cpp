@@ -9,20 +9,19 @@ namespace {
 AgentRef path_of_side(const FittedScene& fitted, int query, int side) {
     const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
     const int agent = (side == 0 ? asked.a : asked.b).agent;
-    // With agents, participants are the agents in their order.
+    // With agents, the placed agents are these in their order.
     return agent >= 0 ? AgentRef{agent, -1, 0} : AgentRef{-1, query, side};
 }
 
 }  // namespace
 
-AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int participant) {
-    return view.query ? path_of_side(fitted, *view.query, participant) : AgentRef{participant, -1, 0};
+AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int agent) {
+    return view.query ? path_of_side(fitted, *view.query, agent) : AgentRef{agent, -1, 0};
 }
 
 std::optional<int> index_in_view(const FittedScene& fitted, const ViewState& view, const AgentRef& path) {
     const int count = view.query ? 2 : static_cast<int>(fitted.placed_agents().size());
-    if (!view.query)
-        return path.participant >= 0 && path.participant < count ? std::optional(path.participant) : std::nullopt;
+    if (!view.query) return path.agent >= 0 && path.agent < count ? std::optional(path.agent) : std::nullopt;
     for (int side = 0; side < count; ++side) {
         if (path_of_side(fitted, *view.query, side) == path) return side;
     }
@@ -30,8 +29,8 @@ std::optional<int> index_in_view(const FittedScene& fitted, const ViewState& vie
 }
 
 std::optional<PlacedAgent> placed_agent_of(const FittedScene& fitted, const AgentRef& path) {
-    if (path.participant >= 0) {
-        const auto index = static_cast<std::size_t>(path.participant);
+    if (path.agent >= 0) {
+        const auto index = static_cast<std::size_t>(path.agent);
         if (index >= fitted.placed_agents().size()) return std::nullopt;
         return fitted.placed_agents()[index];
     }
@@ -56,17 +55,17 @@ bool exists(const FittedScene& fitted, const Selection& selection) {
         case Selection::Kind::sample:
             break;
     }
-    const auto participant = placed_agent_of(fitted, selection.path);
-    if (!participant) return false;
+    const auto agent = placed_agent_of(fitted, selection.path);
+    if (!agent) return false;
     if (selection.kind == Selection::Kind::path) return true;
-    const mobb::Tree& tree = fitted.tree(participant->clip);
+    const mobb::Tree& tree = fitted.tree(agent->clip);
     return within(selection.kind == Selection::Kind::node ? tree.nodes().size()
                                                           : static_cast<std::size_t>(tree.clip().count()));
 }
 
 bool has_projection(const FittedScene& fitted, const ViewState& view) {
     const DiskProjection& asked = *view.projection;
-    const AgentRef agent = agent_in_view(fitted, view, asked.participant);
+    const AgentRef agent = agent_in_view(fitted, view, asked.agent);
     if (!exists(fitted, {Selection::Kind::node, agent, asked.node})) return false;
     const mobb::Node& node =
         fitted.tree(placed_agent_of(fitted, agent)->clip).nodes()[static_cast<std::size_t>(asked.node)];
@@ -79,8 +78,8 @@ namespace {
 /// as that is there.
 Selection still_of_run(const Selection& selection, const FittedScene& before, const FittedScene& now) {
     const auto& was = before.scene().agents;
-    const auto index = static_cast<std::size_t>(selection.path.participant);
-    if (selection.path.participant < 0 || index >= was.size()) return {};
+    const auto index = static_cast<std::size_t>(selection.path.agent);
+    if (selection.path.agent < 0 || index >= was.size()) return {};
     const auto& agents = now.scene().agents;
     const auto is_it = [&](const Agent& agent) {
         return agent.run_agent == was[index].run_agent && agent.play == was[index].play;

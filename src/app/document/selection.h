@@ -11,9 +11,9 @@ namespace mobbscope::app {
 /// An agent that can be selected. In a scene without agents each clip counts as one, and so does a side of a query that
 /// places a clip by itself.
 struct AgentRef {
-    int participant = -1;  ///< index into FittedScene::placed_agents(), or -1:
-    int query = -1;        ///< then the side of this query
-    int side = 0;          ///< 0 a, 1 b
+    int agent = -1;  ///< index into FittedScene::placed_agents(), or -1:
+    int query = -1;  ///< then the side of this query
+    int side = 0;    ///< 0 a, 1 b
     friend bool operator==(const AgentRef&, const AgentRef&) = default;
 };
 
@@ -27,9 +27,9 @@ struct Selection {
     bool on_path() const { return kind == Kind::path || kind == Kind::node || kind == Kind::sample; }
 };
 
-/// The agent that ObjectId::participant means in a picture of `view`.
-AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int participant);
-/// ... and back: its index in the picture's participants; none if it is not in the picture.
+/// The agent that ObjectId::agent means in a picture of `view`.
+AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int agent);
+/// ... and back: its index among the picture's agents; none if it is not in the picture.
 std::optional<int> index_in_view(const FittedScene& fitted, const ViewState& view, const AgentRef& path);
 
 /// Its clip and placement; none if there is no such agent (any more).

@@ -647,8 +647,8 @@ void Session::finish(Job& job) {
 mobb::Interval Session::time_span() const {
     if (crowd()) return {0, crowd()->seconds};
     mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    const auto add = [&](const PlacedAgent& participant) {
-        const mobb::PlacedTree tree = fitted().placed(participant);
+    const auto add = [&](const PlacedAgent& who) {
+        const mobb::PlacedTree tree = fitted().placed(who);
         const mobb::PlacedClip& clip = tree.placed_clip();
         span.t0 = std::min(span.t0, clip.time(0));
         span.t1 = std::max(span.t1, clip.time(clip.count()));
@@ -658,7 +658,7 @@ mobb::Interval Session::time_span() const {
         add(query.a);
         add(query.b);
     } else {
-        for (const PlacedAgent& participant : fitted().placed_agents()) add(participant);
+        for (const PlacedAgent& who : fitted().placed_agents()) add(who);
     }
     return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
 }

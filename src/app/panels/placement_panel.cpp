@@ -73,7 +73,7 @@ void placement_panel(Ui& ui) {
                                 "About the clip's origin, counter-clockwise");
     changed |= placement_number(ui, "starts at", "agent.start", placement.start, 0.01f, "%.3f s",
                                 "Global time at which the clip begins");
-    color_field(ui, *who, session.selection.path.participant);
+    color_field(ui, *who, session.selection.path.agent);
     if (changed) {
         session.enqueue([&session, who = *who, placement] {
             session.edit({"placing " + who.name, "placement"},

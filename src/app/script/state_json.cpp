@@ -71,7 +71,7 @@ Json selection_json(const Session& session, const Selection& selection) {
     json["name"] = name_of(session, selection);
     if (selection.on_path()) {
         const AgentRef& path = selection.path;
-        json["path"] = {{"participant", path.participant}, {"query", path.query}, {"side", path.side}};
+        json["path"] = {{"participant", path.agent}, {"query", path.query}, {"side", path.side}};
     }
     if (selection.kind != Selection::Kind::path) json["index"] = selection.index;
     return json;

@@ -281,7 +281,7 @@ std::optional<HandleDrag> Viewport::take_hold(Ui& ui, const ShownPicture& pictur
     // The selected path itself moves on the floor, at the height where it is held.
     for (const Pick& hit : pick(*list_, pixel)) {
         if (hit.id.kind != ObjectId::Kind::disk) continue;
-        if (agent_in_view(session.fitted(), session.view(), hit.id.participant) != session.selection.path) break;
+        if (agent_in_view(session.fitted(), session.view(), hit.id.agent) != session.selection.path) break;
         return HandleDrag{Handle::move, who.agent, who.placement, places.pivot, hit.place.z, pixel};
     }
     return std::nullopt;
@@ -346,7 +346,7 @@ void Viewport::hover(Ui& ui, glm::vec2 pixel) {
     const ObjectId& id = hits.front().id;
     place_ = hits.front().place;
     session.hovered = {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
-                       agent_in_view(session.fitted(), session.view(), id.participant), id.index};
+                       agent_in_view(session.fitted(), session.view(), id.agent), id.index};
 }
 
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
@@ -361,7 +361,7 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
         return;
     }
     const ObjectId& id = hits[depth_ % hits.size()].id;
-    const AgentRef path = agent_in_view(session.fitted(), session.view(), id.participant);
+    const AgentRef path = agent_in_view(session.fitted(), session.view(), id.agent);
     session.select({id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample, path, id.index});
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
 }

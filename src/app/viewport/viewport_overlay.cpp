@@ -33,8 +33,8 @@ std::string numbers(const char* format, double a, double b) {
     return text;
 }
 
-/// The path as subjects of a picture are named, whether or not it is in the present one.
-DrawnAgent subject_of(const FittedScene& fitted, const PlacedAgent& who) {
+/// The agent as pictures name it, whether or not it is in the present one.
+DrawnAgent drawn_agent_of(const FittedScene& fitted, const PlacedAgent& who) {
     return {fitted.placed(who), who.name, who.name, Rgba(1), 0};
 }
 
@@ -135,7 +135,7 @@ void draw_highlight(Ui& ui, const ShownPicture& picture, const Selection& what, 
     if (!what.on_path() || !index_in_view(session.fitted(), session.view(), what.path)) return;
     const auto who = placed_agent_of(session.fitted(), what.path);
     if (!who) return;
-    const DrawnAgent agent = subject_of(session.fitted(), *who);
+    const DrawnAgent agent = drawn_agent_of(session.fitted(), *who);
     const DrawnSpace& space = picture.list.space;
     const mobb::PlacedClip& clip = agent.clip();
     if (picture.list.moment) {
@@ -211,8 +211,8 @@ Described describe(const FittedScene& fitted, const Selection& what) {
     const auto who = placed_agent_of(fitted, what.path);
     if (!who) return out;
     if (what.kind == Selection::Kind::path) describe_path(out, fitted, *who);
-    if (what.kind == Selection::Kind::node) describe_node(out, subject_of(fitted, *who), what.index);
-    if (what.kind == Selection::Kind::sample) describe_sample(out, subject_of(fitted, *who), what.index);
+    if (what.kind == Selection::Kind::node) describe_node(out, drawn_agent_of(fitted, *who), what.index);
+    if (what.kind == Selection::Kind::sample) describe_sample(out, drawn_agent_of(fitted, *who), what.index);
     return out;
 }
 

@@ -222,7 +222,7 @@ Scene QuerySample::workload(const Scene& scene) const {
     out.fit = scene.fit;
     std::unordered_map<const mobb::Clip*, int> index;
     for (std::size_t i = 0; i < scene.clips.size(); ++i) index[scene.clips[i].clip.get()] = static_cast<int>(i);
-    const auto participant = [&](const PlayedMove& motion) {
+    const auto agent = [&](const PlayedMove& motion) {
         const int clip = index.at(&motion.tree->clip());
         return PlacedAgent{scene.clips[static_cast<std::size_t>(clip)].name, clip, motion.placement, -1};
     };
@@ -230,7 +230,7 @@ Scene QuerySample::workload(const Scene& scene) const {
     std::sort(ordered.begin(), ordered.end(), [](const Kept& a, const Kept& b) { return a.number < b.number; });
     out.queries.reserve(ordered.size());
     for (const Kept& kept : ordered) {
-        out.queries.push_back({participant(kept.pair.candidate), participant(kept.pair.reserved), {}, {}});
+        out.queries.push_back({agent(kept.pair.candidate), agent(kept.pair.reserved), {}, {}});
     }
     return out;
 }

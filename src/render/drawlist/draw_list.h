@@ -20,16 +20,16 @@
 
 namespace mobbscope {
 
-/// Something that can be pointed at. It is stored as two 32-bit numbers: 1 + the participant's index; then the sample's
+/// Something that can be pointed at. It is stored as two 32-bit numbers: 1 + the agent's index; then the sample's
 /// or the node's index, with the highest bit set for a node. (0, 0) is nothing.
 struct ObjectId {
     enum class Kind { disk, box };
 
-    int participant = 0;  ///< index into DrawList::participants
+    int agent = 0;  ///< index into DrawList::agents
     Kind kind = Kind::disk;
     int index = 0;  ///< sample of the clip, or node of the tree; below 2^31
 
-    std::uint32_t r() const { return static_cast<std::uint32_t>(participant) + 1; }
+    std::uint32_t r() const { return static_cast<std::uint32_t>(agent) + 1; }
     std::uint32_t g() const { return static_cast<std::uint32_t>(index) | (kind == Kind::box ? kBoxBit : 0u); }
     static std::optional<ObjectId> decode(std::uint32_t r, std::uint32_t g) {
         if (r == 0) return std::nullopt;
@@ -154,7 +154,7 @@ struct Rect {
 };
 
 /// A filled rectangle with round corners over the picture; a radius of half its side makes a disk.
-struct Panel {
+struct OverlayPanel {
     Rect rect;
     float radius = 0;
     Rgba fill{0};
@@ -207,7 +207,7 @@ struct DrawList : PictureFrame {
     /// Behind everything; none: the palette's, which is what steps back does so towards. With opacity below 1 the
     /// picture is seen through where nothing is drawn.
     std::optional<Rgba> background;
-    std::vector<std::string> participants;  ///< names of what ObjectId::participant counts
+    std::vector<std::string> agents;  ///< names of what ObjectId::agent counts
 
     SharedValues<DiskInstance> disks;
     std::vector<BoxInstance> boxes;
@@ -215,9 +215,9 @@ struct DrawList : PictureFrame {
 
     std::string headline;  ///< the sentence at the top
     std::vector<LegendEntry> legend;
-    std::vector<Panel> panels;               ///< over the scene, in this order
+    std::vector<OverlayPanel> panels;        ///< over the scene, in this order
     std::vector<OverlayLine> overlay_lines;  ///< over the panels
-    std::vector<Panel> marks;                ///< over the lines
+    std::vector<OverlayPanel> marks;         ///< over the lines
     std::vector<TextRun> texts;              ///< over all
 };
 

@@ -22,7 +22,7 @@ using Layout = JsonWriter::Layout;
 constexpr int kMostObjects = (1 << 24) - 1;
 
 bool before(const ObjectId& a, const ObjectId& b) {
-    return std::tie(a.participant, a.kind, a.index) < std::tie(b.participant, b.kind, b.index);
+    return std::tie(a.agent, a.kind, a.index) < std::tie(b.agent, b.kind, b.index);
 }
 
 /// The numbers of what can be pointed at, and how much of it is seen.
@@ -158,7 +158,7 @@ void write_object(JsonWriter& out, const Objects& objects, const std::optional<O
     const std::size_t number = objects.number(id);
     out.member("id", static_cast<std::int64_t>(number));
     out.key("participant");
-    id ? out.value(id->participant) : out.null();
+    id ? out.value(id->agent) : out.null();
     out.key(kind);
     id ? out.value(id->index) : out.null();
 }
@@ -225,7 +225,7 @@ void write_line(JsonWriter& out, const LineInstance& line, const ViewProjection&
     out.member("on_screen", on_screen(projection, std::array{line.from, line.to}));
 }
 
-void write_panel(JsonWriter& out, const Panel& panel) {
+void write_panel(JsonWriter& out, const OverlayPanel& panel) {
     vector(out, "min", panel.rect.min);
     vector(out, "max", panel.rect.max);
     number(out, "radius", panel.radius);
@@ -288,7 +288,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     color(out, "background", list.background.value_or(list.palette.background));
     out.key("participants");
     out.begin_array(Layout::row);
-    for (const std::string& participant : list.participants) out.value(participant);
+    for (const std::string& agent : list.agents) out.value(agent);
     out.end_array();
     write_camera(out, list.projection);
     rows(out, "disks", sorted(list.disks),
@@ -302,9 +302,9 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
         color(out, "color", entry.color);
         out.member("text", entry.text);
     });
-    rows(out, "panels", list.panels, [&](const Panel& panel) { write_panel(out, panel); });
+    rows(out, "panels", list.panels, [&](const OverlayPanel& panel) { write_panel(out, panel); });
     rows(out, "overlay_lines", list.overlay_lines, [&](const OverlayLine& line) { write_overlay_line(out, line); });
-    rows(out, "marks", list.marks, [&](const Panel& mark) { write_panel(out, mark); });
+    rows(out, "marks", list.marks, [&](const OverlayPanel& mark) { write_panel(out, mark); });
     rows(out, "texts", list.texts, [&](const TextRun& text) { write_text(out, text, list.size); });
     out.end_object();
 }

@@ -24,7 +24,7 @@ constexpr float kFinestLevel = 0.004f;  // metres that its tubes may be off
 glm::vec2 ground(glm::vec3 p) { return {p.x, p.y}; }
 
 bool follows(const DiskInstance& next, const DiskInstance& disk) {
-    return next.id.participant == disk.id.participant && next.id.index == disk.id.index + 1 &&
+    return next.id.agent == disk.id.agent && next.id.index == disk.id.index + 1 &&
            std::abs(next.base.z - disk.base.z - disk.height) <= 0.01f * disk.height;
 }
 

@@ -38,10 +38,10 @@ void OverlayPass::draw(const std::vector<Instance>& instances, PictureSize size,
     ++statistics.draw_calls;
 }
 
-void OverlayPass::draw(const std::vector<Panel>& panels, PictureSize size, DrawStatistics& statistics) {
+void OverlayPass::draw(const std::vector<OverlayPanel>& panels, PictureSize size, DrawStatistics& statistics) {
     std::vector<Instance> instances;
     instances.reserve(panels.size());
-    for (const Panel& panel : panels) {
+    for (const OverlayPanel& panel : panels) {
         instances.push_back(
             {panel.rect, panel.fill, panel.border, glm::vec2(panel.radius, panel.border_width), glm::vec2(-1)});
     }

@@ -19,7 +19,7 @@ class OverlayPass {
   private:
     struct Instance;
     void draw(const std::vector<Instance>& instances, PictureSize size, DrawStatistics& statistics);
-    void draw(const std::vector<Panel>& panels, PictureSize size, DrawStatistics& statistics);
+    void draw(const std::vector<OverlayPanel>& panels, PictureSize size, DrawStatistics& statistics);
 
     ShaderProgram program_;
     VertexArray array_;

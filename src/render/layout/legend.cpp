@@ -115,7 +115,7 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
 bool has_sheared_boxes(const DrawList& list, std::span<const DrawnAgent> agents) {
     return std::any_of(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& box) {
         if (!box.pickable) return false;
-        const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.participant)].placed;
+        const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.agent)].placed;
         return mobb::info(tree.node(box.id.index).box.kind).axes == mobb::BoxAxes::space_time &&
                std::abs(list.space.time_height / tree.time_scale() - 1) > 0.01;
     });
@@ -125,7 +125,7 @@ bool has_sheared_boxes(const DrawList& list, std::span<const DrawnAgent> agents)
 std::optional<std::string> beyond_the_paper(const DrawList& list, std::span<const DrawnAgent> agents) {
     for (const BoxInstance& box : list.boxes) {
         if (!box.pickable) continue;
-        const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.participant)].placed;
+        const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.agent)].placed;
         const std::string_view looks = mobb::info(tree.node(box.id.index).box.kind).looks;
         if (!looks.empty()) return std::string(looks);
     }

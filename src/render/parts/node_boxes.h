@@ -12,7 +12,7 @@ namespace mobbscope {
 /// The nodes of `tree` that a range of levels shows: those on its levels and the leaves above the first.
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
 
-/// The boxes of those nodes, coloured by their subject or their level; where several levels are shown, finer ones are
+/// The boxes of those nodes, coloured by their agent or their level; where several levels are shown, finer ones are
 /// fuller and heavier.
 void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
                      float scale);

@@ -44,7 +44,7 @@ void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, 
 
 std::size_t color_disks(std::vector<DiskInstance>& disks, std::size_t first, const Palette& palette,
                         const DrawnAgent& agent, const PathFocus& focus) {
-    for (; first < disks.size() && disks[first].id.participant == agent.index; ++first) {
+    for (; first < disks.size() && disks[first].id.agent == agent.index; ++first) {
         disks[first].color = disk_color(palette, agent, focus, disks[first].id.index);
     }
     return first;

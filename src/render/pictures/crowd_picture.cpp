@@ -107,7 +107,7 @@ std::string window_text(const Seconds& s) {
 /// Boxes that begin before what is shown, or end behind it, would stand there empty.
 void keep_within(DrawList& list, std::span<const DrawnAgent> paths, const Seconds& seconds) {
     std::erase_if(list.boxes, [&](const BoxInstance& box) {
-        const mobb::PlacedTree& tree = paths[static_cast<std::size_t>(box.id.participant)].placed;
+        const mobb::PlacedTree& tree = paths[static_cast<std::size_t>(box.id.agent)].placed;
         const mobb::Node& node = tree.node(box.id.index);
         return tree.begin(node) < seconds.begin || tree.end(node) > seconds.end;
     });

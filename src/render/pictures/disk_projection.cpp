@@ -25,12 +25,12 @@ constexpr double kAxisBeyond = 0.35;  // of the radius: how far axes go beyond w
 constexpr double kAside = 0.16;       // ... and perpendiculars, and how far the height stands beside the disk
 
 const DrawnAgent& checked(std::span<const DrawnAgent> agents, const DiskProjection& projection) {
-    if (projection.participant < 0 || static_cast<std::size_t>(projection.participant) >= agents.size()) {
-        throw ViewMismatch("projection", "there is no participant " + std::to_string(projection.participant) + ": " +
+    if (projection.agent < 0 || static_cast<std::size_t>(projection.agent) >= agents.size()) {
+        throw ViewMismatch("projection", "there is no participant " + std::to_string(projection.agent) + ": " +
                                              std::to_string(agents.size()) + (agents.size() == 1 ? " is" : " are") +
                                              " drawn, counted from 0");
     }
-    const DrawnAgent& agent = agents[static_cast<std::size_t>(projection.participant)];
+    const DrawnAgent& agent = agents[static_cast<std::size_t>(projection.agent)];
     const auto nodes = agent.placed.tree().nodes();
     if (projection.node < 0 || static_cast<std::size_t>(projection.node) >= nodes.size()) {
         throw ViewMismatch("projection", "there is no node " + std::to_string(projection.node) + " in the tree of " +

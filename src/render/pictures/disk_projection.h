@@ -30,7 +30,7 @@ struct DiskExtents {
     std::array<AxisExtent, 2> along;
 };
 
-/// `node` and `sample` of the subject's tree and clip; the node bounds the sample.
+/// `node` and `sample` of the agent's tree and clip; the node bounds the sample.
 DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample);
 
 /// The picture of the view's projection. Unless the view says how high time is drawn it has the height that the box is

@@ -17,7 +17,7 @@ struct FarthestJoint {
 
 /// Somebody who stands there then.
 struct Body {
-    int agent = 0;                          ///< index into the subjects
+    int agent = 0;                          ///< index into the drawn agents
     int sample = 0;                         ///< that holds then
     mobb::Disk disk;                        ///< that sample in the world
     double height = 0;                      ///< metres, of the cylinder
@@ -41,10 +41,10 @@ struct Moment {
     std::optional<BodyPair> nearest;  ///< if no pair overlaps: the one with the least clearance
 };
 
-/// `heights`: of the subjects' cylinders, one for each.
+/// `heights`: of the agents' cylinders, one for each.
 Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> heights, double time);
 
-/// How tall the subjects' cylinders are, metres: a little more than the highest joint of the whole clip, so that they
+/// How tall the agents' cylinders are, metres: a little more than the highest joint of the whole clip, so that they
 /// keep their height while people walk.
 std::vector<double> cylinder_heights(std::span<const DrawnAgent> agents);
 

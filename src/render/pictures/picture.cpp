@@ -20,7 +20,7 @@ Picture::Picture(const FittedScene& fitted, const ViewState& view, const Picture
     list_.size = options.size;
     list_.palette = palette_for(view.theme, options);
     list_.background = options.background;
-    for (const DrawnAgent& agent : agents_) list_.participants.push_back(agent.name);
+    for (const DrawnAgent& agent : agents_) list_.agents.push_back(agent.name);
 }
 
 const PictureFrame& Picture::aim() {

@@ -45,7 +45,7 @@ void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::sp
 
 struct Emphasis {
     std::optional<double> cursor;               ///< global seconds, where the time cursor is drawn
-    std::vector<std::optional<int>> at_cursor;  ///< by subject: the sample that holds then
+    std::vector<std::optional<int>> at_cursor;  ///< by agent: the sample that holds then
     std::optional<std::array<int, 2>> hits;     ///< samples of A and B that collide
     bool dims = false;                          ///< disks outside the nodes under test step back
 

@@ -47,7 +47,7 @@ LabelLayout::LabelLayout(PictureSize size)
 
 LabelLayout::LabelLayout(const DrawList& list) : LabelLayout(list.size) {
     for (const TextRun& run : list.texts) reserve(run.box);
-    for (const Panel& panel : list.panels) reserve(panel.rect);
+    for (const OverlayPanel& panel : list.panels) reserve(panel.rect);
 }
 
 bool LabelLayout::is_free(const Rect& rect, float room) const {
@@ -76,7 +76,7 @@ bool LabelLayout::place(const LabelRequest& request, DrawList& list) {
 
 float panel_padding(float text_size) { return std::round(0.8f * text_size); }
 
-Panel text_panel(const Rect& rect, const Palette& palette, float text_size) {
+OverlayPanel text_panel(const Rect& rect, const Palette& palette, float text_size) {
     return {rect, 0.4f * text_size, palette.panel, palette.panel_border, 1};
 }
 

@@ -51,7 +51,7 @@ float line_height(FontFace face, float size);
 float panel_padding(float text_size);
 
 /// In the palette's colours.
-Panel text_panel(const Rect& rect, const Palette& palette, float text_size);
+OverlayPanel text_panel(const Rect& rect, const Palette& palette, float text_size);
 
 /// The largest of 1, 2, 5 times a power of ten that divides `span` into at least `parts` pieces. span > 0, parts >= 1.
 double nice_step(double span, double parts);
