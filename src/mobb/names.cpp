@@ -23,8 +23,6 @@ std::optional<Enum> from_name(std::span<const std::string_view> names, std::stri
 
 }  // namespace
 
-std::string_view name(BoxKind kind) { return info(kind).name; }
-
 std::string_view name(Axes axes) { return kAxesNames[static_cast<std::size_t>(axes)]; }
 std::optional<Axes> axes_from_name(std::string_view name) { return from_name<Axes>(kAxesNames, name); }
 std::span<const std::string_view> axes_names() { return kAxesNames; }

@@ -47,7 +47,7 @@ void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     out.member("first", node.first);
     out.member("count", node.count);
     out.member("leaf", node.is_leaf());
-    out.member("kind", mobb::name(box.kind));
+    out.member("kind", mobb::info(box.kind).name);
     out.key("center");
     // A moving box has its centre in the middle of its time; files give it at t0.
     write_vector(out, box.center - glm::dvec3(box.drift, 0), dimensions);

@@ -1,3 +1,4 @@
+#include <import/import.h>
 #include <import/tracks/csv.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>

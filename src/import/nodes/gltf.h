@@ -3,6 +3,8 @@
 
 #include <import/skeleton/motion.h>
 
+#include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace mobbscope {
