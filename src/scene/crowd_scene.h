@@ -30,7 +30,7 @@ std::optional<int> run_agent_by_name(const CrowdRun& crowd, std::string_view nam
 
 /// The run with an agent for every play that is on between `time` - before and `time` + after. The first agents are the
 /// people in their order, each with its play at the time (or nearest to it) and under its own name, whatever the
-/// window; behind them the plays before ("17 -1") and after it ("17 +1"), by person and time. Agent::person and
+/// window; behind them the plays before ("17 -1") and after it ("17 +1"), by person and time. Agent::run_agent and
 /// Agent::play say whose they are. Requires is_run.
 Scene scene_at(const Scene& run, double time, CrowdWindow window);
 

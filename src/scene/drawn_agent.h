@@ -18,7 +18,7 @@ struct DrawnAgent {
     Rgba color;
     int index = 0;                       ///< in DrawList::agents
     const Skeleton* skeleton = nullptr;  ///< of the clip; null: none
-    int run_agent = -1;                  ///< of a run: who plays it, as Agent::person; else -1
+    int run_agent = -1;                  ///< of a run: who plays it, as Agent::run_agent; else -1
     /// Of a run in space-time: the samples within the view's window, maybe none; nothing: all of them.
     std::optional<mobb::SampleRange> window{};
 

@@ -84,7 +84,7 @@ struct Scene {
 };
 
 /// The number of queries: the scene's own; without any, all pairs of agents; without agents 0. A run has none: its
-/// collisions are found by choices (crowd/simulation/choice.h) and conflicts (conflicts/scene_conflicts.h).
+/// collisions are found by choices (crowd/simulation/choice.h) and conflicts (conflicts/conflicts.h).
 std::size_t query_count(const Scene& scene);
 /// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
 /// when asked for: the pairs of a crowd would fill the memory.

@@ -1,5 +1,6 @@
-/// The options of a view, one row each. From the table come the JSON of a view and its schema, the options of `render`,
-/// "Copy as command", and the window's commands with their menu items and help.
+/// The options of a view, one row each. From the table come the JSON of a view, the options of `render`, "Copy as
+/// command", and the window's commands with their menu items and help; a test writes and compares its part of
+/// assets/scene.schema.json. For example:
 ///
 ///     {"show": "space-time", "camera": {"preset": "iso", "yaw_deg": 45, "pitch_deg": 25, "perspective": true,
 ///     "fov_deg": 12,

@@ -121,7 +121,7 @@ Frame Time: 0.033333
     EXPECT_EQ(clip_of(wrapped).facts.joints, 2);
     // Up and down is not over the ground; and an End Site is no joint to go on to.
     EXPECT_EQ(clip_of(replaced(wrapped, "0 0 0 5 95 0", "0 0 0 0 95 0")).facts.root, "Head");
-    // ReservationGrid spins on its place: it never moves either, whatever Hips does.
+    // World spins on its place: it never moves either, whatever Hips does.
     EXPECT_EQ(clip_of(replaced(wrapped, "0 0 0 5 95 0", "0 0 20 5 95 0")).facts.root, "Hips");
     ImportOptions options;
     options.root = "World";

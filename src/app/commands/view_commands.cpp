@@ -563,7 +563,7 @@ std::vector<Command> shown_table() {
     };
 }
 
-/// What stands in the menu "View/Show": every toggle of the view that has no other menu.
+/// The toggles of the menu "View/Show" are made from their rows in scene/view_options.cpp.
 std::vector<Command> all_view_commands() {
     std::vector<Command> out = camera_table();
     for (const ViewOption& option : view_options()) {

@@ -101,7 +101,7 @@ class Session {
     /// it is done: `change` may run again then, so it holds by value what it needs. Throws std::invalid_argument for
     /// options out of range: nothing is changed then.
     void refit(const EditName& name, const std::function<void(mobb::FitOptions&)>& change);
-    /// Changes how it is seen; undo takes back looking of one kind (see History::look) in one go.
+    /// Changes how it is seen; undo takes back looking of one kind (see History::change_view) in one go.
     void change_view(const std::function<void(ViewState&)>& change);
     /// An interaction has ended: what follows is undone apart from it.
     void close_group() { history_.close_group(); }

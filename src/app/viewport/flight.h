@@ -7,7 +7,7 @@ namespace mobbscope::app {
 
 class Flight {
   public:
-    /// Both settled (render/drawlist/resolve_camera.h). `now`: seconds.
+    /// Both settled (render/drawlist/camera.h). `now`: seconds.
     Flight(const Camera& from, const Camera& to, double now) : from_(from), to_(to), start_(now) {}
 
     bool over(double now) const { return now - start_ >= kSeconds; }

@@ -1,5 +1,5 @@
-/// Moving the camera. All take and return explicit cameras (see settle.h): with a target in world metres with time
-/// drawn as height. Distances stay within kNearest..kFarthest.
+/// Moving the camera. All take and return explicit cameras (see resolved_camera): with a target in world metres with
+/// time drawn as height. Distances stay within kNearest..kFarthest.
 #pragma once
 
 #include <render/drawlist/draw_list.h>

@@ -13,7 +13,7 @@ class CommonFraming {
   public:
     void add(const DrawList& list);
 
-    /// The explicit camera (see settle.h) that sees all pictures from where `camera` looks, as large as can be.
+    /// The explicit camera (see resolved_camera) that sees all pictures from where `camera` looks, as large as can be.
     Camera still(const Camera& camera) const;
 
     /// Likewise, but it shows all from every side: it may be turned about its target.

@@ -52,7 +52,7 @@ bool time_on_end(const ViewProjection& projection);
 /// Metres, of the walls in the picture of a moment.
 inline constexpr double kWallHeight = 0.5;
 
-/// The floor_extent of a run: its floor between two times, seconds.
+/// Of a run: its floor between two times, seconds.
 FloorExtent floor_stage(glm::dvec2 area, double begin, double end);
 
 /// Low walls of glass around the floor that a run takes place on. `bottom`, `top`: in the drawn space's third

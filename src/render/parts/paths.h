@@ -58,7 +58,7 @@ void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, float 
 void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale);
 
 struct DiskOverlap {
-    /// Its two outlines from end to end, as many points in each; rows of points across it. ReservationGrid metres.
+    /// Its two outlines from end to end, as many points in each; rows of points across it. World metres.
     std::array<std::vector<glm::dvec2>, 2> sides;
     bool has_tips = false;  ///< the circles cross at the ends of the outlines
 };

@@ -10,8 +10,8 @@
 
 namespace mobbscope {
 
-class MoveSet;          // crowd/simulation/move_set.h
-struct FollowedChoice;  // crowd/simulation/followed.h
+class MoveSet;          // crowd/simulation/reservation_table.h
+struct FollowedChoice;  // crowd/simulation/choice.h
 
 /// `scale`: of text and lines, kLeastScale..kMostScale (1 suits 1280x720); 0: what suits the size. Throws
 /// std::invalid_argument, saying what is allowed, if the scale is another, the view names a query or a step that there

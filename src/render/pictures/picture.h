@@ -19,7 +19,7 @@
 
 namespace mobbscope {
 
-struct FollowedChoice;  // crowd/simulation/followed.h
+struct FollowedChoice;  // crowd/simulation/choice.h
 
 class Picture {
   public:
