@@ -32,7 +32,7 @@ std::optional<TreeKind> tree_kind_from_name(std::string_view name) { return from
 std::span<const std::string_view> tree_kind_names() { return kTreeKindNames; }
 
 std::string_view name(TestKind test) {
-    return test.is_box() ? name(test.box()) : test == TestKind::time ? "time" : "samples";
+    return test.is_box() ? info(test.box()).name : test == TestKind::time ? "time" : "samples";
 }
 std::optional<TestKind> test_from_name(std::string_view text) {
     const auto found = std::ranges::find(kTestKinds, text, [](TestKind test) { return name(test); });

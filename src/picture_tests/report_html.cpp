@@ -1,5 +1,4 @@
 #include <base/text.h>
-#include <picture_tests/markup.h>
 #include <picture_tests/reports.h>
 #include <render/image/png.h>
 

@@ -42,4 +42,11 @@ std::vector<std::string> not_compared(std::span<const CaseResult> results);
 /// The command line that takes the pictures of these cases as their goldens, ready for a shell.
 std::string update_command(const RunFacts& facts, std::span<const std::string_view> names);
 
+/// Text fit for content and for attributes in either kind of quotes, in HTML and XML 1.0. Characters that XML does not
+/// allow, or that steer terminals, and bytes that are not UTF-8 become '?'.
+std::string escaped(std::string_view text);
+
+/// RFC 4648, with padding.
+std::string base64(std::string_view bytes);
+
 }  // namespace mobbscope::picture_tests

@@ -1,4 +1,3 @@
-#include <picture_tests/markup.h>
 #include <picture_tests/reports.h>
 
 #include "support/temp_folder.h"

@@ -1,5 +1,4 @@
 #include <app/commands/command.h>
-#include <app/panels/dialogs.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
 

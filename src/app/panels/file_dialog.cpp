@@ -1,5 +1,5 @@
 #include <app/commands/command.h>
-#include <app/panels/dialogs.h>
+#include <app/panels/panels.h>
 #include <app/panels/path_completion.h>
 #include <app/ui/dialog_frame.h>
 #include <scene/load_files.h>

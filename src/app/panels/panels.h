@@ -21,4 +21,10 @@ void messages(Ui& ui);
 /// The whole window: panels with movable borders between them.
 void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures);
 
+// The dialogs, one function each; dialogs() calls the one that is open.
+void palette(Ui& ui);
+void file_dialog(Ui& ui);  ///< open, add, save as, export: a path is asked for
+void help_sheet(Ui& ui);
+void about(Ui& ui);
+
 }  // namespace mobbscope::app

@@ -43,7 +43,11 @@ struct Ui {
         0;  ///< in so many seconds another frame is wanted, whatever happens; infinity: none. Panels lower it
 
     /// Names the last widget for scripts.
-    void mark(const std::string& name) const;
+    void mark(const std::string& name) const {
+        const ImVec2 min = ImGui::GetItemRectMin();
+        const ImVec2 max = ImGui::GetItemRectMax();
+        marks.add(name, {{min.x, min.y}, {max.x, max.y}});
+    }
     void want_frame_in(double seconds) { next_frame = next_frame < seconds ? next_frame : seconds; }
     float px(float at_scale_1) const { return at_scale_1 * style.scale; }
 };

@@ -4,7 +4,6 @@
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/render/render_batch.h>
-#include <cli/render/render_command.h>
 #include <cli/render/render_job.h>
 #include <cli/render/render_options.h>
 #include <render/gl/backends.h>
@@ -25,27 +24,6 @@ struct RenderCommandArguments {
     bool list_backends = false;
     bool json = false;
 };
-
-void render_one(const RenderArguments& arguments) {
-    RenderPlan plan;
-    plan.add(arguments);
-    OutputCheck outputs = plan.sources();
-    RenderPlan::check_outputs(plan.jobs().front(), outputs);
-    plan.draw(arguments.backend.value_or(Backend::automatic));
-}
-
-void run_render(const Command& command, const RenderCommandArguments& arguments) {
-    if (arguments.json && !arguments.list_backends) throw InputError("--json: it is of --list-backends");
-    if (arguments.list_backends) {
-        list_backends(arguments.json);
-    } else if (!arguments.batch.empty()) {
-        render_batch(arguments.batch, arguments.render);
-    } else if (is_case(arguments.render.file)) {
-        render_case(command, arguments.render);
-    } else {
-        render_one(arguments.render);
-    }
-}
 
 void print_words(const std::vector<BackendReport>& backends) {
     for (const BackendReport& backend : backends) {
@@ -77,6 +55,36 @@ void print_backends_json(const std::vector<BackendReport>& backends) {
     json.end_object();
 }
 
+/// On standard output, in words or as JSON. Throws MachineError if none works.
+void list_backends(bool json) {
+    const std::vector<BackendReport> backends = report_backends();
+    json ? print_backends_json(backends) : print_words(backends);
+    flush_results();
+    const bool any = std::any_of(backends.begin(), backends.end(), [](const BackendReport& b) { return b.works; });
+    if (!any) throw MachineError("no OpenGL 3.3 context without a display; see above which libraries were tried");
+}
+
+void render_one(const RenderArguments& arguments) {
+    RenderPlan plan;
+    plan.add(arguments);
+    OutputCheck outputs = plan.sources();
+    RenderPlan::check_outputs(plan.jobs().front(), outputs);
+    plan.draw(arguments.backend.value_or(Backend::automatic));
+}
+
+void run_render(const Command& command, const RenderCommandArguments& arguments) {
+    if (arguments.json && !arguments.list_backends) throw InputError("--json: it is of --list-backends");
+    if (arguments.list_backends) {
+        list_backends(arguments.json);
+    } else if (!arguments.batch.empty()) {
+        render_batch(arguments.batch, arguments.render);
+    } else if (is_case(arguments.render.file)) {
+        render_case(command, arguments.render);
+    } else {
+        render_one(arguments.render);
+    }
+}
+
 }  // namespace
 
 void add_render_command(Command& program) {
@@ -93,14 +101,6 @@ void add_render_command(Command& program) {
     command.add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
     command.add_flag("--json", arguments->json, "With --list-backends: as JSON");
     command.callback([&command, arguments] { run_render(command, *arguments); });
-}
-
-void list_backends(bool json) {
-    const std::vector<BackendReport> backends = report_backends();
-    json ? print_backends_json(backends) : print_words(backends);
-    flush_results();
-    const bool any = std::any_of(backends.begin(), backends.end(), [](const BackendReport& b) { return b.works; });
-    if (!any) throw MachineError("no OpenGL 3.3 context without a display; see above which libraries were tried");
 }
 
 }  // namespace mobbscope::cli

@@ -11,10 +11,8 @@
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/build_draw_list.h>
-#include <render/pictures/crowd_picture.h>
 #include <render/pictures/disk_projection.h>
 #include <render/pictures/kept_paths.h>
-#include <render/pictures/moment_picture.h>
 #include <render/pictures/picture.h>
 #include <render/query/query_boxes.h>
 #include <render/text/labels.h>

@@ -7,7 +7,7 @@
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/candidates.h>
-#include <render/pictures/crowd_picture.h>
+#include <render/pictures/picture.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 

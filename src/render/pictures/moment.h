@@ -1,6 +1,8 @@
 /// Who is on the floor at one moment, in numbers: what the picture of it draws and says.
 #pragma once
 
+#include <render/layout/caption.h>
+#include <render/layout/legend.h>
 #include <scene/drawn_agent.h>
 
 #include <optional>
@@ -50,5 +52,16 @@ std::vector<double> cylinder_heights(std::span<const DrawnAgent> agents);
 
 /// A joint of a sample in the world: x, y and the height in metres. Requires a skeleton.
 glm::dvec3 joint_place(const DrawnAgent& agent, int sample, int joint);
+
+/// Who is there, of so many people, and who overlaps whom, or how near they come.
+Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agents, const Moment& moment,
+                       std::size_t people);
+
+/// Radii of few are drawn as lines; those of more would be told apart by nobody.
+bool may_show_radii(std::span<const DrawnAgent> agents);
+
+/// What the picture's colours and lines stand for, whenever it is: the legend stays while time runs.
+std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const DrawnAgent> agents,
+                                       const ViewState& view);
 
 }  // namespace mobbscope

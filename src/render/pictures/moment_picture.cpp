@@ -6,8 +6,8 @@
 #include <render/parts/floor_and_axes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/candidates.h>
-#include <render/pictures/moment_caption.h>
-#include <render/pictures/moment_picture.h>
+#include <render/pictures/moment.h>
+#include <render/pictures/picture.h>
 #include <render/pictures/standing_agents.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>

@@ -77,4 +77,20 @@ class Picture {
 /// The middle of those points.
 glm::dvec3 middle_of(const ShownPoints& points);
 
+/// Of a run that scene_at made a scene, in space-time. The plane of the view's time stays where it is while time runs,
+/// and the stacks sink through it. `choice`: of the followed agent, or null. Both outlive the picture. Throws
+/// std::invalid_argument if the view follows nobody there is, or asks for a query.
+std::unique_ptr<Picture> crowd_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                                       const FollowedChoice* choice);
+
+/// Boxes of more people would bury everything: those of the followed one are shown alone.
+inline constexpr std::size_t kMostCrowdBoxes = 200;
+
+/// Of the view's time, or without one of when the first path in it begins. With a query in the view only its two sides
+/// are there. It is framed so that nothing moves but the people while time runs; of a run with its walls around it, and
+/// the followed agent's `choice` on the floor (null: none). Scene and choice outlive the picture. Throws
+/// std::invalid_argument if the scene has nothing to draw, or no such query.
+std::unique_ptr<Picture> moment_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+                                        const FollowedChoice* choice);
+
 }  // namespace mobbscope
