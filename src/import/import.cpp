@@ -43,22 +43,22 @@ ParsedFile parse_once(const std::filesystem::path& file) {
 
 struct Format {
     std::string_view extension;
-    Contents contents;
     ParsedFile (*parse)(const std::filesystem::path&);
+    Contents contents;
     bool in_help = true;  ///< false of a second spelling
 };
 
 /// Every format, in the order of help and messages.
 constexpr Format kFormats[] = {
-    {".bvh", Contents::skeletons, parse_once<read_bvh, motion_clips>},
-    {".gltf", Contents::skeletons, parse_once<read_gltf, motion_clips>},
-    {".glb", Contents::skeletons, parse_once<read_gltf, motion_clips>},
-    {".fbx", Contents::skeletons, parse_once<read_fbx, motion_clips>},
-    {".csv", Contents::table, parse_once<parse_csv, csv_clips>},
-    {".txt", Contents::trajectories, parse_once<parse_text_tracks, track_clips>},
-    {".ndjson", Contents::trajectories, parse_once<parse_trajnetpp, track_clips>},
-    {".yaml", Contents::trajectories, parse_once<parse_mapf_plan, track_clips>},
-    {".yml", Contents::trajectories, parse_once<parse_mapf_plan, track_clips>, false},
+    {".bvh", parse_once<read_bvh, motion_clips>, Contents::skeletons},
+    {".gltf", parse_once<read_gltf, motion_clips>, Contents::skeletons},
+    {".glb", parse_once<read_gltf, motion_clips>, Contents::skeletons},
+    {".fbx", parse_once<read_fbx, motion_clips>, Contents::skeletons},
+    {".csv", parse_once<parse_csv, csv_clips>, Contents::table},
+    {".txt", parse_once<parse_text_tracks, track_clips>, Contents::trajectories},
+    {".ndjson", parse_once<parse_trajnetpp, track_clips>, Contents::trajectories},
+    {".yaml", parse_once<parse_mapf_plan, track_clips>, Contents::trajectories},
+    {".yml", parse_once<parse_mapf_plan, track_clips>, Contents::trajectories, false},
 };
 
 const Format* format_of(const std::filesystem::path& file) {

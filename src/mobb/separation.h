@@ -77,18 +77,18 @@ struct PairTest {
     BoxKind a;
     BoxKind b;
     BoxKind test;
-    Separation (*separate)(const Box&, const Box&, const RelativeFrame&);
     bool mixes_time;  ///< boxes of trees of different time scales live in different spaces: they are not compared
+    Separation (*separate)(const Box&, const Box&, const RelativeFrame&);
 };
 
 /// A pair that is not here has no test in common: it counts as overlapping.
 inline constexpr PairTest kPairTests[] = {
-    {BoxKind::obb2d, BoxKind::obb2d, BoxKind::obb2d, separate_obb2d, false},
-    {BoxKind::obb3d, BoxKind::obb3d, BoxKind::obb3d, separate_obb3d, true},
-    {BoxKind::obb2d, BoxKind::obb3d, BoxKind::obb3d, separate_obb3d, true},
-    {BoxKind::obb3d, BoxKind::obb2d, BoxKind::obb3d, separate_obb3d, true},
-    {BoxKind::moving, BoxKind::moving, BoxKind::moving, separate_moving, true},
-    {BoxKind::aabb, BoxKind::aabb, BoxKind::aabb, separate_aabb, false},
+    {BoxKind::obb2d, BoxKind::obb2d, BoxKind::obb2d, false, separate_obb2d},
+    {BoxKind::obb3d, BoxKind::obb3d, BoxKind::obb3d, true, separate_obb3d},
+    {BoxKind::obb2d, BoxKind::obb3d, BoxKind::obb3d, true, separate_obb3d},
+    {BoxKind::obb3d, BoxKind::obb2d, BoxKind::obb3d, true, separate_obb3d},
+    {BoxKind::moving, BoxKind::moving, BoxKind::moving, true, separate_moving},
+    {BoxKind::aabb, BoxKind::aabb, BoxKind::aabb, false, separate_aabb},
 };
 
 static_assert(std::ranges::all_of(kBoxKinds,
