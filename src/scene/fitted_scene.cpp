@@ -63,6 +63,14 @@ FittedScene FittedScene::using_fit(std::size_t index) const {
     return out;
 }
 
+FittedScene FittedScene::without_unused_fits() const {
+    FittedScene out = *this;
+    out.fits_ = {fits_.front()};
+    if (in_use_ > 0) out.fits_.push_back(fits_[in_use_]);
+    out.in_use_ = out.fits_.size() - 1;
+    return out;
+}
+
 std::size_t FittedScene::bytes_beyond(const FittedScene& other) const {
     std::unordered_set<const void*> shared{other.scene_.get()};
     for (const auto& fit : other.fits_) {

@@ -52,6 +52,8 @@ class FittedScene {
                          std::span<const FittedScene* const> previous = {}, const Progress& progress = {}) const;
     /// The same with another fit in use: an index < fits().size().
     FittedScene using_fit(std::size_t index) const;
+    /// The same with the first fit and the one in use alone.
+    FittedScene without_unused_fits() const;
 
     const std::vector<std::shared_ptr<const NamedFit>>& fits() const { return fits_; }  ///< at least one; none is null
     std::size_t fit_in_use() const { return in_use_; }

@@ -14,15 +14,15 @@ namespace {
 
 bool is_scene(const std::filesystem::path& file) { return lower_extension(file) == ".json"; }
 
-/// A folder's clips, by name; scenes and crowds in it are other documents, and not every text is a crowd.
-std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder) {
+template <class Iterator>
+std::vector<std::filesystem::path> clips_by(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> out;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    // Stepped by hand: the loop's own ++ would throw.
+    for (Iterator at(folder, error), end; !error && at != end; at.increment(error)) {
         std::error_code ignored;
-        const std::optional<Contents> contents = contents_by_name(entry.path());
-        if (entry.is_regular_file(ignored) && contents && contents != Contents::trajectories)
-            out.push_back(entry.path());
+        const std::optional<Contents> contents = contents_by_name(at->path());
+        if (contents && contents != Contents::trajectories && at->is_regular_file(ignored)) out.push_back(at->path());
     }
     if (error) throw InputError(folder.string(), "", "the folder cannot be read: " + error.message());
     if (out.empty()) {
@@ -34,6 +34,11 @@ std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder)
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder, bool below) {
+    return below ? clips_by<std::filesystem::recursive_directory_iterator>(folder)
+                 : clips_by<std::filesystem::directory_iterator>(folder);
+}
 
 std::span<const std::string_view> openable_extensions() {
     static const std::vector<std::string_view> extensions = [] {

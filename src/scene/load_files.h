@@ -19,6 +19,10 @@ std::span<const std::string_view> openable_extensions();
 std::string openable_files();
 std::string openable_files_in_short();
 
+/// The clip files in a folder, by name; with `below` in the folders in it too. Scenes and crowds in it are other
+/// documents, and not every text is a crowd. Throws InputError if it cannot be read or holds none.
+std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder, bool below = false);
+
 /// Scenes and clips merged into one scene; a folder stands for the clips in it, by name. `overrides` go
 /// over the import keys of every clip with a source. `progress` is told before each file, or of one scene before each
 /// clip. Throws InputError.

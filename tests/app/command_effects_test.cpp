@@ -245,12 +245,33 @@ std::vector<Case> cases() {
         run_command(w.session, "tree.kind", "umobb");
         run_command(w.session, "view.split");
         EXPECT_EQ(w.session.view_at(1).fitted->options().tree, mobb::TreeKind::mobb);
+        // What another view was fitted with before is not kept for the next.
+        run_command(w.session, "view.split");
+        run_command(w.session, "tree.leaf", "7");
+        run_command(w.session, "view.split");
+        EXPECT_EQ(w.session.view_at(1).fitted->options().leaf, 7);
+        EXPECT_EQ(w.session.document().fitted->fits().size(), 2u);
+        // A kind that was changed in its view is not taken for what the view was split with.
+        run_command(w.session, "view.other");
+        run_command(w.session, "tree.kind", "umobb");
+        run_command(w.session, "view.split");
+        run_command(w.session, "view.split");
+        EXPECT_NE(w.session.view_at(0).fitted->options().tree, w.session.view_at(1).fitted->options().tree);
     });
     add({"view.other", "", {{"view.split", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.session.active_place(), 1u);
              EXPECT_EQ(w.session.fitted().options().tree, mobb::TreeKind::umobb);
              run_command(w.session, "view.other");
              EXPECT_EQ(w.session.active_place(), 0u);
+         }});
+    add({"file.copy_command", "", {{"view.split", ""}, {"view.other", ""}}, [](CommandWorld& w) {
+             EXPECT_NE(w.clipboard.find(" --tree umobb --leaf 4 --levels 0 --axes endpoints --time-scale 1 "),
+                       std::string::npos)
+                 << "the file has another fit: " << w.clipboard;
+             run_command(w.session, "view.other");
+             run_command(w.session, "view.split");
+             run_command(w.session, "file.copy_command");
+             EXPECT_EQ(w.clipboard.find("--tree"), std::string::npos) << w.clipboard;
          }});
     add({"view.link_cameras", "", {{"view.split", ""}}, [](CommandWorld& w) {
              run_command(w.session, "view.top");

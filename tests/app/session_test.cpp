@@ -504,6 +504,11 @@ TEST(Views, WhatIsSavedIsTheActiveOne) {
     session.open({folder.scene});
     session.split_view("fine", {.leaf = 2});
     EXPECT_FALSE(session.modified()) << "a view more is no change of the scene";
+    session.find_conflicts();
+    ASSERT_NE(session.conflicts(), nullptr);
+    session.activate_view(1);
+    EXPECT_NE(session.conflicts(), nullptr) << "they are the scene's, whatever the fit";
+    session.activate_view(0);
     session.activate_view(1);
     session.save_as(folder.file("saved.json"));
     EXPECT_EQ(session.view_count(), 2u);
@@ -552,6 +557,22 @@ TEST(Jobs, EditsGoOnMeanwhileAndAreKept) {
     session.undo();
     EXPECT_EQ(session.scene().fit.axes, mobb::Axes::endpoints);
     EXPECT_EQ(session.scene().agents.back().placement.translate.x, 1);
+}
+
+TEST(Jobs, UndoOutOfAnExcerptEndsThem) {
+    CrossingFolder folder;
+    Session session(true);
+    session.open({long_walk(folder)});
+    while (session.job()) session.poll();
+    const PlacedAgent who = session.fitted().placed_agents().front();
+    const PlacedAgent other = who;
+    session.open_excerpt(who, other);
+    run_command(session, "tree.axes", "minarea");
+    ASSERT_TRUE(session.job());
+    session.undo();
+    EXPECT_FALSE(session.in_excerpt());
+    EXPECT_FALSE(session.job());
+    EXPECT_EQ(session.fitted().options().axes, mobb::Axes::endpoints) << "it was meant for the excerpt";
 }
 
 TEST(Jobs, SeveralRunAtOnceAndEachIsTakenIn) {

@@ -61,6 +61,15 @@ std::string view_line(const ViewState& file, const ViewState& now) {
     return out;
 }
 
+/// The options of the fit in use, where the file's may be another.
+std::string fit_options(const FittedScene& fitted) {
+    if (fitted.fits().size() == 1) return "";
+    const mobb::FitOptions& fit = fitted.options();
+    return " --tree " + std::string(mobb::name(fit.tree)) + " --leaf " + std::to_string(fit.leaf) + " --levels " +
+           std::to_string(fit.levels) + " --axes " + std::string(mobb::name(fit.axes)) + " --time-scale " +
+           short_double(fit.time_scale);
+}
+
 }  // namespace
 
 std::string render_line(const Session& session) {
@@ -73,8 +82,9 @@ std::string render_line(const Session& session) {
     const double words = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
     const std::string scale = words > 0 ? " --scale " + short_double(words) : "";
     // Of an unchanged scene, its `view` is the one in the file.
-    return "mobbscope render " + shell_word(file.string()) + view_line(session.scene().view, session.view()) +
-           " --size " + std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";
+    return "mobbscope render " + shell_word(file.string()) + fit_options(*session.document().fitted) +
+           view_line(session.scene().view, session.view()) + " --size " + std::to_string(size.width) + 'x' +
+           std::to_string(size.height) + scale + " -o picture.png";
 }
 
 }  // namespace mobbscope::app

@@ -42,7 +42,10 @@ std::size_t History::bytes() const {
 /// Becomes the present document's.
 void History::set(Document document) {
     State& state = states_[now_];
-    state.bytes = now_ > 0 ? document.fitted->bytes_beyond(*states_[now_ - 1].document.fitted) : 0;
+    // A view that moves changes nothing of what is held.
+    if (document.fitted != state.document.fitted || state.bytes == 0) {
+        state.bytes = now_ > 0 ? document.fitted->bytes_beyond(*states_[now_ - 1].document.fitted) : 0;
+    }
     state.document = std::move(document);
 }
 

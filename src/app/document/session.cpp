@@ -172,11 +172,13 @@ void Session::change_view(const std::function<void(ViewState&)>& change) {
 void Session::split_view(const std::string& name, const mobb::FitOptions& options) {
     Document next = document();
     const auto& fits = next.fitted->fits();
-    const auto known = std::find_if(fits.begin(), fits.end(), [&](const auto& fit) { return fit->name == name; });
-    std::size_t index = static_cast<std::size_t>(known - fits.begin());
+    const auto known = std::find_if(fits.begin(), fits.end(), [&](const auto& fit) { return fit->options == options; });
+    const std::size_t index = static_cast<std::size_t>(known - fits.begin());
     FittedScene fitted = *next.fitted;
     if (known == fits.end()) {
-        fitted = fitted.with_fit(name, options);
+        UnusedNames names;
+        for (const auto& fit : fits) names.take(fit->name);
+        fitted = fitted.with_fit(names.take(name), options);
         next.fitted = std::make_shared<const FittedScene>(fitted);
         for (SceneView& other : next.beside) {
             other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
@@ -191,6 +193,7 @@ void Session::close_other_views() {
     Document next = document();
     next.beside.clear();
     next.place = 0;
+    next.fitted = std::make_shared<const FittedScene>(next.fitted->without_unused_fits());
     change_document(std::move(next), {"closing the other views", ""});
 }
 
@@ -240,16 +243,21 @@ void Session::share_time_and_camera() {
 }
 
 void Session::undo() {
-    if (!history_.can_undo()) return;
-    stop();
-    history_.undo();
-    changed();
+    if (history_.can_undo()) step_in_history(&History::undo);
 }
 
 void Session::redo() {
-    if (!history_.can_redo()) return;
+    if (history_.can_redo()) step_in_history(&History::redo);
+}
+
+void Session::step_in_history(void (History::*undo_or_redo)()) {
+    const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
     stop();
-    history_.redo();
+    (history_.*undo_or_redo)();
+    // What is made for an excerpt is not put into the whole, nor the other way round.
+    if (document().excerpt_of != before) {
+        while (!jobs_.empty()) cancel_job(0);
+    }
     changed();
 }
 
@@ -342,14 +350,14 @@ const FollowedChoice* Session::choice() const {
 }
 
 const std::vector<SceneConflict>* Session::conflicts() const {
-    return found_ && found_->in == document().fitted ? &found_->conflicts : nullptr;
+    return found_ && &found_->in->scene() == &scene() ? &found_->conflicts : nullptr;
 }
 
 void Session::find_conflicts() {
     start("Looking for conflicts", [this, in = document().fitted](JobControl& control) -> Job::Finish {
         std::vector<SceneConflict> found = conflicts_in(*in, progress_of(control));
         return [this, in, found = std::move(found)]() mutable {
-            if (in != document().fitted) {
+            if (&in->scene() != &scene()) {
                 return tell(Message::Level::info, "The scene has changed: look for conflicts again");
             }
             found_ = Found{in, std::move(found)};
@@ -483,7 +491,7 @@ void Session::open_demo() {
 void Session::add(const std::vector<std::filesystem::path>& files) {
     if (empty()) return open(files);
     if (crowd()) throw InputError("a run stands alone: open the files by themselves");
-    start("Reading files", [this, files](JobControl& control) -> Job::Finish {
+    start("Adding files", [this, files](JobControl& control) -> Job::Finish {
         const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
         return [this, read] {
             edit_with_fits(

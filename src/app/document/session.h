@@ -110,10 +110,11 @@ class Session {
     std::size_t active_place() const { return document().place; }
     /// What is seen at a place, < view_count(); of a run as shown().
     SceneView view_at(std::size_t place) const;
-    /// Shows the scene once more, to the right of all, as the active view does but with the fit of that name; makes
-    /// that fit if there is none yet. Throws std::invalid_argument for options out of range, or an empty name.
+    /// Shows the scene once more, to the right of all, as the active view does but with the fit of those options; makes
+    /// it if there is none, under that name or with a number behind it. Throws std::invalid_argument for options out of
+    /// range, or an empty name.
     void split_view(const std::string& name, const mobb::FitOptions& options);
-    /// Only the active view is left; fits stay.
+    /// Only the active view is left, and of the fits its own and the scene's first.
     void close_other_views();
     /// Commands and panels are about the view at that place from now on; of a place that there is not nothing changes.
     void activate_view(std::size_t place);
@@ -246,6 +247,7 @@ class Session {
     void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
     void change_document(Document next, const EditName& name);
     void share_time_and_camera();
+    void step_in_history(void (History::*undo_or_redo)());
     void changed();
 
     bool attended_;

@@ -42,16 +42,24 @@ void panel(const Ui& ui, const std::string& name, ImVec2 size, const Draw& draw)
 /// Side by side, equally wide, with a line between them.
 void draw_views(Ui& ui, std::vector<Viewport>& viewports) {
     if (viewports.size() == 1) return viewports.front().draw(ui, 0);
+    const ImVec2 corner = ImGui::GetCursorPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const float line = std::max(1.0f, std::floor(ui.px(1)));
     const float count = static_cast<float>(viewports.size());
     const float width = std::floor((room.x - line * (count - 1)) / count);
-    for (std::size_t place = 0; place < viewports.size(); ++place) {
-        if (place > 0) ImGui::SameLine(0, line);
+    const auto draw = [&](std::size_t place, const PictureFrame* linked) {
+        ImGui::SetCursorPos({corner.x + static_cast<float>(place) * (width + line), corner.y});
         ImGui::BeginChild(("view " + std::to_string(place)).c_str(), {width, room.y}, false,
                           ImGuiWindowFlags_NoBackground);
-        viewports[place].draw(ui, place);
+        viewports[place].draw(ui, place, linked);
         ImGui::EndChild();
+    };
+    // The others follow its camera.
+    const std::size_t active = ui.session.active_place();
+    draw(active, nullptr);
+    const PictureFrame* linked = ui.session.document().linked_cameras ? viewports[active].shown() : nullptr;
+    for (std::size_t place = 0; place < viewports.size(); ++place) {
+        if (place != active) draw(place, linked);
     }
 }
 

@@ -105,31 +105,18 @@ void Viewport::take_off(Ui& ui, const Key& next) {
     flight_.emplace(from, resolved_camera(next.view.camera, there), ui.now);
 }
 
-/// A camera that frames the scene by itself would frame the boxes of each fit in another way: it stands where that of
-/// the active view stands.
-void Viewport::link_camera(const Session& session, PictureSize size, double scale, ViewState& view) {
-    if (view.camera.target) return;
-    const SceneView active = session.view_at(session.active_place());
-    const Key key{active.fitted, active.view, size, scale};
-    if (!linked_ || !(linked_->to == key)) {
-        try {
-            const PictureFrame frame = picture_frame(*active.fitted, active.view, size, scale);
-            linked_ = Linked{key, resolved_camera(active.view.camera, frame), frame.space.time_height,
-                             frame.moment.has_value()};
-        } catch (const std::invalid_argument&) {
-            return;  // the active view says why there is no picture
-        }
-    }
-    view.camera = linked_->camera;
-    if (!linked_->moment) view.time_height = linked_->time_height;
-}
-
-void Viewport::update_picture(Ui& ui, PictureSize size) {
+void Viewport::update_picture(Ui& ui, PictureSize size, const PictureFrame* linked) {
     const Session& session = ui.session;
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
     SceneView seen = session.view_at(view_place_);
-    if (!is_active(ui) && session.document().linked_cameras) link_camera(session, size, words, seen.view);
+    // A camera that frames the scene by itself would frame the boxes of each fit in another way: it stands where that
+    // of the active view stands.
+    const bool same_kind = linked && linked->moment.has_value() == (seen.view.show == Show::moment);
+    if (same_kind && !seen.view.camera.target) {
+        seen.view.camera = resolved_camera(seen.view.camera, *linked);
+        if (!linked->moment) seen.view.time_height = linked->space.time_height;
+    }
     const FollowedChoice* choice = seen.view.candidates && is_active(ui) ? session.choice() : nullptr;
     const Key next{seen.fitted, seen.view, size, words,
                    choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1)};
@@ -161,7 +148,7 @@ void Viewport::paint(Ui& ui, ImVec2 corner) {
     ImGui::GetWindowDrawList()->AddImage(texture_, corner, end, {0, 1}, {1, 0});
 }
 
-void Viewport::draw(Ui& ui, std::size_t place) {
+void Viewport::draw(Ui& ui, std::size_t place, const PictureFrame* linked) {
     view_place_ = place;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -173,7 +160,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
         return;
     }
     if (size.width < kMinSide || size.height < kMinSide) return;
-    update_picture(ui, size);
+    update_picture(ui, size, linked);
     if (is_active(ui)) {
         ui.session.hooks.viewport_size = [size] { return size; };
         ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
@@ -190,15 +177,12 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     mouse(ui, picture);
     paint(ui, corner);
     if (is_active(ui)) decorate(ui, {*list_, corner});
-    if (ui.session.view_count() > 1) name_fit(ui, corner);
+    if (ui.session.view_count() > 1) name_trees(ui, corner);
 }
 
-/// Which fit a view is of, in its upper right corner; a frame in the accent's colour around the active view.
-void Viewport::name_fit(const Ui& ui, ImVec2 corner) const {
-    const FittedScene& fitted = *key_->fitted;
-    std::string name = fitted.fits()[fitted.fit_in_use()]->name;
-    if (name.empty()) name = mobb::info(fitted.options().tree).label;
-    name = shortened(name, 24);
+/// The kind of trees of a view in its upper right corner; a frame in the accent's colour around the active view.
+void Viewport::name_trees(const Ui& ui, ImVec2 corner) const {
+    const std::string name(mobb::info(key_->fitted->options().tree).label);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
                      corner.y + static_cast<float>(list_->size.height)};
     ImDrawList& draw = *ImGui::GetWindowDrawList();

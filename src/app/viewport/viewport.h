@@ -17,8 +17,9 @@ namespace mobbscope::app {
 class Viewport {
   public:
     /// Draws the picture of the session's view at a place into the current ImGui child window; of the active view
-    /// handles and what is under the mouse too. A press makes a view the active one.
-    void draw(Ui& ui, std::size_t place);
+    /// handles and what is under the mouse too. A press makes a view the active one. `linked`: the picture of the
+    /// active view, whose camera this one has; null: it has its own.
+    void draw(Ui& ui, std::size_t place, const PictureFrame* linked = nullptr);
 
     /// What it showed last, as `render` would draw it but for a flight under way; null for an empty scene.
     const DrawList* shown() const { return list_ ? &*list_ : nullptr; }
@@ -36,9 +37,8 @@ class Viewport {
     enum class Drag { none, orbit, pan, handle };
 
     bool is_active(const Ui& ui) const { return view_place_ == ui.session.active_place(); }
-    void name_fit(const Ui& ui, ImVec2 corner) const;
-    void link_camera(const Session& session, PictureSize size, double scale, ViewState& view);
-    void update_picture(Ui& ui, PictureSize size);
+    void name_trees(const Ui& ui, ImVec2 corner) const;
+    void update_picture(Ui& ui, PictureSize size, const PictureFrame* linked);
     KeptPaths& paths_of(const Key& key);
     void build(const Key& key, const FollowedChoice* choice);
     void take_off(Ui& ui, const Key& next);
@@ -66,14 +66,6 @@ class Viewport {
     std::optional<KeptPaths> paths_;  ///< of key_'s scene
     std::size_t view_place_ = 0;      ///< of the session's views
     std::optional<Key> key_;          ///< what the document asks for, a flight apart
-    /// The camera of the active view, as it stands.
-    struct Linked {
-        Key to;
-        Camera camera;
-        double time_height = 0;
-        bool moment = false;
-    };
-    std::optional<Linked> linked_;
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;
