@@ -44,6 +44,15 @@ class ShellTest : public ::testing::TestWithParam<Backend> {
         return out.str();
     }
 
+    void hover_over_a_disk() {
+        const DrawList& list = *window->shell().shown();
+        const DiskInstance& disk = list.disks[3];
+        const glm::vec2 pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.5f * disk.height)).value();
+        window->shell().feed(MouseMove{window->shell().marks().all().at("viewport").min + pixel});
+        window->settle();
+        ASSERT_TRUE(session.hovered.on_path());
+    }
+
     Session session{false};
     std::unique_ptr<HeadlessWindow> window;
 };
@@ -180,12 +189,7 @@ TEST_P(ShellTest, WhatIsUnderTheMouseIsPointedOutAndNothingElseIsDrawnAnew) {
     run("move 5 5");
     const Image before = shell.read_back();
     ASSERT_EQ(pointed_out(shell), Roles{});
-    const DiskInstance& disk = shell.shown()->disks[3];
-    const auto pixel = shell.shown()->projection.project(disk.base + glm::vec3(0, 0, 0.5f * disk.height));
-    ASSERT_TRUE(pixel);
-    shell.feed(MouseMove{shell.marks().all().at("viewport").min + *pixel});
-    window->settle();
-    ASSERT_TRUE(session.hovered.on_path());
+    hover_over_a_disk();
     EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::hover});
     EXPECT_NE(shell.read_back().rgba, before.rgba);
     const DrawStatistics& statistics = shell.statistics();
@@ -215,7 +219,9 @@ TEST_P(ShellTest, WhatIsPointedOutInANewPictureIsDrawnWithAllOfIt) {
 
 TEST_P(ShellTest, ThePictureShowsWhatIsSelectedAsRenderDoes) {
     session.select({Selection::Kind::node, {1, -1, 0}, 2});
-    run("move 400 250");
+    window->settle();
+    hover_over_a_disk();
+    EXPECT_EQ(pointed_out(window->shell()), (Roles{HighlightLine::Role::selection, HighlightLine::Role::hover}));
     const Rect rect = window->shell().marks().all().at("viewport");
     DrawList list = build_draw_list(session.fitted(), session.view(),
                                     PictureSize{static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)});
