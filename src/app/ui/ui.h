@@ -27,7 +27,7 @@ class Marks {
 class Painter {
   public:
     virtual ~Painter() = default;
-    enum class Changed { nothing, highlights, all };  ///< in order: what is more is painted with what is less
+    enum class Changed { nothing, highlights, all };  ///< each includes those before it
     /// The texture of what the viewport at that place shows, upper row first at v = 1 (OpenGL's way up). What has
     /// changed in it is painted anew when a frame is next looked at. `still`: it will stay a while, so it is worth
     /// smooth edges.

@@ -139,7 +139,7 @@ void Viewport::update_picture(Ui& ui, PictureSize size, const PictureFrame* link
     build(next, choice);
 }
 
-/// What is pointed out changes without the picture: another list is built for none of it.
+/// Sets what is pointed out in the list, which is not built anew for that.
 void Viewport::update_highlights(const Ui& ui) {
     const std::vector<HighlightLine> shown = std::exchange(list_->highlights, {});
     if (is_active(ui)) {
