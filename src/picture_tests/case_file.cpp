@@ -70,7 +70,7 @@ Case read_case(const std::filesystem::path& file) {
     const JsonValue value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
     root.allow_only({"$schema", "mobbscope_case", "tolerance", "skip", "scene", "fit", "view", "panels", "columns",
-                     "size", "scale", "samples", "background", "window"});
+                     "select", "size", "scale", "samples", "background", "window"});
     if (const auto schema = root.find("$schema")) schema->string();
     const JsonPlace version = root.require("mobbscope_case");
     if (version.number() != kVersion) {

@@ -133,7 +133,13 @@ PictureMaker::Window PictureMaker::window_without_text(const Shot& shot) {
 
 std::vector<DrawList> panel_lists(const Shot& shot) {
     try {
-        return lists_of(shot);
+        std::vector<DrawList> lists = lists_of(shot);
+        for (std::size_t i = 0; shot.select && i < lists.size(); ++i) {
+            const float scale = metrics_of(lists[i].size, shot.picture.scale).scale;
+            if (add_selection(lists[i], *shot.panels[i].fitted, shot.panels[i].view, *shot.select, scale)) continue;
+            throw std::invalid_argument("the picture does not show what is selected");
+        }
+        return lists;
     } catch (const std::invalid_argument& error) {
         throw InputError(shot.file.string(), shot.scene_file.string(), error.what());
     }

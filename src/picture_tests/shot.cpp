@@ -120,7 +120,7 @@ PictureOptions read_picture_options(const JsonPlace& place) {
 
 /// Where a window is drawn, no panels are.
 void refuse_with_window(const JsonPlace& place) {
-    for (const char* key : {"panels", "columns", "scale", "samples", "background"}) {
+    for (const char* key : {"panels", "columns", "select", "scale", "samples", "background"}) {
         if (const auto found = place.find(key)) found->fail("a picture of the window has no such key; remove it");
     }
 }
@@ -132,6 +132,7 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     Shot shot;
     shot.scene_file = read_path(scene, folder).lexically_normal();
     shot.picture = read_picture_options(place);
+    if (const auto select = place.find("select")) shot.select = parse_named_part(select->string());
     if (const auto window = place.find("window")) {
         refuse_with_window(place);
         shot.window = read_window(*window, folder);

@@ -5,6 +5,7 @@
 ///      "view": {"levels": 1, "query": null}, over the scene's, key by key; null takes a query or a time out
 ///      "panels": [{"title": "root", "view": {"levels": 0}, "fit": {}}, ...],   side by side, each over the above
 ///      "columns": 3,                         of the panels; default: all in one row
+///      "select": "A:node:3",                 what is highlighted in each panel, as `render --select`; not of a window
 ///      "size": "640x360", "scale": 1, "samples": 4, "background": "transparent",   as the options of `render`
 ///      "window": {"script": "why.script", "scale": 1}}      the whole window after a script; no panels then
 ///
@@ -16,6 +17,7 @@
 #include <app/script/script.h>
 #include <base/json.h>
 #include <render/drawlist/picture_options.h>
+#include <render/parts/highlights.h>
 #include <scene/fitted_scene.h>
 
 #include <filesystem>
@@ -46,6 +48,7 @@ struct Shot {
     std::vector<PicturePanel> panels;  ///< at least one
     int columns = 1;
     PictureOptions picture;
+    std::optional<NamedPart> select;   ///< highlighted in each panel
     std::optional<WindowShot> window;  ///< then there is one panel
 };
 

@@ -279,6 +279,22 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     EXPECT_NE(options().find(" --distance "), std::string::npos) << copied;
     run_command(session, "file.save");
     EXPECT_EQ(options(), "");
+    // What is selected, where the picture shows it.
+    run_command(session, "go.agent", "A");
+    EXPECT_EQ(options(), " --select A");
+    run_command(session, "go.node", "A 2");
+    EXPECT_EQ(options(), " --select A:node:2");
+    session.change_view([](ViewState& view) { view.show = Show::moment; });
+    EXPECT_EQ(options().find("--select"), std::string::npos) << "a moment has no nodes: " << copied;
+    session.change_view([](ViewState& view) { view.show = Show::space_time; });
+    session.select({Selection::Kind::clip, {}, 0});
+    EXPECT_EQ(options(), "");
+    session.select({Selection::Kind::path, {2, -1, 0}, -1});
+    EXPECT_EQ(options(), " --select C");
+    run_command(session, "query.select", "0");
+    session.select({Selection::Kind::path, {2, -1, 0}, -1});
+    EXPECT_EQ(options().find("--select"), std::string::npos) << "the picture is of A and B: " << copied;
+    run_command(session, "query.none");
     run_command(session, "go.agent", "A");
     run_command(session, "agent.nudge", "1 0");
     EXPECT_NE(refusal(session, "file.copy_command").find("save the scene first"), std::string::npos);

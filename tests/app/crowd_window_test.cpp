@@ -1,4 +1,5 @@
 // A run in the window, by keys and clicks: who is followed stays in the picture, and buttons do what they say.
+#include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <string>
 
 namespace mobbscope::app {
@@ -199,6 +201,32 @@ TEST(CrowdWindow, NothingFliesWhenFollowingEnds) {
     w.window.frame();
     ASSERT_EQ(w.session.view().follow, "");
     EXPECT_LT(difference(before, w.window.shell().viewport_picture()), 0.1);
+}
+
+TEST(CrowdWindow, CandidatesAndConflictsThatAreLookedAtArePointedOut) {
+    CrowdWindow w;
+    const auto roles = [&] {
+        std::set<HighlightLine::Role> out;
+        for (const HighlightLine& line : w.window.shell().shown()->highlights) out.insert(line.role);
+        return out;
+    };
+    run_command(w.session, "time.at", "6");
+    w.click("agent.1");
+    w.key("W");
+    ASSERT_TRUE(w.session.choice());
+    ASSERT_FALSE(w.session.choice()->choice.candidates.empty());
+    EXPECT_FALSE(roles().contains(HighlightLine::Role::candidate));
+    w.session.candidate = 0;
+    w.window.settle();
+    EXPECT_TRUE(roles().contains(HighlightLine::Role::candidate));
+    w.session.candidate = -1;
+    run_command(w.session, "conflicts.find");
+    while (w.session.job()) w.session.poll();
+    run_command(w.session, "conflicts.go", "0");
+    w.window.settle();
+    ASSERT_GE(w.session.conflict, 0);
+    EXPECT_TRUE(roles().contains(HighlightLine::Role::conflict));
+    EXPECT_FALSE(roles().contains(HighlightLine::Role::candidate));
 }
 
 TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {

@@ -1,6 +1,6 @@
 // What is selected means the same in every picture, and never what is gone.
 #include <app/document/selection.h>
-#include <app/viewport/viewport_overlay.h>
+#include <app/viewport/describe.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 

@@ -3,8 +3,10 @@
 #include <app/window/headless_window.h>
 #include <app/window/window_gl.h>
 #include <base/error.h>
+#include <render/drawlist/picture_options.h>
 #include <render/gl/renderer.h>
 #include <render/image/png.h>
+#include <render/parts/highlights.h>
 #include <render/pictures/build_draw_list.h>
 #include <scene/load_files.h>
 
@@ -15,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 #include <string>
@@ -39,6 +42,15 @@ class ShellTest : public ::testing::TestWithParam<Backend> {
         std::ostringstream out;
         Script::parse(script, "test").run(session, *window, out);
         return out.str();
+    }
+
+    void hover_over_a_disk() {
+        const DrawList& list = *window->shell().shown();
+        const DiskInstance& disk = list.disks[3];
+        const glm::vec2 pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.5f * disk.height)).value();
+        window->shell().feed(MouseMove{window->shell().marks().all().at("viewport").min + pixel});
+        window->settle();
+        ASSERT_TRUE(session.hovered.on_path());
     }
 
     Session session{false};
@@ -161,6 +173,87 @@ TEST_P(ShellTest, ThePictureIsTheOneThatRenderDrawsOfTheSavedView) {
         if (!std::equal(row, row + 4 * size.width, rendered.at(0, y))) ++differing;
     }
     EXPECT_EQ(differing, 0) << "of " << size.height << " rows";
+}
+
+/// The roles of what is pointed out in the picture.
+std::set<HighlightLine::Role> pointed_out(const Shell& shell) {
+    std::set<HighlightLine::Role> out;
+    for (const HighlightLine& line : shell.shown()->highlights) out.insert(line.role);
+    return out;
+}
+
+using Roles = std::set<HighlightLine::Role>;
+
+TEST_P(ShellTest, WhatIsUnderTheMouseIsPointedOutAndNothingElseIsDrawnAnew) {
+    Shell& shell = window->shell();
+    run("move 5 5");
+    const Image before = shell.read_back();
+    ASSERT_EQ(pointed_out(shell), Roles{});
+    hover_over_a_disk();
+    EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::hover});
+    EXPECT_NE(shell.read_back().rgba, before.rgba);
+    const DrawStatistics& statistics = shell.statistics();
+    EXPECT_EQ(statistics.world_bytes + statistics.state_bytes, 0u);
+    EXPECT_EQ(statistics.overlay_bytes, shell.shown()->highlights.size() * 17 * sizeof(float));
+    // What is selected too is not pointed out twice.
+    session.select(session.hovered);
+    window->settle();
+    EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::selection});
+    session.select({});
+    run("move 5 5");
+    EXPECT_EQ(pointed_out(shell), Roles{});
+    EXPECT_EQ(shell.read_back().rgba, before.rgba);
+}
+
+/// A picture that was asked for and not yet looked at is not taken for one that stands there.
+TEST_P(ShellTest, WhatIsPointedOutInANewPictureIsDrawnWithAllOfIt) {
+    Shell& shell = window->shell();
+    shell.read_back();
+    session.change_view([](ViewState& view) { view.theme = Theme::light; });
+    window->settle();
+    session.select({Selection::Kind::path, {0, -1, 0}, -1});
+    window->settle();
+    EXPECT_GT(*shell.read_back().at(400, 250), 100) << "the ground is light";
+    EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::selection});
+}
+
+TEST_P(ShellTest, ThePictureShowsWhatIsSelectedAsRenderDoes) {
+    session.select({Selection::Kind::node, {1, -1, 0}, 2});
+    window->settle();
+    hover_over_a_disk();
+    EXPECT_EQ(pointed_out(window->shell()), (Roles{HighlightLine::Role::selection, HighlightLine::Role::hover}));
+    const Rect rect = window->shell().marks().all().at("viewport");
+    DrawList list = build_draw_list(session.fitted(), session.view(),
+                                    PictureSize{static_cast<int>(rect.size().x), static_cast<int>(rect.size().y)});
+    const Image without = Renderer(GetParam()).draw(list);
+    const std::string name = session.fitted().placed_agents()[1].name;
+    add_selection(list, session.fitted(), session.view(), {name, {AgentPart::Kind::node, 2}},
+                  metrics_of(list.size).scale);
+    EXPECT_EQ(window->shell().viewport_picture().rgba, Renderer(GetParam()).draw(list).rgba);
+    EXPECT_NE(window->shell().viewport_picture().rgba, without.rgba);
+}
+
+TEST_P(ShellTest, WhatIsDraggedLeavesAGhostWhereItStood) {
+    Shell& shell = window->shell();
+    run("run go.agent A");
+    const mobb::PlacedTree before = session.fitted().placed(session.fitted().placed_agents()[0]);
+    const mobb::Disk first = before.placed_clip().disk(0);
+    const glm::vec2 at = shell.marks().all().at("handle.move").center();
+    shell.feed(MouseMove{at});
+    shell.feed(MouseButton{0, true});
+    window->settle();
+    EXPECT_EQ(pointed_out(shell), Roles{HighlightLine::Role::selection}) << "nothing has moved yet";
+    shell.feed(MouseMove{at + glm::vec2(60, 0)});
+    window->settle();
+    EXPECT_EQ(pointed_out(shell), (Roles{HighlightLine::Role::selection, HighlightLine::Role::ghost}));
+    const HighlightLine& line = shell.shown()->highlights.front();
+    ASSERT_EQ(line.role, HighlightLine::Role::ghost);
+    const glm::dvec3 place = shell.shown()->space.place(line.from);
+    EXPECT_NEAR(std::hypot(place.x - first.x, place.y - first.y), first.r, 1e-3) << "where it stood";
+    ASSERT_NE(session.scene().agents[0].placement.translate, glm::dvec2(0));
+    shell.feed(MouseButton{0, false});
+    window->settle();
+    EXPECT_FALSE(pointed_out(shell).contains(HighlightLine::Role::ghost));
 }
 
 TEST_P(ShellTest, TheCloseButtonEndsTheSession) {

@@ -142,6 +142,53 @@ TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     }
 }
 
+TEST_F(RenderViewTest, WhatIsSelectedIsHighlighted) {
+    const std::string lists = folder.path() / "list.json";
+    const auto highlighted = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> all{kCrossing, "--draw-list", lists};
+        all.insert(all.end(), options.begin(), options.end());
+        const testing::Result run = render_small(all);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return testing::slurp(lists).find("\"role\": \"selection\"") != std::string::npos;
+    };
+    EXPECT_FALSE(highlighted({}));
+    EXPECT_TRUE(highlighted({"--select", "A"}));
+    EXPECT_TRUE(highlighted({"--select", "B:sample:3", "--query", "0", "--step", "2"}));
+    EXPECT_TRUE(highlighted({"--select", "A", "--show", "moment", "--time", "1"}));
+    EXPECT_NE(picture({kCrossing, "--select", "A:node:1"}).rgba, picture({kCrossing, "--select", "A"}).rgba);
+    const std::string named = folder.write("colons.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1]]}},
+        "agents": [{"name": "a:b", "clip": "c"}, {"name": "a:sample:0", "clip": "c", "translate": [9, 0]}]})");
+    EXPECT_NE(picture({named, "--select", "a:b:sample:1"}).rgba, picture({named, "--select", "a:b"}).rgba);
+    EXPECT_NE(picture({named, "--select", "a:sample:0:path"}).rgba, picture({named}).rgba);
+    // Of several pictures one is enough that shows it.
+    const testing::Result run = render_small({kCrossing, "--show", "moment", "--play", "--rate", "1", "--select", "B",
+                                              "--draw-list", folder.path() / "all.json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+}
+
+TEST(RenderView, ASelectionThatIsNoneIsRefused) {
+    const TempFolder folder;
+    const struct {
+        std::vector<std::string> options;
+        std::string why;
+    } cases[] = {
+        {{"C"}, kCrossing + ": --select: the picture is not of an agent 'C': it is of 'A', 'B'"},
+        {{"A:node:99999"}, "--select: 'A' has no node 99999: give 0 to "},
+        {{"A:sample:-1"}, "--select: 'A' has no sample -1: give 0 to "},
+        {{"A:node:x"}, "not of an agent 'A:node:x'"},
+        {{""}, "give AGENT, AGENT:node:N or AGENT:sample:N"},
+        {{"A", "--ui"}, "--ui and --select"},
+        {{"A:node:0", "--show", "moment"}, "leave out --show moment"},
+        {{"A", "--show", "moment", "--time", "900"}, "'A' is not there at 900 s"},
+    };
+    for (const auto& [options, why] : cases) {
+        std::vector<std::string> all{kCrossing, "-o", folder.path() / "o.png", "--select"};
+        all.insert(all.end(), options.begin(), options.end());
+        expect_refused(render_small(all), 2, why);
+    }
+    EXPECT_TRUE(testing::files_in(folder.path()).empty());
+}
+
 TEST_F(RenderViewTest, BackgroundsAndSamplesAreTaken) {
     const Image clear = picture({kCrossing, "--background", "transparent"});
     EXPECT_EQ(clear.at(1, 238)[3], 0);

@@ -119,6 +119,8 @@ TEST(ReadCase, SaysWhatIsWrongAndWhere) {
         {R"("scene": "scene.json", "scale": 100})", {"/scale", "out of range"}},
         {R"("scene": "scene.json", "samples": 3})", {"/samples", "1, 2, 4 or 8"}},
         {R"("scene": "scene.json", "background": "red"})", {"/background", "'red' is no background"}},
+        {R"("scene": "scene.json", "select": 3})", {"/select", "expected a string"}},
+        {R"("scene": "scene.json", "select": "A", "window": {}})", {"/select", "no such key"}},
         {R"("scene": "scene.json", "tolerance": "wide"})", {"/tolerance", "tight or loose"}},
         {R"("scene": "scene.json", "skip": ""})", {"/skip", "say why"}},
         {R"("scene": "scene.json", "skip": true})", {"/skip", "expected a string"}},

@@ -4,11 +4,15 @@
 #include <base/error.h>
 #include <render/gl/renderer.h>
 
+#include <glad/gl.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace mobbscope::testing {
 
@@ -36,6 +40,20 @@ inline std::unique_ptr<Renderer> open_or_skip(Backend backend) {
         }();
         return nullptr;
     }
+}
+
+/// A texture's pixels, rows from top to bottom.
+inline std::vector<std::uint8_t> pixels_of(const Texture& texture, PictureSize size) {
+    const std::size_t row = 4 * static_cast<std::size_t>(size.width);
+    std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(size.height));
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
+    std::vector<std::uint8_t> out;
+    for (std::size_t y = static_cast<std::size_t>(size.height); y-- > 0;) {
+        const auto begin = upwards.begin() + static_cast<std::ptrdiff_t>(y * row);
+        out.insert(out.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
+    }
+    return out;
 }
 
 /// Runs once for each backend; see open_or_skip.

@@ -1,5 +1,6 @@
 // What is uploaded for a picture: nothing of the world where only the camera, the time or the step is another.
 #include <render/drawlist/camera.h>
+#include <render/parts/highlights.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
 
@@ -110,6 +111,37 @@ TEST_P(KeptBuffersTest, WhatIsKeptIsWhatIsShown) {
         for (int again = 0; again < 3; ++again) {
             EXPECT_EQ(renderer().draw(kept, 1).rgba, anew.draw(fresh, 1).rgba) << i;
         }
+    }
+}
+
+/// What is under the mouse changes with every move of it.
+TEST_P(KeptBuffersTest, PointingOutUploadsItsLinesAlone) {
+    ViewState view;
+    view.levels = {0, 3, false};
+    view.time = 1;
+    DrawList list = build_draw_list(paths_, view, {.size = kSmallSize});
+    const DrawList other = build_draw_list(paths_, {}, {.size = kSmallSize});
+    const DrawnAgent agent = drawn_agents(*paths_.fitted(), view)[0];
+    const std::size_t words = [&] {
+        renderer().paint(list, 4);
+        return renderer().statistics().overlay_bytes;
+    }();
+    for (int i = 0; i < 8; ++i) {
+        list.highlights.clear();
+        if (i != 3) add_highlight(list, agent, {AgentPart::Kind::sample, 10 * i}, HighlightLine::Role::hover, 1);
+        const int samples = i == 5 ? 1 : 4;
+        if (i == 4) renderer().paint(other, 4);
+        renderer().paint_highlights(list, samples);
+        const DrawStatistics statistics = renderer().statistics();
+        if (i < 4) {
+            EXPECT_EQ(statistics.world_bytes + statistics.state_bytes, 0u) << i;
+            EXPECT_EQ(statistics.overlay_bytes, list.highlights.size() * 17 * sizeof(float)) << "no word either";
+            EXPECT_LT(statistics.draw_calls, 6u);
+        } else if (i < 7) {
+            EXPECT_GE(statistics.overlay_bytes, words) << i << ": the picture before was another one";
+        }
+        const auto shown = testing::pixels_of(renderer().paint_highlights(list, samples), kSmallSize);
+        EXPECT_EQ(shown, Renderer(GetParam()).draw(list, samples).rgba) << i;
     }
 }
 

@@ -18,6 +18,7 @@ namespace mobbscope {
 namespace {
 
 using testing::kSmallSize;
+using testing::pixels_of;
 
 /// Disks, boxes with faces, lines, panels and text.
 DrawList everything() {
@@ -25,20 +26,6 @@ DrawList everything() {
     view.levels = {0, 3, false};
     view.time = 1;
     return build_draw_list(testing::hit_scene(), view, kSmallSize);
-}
-
-/// The texture's pixels, rows from top to bottom.
-std::vector<std::uint8_t> pixels_of(const Texture& texture) {
-    const std::size_t row = 4 * static_cast<std::size_t>(kSmallSize.width);
-    std::vector<std::uint8_t> upwards(row * static_cast<std::size_t>(kSmallSize.height));
-    glBindTexture(GL_TEXTURE_2D, texture.name());
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, upwards.data());
-    std::vector<std::uint8_t> out;
-    for (std::size_t y = static_cast<std::size_t>(kSmallSize.height); y-- > 0;) {
-        const auto begin = upwards.begin() + static_cast<std::ptrdiff_t>(y * row);
-        out.insert(out.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
-    }
-    return out;
 }
 
 class PaintTest : public testing::OnEachBackend {
@@ -50,7 +37,7 @@ class PaintTest : public testing::OnEachBackend {
 TEST_P(PaintTest, TheTextureHoldsThePicture) {
     const DrawList list = everything();
     const Image drawn = renderer().draw(list);
-    EXPECT_EQ(pixels_of(renderer().paint(list, kPictureSamples)), drawn.rgba);
+    EXPECT_EQ(pixels_of(renderer().paint(list, kPictureSamples), kSmallSize), drawn.rgba);
     for (std::size_t i = 3; i < drawn.rgba.size(); i += 4) ASSERT_EQ(drawn.rgba[i], 255) << "pixel " << i / 4;
 }
 
@@ -81,9 +68,9 @@ TEST_P(PaintTest, CoarseDisksDifferAtTheirEdgesAlone) {
 
 TEST_P(PaintTest, TheNumberOfSamplesMayChange) {
     const DrawList list = everything();
-    const auto single = pixels_of(renderer().paint(list, 1));
+    const auto single = pixels_of(renderer().paint(list, 1), kSmallSize);
     EXPECT_EQ(renderer().draw(list).rgba, fresh(list).rgba);
-    EXPECT_EQ(pixels_of(renderer().paint(list, 1)), single);
+    EXPECT_EQ(pixels_of(renderer().paint(list, 1), kSmallSize), single);
 }
 
 TEST_P(PaintTest, AContextMayBeGiven) {
@@ -142,7 +129,7 @@ const std::vector<Mischief>& mischiefs() {
 TEST_P(PaintTest, WhatOthersLeaveInTheContextChangesNothing) {
     const DrawList list = everything();
     const Image expected = renderer().draw(list);
-    const auto single = pixels_of(renderer().paint(list, 1));
+    const auto single = pixels_of(renderer().paint(list, 1), kSmallSize);
     const IdImage ids = renderer().draw_ids(list);
     for (const Mischief& mischief : mischiefs()) {
         // Each on a renderer of its own: what one hides, another must not.
@@ -151,7 +138,7 @@ TEST_P(PaintTest, WhatOthersLeaveInTheContextChangesNothing) {
         mischief.make();
         EXPECT_EQ(disturbed.draw(list).rgba, expected.rgba) << mischief.name;
         mischief.make();
-        EXPECT_EQ(pixels_of(disturbed.paint(list, 1)), single) << mischief.name;
+        EXPECT_EQ(pixels_of(disturbed.paint(list, 1), kSmallSize), single) << mischief.name;
         mischief.make();
         EXPECT_EQ(disturbed.draw_ids(list).rg, ids.rg) << mischief.name;
     }

@@ -2,10 +2,14 @@
 #include <app/commands/render_line.h>
 #include <base/text.h>
 #include <render/drawlist/view_projection.h>
+#include <render/parts/highlights.h>
+#include <render/pictures/build_draw_list.h>
+#include <scene/drawn_agent.h>
 #include <scene/view_options.h>
 
 #include <initializer_list>
 #include <stdexcept>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -70,6 +74,25 @@ std::string fit_options(const FittedScene& fitted) {
            short_double(fit.time_scale);
 }
 
+/// The option that highlights what is selected; empty where the picture shows nothing of it.
+std::string select_option(const Session& session, PictureSize size) {
+    const Selection& selected = session.selection;
+    const FittedScene& fitted = session.fitted();
+    if (!selected.on_path()) return "";
+    const auto agent = index_in_view(fitted, session.view(), selected.path);
+    if (!agent) return "";
+    try {
+        const std::vector<DrawnAgent> agents = drawn_agents(fitted, session.view());
+        const NamedPart named{agents.at(static_cast<std::size_t>(*agent)).name, selected.part()};
+        DrawList list;
+        static_cast<PictureFrame&>(list) = picture_frame(fitted, session.view(), size);
+        if (!add_selection(list, fitted, session.view(), named, 1)) return "";
+        return " --select " + shell_word(text_of(named));
+    } catch (const std::invalid_argument&) {
+        return "";
+    }
+}
+
 }  // namespace
 
 std::string render_line(const Session& session) {
@@ -83,8 +106,8 @@ std::string render_line(const Session& session) {
     const std::string scale = words > 0 ? " --scale " + short_double(words) : "";
     // Of an unchanged scene, its `view` is the one in the file.
     return "mobbscope render " + shell_word(file.string()) + fit_options(*session.document().fitted) +
-           view_line(session.scene().view, session.view()) + " --size " + std::to_string(size.width) + 'x' +
-           std::to_string(size.height) + scale + " -o picture.png";
+           view_line(session.scene().view, session.view()) + select_option(session, size) + " --size " +
+           std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";
 }
 
 }  // namespace mobbscope::app

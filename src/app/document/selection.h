@@ -25,6 +25,11 @@ struct Selection {
     friend bool operator==(const Selection&, const Selection&) = default;
 
     bool on_path() const { return kind == Kind::path || kind == Kind::node || kind == Kind::sample; }
+    /// Of the agent. Requires on_path.
+    AgentPart part() const {
+        if (kind == Kind::path) return {};
+        return {kind == Kind::node ? AgentPart::Kind::node : AgentPart::Kind::sample, index};
+    }
 };
 
 /// The agent that ObjectId::agent means in a picture of `view`.

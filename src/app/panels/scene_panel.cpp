@@ -1,7 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
-#include <app/viewport/viewport_overlay.h>
+#include <app/viewport/describe.h>
 #include <render/drawlist/palette.h>
 
 #include <cstdio>

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,7 +24,32 @@ double snapped(double value, double step) { return std::round(value / step) * st
 
 float distance(ImVec2 a, ImVec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
+/// The circle that turns an agent, on a ground line that sets it off from what is below.
+void draw_circle(Ui& ui, const ShownPicture& picture, const HandlePlaces& places, ImU32 color) {
+    constexpr int kSides = 64;
+    std::array<std::optional<ImVec2>, kSides + 1> points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kSides;
+        points[i] = picture.at(picture.list.space.point(places.pivot.x + places.radius * std::cos(angle),
+                                                        places.pivot.y + places.radius * std::sin(angle), places.time));
+    }
+    const auto draw = [&](ImU32 line_color, float width) {
+        for (std::size_t i = 0; i < kSides; ++i) {
+            if (!points[i] || !points[i + 1]) continue;
+            ImGui::GetWindowDrawList()->AddLine(*points[i], *points[i + 1], line_color, width);
+        }
+    };
+    draw(to_im(with_alpha(ui.style.palette.background, 0.75f)), ui.px(3.2f));
+    draw(color, ui.px(1.2f));
+}
+
 }  // namespace
+
+std::optional<ImVec2> ShownPicture::at(glm::vec3 point) const {
+    const auto pixel = list.projection.project(point);
+    if (!pixel) return std::nullopt;
+    return ImVec2{corner.x + pixel->x, corner.y + pixel->y};
+}
 
 HandlePlaces handle_places(Ui& ui, const ShownPicture& picture, const mobb::PlacedClip& clip) {
     const DrawnSpace& space = picture.list.space;
@@ -69,13 +95,7 @@ void draw_handles(Ui& ui, const ShownPicture& picture, const HandlePlaces& place
         draw.AddCircleFilled(at, ui.px(kKnob), color(handle));
     };
     if (places.turn) {
-        std::vector<glm::vec3> ring;
-        for (int i = 0; i < 64; ++i) {
-            const double angle = 2 * std::numbers::pi * i / 64;
-            ring.push_back(space.point(places.pivot.x + places.radius * std::cos(angle),
-                                       places.pivot.y + places.radius * std::sin(angle), places.time));
-        }
-        draw_line(ui, picture, ring, true, color(Handle::turn), ui.px(1.2f));
+        draw_circle(ui, picture, places, color(Handle::turn));
         knob(*places.turn, Handle::turn);
     }
     if (places.shift) {

@@ -1,13 +1,25 @@
 /// Handles on the selected agent: move it on the floor, turn it, shift it in time.
 #pragma once
 
-#include <app/viewport/viewport_overlay.h>
-
+#include <app/ui/ui.h>
 #include <mobb/clip.h>
+#include <render/drawlist/draw_list.h>
+
+#include <imgui.h>
 
 #include <optional>
 
 namespace mobbscope::app {
+
+/// The picture and where it stands in the window.
+struct ShownPicture {
+    const DrawList& list;
+    ImVec2 corner;  ///< of the picture's first pixel, framebuffer pixels
+
+    /// Where a point of drawn space is seen; none behind the eye.
+    std::optional<ImVec2> at(glm::vec3 point) const;
+    glm::vec2 pixel(ImVec2 at) const { return {at.x - corner.x, at.y - corner.y}; }
+};
 
 enum class Handle { none, move, turn, shift };
 

@@ -1,9 +1,12 @@
 #include <app/commands/command.h>
+#include <app/viewport/describe.h>
+#include <app/viewport/session_highlights.h>
 #include <app/viewport/viewport.h>
 #include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
 #include <render/drawlist/picture_options.h>
+#include <render/parts/highlights.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/render.h>
 #include <scene/drawn_agent.h>
@@ -16,6 +19,7 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -80,7 +84,7 @@ void Viewport::build(const Key& key, const FollowedChoice* choice) {
     } catch (const std::invalid_argument& error) {
         why_not_ = error.what();
     }
-    painted_ = false;
+    unpainted_ = Changed::all;
 }
 
 Camera Viewport::shown_camera() const { return list_ ? resolved_camera(key_->view.camera, *list_) : key_->view.camera; }
@@ -135,14 +139,30 @@ void Viewport::update_picture(Ui& ui, PictureSize size, const PictureFrame* link
     build(next, choice);
 }
 
-void Viewport::paint(Ui& ui, ImVec2 corner) {
-    const bool still = !ui.session.attended() || ui.now - changed_at_ >= kRest;
-    if (!painted_ || (still && !painted_still_)) {
-        texture_ = ui.painter.paint(view_place_, still);
-        painted_ = true;
-        painted_still_ = still;
+/// Sets what is pointed out in the list, which is not built anew for that.
+void Viewport::update_highlights(const Ui& ui) {
+    const std::vector<HighlightLine> shown = std::exchange(list_->highlights, {});
+    if (is_active(ui)) {
+        const float scale = metrics_of(list_->size, key_->scale).scale;
+        const FittedScene& fitted = ui.session.fitted();
+        const auto held = placed_agent_of(fitted, {handle_drag_.agent, -1, 0});
+        if (drag_ == Drag::handle && moved_ && held) {
+            const mobb::PlacedTree before(fitted.tree(held->clip), handle_drag_.start);
+            add_ghost(*list_, before.placed_clip(), scale);
+        }
+        add_highlights(*list_, ui.session, scale);
     }
-    if (!painted_still_) ui.want_frame_in(kRest);
+    if (list_->highlights != shown) unpainted_ = std::max(unpainted_, Changed::highlights);
+}
+
+void Viewport::show(Ui& ui, ImVec2 corner) {
+    const bool still = !ui.session.attended() || ui.now - changed_at_ >= kRest;
+    if (still && !shown_still_) unpainted_ = Changed::all;
+    if (unpainted_ != Changed::nothing) {
+        shown_still_ = still;
+        texture_ = ui.painter.picture(view_place_, std::exchange(unpainted_, Changed::nothing), still);
+    }
+    if (!shown_still_) ui.want_frame_in(kRest);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
                      corner.y + static_cast<float>(list_->size.height)};
     ImGui::GetWindowDrawList()->AddImage(texture_, corner, end, {0, 1}, {1, 0});
@@ -175,7 +195,8 @@ void Viewport::draw(Ui& ui, std::size_t place, const PictureFrame* linked) {
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
     ui.mark(is_active(ui) ? "viewport" : "viewport." + std::to_string(place));
     mouse(ui, picture);
-    paint(ui, corner);
+    update_highlights(ui);
+    show(ui, corner);
     if (is_active(ui)) decorate(ui, {*list_, corner});
     if (ui.session.view_count() > 1) name_trees(ui, corner);
 }
@@ -388,14 +409,9 @@ void Viewport::handle_tooltip(Ui& ui, const mobb::Placement& placement) const {
 }
 
 void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
-    const Session& session = ui.session;
     const ImVec2 end{picture.corner.x + static_cast<float>(list_->size.width),
                      picture.corner.y + static_cast<float>(list_->size.height)};
     ImGui::GetWindowDrawList()->PushClipRect(picture.corner, end, true);
-    draw_highlight(ui, picture, session.selection, ui.style.text, ui.px(2));
-    if (session.hovered != session.selection) draw_highlight(ui, picture, session.hovered, ui.style.text, ui.px(1));
-    draw_candidate(ui, picture);
-    draw_other_of_conflict(ui, picture);
     const auto held = handles(ui, picture);
     if (held) {
         draw_handles(ui, picture, held->places, lit_);

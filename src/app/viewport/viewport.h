@@ -4,7 +4,6 @@
 #include <app/ui/ui.h>
 #include <app/viewport/agent_handles.h>
 #include <app/viewport/flight.h>
-#include <app/viewport/viewport_overlay.h>
 #include <render/drawlist/draw_list.h>
 #include <render/pictures/kept_paths.h>
 
@@ -42,7 +41,8 @@ class Viewport {
     KeptPaths& paths_of(const Key& key);
     void build(const Key& key, const FollowedChoice* choice);
     void take_off(Ui& ui, const Key& next);
-    void paint(Ui& ui, ImVec2 corner);
+    void update_highlights(const Ui& ui);
+    void show(Ui& ui, ImVec2 corner);
     void mouse(Ui& ui, const ShownPicture& picture);
     void wheel(Ui& ui, glm::vec2 pixel);
     void press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel);
@@ -69,8 +69,9 @@ class Viewport {
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;
-    bool painted_ = false;
-    bool painted_still_ = false;
+    using Changed = Painter::Changed;
+    Changed unpainted_ = Changed::nothing;  ///< what has changed since the painter was told
+    bool shown_still_ = false;
     double changed_at_ = 0;
     ImTextureID texture_ = nullptr;
 

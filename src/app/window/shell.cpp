@@ -90,22 +90,30 @@ class TexturePainter final : public Painter {
   public:
     explicit TexturePainter(Renderer& renderer) : renderer_(renderer) {}
 
-    ImTextureID paint(std::size_t place, bool still) override {
+    ImTextureID picture(std::size_t place, Changed changed, bool still) override {
         while (pictures_.size() <= place) pictures_.emplace_back();
-        pictures_[place].samples = still || !renderer_.is_software() ? kPictureSamples : 1;
-        return texture_id(pictures_[place].copy.texture());
+        Picture& asked = pictures_[place];
+        asked.changed = std::max(asked.changed, changed);
+        asked.samples = still || !renderer_.is_software() ? kPictureSamples : 1;
+        return texture_id(asked.copy.texture());
     }
 
-    /// Paints what was asked for since the last time.
-    void draw(std::size_t place, const DrawList& list) {
-        if (place >= pictures_.size() || pictures_[place].samples == 0) return;
-        pictures_[place].copy.take(renderer_.paint(list, std::exchange(pictures_[place].samples, 0)), list.size);
+    /// Paints what has changed since the last time.
+    void paint_changes(std::size_t place, const DrawList& list) {
+        if (place >= pictures_.size()) return;
+        Picture& asked = pictures_[place];
+        const Changed changed = std::exchange(asked.changed, Changed::nothing);
+        if (changed == Changed::nothing) return;
+        const bool all = changed == Changed::all;
+        asked.copy.take(all ? renderer_.paint(list, asked.samples) : renderer_.paint_highlights(list, asked.samples),
+                        list.size);
     }
 
   private:
     struct Picture {
         PictureCopy copy;
-        int samples = 0;  ///< 0: nothing was asked for
+        Changed changed = Changed::nothing;
+        int samples = kPictureSamples;
     };
     Renderer& renderer_;
     std::deque<Picture> pictures_;  ///< by place
@@ -240,7 +248,7 @@ struct Shell::State {
         if (!std::exchange(undrawn, false)) return;
         ++frames_drawn;
         for (std::size_t place = 0; place < viewports.size(); ++place) {
-            if (const DrawList* picture = viewports[place].shown()) drawn->painter.draw(place, *picture);
+            if (const DrawList* picture = viewports[place].shown()) drawn->painter.paint_changes(place, *picture);
         }
         if (!drawn->target || drawn->target->size() != size) drawn->target.emplace(size);
         const ImVec4 ground = ImGui::ColorConvertU32ToFloat4(style.window);
@@ -335,11 +343,19 @@ void Shell::present() {
 
 const Marks& Shell::marks() const { return state_->marks; }
 
-Image Shell::viewport_picture() {
+const DrawList* Shell::shown() const {
     const std::size_t place = state_->session.active_place();
-    const DrawList* shown = place < state_->viewports.size() ? state_->viewports[place].shown() : nullptr;
-    if (!shown) throw std::invalid_argument("there is no picture yet: open a scene or a clip first");
-    return state_->renderer.draw(*shown);
+    return place < state_->viewports.size() ? state_->viewports[place].shown() : nullptr;
+}
+
+const DrawStatistics& Shell::statistics() const { return state_->renderer.statistics(); }
+
+Image Shell::viewport_picture() {
+    if (!shown()) throw std::invalid_argument("there is no picture yet: open a scene or a clip first");
+    DrawList picture = *shown();
+    std::erase_if(picture.highlights,
+                  [](const HighlightLine& line) { return line.role != HighlightLine::Role::selection; });
+    return state_->renderer.draw(picture);
 }
 
 void Shell::set_scale(double scale) { state_->own_scale = scale; }

@@ -5,6 +5,8 @@
 #include <app/document/session.h>
 #include <app/input/input.h>
 #include <app/ui/ui.h>
+#include <render/drawlist/draw_list.h>
+#include <render/gl/draw_statistics.h>
 #include <render/gl/gl_context.h>
 #include <render/image/image.h>
 
@@ -45,7 +47,12 @@ class Shell {
 
     /// Where widgets stood in the last frame.
     const Marks& marks() const;
-    /// The viewport's picture, as `render` draws it. Throws std::invalid_argument if there is none yet.
+    /// What the active viewport shows; null if there is no picture yet.
+    const DrawList* shown() const;
+    /// What the last picture that was painted of a viewport took.
+    const DrawStatistics& statistics() const;
+    /// The viewport's picture with what is selected, as `render` draws it. Throws std::invalid_argument if there is
+    /// none yet.
     Image viewport_picture();
 
     /// Of text and panels where the settings say none: another monitor has another.

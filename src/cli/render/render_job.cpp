@@ -54,10 +54,36 @@ bool needs_renderer(const RenderJob& job) {
     return !job.arguments.ui && !(job.arguments.outputs.image.empty() && job.arguments.outputs.ids.empty());
 }
 
+/// Highlights in a picture's list what --select says. Returns why the picture does not show it; empty: it does.
+std::string highlight_selected(const RenderJob& job, const ViewState& view, DrawList& list) {
+    const PictureOptions& options = job.arguments.picture;
+    const NamedPart& selected = *job.arguments.select;
+    try {
+        if (add_selection(list, *job.fitted, view, selected, metrics_of(options.size, options.scale).scale)) return "";
+        return in_quotes(selected.agent) + " is not there at " + brief(*list.moment) + " s";
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+}
+
+/// Throws InputError unless one of the pictures shows what --select says.
+void check_selection(const RenderJob& job) {
+    if (!job.arguments.select) return;
+    std::string why_not;
+    for (const RenderPicture& picture : job.pictures) {
+        DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+        const std::string why_not_here = highlight_selected(job, picture.view, list);
+        if (why_not_here.empty()) return;
+        if (why_not.empty()) why_not = why_not_here;
+    }
+    throw InputError(job.arguments.file.string(), "", "--select: " + why_not);
+}
+
 /// `renderer`: null where nothing of it needs OpenGL.
 void draw_scene(const RenderJob& job, const RenderPicture& picture, Renderer* renderer) {
     const RenderOutputs& outputs = picture.outputs;
-    const DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+    DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+    if (job.arguments.select) highlight_selected(job, picture.view, list);
     if (!outputs.image.empty()) write_png(outputs.image, renderer->draw(list, job.arguments.picture.samples));
     std::optional<IdImage> ids;
     if (!outputs.ids.empty()) {
@@ -127,6 +153,7 @@ void RenderPlan::add(RenderArguments arguments) {
     try {
         job.pictures = pictures_of(*job.fitted, view, job.arguments);
         check_and_frame(job);
+        check_selection(job);
     } catch (const ViewMismatch& mismatch) {
         refuse_view(job.arguments, mismatch);
     } catch (const std::invalid_argument& error) {

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kLeastDistance = 1e-6;  // metres
 constexpr double kMostRate = 1000;       // pictures per second
+constexpr const char* kShownGroup = "What is shown (over the scene's)";
 
 /// "1,2.5" as numbers within [-most, most].
 template <std::size_t Count>
@@ -93,10 +94,9 @@ void add_camera_options(Command& command, ViewArguments& view) {
 }
 
 void add_shown_options(Command& command, ViewArguments& view) {
-    constexpr const char* kGroup = "What is shown (over the scene's)";
     add_parsed(command, "--view-state", view.state, parse_file_name,
                "A view of its own: keys of a scene's view, or a scene's whole view", "FILE.json")
-        .group(kGroup);
+        .group(kShownGroup);
     for (const ViewOption& option : view_options()) {
         if (option.option.empty()) continue;
         const auto set = [&view, &option](const std::string& text) {
@@ -109,8 +109,14 @@ void add_shown_options(Command& command, ViewArguments& view) {
         const Option added = option.toggle ? command.add_flag(
                                                  name, [set](bool on) { set(on ? "true" : "false"); }, help)
                                            : command.add_option(name, set, help, std::string(option.placeholder));
-        Option(added).group(kGroup);
+        Option(added).group(kShownGroup);
     }
+}
+
+/// As add_selection reads it.
+NamedPart parse_selection(const std::string& text) {
+    if (text.empty()) throw std::invalid_argument("give AGENT, AGENT:node:N or AGENT:sample:N");
+    return parse_named_part(text);
 }
 
 void add_sequence_options(Command& command, SequenceArguments& sequence) {
@@ -179,6 +185,7 @@ void check_window(const RenderArguments& arguments) {
     if (arguments.picture.samples != kPictureSamples) refuse("--samples");
     if (!arguments.outputs.ids.empty()) refuse("--ids");
     if (!arguments.outputs.draw_list.empty()) refuse("--draw-list");
+    if (arguments.select) refuse("--select");
 }
 
 /// The view of a file over another: of a scene its whole view, else the keys that there are.
@@ -262,6 +269,9 @@ void add_render_options(Command& command, RenderArguments& arguments) {
                "With --ui: size of text and panels, 0.5 to 4", "X");
     add_camera_options(command, arguments.view);
     add_shown_options(command, arguments.view);
+    add_parsed(command, "--select", arguments.select, parse_selection,
+               "Highlights an agent, or a node or sample: AGENT, AGENT:node:N or AGENT:sample:N", "WHAT")
+        .group(kShownGroup);
     add_sequence_options(command, arguments.sequence);
     add_fit_options(command, arguments.fit);
     add_import_options(command, arguments.import_options);

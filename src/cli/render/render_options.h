@@ -5,6 +5,7 @@
 #include <cli/render_outputs.h>
 #include <render/drawlist/picture_options.h>
 #include <render/gl/gl_context.h>
+#include <render/parts/highlights.h>
 #include <scene/view_state.h>
 
 #include <glm/vec2.hpp>
@@ -52,6 +53,7 @@ struct RenderArguments {
     std::optional<Backend> backend;
     ViewArguments view;
     SequenceArguments sequence;
+    std::optional<NamedPart> select;  ///< what is highlighted
     bool ui = false;
     std::optional<double> ui_scale;
     FitArguments fit;

@@ -138,6 +138,31 @@ struct LineInstance {
     DrawOrder order;
 };
 
+/// An agent's path, or a node or sample of it: what can be pointed out.
+struct AgentPart {
+    enum class Kind { path, node, sample };
+    Kind kind = Kind::path;
+    int index = -1;  ///< node or sample
+    friend bool operator==(const AgentPart&, const AgentPart&) = default;
+};
+
+/// A line of what is pointed out: over the world and seen through all of it, below the words.
+struct HighlightLine {
+    enum class Role {
+        selection,  ///< what is selected
+        hover,      ///< what is under the mouse
+        candidate,  ///< the move that is looked at, of those that the followed agent could choose
+        conflict,   ///< whom the followed agent is about to meet
+        ghost,      ///< where the agent stood that is being dragged
+    };
+    Role role = Role::selection;
+    glm::vec3 from{0};
+    glm::vec3 to{0};
+    Rgba color{1};
+    float width = 1;  ///< pixels
+    friend bool operator==(const HighlightLine&, const HighlightLine&) = default;
+};
+
 /// An axis-aligned rectangle on the screen, pixels from the upper left corner.
 struct Rect {
     glm::vec2 min{0};
@@ -212,6 +237,7 @@ struct DrawList : PictureFrame {
     SharedValues<DiskInstance> disks;
     std::vector<BoxInstance> boxes;
     std::vector<LineInstance> lines;
+    std::vector<HighlightLine> highlights;  ///< over these, in this order
 
     std::string headline;  ///< the sentence at the top
     std::vector<LegendEntry> legend;

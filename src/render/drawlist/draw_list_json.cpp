@@ -119,6 +119,11 @@ std::string_view name(LegendEntry::Mark mark) {
     return "remark";
 }
 
+std::string_view name(HighlightLine::Role role) {
+    constexpr std::array<std::string_view, 5> kNames{"selection", "hover", "candidate", "conflict", "ghost"};
+    return kNames[static_cast<std::size_t>(role)];
+}
+
 std::string color_text(Rgba color) {
     constexpr std::string_view kDigits = "0123456789ABCDEF";
     std::string out = "#";
@@ -225,6 +230,15 @@ void write_line(JsonWriter& out, const LineInstance& line, const ViewProjection&
     out.member("on_screen", on_screen(projection, std::array{line.from, line.to}));
 }
 
+void write_highlight(JsonWriter& out, const HighlightLine& line, const ViewProjection& projection) {
+    out.member("role", name(line.role));
+    vector(out, "from", line.from);
+    vector(out, "to", line.to);
+    color(out, "color", line.color);
+    number(out, "width", line.width);
+    out.member("on_screen", on_screen(projection, std::array{line.from, line.to}));
+}
+
 void write_panel(JsonWriter& out, const OverlayPanel& panel) {
     vector(out, "min", panel.rect.min);
     vector(out, "max", panel.rect.max);
@@ -296,6 +310,10 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     rows(out, "boxes", sorted(list.boxes),
          [&](const BoxInstance& box) { write_box(out, box, objects, list.projection); });
     rows(out, "lines", sorted(list.lines), [&](const LineInstance& line) { write_line(out, line, list.projection); });
+    if (!list.highlights.empty()) {
+        rows(out, "highlights", list.highlights,
+             [&](const HighlightLine& line) { write_highlight(out, line, list.projection); });
+    }
     out.member("headline", list.headline);
     rows(out, "legend", list.legend, [&](const LegendEntry& entry) {
         out.member("mark", name(entry.mark));

@@ -7,6 +7,7 @@
 ///      "dash",
 ///                  "on_screen", "pixels"}],
 ///      "lines":  [{"layer", "from", "to", "color", "width", "dash", "cap", "hidden", "on_screen"}],
+///      "highlights": [{"role", "from", "to", "color", "width", "on_screen"}],   only where something is pointed out
 ///      "headline", "legend": [{"mark", "color", "text"}],
 ///      "panels": [{"min", "max", "radius", "fill", "border", "border_width"}],
 ///      "overlay_lines": [{"from", "to", "color", "width", "dash"}], "marks": [as panels],

@@ -30,10 +30,10 @@ void describe_look(const VertexLayout& layout, std::size_t color, std::size_t da
 
 LinePass::LinePass(GlContext& context, const BoxBuffer& boxes) : boxes_(boxes), program_(context, "line") {}
 
-/// The attributes of lines from the first on, as OpenGL 3.3 has no first instance.
-void LinePass::bind_lines(std::size_t first) {
+/// The attributes of a buffer's lines from the first on, as OpenGL 3.3 has no first instance.
+void LinePass::bind_lines(const Buffer& lines, std::size_t first) {
     glBindVertexArray(line_array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, lines.name());
     const VertexLayout line(sizeof(Instance), 1);
     const std::size_t begin = first * sizeof(Instance);
     line.floats(0, 3, begin + offsetof(Instance, from));
@@ -57,9 +57,7 @@ void LinePass::bind_boxes(std::size_t first) {
                   look + offsetof(BoxBuffer::Look, dash), look + offsetof(BoxBuffer::Look, line));
 }
 
-void LinePass::begin(const std::vector<Instance>& instances, const glm::mat4& clip_from_world, PictureSize size,
-                     DrawStatistics& statistics) {
-    statistics.overlay_bytes += upload(instances_, instances);
+void LinePass::begin(const glm::mat4& clip_from_world, PictureSize size) {
     program_.use();
     glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE, glm::value_ptr(clip_from_world));
     glUniform2f(program_.uniform("viewport"), static_cast<float>(size.width), static_cast<float>(size.height));
@@ -69,14 +67,14 @@ void LinePass::begin(const std::vector<Instance>& instances, const glm::mat4& cl
     glDepthMask(GL_FALSE);
 }
 
-void LinePass::draw(const Batch& batch, DrawStatistics& statistics) {
+void LinePass::draw(const Batch& batch, const Buffer& lines, DrawStatistics& statistics) {
     glUniform1i(program_.uniform("edges"), batch.of_boxes);
     const GLsizei count = static_cast<GLsizei>(batch.count);
     if (batch.of_boxes) {
         bind_boxes(batch.first);
         glDrawArraysInstanced(GL_TRIANGLES, 0, 72, count);
     } else {
-        bind_lines(batch.first);
+        bind_lines(lines, batch.first);
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
     }
     statistics.triangles += (batch.of_boxes ? 24 : 2) * batch.count;
@@ -113,12 +111,13 @@ void LinePass::draw_scene(const DrawList& list, DrawStatistics& statistics) {
             {line->from, line->to, line->color, line->dash, glm::vec3(line->width, line->cap, line->hidden)});
         some_show_through = some_show_through || line->hidden > 0;
     }
-    begin(instances, list.projection.clip_from_world, list.size, statistics);
+    statistics.overlay_bytes += upload(scene_lines_, instances);
+    begin(list.projection.clip_from_world, list.size);
     // Edges touch the disks that they bound; they lie in front of them, and the same edge must not be taken for hidden.
     glUniform1f(program_.uniform("depth_bias"), 8e-4f);
     glEnable(GL_DEPTH_TEST);
     const auto draw_all = [&] {
-        for (const Batch& batch : all) draw(batch, statistics);
+        for (const Batch& batch : all) draw(batch, scene_lines_, statistics);
     };
     if (some_show_through) {
         glDepthFunc(GL_GREATER);
@@ -130,20 +129,41 @@ void LinePass::draw_scene(const DrawList& list, DrawStatistics& statistics) {
     draw_all();
 }
 
-void LinePass::draw_overlay(const DrawList& list, DrawStatistics& statistics) {
-    if (list.overlay_lines.empty()) return;
+void LinePass::draw_highlights(const DrawList& list, DrawStatistics& statistics) {
+    if (list.highlights.empty()) return;
+    std::vector<Instance> instances;
+    instances.reserve(list.highlights.size());
+    for (const HighlightLine& line : list.highlights) {
+        instances.push_back({line.from, line.to, line.color, kSolid, glm::vec3(line.width, 0, 0)});
+    }
+    statistics.overlay_bytes += upload(highlights_, instances);
+    begin(list.projection.clip_from_world, list.size);
+    glDisable(GL_DEPTH_TEST);
+    // The depths of the picture are the world's; a ghost may stand beyond it.
+    glEnable(GL_DEPTH_CLAMP);
+    draw({false, 0, instances.size()}, highlights_, statistics);
+    glDisable(GL_DEPTH_CLAMP);
+}
+
+void LinePass::keep_overlay(const DrawList& list, DrawStatistics& statistics) {
     std::vector<Instance> instances;
     for (const OverlayLine& line : list.overlay_lines) {
         instances.push_back(
             {glm::vec3(line.from, 0), glm::vec3(line.to, 0), line.color, line.dash, glm::vec3(line.width, 0, 0)});
     }
+    overlay_count_ = instances.size();
+    if (overlay_count_ > 0) statistics.overlay_bytes += upload(overlay_lines_, instances);
+}
+
+void LinePass::draw_overlay(PictureSize size, DrawStatistics& statistics) {
+    if (overlay_count_ == 0) return;
     glm::mat4 pixels(1);
-    pixels[0][0] = 2 / static_cast<float>(list.size.width);
-    pixels[1][1] = -2 / static_cast<float>(list.size.height);
+    pixels[0][0] = 2 / static_cast<float>(size.width);
+    pixels[1][1] = -2 / static_cast<float>(size.height);
     pixels[3] = {-1, 1, 0, 1};
-    begin(instances, pixels, list.size, statistics);
+    begin(pixels, size);
     glDisable(GL_DEPTH_TEST);
-    draw({false, 0, instances.size()}, statistics);
+    draw({false, 0, overlay_count_}, overlay_lines_, statistics);
 }
 
 }  // namespace mobbscope

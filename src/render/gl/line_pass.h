@@ -19,8 +19,11 @@ class LinePass {
     /// The list's lines and the edges of its boxes, into a framebuffer with the disks' depth: what the disks hide first
     /// and fainter, then the rest.
     void draw_scene(const DrawList& list, DrawStatistics& statistics);
-    /// The lines over the picture.
-    void draw_overlay(const DrawList& list, DrawStatistics& statistics);
+    /// What is pointed out, over the scene.
+    void draw_highlights(const DrawList& list, DrawStatistics& statistics);
+    /// The lines over the picture: uploads the list's; draws what was uploaded.
+    void keep_overlay(const DrawList& list, DrawStatistics& statistics);
+    void draw_overlay(PictureSize size, DrawStatistics& statistics);
 
   private:
     struct Instance;
@@ -29,17 +32,18 @@ class LinePass {
         bool of_boxes = false;
         std::size_t first = 0, count = 0;
     };
-    void begin(const std::vector<Instance>& instances, const glm::mat4& clip_from_world, PictureSize size,
-               DrawStatistics& statistics);
+    void begin(const glm::mat4& clip_from_world, PictureSize size);
     std::vector<Batch> batches(const std::vector<const LineInstance*>& lines) const;
-    void draw(const Batch& batch, DrawStatistics& statistics);
-    void bind_lines(std::size_t first);
+    /// `lines`: what a batch of lines is of.
+    void draw(const Batch& batch, const Buffer& lines, DrawStatistics& statistics);
+    void bind_lines(const Buffer& lines, std::size_t first);
     void bind_boxes(std::size_t first);
 
     const BoxBuffer& boxes_;
     ShaderProgram program_;
     VertexArray line_array_, box_array_;
-    Buffer instances_;
+    Buffer scene_lines_, highlights_, overlay_lines_;
+    std::size_t overlay_count_ = 0;
 };
 
 }  // namespace mobbscope

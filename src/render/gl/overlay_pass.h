@@ -6,24 +6,28 @@
 #include <render/gl/gl_objects.h>
 #include <render/gl/glyph_atlas.h>
 
+#include <cstddef>
+
 namespace mobbscope {
 
 class OverlayPass {
   public:
     explicit OverlayPass(GlContext& context);
 
-    void draw_panels(const DrawList& list, DrawStatistics& statistics);
-    /// What lies over the lines: marks, then texts.
-    void draw_texts(const DrawList& list, DrawStatistics& statistics);
+    /// Uploads the list's panels, marks and texts.
+    void keep(const DrawList& list, DrawStatistics& statistics);
+    /// Draws what was uploaded: panels; what lies over the lines, marks and then texts.
+    void draw_panels(PictureSize size, DrawStatistics& statistics);
+    void draw_texts(PictureSize size, DrawStatistics& statistics);
 
   private:
     struct Instance;
-    void draw(const std::vector<Instance>& instances, PictureSize size, DrawStatistics& statistics);
-    void draw(const std::vector<OverlayPanel>& panels, PictureSize size, DrawStatistics& statistics);
+    void draw(std::size_t first, std::size_t end, PictureSize size, DrawStatistics& statistics);
 
     ShaderProgram program_;
     VertexArray array_;
-    Buffer instances_;
+    Buffer instances_;  ///< panels, then marks and glyphs
+    std::size_t panels_ = 0, all_ = 0;
     Texture atlas_;
     GlyphCache glyphs_;
 };

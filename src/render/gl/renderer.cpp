@@ -108,12 +108,27 @@ struct Renderer::State {
             targets.emplace(list.size, samples);
             ground_and_disks.reset();
         }
+        painted = nullptr;
         draw_scene(list, ground);
+        overlay.keep(list, statistics);
+        lines.keep_overlay(list, statistics);
+        finish(list);
+        painted = &list;
+    }
+
+    /// Whether the targets have the scene of a list by itself, without what lies over it.
+    bool has_scene(const DrawList& list, int samples) const {
+        return painted == &list && samples > 1 && targets->samples() == samples;
+    }
+
+    /// The picture out of the scene in the targets, its highlights and its words.
+    void finish(const DrawList& list) {
         targets->resolve();
         glBindFramebuffer(GL_FRAMEBUFFER, targets->result().name());
-        overlay.draw_panels(list, statistics);
-        lines.draw_overlay(list, statistics);
-        overlay.draw_texts(list, statistics);
+        lines.draw_highlights(list, statistics);
+        overlay.draw_panels(list.size, statistics);
+        lines.draw_overlay(list.size, statistics);
+        overlay.draw_texts(list.size, statistics);
         context->check("drawing");
     }
 
@@ -123,6 +138,7 @@ struct Renderer::State {
         glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
         context->check("reading the picture");
         flip_rows(image.rgba, image.width, image.height, 4);
+        painted = nullptr;
         return image;
     }
 
@@ -153,7 +169,8 @@ struct Renderer::State {
 
     DrawStatistics statistics;
     std::optional<GroundAndDisks> ground_and_disks;
-    bool kept = false;  ///< the targets have those
+    bool kept = false;                  ///< the targets have those
+    const DrawList* painted = nullptr;  ///< what they show, by its address alone; null after a picture was read back
     BoxBuffer boxes;
     DiskPass disks;
     FacePass faces;
@@ -194,6 +211,13 @@ void Renderer::check_samples(int samples) {
 
 const Texture& Renderer::paint(const DrawList& list, int samples) {
     state_->paint(list, samples, is_seen_through(list) ? list.palette.background : ground_of(list));
+    return state_->targets->picture();
+}
+
+const Texture& Renderer::paint_highlights(const DrawList& list, int samples) {
+    if (!state_->has_scene(list, samples)) return paint(list, samples);
+    state_->begin(list.size);
+    state_->finish(list);
     return state_->targets->picture();
 }
 

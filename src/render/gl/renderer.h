@@ -57,6 +57,10 @@ class Renderer {
     /// error or cannot do the samples.
     const Texture& paint(const DrawList& list, int samples);
 
+    /// The same for a list of which nothing but the highlights has changed since it was painted: if that was the last
+    /// picture and is multisampled, the highlights' lines are all that is uploaded and drawn of the scene.
+    const Texture& paint_highlights(const DrawList& list, int samples);
+
     /// Paints and reads back; has alpha if the list's background is seen through. Throws MachineError as paint does.
     Image draw(const DrawList& list, int samples = kPictureSamples);
 

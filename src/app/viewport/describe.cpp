@@ -1,13 +1,8 @@
-#include <app/viewport/viewport_overlay.h>
-#include <base/text.h>
+#include <app/viewport/describe.h>
 #include <explain/query_sentence.h>
-#include <render/drawlist/draw_list.h>
+#include <mobb/kinds.h>
 #include <render/parts/node_boxes.h>
-#include <render/parts/paths.h>
-#include <scene/drawn_agent.h>
-#include <scene/motion_graph.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -16,26 +11,10 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr int kRingSides = 48;
-
-std::vector<glm::vec3> ring(const DrawnSpace& space, const mobb::Disk& disk, double time) {
-    std::vector<glm::vec3> out;
-    for (int i = 0; i < kRingSides; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kRingSides;
-        out.push_back(space.point(disk.x + disk.r * std::cos(angle), disk.y + disk.r * std::sin(angle), time));
-    }
-    return out;
-}
-
 std::string numbers(const char* format, double a, double b) {
     char text[96];
     std::snprintf(text, sizeof text, format, a, b);
     return text;
-}
-
-/// The agent as pictures name it, whether or not it is in the present one.
-DrawnAgent drawn_agent_of(const FittedScene& fitted, const PlacedAgent& who) {
-    return {fitted.placed(who), who.name, who.name, Rgba(1), 0};
 }
 
 void describe_node(Described& out, const DrawnAgent& agent, int index) {
@@ -110,84 +89,8 @@ void describe_clip(Described& out, const SceneClip& clip) {
 
 }  // namespace
 
-std::optional<ImVec2> ShownPicture::at(glm::vec3 point) const {
-    const auto pixel = list.projection.project(point);
-    if (!pixel) return std::nullopt;
-    return ImVec2{corner.x + pixel->x, corner.y + pixel->y};
-}
-
-void draw_line(Ui& ui, const ShownPicture& picture, std::span<const glm::vec3> points, bool closed, ImU32 color,
-               float width) {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImU32 ground = to_im(with_alpha(ui.style.palette.background, 0.75f));
-    const std::size_t count = points.size() - (closed ? 0 : 1);
-    for (const bool front : {false, true}) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto from = picture.at(points[i]);
-            const auto to = picture.at(points[(i + 1) % points.size()]);
-            if (from && to) draw.AddLine(*from, *to, front ? color : ground, front ? width : width + ui.px(2));
-        }
-    }
-}
-
-void draw_highlight(Ui& ui, const ShownPicture& picture, const Selection& what, ImU32 color, float width) {
-    const Session& session = ui.session;
-    if (!what.on_path() || !index_in_view(session.fitted(), session.view(), what.path)) return;
-    const auto who = placed_agent_of(session.fitted(), what.path);
-    if (!who) return;
-    const DrawnAgent agent = drawn_agent_of(session.fitted(), *who);
-    const DrawnSpace& space = picture.list.space;
-    const mobb::PlacedClip& clip = agent.clip();
-    if (picture.list.moment) {
-        const std::optional<int> then =
-            what.kind == Selection::Kind::sample ? what.index : sample_at(agent, *picture.list.moment);
-        // A node is no thing of one moment.
-        if (!then || what.kind == Selection::Kind::node) return;
-        draw_line(ui, picture, ring(space, clip.disk(*then), 0), true, color, width);
-        return;
-    }
-    const auto middle = [&](int sample) { return 0.5 * (clip.time(sample) + clip.time(sample + 1)); };
-    if (what.kind == Selection::Kind::node) {
-        const auto corners = box_corners(node_box(agent, what.index, space));
-        for (const auto& [a, b] : kBoxEdges) {
-            const std::array edge{corners[a], corners[b]};
-            draw_line(ui, picture, edge, false, color, width);
-        }
-    } else if (what.kind == Selection::Kind::sample) {
-        draw_line(ui, picture, ring(space, clip.disk(what.index), middle(what.index)), true, color, width);
-    } else {
-        for (const int end : {0, clip.count() - 1}) {
-            draw_line(ui, picture, ring(space, clip.disk(end), middle(end)), true, color, width);
-        }
-    }
-}
-
-void draw_candidate(Ui& ui, const ShownPicture& picture) {
-    const Session& session = ui.session;
-    const FollowedChoice* followed = session.choice();
-    if (!followed || !session.view().candidates || session.candidate < 0) return;
-    const auto& candidates = followed->choice.candidates;
-    if (static_cast<std::size_t>(session.candidate) >= candidates.size()) return;
-    const Candidate& candidate = candidates[static_cast<std::size_t>(session.candidate)];
-    const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
-    const mobb::PlacedClip way(*session.scene().clips[static_cast<std::size_t>(move.clip)].clip, candidate.placement);
-    std::vector<glm::vec3> points;
-    for (int i = 0; i < way.count(); ++i) {
-        const mobb::Disk disk = way.disk(i);
-        points.push_back(picture.list.space.point(disk.x, disk.y, picture.list.moment ? 0 : way.time(i)));
-    }
-    draw_line(ui, picture, points, false, ui.style.accent, ui.px(3.5f));
-}
-
-void draw_other_of_conflict(Ui& ui, const ShownPicture& picture) {
-    const Session& session = ui.session;
-    const std::vector<SceneConflict>* found = session.conflicts();
-    if (!found || session.conflict < 0 || session.view().follow.empty() || !session.view().time) return;
-    const SceneConflict& conflict = (*found)[static_cast<std::size_t>(session.conflict)];
-    const bool near = std::abs(*session.view().time - conflict.begin()) < 2;
-    if (!near || conflict.a.name != session.view().follow) return;
-    const Selection other{Selection::Kind::path, {conflict.b.agent, -1, 0}, -1};
-    draw_highlight(ui, picture, other, to_im(ui.style.palette.hit), ui.px(2.5f));
+DrawnAgent drawn_agent_of(const FittedScene& fitted, const PlacedAgent& who) {
+    return {fitted.placed(who), who.name, who.name, Rgba(1), 0};
 }
 
 Described describe(const FittedScene& fitted, const Selection& what) {

@@ -1,0 +1,52 @@
+#include <app/viewport/describe.h>
+#include <app/viewport/session_highlights.h>
+#include <render/parts/highlights.h>
+#include <scene/motion_graph.h>
+
+#include <cmath>
+
+namespace mobbscope::app {
+
+namespace {
+
+using Role = HighlightLine::Role;
+
+void add_highlight_of(DrawList& list, const Session& session, const Selection& what, Role role, float scale) {
+    if (!what.on_path() || !index_in_view(session.fitted(), session.view(), what.path)) return;
+    const auto who = placed_agent_of(session.fitted(), what.path);
+    if (who) add_highlight(list, drawn_agent_of(session.fitted(), *who), what.part(), role, scale);
+}
+
+void add_candidate(DrawList& list, const Session& session, float scale) {
+    const FollowedChoice* followed = session.choice();
+    if (!followed || !session.view().candidates || session.candidate < 0) return;
+    const auto& candidates = followed->choice.candidates;
+    if (static_cast<std::size_t>(session.candidate) >= candidates.size()) return;
+    const Candidate& candidate = candidates[static_cast<std::size_t>(session.candidate)];
+    const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
+    const mobb::Clip& clip = *session.scene().clips[static_cast<std::size_t>(move.clip)].clip;
+    add_way_highlight(list, mobb::PlacedClip(clip, candidate.placement), Role::candidate, scale);
+}
+
+void add_other_of_conflict(DrawList& list, const Session& session, float scale) {
+    const std::vector<SceneConflict>* found = session.conflicts();
+    if (!found || session.conflict < 0 || session.view().follow.empty() || !session.view().time) return;
+    const SceneConflict& conflict = (*found)[static_cast<std::size_t>(session.conflict)];
+    const bool near = std::abs(*session.view().time - conflict.begin()) < 2;
+    if (!near || conflict.a.name != session.view().follow) return;
+    const Selection other{Selection::Kind::path, {conflict.b.agent, -1, 0}, -1};
+    add_highlight_of(list, session, other, Role::conflict, scale);
+}
+
+}  // namespace
+
+void add_highlights(DrawList& list, const Session& session, float scale) {
+    add_highlight_of(list, session, session.selection, Role::selection, scale);
+    if (session.hovered != session.selection) {
+        add_highlight_of(list, session, session.hovered, Role::hover, scale);
+    }
+    add_candidate(list, session, scale);
+    add_other_of_conflict(list, session, scale);
+}
+
+}  // namespace mobbscope::app
