@@ -1,6 +1,7 @@
 /// Numbers and words in text, the same in every locale.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <optional>
@@ -38,6 +39,13 @@ std::string counted(long long count, std::string_view singular, std::string_view
 template <std::integral Count>
 std::string counted(Count count, std::string_view singular, std::string_view plural) {
     return counted(static_cast<long long>(count), singular, plural);
+}
+
+/// The enumerator with that name; `names` stand in the order of the enumeration, from 0.
+template <class Enum>
+std::optional<Enum> enumerator_named(std::span<const std::string_view> names, std::string_view name) {
+    const auto at = std::ranges::find(names, name);
+    return at == names.end() ? std::nullopt : std::optional(static_cast<Enum>(at - names.begin()));
 }
 
 /// "mobb, umobb, hybrid1".

@@ -3,12 +3,10 @@
 #include <base/text.h>
 #include <import/bvh/bvh.h>
 #include <import/import.h>
-#include <import/nodes/fbx.h>
-#include <import/nodes/gltf.h>
+#include <import/nodes/node_files.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
-#include <import/tracks/track_clips.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
@@ -100,11 +98,7 @@ std::string listed_clip_extensions(std::string_view separator) { return list_for
 std::string listed_trajectory_extensions() { return list_formats(true, " ", " "); }
 
 std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, const ImportOptions& options) {
-    try {
-        check(options);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(file.string(), "", error.what());
-    }
+    at_place(file.string(), "", [&] { check(options); });
     if (const Format* format = format_of(file)) {
         auto parsed = parsed_.find(file);
         if (parsed == parsed_.end()) parsed = parsed_.emplace(file, format->parse(file)).first;

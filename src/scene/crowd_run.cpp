@@ -15,12 +15,8 @@ namespace {
 constexpr double kJoint = 1e-6;  // metres, seconds, degrees: more than rounding, far less than a sample
 constexpr std::array<std::string_view, 3> kKinds{"chosen", "pivoted", "forced"};
 
-std::string_view kind_name(PlayKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
-
 PlayKind read_kind(const JsonPlace& place) {
-    for (std::size_t i = 0; i < kKinds.size(); ++i) {
-        if (place.string() == kKinds[i]) return static_cast<PlayKind>(i);
-    }
+    if (const auto kind = enumerator_named<PlayKind>(kKinds, place.string())) return *kind;
     place.fail(in_quotes(place.string()) + " is no kind of play; give " + listed(kKinds));
 }
 
@@ -151,7 +147,7 @@ void write_play(JsonWriter& out, const Play& play) {
     out.member("rotate_deg", play.placement.rotate_deg);
     out.member("start", play.placement.start);
     if (play.chosen_at != play.placement.start) out.member("chosen_at", play.chosen_at);
-    if (play.kind != PlayKind::chosen) out.member("kind", kind_name(play.kind));
+    if (play.kind != PlayKind::chosen) out.member("kind", kKinds[static_cast<std::size_t>(play.kind)]);
     out.end_object();
 }
 

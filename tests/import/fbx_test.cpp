@@ -1,9 +1,8 @@
 // The FBX reader's process: what it sends, and what becomes of its crashes. Figures of real files:
 // motion_data_test.cpp.
 #include <base/error.h>
-#include <import/nodes/fbx.h>
+#include <import/nodes/node_files.h>
 #include <import/nodes/node_scene.h>
-#include <import/nodes/scene_packet.h>
 #include <support/input_error.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>

@@ -1,7 +1,7 @@
 /// Small glTF files for tests: floats and bytes in one buffer, the rest as JSON.
 #pragma once
 
-#include <import/nodes/gltf_container.h>
+#include <import/nodes/gltf_file.h>
 
 #include <cstdint>
 #include <cstring>

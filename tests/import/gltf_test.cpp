@@ -1,7 +1,7 @@
 // The glTF reader: what the specification says of samplers, accessors, nodes and skins, and what is refused.
 #include "gltf_bytes.h"
 
-#include <import/nodes/gltf.h>
+#include <import/nodes/node_files.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 

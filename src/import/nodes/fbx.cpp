@@ -1,8 +1,7 @@
 #include <base/error.h>
 #include <base/text.h>
-#include <import/nodes/fbx.h>
+#include <import/nodes/node_files.h>
 #include <import/nodes/node_scene.h>
-#include <import/nodes/scene_packet.h>
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,13 +1,13 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
-#include <import/nodes/gltf.h>
 #include <import/nodes/gltf_accessor.h>
-#include <import/nodes/gltf_json.h>
-#include <import/nodes/node_scene.h>
+#include <import/nodes/gltf_file.h>
+#include <import/nodes/node_files.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -19,6 +19,9 @@ namespace mobbscope {
 namespace {
 
 constexpr double kTolerance = 1e-6;
+// In the order of their enumerations.
+constexpr std::array<std::string_view, 3> kProperties{"translation", "rotation", "scale"};
+constexpr std::array<std::string_view, 3> kInterpolations{"STEP", "LINEAR", "CUBICSPLINE"};
 
 std::string name_of(const tinygltf::Model& model, int node) {
     const std::string& name = model.nodes[as_index(node)].name;
@@ -254,31 +257,23 @@ class SceneBuilder {
         Channel channel;
         channel.node = from.target_node;
         channel.times = times;
-        if (from.target_path == "translation") {
-            channel.property = NodeProperty::translation;
-        } else if (from.target_path == "rotation") {
-            channel.property = NodeProperty::rotation;
-        } else if (from.target_path == "scale") {
-            channel.property = NodeProperty::scale;
-        } else {
+        const auto property = enumerator_named<NodeProperty>(kProperties, from.target_path);
+        if (!property) {
             throw InputError(
                 scene_.file, place,
                 "channel path " + in_quotes(from.target_path) + " must be translation, rotation, scale or weights");
         }
+        channel.property = *property;
         if (!model_.nodes[as_index(channel.node)].matrix.empty()) {
             fail_node(channel.node, "is animated, so it needs translation, rotation and scale in place of its matrix");
         }
-        if (sampler.interpolation == "LINEAR") {
-            channel.interpolation = Interpolation::linear;
-        } else if (sampler.interpolation == "STEP") {
-            channel.interpolation = Interpolation::step;
-        } else if (sampler.interpolation == "CUBICSPLINE") {
-            channel.interpolation = Interpolation::cubic_spline;
-        } else {
+        const auto interpolation = enumerator_named<Interpolation>(kInterpolations, sampler.interpolation);
+        if (!interpolation) {
             throw InputError(
                 scene_.file, place,
                 "interpolation " + in_quotes(sampler.interpolation) + " must be LINEAR, STEP or CUBICSPLINE");
         }
+        channel.interpolation = *interpolation;
         const bool is_rotation = channel.property == NodeProperty::rotation;
         const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
         const std::size_t width = is_rotation ? 4 : 3;

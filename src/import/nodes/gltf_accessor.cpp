@@ -1,7 +1,7 @@
 #include <base/error.h>
 #include <base/text.h>
 #include <import/nodes/gltf_accessor.h>
-#include <import/nodes/gltf_json.h>
+#include <import/nodes/gltf_file.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>

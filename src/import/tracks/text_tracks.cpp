@@ -1,13 +1,10 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
-#include <base/text.h>
 #include <import/tracks/tracks.h>
-#include <mobb/clip.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <string>
 #include <utility>
 
 namespace mobbscope {

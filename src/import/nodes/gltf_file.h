@@ -1,15 +1,29 @@
-/// The JSON of a glTF file, checked value by value before tinygltf sees it: that library wraps integers, drops what it
-/// cannot read and follows extras as deep as they go.
+/// A glTF file before tinygltf sees it. It comes as JSON text, or as a GLB that holds the text and one buffer. The JSON
+/// is checked value by value: that library wraps integers, drops what it cannot read and follows extras as deep as
+/// they go.
 #pragma once
 
-#include <import/nodes/gltf_container.h>
-
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace mobbscope {
+
+/// Refers to the bytes it was split from.
+struct GltfParts {
+    std::string_view json;
+    std::optional<std::string_view> binary;  ///< the GLB's own buffer, if it has one
+    bool is_glb = false;
+};
+
+/// Checks lengths and order of a GLB's chunks; anything without its magic number is taken for text, unless
+/// `must_be_glb`. `file` stands for the file in messages. Throws InputError.
+GltfParts split_gltf(std::string_view bytes, bool must_be_glb, const std::string& file);
+
+/// A GLB of these parts; `binary` is left out when empty.
+std::string join_glb(std::string_view json, std::string_view binary);
 
 /// A buffer that lies in a file of its own, or nowhere: the specification allows that, and meshes that an extension
 /// compresses come so.
