@@ -120,10 +120,6 @@ std::string brief(double value) {
     return {buffer, end};
 }
 
-std::string counted(long long count, std::string_view singular, std::string_view plural) {
-    return std::to_string(count) + ' ' + std::string(count == 1 ? singular : plural);
-}
-
 std::string listed(std::span<const std::string_view> names) {
     std::string out;
     for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);

@@ -35,10 +35,8 @@ std::string short_double(double value);
 std::string brief(double value);
 
 /// "1 sample", "12 samples".
-std::string counted(long long count, std::string_view singular, std::string_view plural);
-template <std::integral Count>
-std::string counted(Count count, std::string_view singular, std::string_view plural) {
-    return counted(static_cast<long long>(count), singular, plural);
+std::string counted(std::integral auto count, std::string_view singular, std::string_view plural) {
+    return std::to_string(count) + ' ' + std::string(count == 1 ? singular : plural);
 }
 
 /// The enumerator with that name; `names` stand in the order of the enumeration, from 0.

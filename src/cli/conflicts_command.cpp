@@ -27,12 +27,8 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-struct ConflictsCommandArguments {
-    std::filesystem::path file;
-    bool json = false;
+struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
-    FitArguments fit;
-    ImportOptions import_options;
 };
 
 /// The crowd in the file: its agents, the people of a run, or the tracks of a CSV, each from the time of its first row.
@@ -168,15 +164,12 @@ void print_text(const Findings& findings) {
 }
 
 void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
-    Scene scene = load_crowd(arguments);
-    const mobb::FitOptions options = arguments.fit.over(scene.fit);
-    const FittedScene fitted(std::move(scene), options);
+    const FittedScene scene = fitted(load_crowd(arguments), arguments.fit);
     std::vector<mobb::PlacedTree> crowd;
-    for (const PlacedAgent& who : fitted.placed_agents()) crowd.push_back(fitted.placed(who));
+    for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
     Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
-    std::erase_if(conflicts.found,
-                  [&fitted](const Conflict& conflict) { return same_person(fitted.scene(), conflict); });
-    const Findings findings{fitted, crowd, conflicts};
+    std::erase_if(conflicts.found, [&scene](const Conflict& conflict) { return same_person(scene.scene(), conflict); });
+    const Findings findings{scene, crowd, conflicts};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
     if (arguments.check && !conflicts.found.empty()) status = kFailed;
@@ -189,11 +182,8 @@ void add_conflicts_command(Command& program, int& status) {
         "conflicts",
         "Every pair of agents whose disks overlap: when, how deep and where; --tree brute searches directly");
     const auto arguments = std::make_shared<ConflictsCommandArguments>();
-    add_scene_file(command, arguments->file);
-    command.add_flag("--json", arguments->json, "The same as JSON");
+    add_fitted_options(command, *arguments, "The same as JSON", Brute::allowed);
     command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");
-    add_fit_options(command, arguments->fit, Brute::allowed);
-    add_import_options(command, arguments->import_options);
     command.callback([arguments, &status] { run_conflicts(*arguments, status); });
 }
 

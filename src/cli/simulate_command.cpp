@@ -76,21 +76,17 @@ Scene load_moves(const SimulateCommandArguments& arguments) {
 
 void check_run_outputs(const SimulateCommandArguments& arguments) {
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
-        if (!out.empty() && lower_extension(out) != ".json") {
-            throw InputError(out.string(), "", "a run and its queries are scenes; name it .json");
-        }
+        check_extension(out, ".json", "a run and its queries are scenes; name it .json");
     }
-    const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
-        std::error_code ignored;
-        return !a.empty() && !b.empty() &&
-               std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
-    };
-    if (same(arguments.out, arguments.record)) {
+    if (!arguments.record.empty() && meant(arguments.out) == meant(arguments.record)) {
         throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
     }
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
-        if (same(out, arguments.graph)) throw InputError(out.string(), "", "it would replace the graph; rename it");
-        if (!out.empty()) check_writable(out);
+        if (out.empty()) continue;
+        if (meant(out) == meant(arguments.graph)) {
+            throw InputError(out.string(), "", "it would replace the graph; rename it");
+        }
+        check_writable(out);
     }
 }
 

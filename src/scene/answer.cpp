@@ -1,6 +1,6 @@
 #include <base/text.h>
 #include <scene/answer.h>
-#include <scene/trace_json.h>
+#include <scene/scene_json.h>
 
 #include <algorithm>
 #include <cmath>

@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -61,6 +62,10 @@ double heading_of(glm::dvec2 way);
 /// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and the clip's
 /// duration later. `duration` is that of the move before, in seconds.
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry);
+
+/// For each node the number of its strongly connected component, counted from 0 in the order of their first nodes.
+/// `edges`: pairs of nodes in [0, nodes), from and to.
+std::vector<int> strong_components(int nodes, const std::vector<std::pair<int, int>>& edges);
 
 /// For each hub the number of the part of the graph that it belongs to: from all hubs of a part moves lead to all
 /// others of it. Counted from 0 in the order of their first hubs.

@@ -4,7 +4,7 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
-#include <scene/trace_json.h>
+#include <scene/scene_json.h>
 #include <scene/view_options.h>
 
 #include <sstream>
@@ -15,17 +15,10 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-void write_options(JsonWriter& out, const ImportOptions& options) {
-    if (options.animation) out.member("animation", *options.animation);
-    if (options.root) out.member("root", *options.root);
-    if (options.fps) out.member("fps", *options.fps);
-    if (options.unit) out.member("unit", *options.unit);
-    if (options.up) out.member("up", *options.up);
-    if (options.trim) out.member("trim", {options.trim->first, options.trim->second});
-    if (options.origin) out.member("origin", name(*options.origin));
-    if (options.id) out.member("id", *options.id);
-    if (options.radius) out.member("radius", *options.radius);
-    if (options.dt) out.member("dt", *options.dt);
+void write_option(JsonWriter& out, const char* key, const auto& value) { out.member(key, value); }
+void write_option(JsonWriter& out, const char* key, Origin origin) { out.member(key, name(origin)); }
+void write_option(JsonWriter& out, const char* key, const std::pair<double, double>& trim) {
+    out.member(key, {trim.first, trim.second});
 }
 
 void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
@@ -33,7 +26,9 @@ void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
     if (clip.source && !inline_samples) {
         out.begin_object(Layout::row);
         out.member("source", *clip.source);
-        write_options(out, clip.options);
+        for_each_import_option([&](const char* key, auto option) {
+            if (clip.options.*option) write_option(out, key, *(clip.options.*option));
+        });
         out.end_object();
         return;
     }

@@ -1,5 +1,6 @@
 // Plans of multi-agent path finding, as the solvers of atb033/multi_agent_path_planning write them.
 #include <import/tracks/tracks.h>
+#include <mobb/clip.h>
 
 #include <yaml-cpp/yaml.h>
 

@@ -1,5 +1,6 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
 #include <import/tracks/tracks.h>
+#include <mobb/clip.h>
 
 #include <algorithm>
 #include <array>

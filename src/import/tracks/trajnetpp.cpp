@@ -1,5 +1,6 @@
 // TrajNet++: a JSON object a line (vita-epfl/trajnetplusplustools, "Data format").
 #include <import/tracks/tracks.h>
+#include <mobb/clip.h>
 
 #include <nlohmann/json.hpp>
 

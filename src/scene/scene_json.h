@@ -1,14 +1,30 @@
-/// Contacts and traces as they stand in scene files and in the output of `query --json`.
+/// Parts of the scene file that stand in other JSON too: fits, contacts and traces; and trees.
 #pragma once
 
 #include <base/json.h>
 #include <base/json_writer.h>
+#include <mobb/level_figures.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
+#include <mobb/tree.h>
 
 #include <optional>
+#include <string>
 
 namespace mobbscope {
+
+/// The `fit` of a scene file: every key is optional and has FitOptions' name for it.
+///
+///     {"tree": "mobb", "leaf": 10, "levels": 0, "axes": "endpoints", "time_scale": 1}
+///
+/// What the keys say, over `base`: a key that is not there keeps its value. Throws InputError.
+mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
+
+/// A figure for people, without its unit; "-" if the level has none.
+std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures);
+
+/// Per-level figures and every node of the tree over the clip of that name.
+void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);
 
 /// An object, or null for no contact.
 void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact);
