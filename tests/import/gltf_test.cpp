@@ -15,6 +15,7 @@ namespace mobbscope {
 namespace {
 
 using testing::GltfBytes;
+using testing::join_glb;
 
 constexpr double kHalf = std::numbers::sqrt2 / 2;  // sine and cosine of 45 degrees
 const std::string kArm = R"([{"children":[1]},{"name":"tip","translation":[1,0,0]}])";

@@ -32,19 +32,6 @@ std::uint32_t number_at(std::string_view bytes, std::size_t offset) {
     return value;
 }
 
-void append(std::string& bytes, std::size_t number) {
-    for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xff);
-}
-
-std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
-
-void append_chunk(std::string& bytes, std::uint32_t type, std::string_view content, char padding) {
-    append(bytes, padded(content.size()));
-    append(bytes, type);
-    bytes += content;
-    bytes.append(padded(content.size()) - content.size(), padding);
-}
-
 GltfParts split_glb(std::string_view bytes, const std::string& file) {
     const auto fail = [&file](const std::string& place, const std::string& message) {
         throw InputError(file, place, message + "; export or copy it again");
@@ -259,7 +246,7 @@ class GltfChecker {
         for (const auto& [key, keep] : kSections) {
             if (root_[key].exists()) keep_elements(root_, kept, key, keep);
         }
-        return {kept.dump(), std::move(buffer_files_)};
+        return {kept.dump(), std::move(outside_)};
     }
 
   private:
@@ -367,35 +354,33 @@ class GltfChecker {
         keep_integer(from, to, "byteLength", Need::required);
         const auto length = to["byteLength"].get<std::size_t>();
         if (length == 0) from["byteLength"].fail("must be over 0");
-        keep_string(from, to, "uri", Need::optional);
-        const std::size_t index = buffers_++;
-        if (!to.contains("uri")) {
-            if (!parts_.is_glb || index != 0 || !parts_.binary || parts_.binary->empty()) {
-                buffer_files_.push_back({index, "", 1});
-                to = {{"name", kNowhere}, {"uri", std::to_string(index)}, {"byteLength", 1}};
-            } else if (length > parts_.binary->size()) {
+        const auto index = static_cast<int>(buffers_++);
+        const GltfPlace uri = from["uri"];
+        if (!uri.exists()) {
+            const bool in_chunk = parts_.is_glb && index == 0 && parts_.binary && !parts_.binary->empty();
+            if (in_chunk && length > parts_.binary->size()) {
                 from["byteLength"].fail("is " + std::to_string(length) + ", but the binary chunk holds " +
                                         std::to_string(parts_.binary->size()) +
                                         " bytes; export or copy the file again");
             }
-            return;
-        }
-        const auto& uri = to["uri"].get_ref<const std::string&>();
-        if (uri.starts_with("data:")) {
-            const std::size_t comma = uri.find(',');
-            if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64")) {
-                from["uri"].fail("must be a data URI in base64; export the file again");
+            outside_.push_back({index, "", in_chunk ? length : 0});
+        } else if (const std::string& text = uri.string(); text.starts_with("data:")) {
+            const std::size_t comma = text.find(',');
+            if (comma == std::string::npos || !std::string_view(text).substr(0, comma).ends_with(";base64")) {
+                uri.fail("must be a data URI in base64; export the file again");
             }
             // tinygltf knows few media types; what is inside does not depend on them.
-            to["uri"] = "data:application/octet-stream;base64" + uri.substr(comma);
+            to["uri"] = "data:application/octet-stream;base64" + text.substr(comma);
             return;
+        } else {
+            std::string path = percent_decoded(text);
+            if (!is_below(path)) {
+                uri.fail(in_quotes(text) + " must name a file beside this one or in a folder below it");
+            }
+            outside_.push_back({index, std::move(path), length});
         }
-        std::string path = percent_decoded(uri);
-        if (!is_below(path)) {
-            from["uri"].fail(in_quotes(uri) + " must name a file beside this one or in a folder below it");
-        }
-        buffer_files_.push_back({index, std::move(path), length});
-        to["uri"] = std::to_string(index);
+        // tinygltf refuses a buffer that holds nothing.
+        to = {{"uri", "data:application/octet-stream;base64,AA=="}, {"byteLength", 1}};
     }
 
     void keep_view(const GltfPlace& from, Json& to) {
@@ -486,7 +471,7 @@ class GltfChecker {
     const GltfParts& parts_;
     std::size_t buffers_ = 0;
     std::size_t samplers_ = 0;  ///< of the animation at hand
-    std::vector<GltfBufferFile> buffer_files_;
+    std::vector<GltfOutsideBuffer> outside_;
 };
 
 }  // namespace
@@ -497,18 +482,6 @@ GltfParts split_gltf(std::string_view bytes, bool must_be_glb, const std::string
         throw InputError(file, "GLB header", "does not begin with 'glTF'; this is no GLB file, or a damaged one");
     }
     return {bytes, std::nullopt, false};
-}
-
-std::string join_glb(std::string_view json, std::string_view binary) {
-    std::size_t length = kHeaderSize + kChunkHeaderSize + padded(json.size());
-    if (!binary.empty()) length += kChunkHeaderSize + padded(binary.size());
-    std::string glb(kMagic);
-    glb.reserve(length);
-    append(glb, 2);
-    append(glb, length);
-    append_chunk(glb, kJsonChunk, json, ' ');
-    if (!binary.empty()) append_chunk(glb, kBinaryChunk, binary, '\0');
-    return glb;
 }
 
 GltfText checked_gltf_text(const GltfParts& parts, const std::string& file) {

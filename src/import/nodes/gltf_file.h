@@ -22,24 +22,19 @@ struct GltfParts {
 /// `must_be_glb`. `file` stands for the file in messages. Throws InputError.
 GltfParts split_gltf(std::string_view bytes, bool must_be_glb, const std::string& file);
 
-/// A GLB of these parts; `binary` is left out when empty.
-std::string join_glb(std::string_view json, std::string_view binary);
-
-/// A buffer that lies in a file of its own, or nowhere: the specification allows that, and meshes that an extension
-/// compresses come so.
-struct GltfBufferFile {
-    std::size_t buffer = 0;       ///< index in the glTF file
-    std::string path;             ///< relative to the glTF file, decoded; never leads out of its folder. "": nowhere
-    std::size_t byte_length = 0;  ///< how much of it is used; at least 1
+/// A buffer whose bytes do not stand in the text.
+struct GltfOutsideBuffer {
+    int buffer = 0;    ///< index in the glTF file
+    std::string path;  ///< relative to the glTF file, decoded; never leads out of its folder. "": the GLB's own buffer
+    /// How much of it is used. 0: it lies nowhere, which the specification allows; meshes that an extension compresses
+    /// come so.
+    std::size_t byte_length = 0;
 };
-
-/// The name of a buffer that lies nowhere. It holds one byte, as tinygltf refuses to have none.
-inline constexpr std::string_view kNowhere = "nowhere";
 
 /// What is left of the text: nodes, skins, animations and what they refer to.
 struct GltfText {
     std::string json;
-    std::vector<GltfBufferFile> buffer_files;  ///< the URI of each became the index of its buffer
+    std::vector<GltfOutsideBuffer> outside;  ///< in the text each has a byte in place of what it holds
 };
 
 /// Every index in the text that remains exists, every integer fits and every value has its type. Throws InputError

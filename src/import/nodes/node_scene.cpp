@@ -14,19 +14,6 @@ namespace {
 
 glm::dquat quaternion(const double* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
 
-/// Between two unit quaternions along the shorter arc.
-glm::dquat slerp(const glm::dquat& from, glm::dquat to, double share) {
-    double cosine = glm::dot(from, to);
-    if (cosine < 0) {  // q and -q are one rotation
-        to = -to;
-        cosine = -cosine;
-    }
-    // Near-parallel: the sines vanish, and the chord is as good as the arc.
-    if (cosine > 1 - 1e-12) return glm::normalize(from * (1 - share) + to * share);
-    const double angle = std::acos(cosine);
-    return (from * std::sin((1 - share) * angle) + to * std::sin(share * angle)) / std::sin(angle);
-}
-
 void put(const glm::dquat& q, double* xyzw) {
     xyzw[0] = q.x;
     xyzw[1] = q.y;
@@ -72,11 +59,10 @@ int topmost_animated(const NodeScene& scene, const std::vector<int>& order) {
 /// True if a rotation is not the same at all keys.
 bool turns(const Channel& channel) {
     const std::vector<double>& values = *channel.values;
-    const glm::dquat first = glm::normalize(glm::dquat{values[3], values[0], values[1], values[2]});
+    const glm::dquat first = glm::normalize(quaternion(values.data()));
     for (std::size_t i = 4; i < values.size(); i += 4) {
-        const glm::dquat q{values[i + 3], values[i], values[i + 1], values[i + 2]};
         // The cosine of half the angle between them; single precision leaves it within 1e-7 of 1.
-        if (std::abs(glm::dot(first, glm::normalize(q))) < 1 - 1e-6) return true;
+        if (std::abs(glm::dot(first, glm::normalize(quaternion(&values[i])))) < 1 - 1e-6) return true;
     }
     return false;
 }
@@ -281,7 +267,8 @@ void evaluate(const Channel& channel, double seconds, double* out) {
         if (is_cubic) {
             cubic(values, width, key, span, share, out);
         } else if (is_rotation) {
-            put(slerp(glm::normalize(quaternion(value(key))), glm::normalize(quaternion(value(after))), share), out);
+            put(glm::slerp(glm::normalize(quaternion(value(key))), glm::normalize(quaternion(value(after))), share),
+                out);
         } else {
             for (std::size_t i = 0; i < width; ++i) out[i] = value(key)[i] + share * (value(after)[i] - value(key)[i]);
         }
