@@ -1,14 +1,10 @@
 #include <base/error.h>
 #include <base/text.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace mobbscope {
 
@@ -123,6 +119,12 @@ std::string brief(double value) {
 std::string listed(std::span<const std::string_view> names) {
     std::string out;
     for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
+    return out;
+}
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     return out;
 }
 

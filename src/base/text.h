@@ -49,6 +49,9 @@ std::optional<Enum> enumerator_named(std::span<const std::string_view> names, st
 /// "mobb, umobb, hybrid1".
 std::string listed(std::span<const std::string_view> names);
 
+/// With small letters for the capitals of ASCII.
+std::string lower(std::string_view text);
+
 /// Without blanks (space, tab, carriage return) at both ends.
 std::string_view trimmed(std::string_view text);
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>

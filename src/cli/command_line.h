@@ -4,11 +4,9 @@
 #pragma once
 
 #include <concepts>
-#include <filesystem>
 #include <functional>
 #include <list>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -12,13 +12,11 @@
 #include <glm/vec2.hpp>
 
 #include <cmath>
-#include <cstdint>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {

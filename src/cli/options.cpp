@@ -1,4 +1,3 @@
-#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
@@ -10,9 +9,6 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>

@@ -13,7 +13,6 @@
 #include <array>
 #include <iterator>
 #include <memory>
-#include <stdexcept>
 #include <type_traits>
 
 namespace mobbscope {

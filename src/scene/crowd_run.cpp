@@ -4,9 +4,7 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 #include <unordered_set>
-#include <utility>
 
 namespace mobbscope {
 
@@ -89,10 +87,7 @@ class CrowdReader {
         Play play;
         const JsonPlace move = place.require("move");
         play.move = move.integer(0, static_cast<int>(scene_.graph->moves.size()) - 1);
-        const JsonPlace translate = place.require("translate");
-        translate.require_size(2, "[x, y] in metres");
-        play.placement.translate = {translate[0].number(-mobb::kMaxLength, mobb::kMaxLength),
-                                    translate[1].number(-mobb::kMaxLength, mobb::kMaxLength)};
+        play.placement.translate = place.require("translate").vector<glm::dvec2>(mobb::kMaxLength, "[x, y] in metres");
         play.placement.rotate_deg = place.require("rotate_deg").number(-1e9, 1e9);
         play.placement.start = place.require("start").number(-mobb::kMaxTime, mobb::kMaxTime);
         const auto chosen_at = place.find("chosen_at");

@@ -1,5 +1,4 @@
 #include <base/text.h>
-#include <mobb/clip.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
@@ -7,9 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <unordered_set>
-#include <utility>
 
 namespace mobbscope {
 

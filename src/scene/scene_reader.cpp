@@ -10,7 +10,6 @@
 #include <scene/view_options.h>
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <unordered_map>
@@ -38,9 +37,7 @@ Color read_color(const JsonPlace& place) {
 mobb::Placement read_placement(const JsonPlace& place) {
     mobb::Placement placement;
     if (const auto translate = place.find("translate")) {
-        translate->require_size(2, "[x, y] in metres");
-        placement.translate = {(*translate)[0].number(-mobb::kMaxLength, mobb::kMaxLength),
-                               (*translate)[1].number(-mobb::kMaxLength, mobb::kMaxLength)};
+        placement.translate = translate->vector<glm::dvec2>(mobb::kMaxLength, "[x, y] in metres");
     }
     if (const auto degrees = place.find("rotate_deg")) placement.rotate_deg = degrees->number(-1e9, 1e9);
     if (const auto start = place.find("start")) placement.start = start->number(-mobb::kMaxTime, mobb::kMaxTime);

@@ -2,7 +2,6 @@
 #include <scene/view_state.h>
 
 #include <array>
-#include <stdexcept>
 
 namespace mobbscope {
 

@@ -5,7 +5,6 @@
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/render/render_options.h>
-#include <render/drawlist/picture_options.h>
 #include <render/drawlist/view_projection.h>
 #include <render/pictures/render.h>
 #include <scene/load_files.h>
@@ -14,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 
 namespace mobbscope::cli {
 

@@ -3,7 +3,6 @@
 
 #include <mobb/clip.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>

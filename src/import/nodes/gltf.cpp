@@ -31,8 +31,8 @@ std::string place_of_node(const tinygltf::Model& model, int node) {
     return "node " + std::to_string(node) + " " + in_quotes(name_of(model, node));
 }
 
-std::vector<unsigned char> bytes_of(const GltfOutsideBuffer& buffer, const GltfParts& parts,
-                                    const std::filesystem::path& gltf) {
+std::vector<unsigned char> outside_bytes(const GltfOutsideBuffer& buffer, const GltfParts& parts,
+                                         const std::filesystem::path& gltf) {
     if (buffer.byte_length == 0) return {};
     if (buffer.path.empty()) {
         const std::string_view chunk = parts.binary->substr(0, buffer.byte_length);
@@ -58,7 +58,7 @@ tinygltf::Model load_model(std::string_view bytes, const std::filesystem::path& 
     const GltfParts parts = split_gltf(bytes, lower_extension(file) == ".glb", file.string());
     const GltfText text = checked_gltf_text(parts, file.string());
     std::vector<std::vector<unsigned char>> outside;
-    for (const GltfOutsideBuffer& buffer : text.outside) outside.push_back(bytes_of(buffer, parts, file));
+    for (const GltfOutsideBuffer& buffer : text.outside) outside.push_back(outside_bytes(buffer, parts, file));
 
     tinygltf::TinyGLTF loader;
     tinygltf::Model model;

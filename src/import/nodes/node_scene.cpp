@@ -14,6 +14,19 @@ namespace {
 
 glm::dquat quaternion(const double* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
 
+/// Between two unit quaternions along the shorter arc.
+glm::dquat slerp(const glm::dquat& from, glm::dquat to, double share) {
+    double cosine = glm::dot(from, to);
+    if (cosine < 0) {  // q and -q are one rotation
+        to = -to;
+        cosine = -cosine;
+    }
+    // Near-parallel: the sines vanish, and the chord is as good as the arc.
+    if (cosine > 1 - 1e-12) return glm::normalize(from * (1 - share) + to * share);
+    const double angle = std::acos(cosine);
+    return (from * std::sin((1 - share) * angle) + to * std::sin(share * angle)) / std::sin(angle);
+}
+
 void put(const glm::dquat& q, double* xyzw) {
     xyzw[0] = q.x;
     xyzw[1] = q.y;
@@ -267,8 +280,7 @@ void evaluate(const Channel& channel, double seconds, double* out) {
         if (is_cubic) {
             cubic(values, width, key, span, share, out);
         } else if (is_rotation) {
-            put(glm::slerp(glm::normalize(quaternion(value(key))), glm::normalize(quaternion(value(after))), share),
-                out);
+            put(slerp(glm::normalize(quaternion(value(key))), glm::normalize(quaternion(value(after))), share), out);
         } else {
             for (std::size_t i = 0; i < width; ++i) out[i] = value(key)[i] + share * (value(after)[i] - value(key)[i]);
         }

@@ -40,13 +40,6 @@ const Columns kPetrack{"petrack", 5, 0, 1, 2, 3, 4};
 const Columns kPetrackFlat{"petrack", 4, 0, 1, 2, 3};
 const Columns kSdd{"sdd", 10, 0, kSddFrame};
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    return out;
-}
-
 /// Words between blanks; one in double quotes may hold blanks. More than `limit` + 1 are not looked for.
 void split(std::string_view line, std::size_t limit, std::vector<std::string_view>& words) {
     words.clear();
