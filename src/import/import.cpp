@@ -19,18 +19,15 @@ namespace mobbscope {
 
 namespace {
 
-std::unique_ptr<MotionFile> read_bvh(const std::filesystem::path& file) {
-    return bvh_motion(parse_bvh(read_file(file), file.string()));
-}
+MotionFile read_bvh(const std::filesystem::path& file) { return bvh_motion(parse_bvh(read_file(file), file.string())); }
 
 /// The clips of what `read` makes of a file.
 template <auto read, auto to_clips>
 ParsedFile parse_once(const std::filesystem::path& file) {
     using Path = const std::filesystem::path&;
     if constexpr (std::is_invocable_v<decltype(read), Path>) {
-        return [motion = std::shared_ptr(read(file))](Path from, const ImportOptions& options) {
-            return to_clips(*motion, from, options);
-        };
+        return
+            [parsed = read(file)](Path from, const ImportOptions& options) { return to_clips(parsed, from, options); };
     } else {
         return [parsed = read(read_file(file), file.string())](Path from, const ImportOptions& options) {
             return to_clips(parsed, from, options);

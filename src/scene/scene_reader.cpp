@@ -278,8 +278,8 @@ class SceneReader {
     SceneQuery read_query(const JsonPlace& place) {
         place.allow_only({"a", "b", "expect", "trace"});
         SceneQuery query;
-        query.a = read_participant(place.require("a"));
-        query.b = read_participant(place.require("b"));
+        query.a = read_placed_agent(place.require("a"));
+        query.b = read_placed_agent(place.require("b"));
         const int samples_a = clip_of(query.a).count();
         const int samples_b = clip_of(query.b).count();
         if (const auto expect = place.find("expect")) query.expect = read_expectation(*expect, samples_a, samples_b);
@@ -289,7 +289,7 @@ class SceneReader {
         return query;
     }
 
-    PlacedAgent read_participant(const JsonPlace& place) const {
+    PlacedAgent read_placed_agent(const JsonPlace& place) const {
         if (place.is_string()) {
             const int index = agent_names_.find(place, "agent");
             const Agent& agent = scene_.agents[static_cast<std::size_t>(index)];

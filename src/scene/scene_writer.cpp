@@ -63,7 +63,7 @@ void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
     out.end_object();
 }
 
-void write_participant(JsonWriter& out, const Scene& scene, const PlacedAgent& who) {
+void write_placed_agent(JsonWriter& out, const Scene& scene, const PlacedAgent& who) {
     if (who.agent >= 0) return out.value(scene.agents[static_cast<std::size_t>(who.agent)].name);
     out.begin_object(Layout::row);
     out.member("clip", scene.clips[static_cast<std::size_t>(who.clip)].name);
@@ -74,9 +74,9 @@ void write_participant(JsonWriter& out, const Scene& scene, const PlacedAgent& w
 void write_query(JsonWriter& out, const Scene& scene, const SceneQuery& query) {
     out.begin_object();
     out.key("a");
-    write_participant(out, scene, query.a);
+    write_placed_agent(out, scene, query.a);
     out.key("b");
-    write_participant(out, scene, query.b);
+    write_placed_agent(out, scene, query.b);
     if (query.expect) {
         out.begin_object("expect", Layout::row);
         out.member("collides", query.expect->collides);

@@ -97,7 +97,7 @@ TEST(ScenePacket, DamageIsNoticedOrHarmless) {
             continue;
         }
         if (scene.animations.empty() || scene.animations[0].channels.empty()) continue;
-        const auto motion = node_motion_file(std::move(scene))->motion(0);
+        const auto motion = node_motion_file(std::move(scene)).motion(0);
         std::vector<glm::dvec3> positions(motion->joints().size());
         motion->pose(0.5, positions);
     }

@@ -62,7 +62,7 @@ void try_to_read(const std::string& bytes, const std::string& name, Outcomes& ou
     try {
         ImportOptions options;
         options.fps = 10;
-        motion_clips(*parse_gltf(bytes, name), name, options);
+        motion_clips(parse_gltf(bytes, name), name, options);
         ++outcomes.read;
     } catch (const InputError& error) {
         const std::string_view message = error.what();

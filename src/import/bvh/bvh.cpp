@@ -425,23 +425,14 @@ class BvhMotion : public Motion {
     MotionTimes times_;
 };
 
-class BvhFile : public MotionFile {
-  public:
-    explicit BvhFile(BvhData data) : motion_(std::make_shared<BvhMotion>(std::move(data))) {}
-
-    std::string format() const override { return "bvh"; }
-    std::optional<double> unit() const override { return std::nullopt; }
-    std::vector<std::string> animations() const override { return {"#0"}; }
-    std::shared_ptr<const Motion> motion(std::size_t) const override { return motion_; }
-
-  private:
-    std::shared_ptr<const Motion> motion_;
-};
-
 }  // namespace
 
 BvhData parse_bvh(std::string_view text, const std::string& file) { return BvhParser(text, file).parse(); }
 
-std::unique_ptr<MotionFile> bvh_motion(BvhData data) { return std::make_unique<BvhFile>(std::move(data)); }
+MotionFile bvh_motion(BvhData data) {
+    return {"bvh", std::nullopt, {"#0"}, [motion = std::make_shared<BvhMotion>(std::move(data))](std::size_t) {
+                return motion;
+            }};
+}
 
 }  // namespace mobbscope

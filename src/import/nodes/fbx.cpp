@@ -125,7 +125,7 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-std::unique_ptr<MotionFile> read_fbx(const fs::path& file) {
+MotionFile read_fbx(const fs::path& file) {
     const std::string name = file.string();
     constexpr std::string_view kRemedy = "; export it again as binary FBX 2014/2015, or as glTF";
     check_header(file);

@@ -271,12 +271,12 @@ class SceneBuilder {
 
 }  // namespace
 
-std::unique_ptr<MotionFile> parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
+MotionFile parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
     const tinygltf::Model model = load_model(bytes, file);
     const std::string name = file.string();
     return node_motion_file(SceneBuilder(model, name).build());
 }
 
-std::unique_ptr<MotionFile> read_gltf(const std::filesystem::path& file) { return parse_gltf(read_file(file), file); }
+MotionFile read_gltf(const std::filesystem::path& file) { return parse_gltf(read_file(file), file); }
 
 }  // namespace mobbscope

@@ -15,15 +15,15 @@ namespace mobbscope {
 /// glTF 2.0, as text or GLB, through tinygltf: nodes, skin 0 and all animations. Meshes, materials and pictures are not
 /// looked at: whether they are there does not matter. Buffers may lie in files beside this one or in folders below.
 /// Throws InputError.
-std::unique_ptr<MotionFile> read_gltf(const std::filesystem::path& file);
+MotionFile read_gltf(const std::filesystem::path& file);
 
 /// The same for the bytes of a file; `file` is where it would lie.
-std::unique_ptr<MotionFile> parse_gltf(std::string_view bytes, const std::filesystem::path& file);
+MotionFile parse_gltf(std::string_view bytes, const std::filesystem::path& file);
 
 /// FBX through Assimp, which runs in a process of its own: whatever a file does to it, this program lives on. Throws
 /// InputError if the file cannot be read (a crash or a hang of the reader included), MachineError if the reader cannot
 /// be started.
-std::unique_ptr<MotionFile> read_fbx(const std::filesystem::path& file);
+MotionFile read_fbx(const std::filesystem::path& file);
 
 enum class ChildEnd { exited, signalled, timed_out, too_much_output };
 

@@ -212,25 +212,6 @@ class NodeMotion : public Motion {
     std::vector<PosedNode> posed_;
 };
 
-class NodeMotionFile : public MotionFile {
-  public:
-    explicit NodeMotionFile(NodeScene scene) : scene_(std::make_shared<const NodeScene>(std::move(scene))) {}
-
-    std::string format() const override { return scene_->format; }
-    std::optional<double> unit() const override { return scene_->unit; }
-    std::vector<std::string> animations() const override {
-        std::vector<std::string> names;
-        for (const NodeAnimation& animation : scene_->animations) names.push_back(animation.name);
-        return names;
-    }
-    std::shared_ptr<const Motion> motion(std::size_t animation) const override {
-        return std::make_shared<NodeMotion>(scene_, animation);
-    }
-
-  private:
-    std::shared_ptr<const NodeScene> scene_;
-};
-
 }  // namespace
 
 Affine TranslationRotationScale::affine() const {
@@ -316,8 +297,13 @@ MotionTimes key_times(const std::vector<Numbers>& lists) {
     return times;
 }
 
-std::unique_ptr<MotionFile> node_motion_file(NodeScene scene) {
-    return std::make_unique<NodeMotionFile>(std::move(scene));
+MotionFile node_motion_file(NodeScene scene) {
+    const auto shared = std::make_shared<const NodeScene>(std::move(scene));
+    MotionFile out{shared->format, shared->unit, {}, [shared](std::size_t animation) {
+                       return std::make_shared<NodeMotion>(shared, animation);
+                   }};
+    for (const NodeAnimation& animation : shared->animations) out.animations.push_back(animation.name);
+    return out;
 }
 
 }  // namespace mobbscope

@@ -95,7 +95,7 @@ void evaluate(const Channel& channel, double seconds, double* out);
 MotionTimes key_times(const std::vector<Numbers>& lists);
 
 /// The scene's animations as motions.
-std::unique_ptr<MotionFile> node_motion_file(NodeScene scene);
+MotionFile node_motion_file(NodeScene scene);
 
 /// What the FBX reader's process sends: a scene as bytes, or why there is none.
 std::string pack(const NodeScene& scene);

@@ -167,13 +167,13 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
     refuse(options.id.has_value(), "id");
     refuse(options.dt.has_value(), "dt");
 
-    const std::vector<std::string> names = motions.animations();
+    const std::vector<std::string>& names = motions.animations;
     std::vector<ImportedClip> clips;
     for (const std::size_t i : at_place(path, "", [&] { return chosen_animations(names, options.animation); })) {
         const std::string place = names.size() > 1 ? "animation " + in_quotes(names[i]) : "";
         ImportedClip& clip = clips.emplace_back(at_place(path, place, [&] {
             const std::shared_ptr<const Motion> motion = motions.motion(i);
-            return MotionImport(*motion, motions.unit(), options).make(motions.format());
+            return MotionImport(*motion, motions.unit, options).make(motions.format);
         }));
         clip.facts.animation = names[i];
         clip.name = names.size() > 1 ? names[i] : file.stem().string();
