@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""Makes the scenes of the paper's figures in assets/figures/: placements of the walkers of assets/clips/ at which a query
-goes the way that the figure tells of. Figures 1b, 1c and 8 are of scenes in assets/scenes/ (scripts/make_scenes.py).
+"""Makes the scenes of the paper's figures in assets/figures/scenes/: placements of the walkers of assets/clips/ at which
+a query goes the way that the figure tells of. Figures 1b, 1c and 8 are of scenes in assets/scenes/
+(scripts/make_scenes.py).
 
 Nothing random: the same bytes every time.
 
-Usage: scripts/make_figures.py [FOLDER]    (default: assets/figures beside this script's folder)
+Usage: scripts/make_figures.py [FOLDER]    (default: assets/figures/scenes beside this script's folder)
 """
+import functools
 import math
 import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # no __pycache__ beside the scripts
-from make_scenes import from_file, write_scene
+from make_scenes import write_scene
 
 ORANGE, SKY = "#E69F00", "#56B4E9"
 
@@ -24,12 +26,13 @@ def slow_disks():
 
 
 def main():
-    default = pathlib.Path(__file__).resolve().parent.parent / "assets" / "figures"
+    default = pathlib.Path(__file__).resolve().parent.parent / "assets" / "figures" / "scenes"
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
     folder.mkdir(parents=True, exist_ok=True)
+    write = functools.partial(write_scene, folder, up="../..")
 
     # Fig. 1, left: one person at one moment.
-    write_scene(folder, "person", {"steps": {**from_file("walk"), "trim": [0.4, 1.6]}}, {
+    write("person", {"steps": {"source": "walk", "trim": [0.4, 1.6]}}, {
         "agents": [{"name": "A", "clip": "steps", "color": ORANGE}],
         "fit": {"tree": "mobb", "leaf": 10},
         "view": {"show": "moment", "time": 0.6, "theme": "light"},
@@ -37,7 +40,7 @@ def main():
 
     # Figs. 2 and 5: half a circle, so that every level of boxes is tighter than the one before. Time is drawn as high
     # as free boxes are fitted with, so that they are seen with their right angles.
-    write_scene(folder, "levels", {"half": {**from_file("circle"), "trim": [0, 5]}}, {
+    write("levels", {"half": {"source": "circle", "trim": [0, 5]}}, {
         "agents": [{"name": "A", "clip": "half", "color": ORANGE}],
         "fit": {"tree": "mobb", "leaf": 10},
         "view": {"camera": {"preset": "iso", "perspective": False}, "levels": "1", "time_height": 1, "theme": "light"},
@@ -45,7 +48,7 @@ def main():
 
     # Fig. 3: the roots overlap; of the four pairs of children the first is separated, the second apart in time, the
     # third separated, and the last overlaps.
-    write_scene(folder, "inner_nodes", {"bend": "bend", "straight": "walk"}, {
+    write("inner_nodes", {"bend": "bend", "straight": "walk"}, {
         "agents": [
             {"name": "A", "clip": "bend", "start": 0, "color": ORANGE},
             {"name": "B", "clip": "straight", "translate": [9.8, -1.8], "rotate_deg": 160, "start": 1.5, "color": SKY},
@@ -58,7 +61,7 @@ def main():
 
     # Fig. 4: B is so short that a leaf of it meets an inner node of A. B goes where the first child of that node was,
     # but when it is over.
-    write_scene(folder, "leaf", {"bend": "bend", "short": {**from_file("walk"), "trim": [0, 1.3]}}, {
+    write("leaf", {"bend": "bend", "short": {"source": "walk", "trim": [0, 1.3]}}, {
         "agents": [
             {"name": "A", "clip": "bend", "start": 0, "color": ORANGE},
             {"name": "B", "clip": "short", "translate": [4.6, -0.7], "rotate_deg": 120, "start": 3.5, "color": SKY},
@@ -70,7 +73,7 @@ def main():
     })
 
     # Fig. 6: a disk in a free box that leans along +x, so that the front view looks along its axis 1.
-    write_scene(folder, "disk", {"slow": slow_disks()}, {
+    write("disk", {"slow": slow_disks()}, {
         "agents": [{"name": "A", "clip": "slow", "color": ORANGE}],
         "fit": {"tree": "umobb", "leaf": 8},
         "view": {"camera": {"preset": "front"}, "projection": {"participant": 0, "node": 0, "sample": 3},

@@ -15,15 +15,15 @@ sys.dont_write_bytecode = True  # no __pycache__ beside the scripts
 from make_walkers import RATE, Path, turning
 
 
-def from_file(file):
-    return {"source": f"../clips/{file}.glb"}
+def write_scene(folder, name, clips, rest, up=".."):
+    """clips: the name in the scene -> the name of a file in assets/clips/, or all that the scene says of the clip, with
+    that name as its source. up: the way from the folder to assets/."""
+    def clip_of(said):
+        said = {"source": said} if isinstance(said, str) else said
+        return {**said, "source": f"{up}/clips/{said['source']}.glb"} if "source" in said else said
 
-
-def write_scene(folder, name, clips, rest):
-    """clips: the name in the scene -> the name of a file in assets/clips/, or all that the scene says of the clip."""
     lines = ['{', '  "mobbscope": 1,', '  "clips": {']
-    lines.append(",\n".join(f'    "{clip}": {json.dumps(source if isinstance(source, dict) else from_file(source))}'
-                            for clip, source in clips.items()))
+    lines.append(",\n".join(f'    "{clip}": {json.dumps(clip_of(said))}' for clip, said in clips.items()))
     lines.append("  },")
     lines.append(",\n".join(f'  "{key}": {json.dumps(value)}' for key, value in rest.items()))
     lines.append("}")

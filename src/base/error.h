@@ -16,6 +16,16 @@ class InputError : public std::runtime_error {
         : std::runtime_error(file + ": " + (place.empty() ? "" : place + ": ") + message) {}
 };
 
+/// What `work` gives. A std::invalid_argument that it throws becomes an InputError at this place of the file.
+template <class Work>
+auto at_place(const std::string& file, const std::string& place, const Work& work) {
+    try {
+        return work();
+    } catch (const std::invalid_argument& error) {
+        throw InputError(file, place, error.what());
+    }
+}
+
 /// The machine lacks something: no GL, a file that cannot be written. The program exits with 3.
 class MachineError : public std::runtime_error {
   public:

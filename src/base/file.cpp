@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
@@ -127,11 +126,6 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
     }
 }
 
-std::string lower_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return extension;
-}
+std::string lower_extension(const std::filesystem::path& file) { return lower(file.extension().string()); }
 
 }  // namespace mobbscope

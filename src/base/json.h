@@ -70,6 +70,14 @@ class JsonPlace {
     JsonPlace operator[](int index) const&& = delete;  // the element would refer to a place that is gone
     /// An array of exactly `count` elements.
     void require_size(int count, const char* what) const;
+    /// An array of a vector's coordinates, each within [-most, most]; `what` says what to give.
+    template <class Vector>
+    Vector vector(double most, const char* what) const {
+        Vector out{};
+        require_size(static_cast<int>(out.length()), what);
+        for (int i = 0; i < static_cast<int>(out.length()); ++i) out[i] = (*this)[i].number(-most, most);
+        return out;
+    }
 
     /// Members of an object (throws InputError if it is none).
     int members() const;

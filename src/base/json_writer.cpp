@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
 
 namespace mobbscope {
 
@@ -31,11 +30,6 @@ void JsonWriter::value(double number) {
     if (!std::isfinite(number)) return null();
     separate();
     out_ << (digits_ == Digits::all ? format_double(number) : few_digits(number));
-}
-
-void JsonWriter::value(std::int64_t number) {
-    separate();
-    out_ << std::to_string(number);
 }
 
 void JsonWriter::value(bool boolean) {

@@ -1,14 +1,10 @@
 #include <base/error.h>
 #include <base/text.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace mobbscope {
 
@@ -120,13 +116,15 @@ std::string brief(double value) {
     return {buffer, end};
 }
 
-std::string counted(long long count, std::string_view singular, std::string_view plural) {
-    return std::to_string(count) + ' ' + std::string(count == 1 ? singular : plural);
-}
-
 std::string listed(std::span<const std::string_view> names) {
     std::string out;
     for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
+    return out;
+}
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     return out;
 }
 

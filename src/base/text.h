@@ -1,6 +1,7 @@
 /// Numbers and words in text, the same in every locale.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <optional>
@@ -34,14 +35,22 @@ std::string short_double(double value);
 std::string brief(double value);
 
 /// "1 sample", "12 samples".
-std::string counted(long long count, std::string_view singular, std::string_view plural);
-template <std::integral Count>
-std::string counted(Count count, std::string_view singular, std::string_view plural) {
-    return counted(static_cast<long long>(count), singular, plural);
+std::string counted(std::integral auto count, std::string_view singular, std::string_view plural) {
+    return std::to_string(count) + ' ' + std::string(count == 1 ? singular : plural);
+}
+
+/// The enumerator with that name; `names` stand in the order of the enumeration, from 0.
+template <class Enum>
+std::optional<Enum> enumerator_named(std::span<const std::string_view> names, std::string_view name) {
+    const auto at = std::ranges::find(names, name);
+    return at == names.end() ? std::nullopt : std::optional(static_cast<Enum>(at - names.begin()));
 }
 
 /// "mobb, umobb, hybrid1".
 std::string listed(std::span<const std::string_view> names);
+
+/// With small letters for the capitals of ASCII.
+std::string lower(std::string_view text);
 
 /// Without blanks (space, tab, carriage return) at both ends.
 std::string_view trimmed(std::string_view text);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -102,34 +104,19 @@ Option Command::add_option(const std::string& name, std::function<void(const std
 }
 
 template <class T>
-Option Command::add(const std::string& name, T& target, const std::string& help, const std::string& placeholder) {
+requires(!std::invocable<T, const std::string&>) Option Command::add_option(const std::string& name, T& target,
+                                                                            const std::string& help,
+                                                                            const std::string& placeholder) {
     return Option(*app_->add_option(name, target, help)->type_name(placeholder));
 }
-
-Option Command::add_option(const std::string& name, std::string& target, const std::string& help,
-                           const std::string& placeholder) {
-    return add(name, target, help, placeholder);
-}
-
-Option Command::add_option(const std::string& name, std::filesystem::path& target, const std::string& help,
-                           const std::string& placeholder) {
-    return add(name, target, help, placeholder);
-}
-
-Option Command::add_option(const std::string& name, std::optional<std::filesystem::path>& target,
-                           const std::string& help, const std::string& placeholder) {
-    return add(name, target, help, placeholder);
-}
-
-Option Command::add_option(const std::string& name, std::vector<std::filesystem::path>& target, const std::string& help,
-                           const std::string& placeholder) {
-    return add(name, target, help, placeholder);
-}
-
-Option Command::add_option(const std::string& name, std::vector<std::string>& target, const std::string& help,
-                           const std::string& placeholder) {
-    return add(name, target, help, placeholder);
-}
+template Option Command::add_option(const std::string&, std::string&, const std::string&, const std::string&);
+template Option Command::add_option(const std::string&, std::filesystem::path&, const std::string&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<std::filesystem::path>&, const std::string&,
+                                    const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&,
+                                    const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::filesystem::path>&, const std::string&,
+                                    const std::string&);
 
 void Command::callback(std::function<void()> run) { app_->callback(std::move(run)); }
 

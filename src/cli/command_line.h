@@ -3,11 +3,10 @@
 /// CLI11 reads it. Only command_line.cpp includes that library, as every file that does takes many seconds to compile.
 #pragma once
 
-#include <filesystem>
+#include <concepts>
 #include <functional>
 #include <list>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,16 +71,11 @@ class Command {
     /// The std::invalid_argument that `set` throws becomes bad usage of the option.
     Option add_option(const std::string& name, std::function<void(const std::string&)> set, const std::string& help,
                       const std::string& placeholder);
-    Option add_option(const std::string& name, std::string& target, const std::string& help,
-                      const std::string& placeholder = "TEXT");
-    Option add_option(const std::string& name, std::filesystem::path& target, const std::string& help,
-                      const std::string& placeholder = "TEXT");
-    Option add_option(const std::string& name, std::optional<std::filesystem::path>& target, const std::string& help,
-                      const std::string& placeholder = "TEXT");
-    Option add_option(const std::string& name, std::vector<std::filesystem::path>& target, const std::string& help,
-                      const std::string& placeholder = "TEXT");
-    Option add_option(const std::string& name, std::vector<std::string>& target, const std::string& help,
-                      const std::string& placeholder = "TEXT");
+    /// `target`: a text, a path, a path that need not be given, or a list of texts or paths.
+    template <class T>
+    requires(!std::invocable<T, const std::string&>) Option
+        add_option(const std::string& name, T& target, const std::string& help,
+                   const std::string& placeholder = "TEXT");
 
     /// What the command does; it runs within the program's parse().
     void callback(std::function<void()> run);
@@ -103,9 +97,6 @@ class Command {
     std::vector<GivenOption> given() const;
 
   private:
-    template <class T>
-    Option add(const std::string& name, T& target, const std::string& help, const std::string& placeholder);
-
     std::shared_ptr<CLI::App> app_;
     std::list<Command> subcommands_;
 };

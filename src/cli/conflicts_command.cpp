@@ -12,13 +12,11 @@
 #include <glm/vec2.hpp>
 
 #include <cmath>
-#include <cstdint>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -27,12 +25,8 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-struct ConflictsCommandArguments {
-    std::filesystem::path file;
-    bool json = false;
+struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
-    FitArguments fit;
-    ImportOptions import_options;
 };
 
 /// The crowd in the file: its agents, the people of a run, or the tracks of a CSV, each from the time of its first row.
@@ -121,33 +115,26 @@ void write_json(const Findings& findings) {
     JsonWriter out(std::cout);
     out.begin_object();
     out.member("file", scene.file.string());
-    out.member("agents", static_cast<std::int64_t>(findings.agents()));
-    out.key("radius");
-    const std::optional<double> radius = common_radius(scene);
-    radius ? out.value(*radius) : out.null();
-    out.member("pairs", static_cast<std::int64_t>(findings.pairs()));
+    out.member("agents", findings.agents());
+    out.member("radius", common_radius(scene));
+    out.member("pairs", findings.pairs());
     out.member("pairs_tested", findings.conflicts.pairs_tested);
     out.member("seconds", findings.seconds());
-    out.key("conflicts");
-    out.begin_array();
-    for (const Conflict& conflict : findings.conflicts.found) {
+    out.list("conflicts", findings.conflicts.found, [&](const Conflict& conflict) {
+        const glm::dvec2 position = findings.position(conflict);
         out.begin_object(Layout::row);
         out.member("a", findings.name(conflict.a));
         out.member("b", findings.name(conflict.b));
-        out.key("intervals");
-        out.begin_array(Layout::row);
-        for (const mobb::Interval& interval : conflict.intervals) out.numbers({interval.t0, interval.t1});
-        out.end_array();
+        out.list("intervals", conflict.intervals, [&](const mobb::Interval& interval) {
+            out.numbers({interval.t0, interval.t1});
+        });
         out.member("least_clearance", conflict.least_clearance);
         out.member("time", conflict.time);
         out.member("a_sample", conflict.a_sample);
         out.member("b_sample", conflict.b_sample);
-        out.key("position");
-        const glm::dvec2 position = findings.position(conflict);
-        out.numbers({position.x, position.y});
+        out.member("position", {position.x, position.y});
         out.end_object();
-    }
-    out.end_array();
+    });
     out.end_object();
 }
 
@@ -169,23 +156,18 @@ void print_text(const Findings& findings) {
                   << to_millimetres(position.y) << "), samples " << conflict.a_sample << " and " << conflict.b_sample
                   << '\n';
     }
-    const auto count = [](std::size_t number) { return static_cast<long long>(number); };
-    std::cout << counted(count(findings.conflicts.found.size()), "conflict", "conflicts") << " among "
-              << counted(count(findings.agents()), "agent", "agents") << ", " << brief(findings.seconds())
-              << " s in all; " << findings.conflicts.pairs_tested << " of "
-              << counted(count(findings.pairs()), "pair", "pairs") << " tested\n";
+    std::cout << counted(findings.conflicts.found.size(), "conflict", "conflicts") << " among "
+              << counted(findings.agents(), "agent", "agents") << ", " << brief(findings.seconds()) << " s in all; "
+              << findings.conflicts.pairs_tested << " of " << counted(findings.pairs(), "pair", "pairs") << " tested\n";
 }
 
 void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
-    Scene scene = load_crowd(arguments);
-    const mobb::FitOptions options = arguments.fit.over(scene.fit);
-    const FittedScene fitted(std::move(scene), options);
+    const FittedScene scene = fitted(load_crowd(arguments), arguments.fit);
     std::vector<mobb::PlacedTree> crowd;
-    for (const PlacedAgent& who : fitted.placed_agents()) crowd.push_back(fitted.placed(who));
+    for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
     Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
-    std::erase_if(conflicts.found,
-                  [&fitted](const Conflict& conflict) { return same_person(fitted.scene(), conflict); });
-    const Findings findings{fitted, crowd, conflicts};
+    std::erase_if(conflicts.found, [&scene](const Conflict& conflict) { return same_person(scene.scene(), conflict); });
+    const Findings findings{scene, crowd, conflicts};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
     if (arguments.check && !conflicts.found.empty()) status = kFailed;
@@ -198,11 +180,8 @@ void add_conflicts_command(Command& program, int& status) {
         "conflicts",
         "Every pair of agents whose disks overlap: when, how deep and where; --tree brute searches directly");
     const auto arguments = std::make_shared<ConflictsCommandArguments>();
-    add_scene_file(command, arguments->file);
-    command.add_flag("--json", arguments->json, "The same as JSON");
+    add_fitted_options(command, *arguments, "The same as JSON", Brute::allowed);
     command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");
-    add_fit_options(command, arguments->fit, Brute::allowed);
-    add_import_options(command, arguments->import_options);
     command.callback([arguments, &status] { run_conflicts(*arguments, status); });
 }
 

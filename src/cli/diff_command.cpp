@@ -114,11 +114,7 @@ void check_outputs(const DiffCommandArguments& arguments) {
 Image strip_of(const DiffCommandArguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {
     std::vector<const Image*> pictures{&a, &b};
     if (found.same_size) pictures.push_back(&found.heat);
-    try {
-        return make_strip(pictures);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(arguments.strip->string(), "", error.what());
-    }
+    return at_place(arguments.strip->string(), "", [&] { return make_strip(pictures); });
 }
 
 void write_pictures(const DiffCommandArguments& arguments, const Image& a, const Image& b, const ImageDiff& found) {

@@ -19,7 +19,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -101,9 +100,7 @@ std::string place_of(const std::vector<std::filesystem::path>& places) {
 
 void build(const BuildArguments& arguments) {
     check_file_name(arguments.out);
-    if (lower_extension(arguments.out) != ".json") {
-        throw InputError(arguments.out.string(), "", "a graph is written as .json; rename the output");
-    }
+    check_extension(arguments.out, ".json", "a graph is written as .json; rename the output");
     check_writable(arguments.out);
     const auto files = clip_files(arguments.places);
     Scene recordings = load_recordings(files, arguments.out, arguments.import_options, tell("read", "files"));
@@ -131,11 +128,7 @@ int info(const InfoArguments& arguments) {
     const Scene scene = load_graph(arguments.file);
     const GraphFigures figures = graph_figures(scene);
     const TransitionMeasures transitions = measure_transitions(scene, tell("measured", "clips"));
-    if (arguments.json) {
-        write_graph_info(std::cout, scene, figures, transitions);
-    } else {
-        print_graph_info(std::cout, scene, figures, transitions);
-    }
+    (arguments.json ? write_graph_info : print_graph_info)(std::cout, scene, figures, transitions);
     flush_results();
     const std::vector<std::string> broken = broken_bounds(scene, transitions);
     for (const std::string& sentence : broken) complain(arguments.file.string() + ": " + sentence);
@@ -144,9 +137,7 @@ int info(const InfoArguments& arguments) {
 
 void draw(const DrawArguments& arguments) {
     check_file_name(arguments.out);
-    if (lower_extension(arguments.out) != ".png") {
-        throw InputError(arguments.out.string(), "", "a picture is written as .png; rename the output");
-    }
+    check_extension(arguments.out, ".png", "a picture is written as .png; rename the output");
     check_writable(arguments.out);
     const Scene scene = load_graph(arguments.file);
     const DrawList list = graph_picture(scene, arguments.size, arguments.theme, arguments.scale);

@@ -1,4 +1,3 @@
-#include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
@@ -10,9 +9,6 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -118,6 +114,18 @@ void add_import_options(Command& command, ImportOptions& options) {
     add("--radius", &ImportOptions::radius, parse_number, "Radius of every sample, in metres", "R");
     add("--id", &ImportOptions::id, as_it_is, "The track to take, of a file with several", "ID");
     add("--animation", &ImportOptions::animation, as_it_is, "Index or name of the animation", "A");
+}
+
+void add_fitted_options(Command& command, FittedArguments& arguments, const std::string& json_help, Brute brute) {
+    add_scene_file(command, arguments.file);
+    command.add_flag("--json", arguments.json, json_help);
+    add_fit_options(command, arguments.fit, brute);
+    add_import_options(command, arguments.import_options);
+}
+
+FittedScene fitted(Scene scene, const FitArguments& arguments) {
+    const mobb::FitOptions options = arguments.over(scene.fit);
+    return {std::move(scene), options};
 }
 
 std::filesystem::path parse_file_name(const std::string& text) {

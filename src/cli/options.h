@@ -2,9 +2,7 @@
 #pragma once
 
 #include <base/text.h>
-#include <import/import.h>
-#include <mobb/tree.h>
-#include <scene/scene.h>
+#include <scene/fitted_scene.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -30,6 +28,14 @@ struct FitArguments {
     mobb::FitOptions over(mobb::FitOptions fit) const;
 };
 
+/// What the commands share that ask something of a scene with trees.
+struct FittedArguments {
+    std::filesystem::path file;
+    bool json = false;
+    FitArguments fit;
+    ImportOptions import_options;
+};
+
 /// Whether `--tree brute` is among the choices.
 enum class Brute { refused, allowed };
 
@@ -38,6 +44,13 @@ void add_fit_options(Command& command, FitArguments& arguments, Brute brute = Br
 
 /// Adds --fps --unit --up --root --trim --dt --radius --id --animation. `options` must live until the command has run.
 void add_import_options(Command& command, ImportOptions& options);
+
+/// Adds FILE, --json and the options of fits and imports. `arguments` must live until the command has run.
+void add_fitted_options(Command& command, FittedArguments& arguments, const std::string& json_help,
+                        Brute brute = Brute::refused);
+
+/// The scene with the trees that it or the arguments ask for.
+FittedScene fitted(Scene scene, const FitArguments& arguments);
 
 /// Throws std::invalid_argument if the text is empty, as an unset variable leaves it.
 std::filesystem::path parse_file_name(const std::string& text);

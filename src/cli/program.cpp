@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/file.h>
 #include <base/text.h>
 #include <cli/program.h>
 
@@ -6,7 +7,6 @@
 #include <unistd.h>
 
 #include <iostream>
-#include <string>
 #include <system_error>
 
 namespace mobbscope::cli {
@@ -38,6 +38,10 @@ fs::path meant(const fs::path& file) {
     std::error_code error;
     const fs::path target = fs::weakly_canonical(absolute, error);
     return error ? absolute : target;
+}
+
+void check_extension(const fs::path& file, std::string_view extension, const std::string& message) {
+    if (!file.empty() && lower_extension(file) != extension) throw InputError(file.string(), "", message);
 }
 
 void check_writable(const fs::path& output) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace mobbscope::cli {
@@ -33,6 +34,9 @@ class UsageError : public std::runtime_error {
 
 /// The file that a name means, through links; the name itself where that cannot be told.
 std::filesystem::path meant(const std::filesystem::path& file);
+
+/// Throws InputError with this message unless the file has the extension; one that is not named passes.
+void check_extension(const std::filesystem::path& file, std::string_view extension, const std::string& message);
 
 /// Throws MachineError, saying why, if a file cannot be written there; a pipe or a device may be. Writes
 /// nothing.

@@ -6,24 +6,19 @@
 #include <scene/answer.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iostream>
 #include <memory>
-#include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
 
 namespace {
 
-struct QueryCommandArguments {
-    std::filesystem::path file;
-    bool json = false;
+struct QueryCommandArguments : FittedArguments {
     Details details;
-    FitArguments fit;
-    ImportOptions import_options;
 };
 
 void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
@@ -32,22 +27,11 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
     out << std::string(8 - std::min<std::size_t>(number.size(), 7), ' ') << number << "  "
         << std::string(2 * static_cast<std::size_t>(event.depth), ' ') << event.a << " x " << event.b << "  "
         << mobb::name(event.test) << ": ";
-    switch (event.outcome) {
-        case mobb::Outcome::disjoint_in_time:
-            out << "apart in time";
-            break;
-        case mobb::Outcome::separated:
-            out << "separated along axis " << event.axis << " by " << brief(event.gap) << " m";
-            break;
-        case mobb::Outcome::overlap:
-            out << "overlap";
-            break;
-        case mobb::Outcome::hit:
-            out << "hit";
-            break;
-        case mobb::Outcome::no_hit:
-            out << "no hit";
-            break;
+    // In the order of the outcomes.
+    constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
+    out << kWords[static_cast<std::size_t>(event.outcome)];
+    if (event.outcome == mobb::Outcome::separated) {
+        out << " along axis " << event.axis << " by " << brief(event.gap) << " m";
     }
     if (event.test == mobb::TestKind::samples) {
         out << " (" << counted(event.pairs.size(), "pair", "pairs") << " measured";
@@ -92,8 +76,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     JsonWriter json(std::cout);
     if (arguments.json) {
         json.begin_object();
-        json.key("results");
-        json.begin_array();
+        json.begin_array("results");
     }
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];
@@ -111,17 +94,15 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
 }
 
 void run_query(QueryCommandArguments& arguments, int& status) {
-    Scene scene = load(arguments.file, arguments.import_options);
-    const mobb::FitOptions options = arguments.fit.over(scene.fit);
-    const FittedScene fitted(std::move(scene), options);
-    if (fitted.queries().empty()) {
-        if (fitted.scene().crowd)
+    const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
+    if (scene.queries().empty()) {
+        if (scene.scene().crowd)
             throw InputError(arguments.file.string(), "",
                              "a run asks nothing; mobbscope conflicts finds who collides in it");
         throw InputError(arguments.file.string(), "", "there is nothing to ask; add queries, or two agents at least");
     }
     arguments.details.search = arguments.fit.brute ? Search::direct : Search::trees;
-    const std::vector<std::string> complaints = answer_all(fitted, arguments);
+    const std::vector<std::string> complaints = answer_all(scene, arguments);
     flush_results();
     for (const std::string& complaint : complaints) complain(arguments.file.string() + ": " + complaint);
     if (!complaints.empty()) status = kFailed;
@@ -134,12 +115,9 @@ void add_query_command(Command& program, int& status) {
         "query",
         "Answer the scene's queries: do two clips ever collide? Status 1 if an answer is not the expected one");
     const auto arguments = std::make_shared<QueryCommandArguments>();
-    add_scene_file(command, arguments->file);
-    command.add_flag("--json", arguments->json, "Answers as JSON");
+    add_fitted_options(command, *arguments, "Answers as JSON", Brute::allowed);
     command.add_flag("--trace", arguments->details.trace, "Every test that was made");
     command.add_flag("--all-contacts", arguments->details.all_contacts, "All intervals of contact, not only the first");
-    add_fit_options(command, arguments->fit, Brute::allowed);
-    add_import_options(command, arguments->import_options);
     command.callback([arguments, &status] { run_query(*arguments, status); });
 }
 

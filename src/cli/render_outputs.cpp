@@ -16,8 +16,7 @@ namespace fs = std::filesystem;
 void check_name(const fs::path& file, const char* extension, const char* what) {
     if (file.empty()) return;
     check_file_name(file);
-    if (lower_extension(file) == extension) return;
-    throw InputError(file.string(), "", std::string(what) + " are written as " + extension + "; rename the output");
+    check_extension(file, extension, std::string(what) + " are written as " + extension + "; rename the output");
 }
 
 fs::path numbered(const fs::path& file, int number, int digits) {

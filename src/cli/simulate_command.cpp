@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -76,21 +75,17 @@ Scene load_moves(const SimulateCommandArguments& arguments) {
 
 void check_run_outputs(const SimulateCommandArguments& arguments) {
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
-        if (!out.empty() && lower_extension(out) != ".json") {
-            throw InputError(out.string(), "", "a run and its queries are scenes; name it .json");
-        }
+        check_extension(out, ".json", "a run and its queries are scenes; name it .json");
     }
-    const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
-        std::error_code ignored;
-        return !a.empty() && !b.empty() &&
-               std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
-    };
-    if (same(arguments.out, arguments.record)) {
+    if (!arguments.record.empty() && meant(arguments.out) == meant(arguments.record)) {
         throw InputError(arguments.record.string(), "", "-o and --record name the same file; rename one");
     }
     for (const std::filesystem::path& out : {arguments.out, arguments.record}) {
-        if (same(out, arguments.graph)) throw InputError(out.string(), "", "it would replace the graph; rename it");
-        if (!out.empty()) check_writable(out);
+        if (out.empty()) continue;
+        if (meant(out) == meant(arguments.graph)) {
+            throw InputError(out.string(), "", "it would replace the graph; rename it");
+        }
+        check_writable(out);
     }
 }
 
@@ -132,25 +127,24 @@ double queries_per_second(const Summary& summary) {
 void print_run_json(const Summary& summary) {
     const SimulationCounts& c = summary.counts;
     JsonWriter out(std::cout);
-    const auto count = [&out](const char* key, auto value) { out.member(key, static_cast<std::int64_t>(value)); };
     out.begin_object();
-    count("agents", c.agents);
+    out.member("agents", c.agents);
     out.member("simulated_seconds", c.simulated);
-    count("plays", c.plays);
-    count("choices", c.choices);
-    count("candidates", c.candidates);
-    count("off_floor", c.off_floor);
-    count("colliding", c.colliding);
-    count("in_the_way", c.in_the_way);
-    count("pivots", c.pivots);
-    count("forced", c.forced);
-    count("queries", c.queries);
-    count("most_held", c.most_held);
+    out.member("plays", c.plays);
+    out.member("choices", c.choices);
+    out.member("candidates", c.candidates);
+    out.member("off_floor", c.off_floor);
+    out.member("colliding", c.colliding);
+    out.member("in_the_way", c.in_the_way);
+    out.member("pivots", c.pivots);
+    out.member("forced", c.forced);
+    out.member("queries", c.queries);
+    out.member("most_held", c.most_held);
     out.member("wall_seconds", summary.seconds);
     out.member("queries_per_second", queries_per_second(summary));
     if (summary.recorded) {
-        count("recorded", summary.recorded->first);
-        count("recorded_of", summary.recorded->second);
+        out.member("recorded", summary.recorded->first);
+        out.member("recorded_of", summary.recorded->second);
     }
     out.end_object();
 }

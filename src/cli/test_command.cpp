@@ -4,7 +4,6 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <cli/take_goldens.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/reports.h>
 #include <picture_tests/run_cases.h>
@@ -25,12 +24,15 @@
 #include <sstream>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
 
 namespace {
+
+using picture_tests::CaseFile;
+using picture_tests::CaseResult;
+using picture_tests::RunFacts;
 
 struct TestCommandArguments {
     std::filesystem::path folder;
@@ -58,26 +60,24 @@ bool matches_any(const std::vector<std::string>& patterns, const std::string& na
 }
 
 /// The cases that the patterns name; without patterns all. Throws InputError for a pattern that names none.
-std::vector<picture_tests::CaseFile> chosen(const std::vector<picture_tests::CaseFile>& cases,
-                                            const std::vector<std::string>& patterns) {
+std::vector<CaseFile> chosen(const std::vector<CaseFile>& cases, const std::vector<std::string>& patterns) {
     if (patterns.empty()) return cases;
     std::vector<std::string> names;
-    for (const picture_tests::CaseFile& file : cases) names.push_back(file.name);
+    for (const CaseFile& file : cases) names.push_back(file.name);
     for (const std::string& pattern : patterns) {
         const auto is_named = [&](const std::string& name) { return matches(pattern, name); };
         if (std::none_of(names.begin(), names.end(), is_named)) {
             throw InputError("there is no case " + in_quotes(pattern) + did_you_mean(pattern, names));
         }
     }
-    std::vector<picture_tests::CaseFile> out;
+    std::vector<CaseFile> out;
     std::copy_if(cases.begin(), cases.end(), std::back_inserter(out),
-                 [&](const picture_tests::CaseFile& file) { return matches_any(patterns, file.name); });
+                 [&](const CaseFile& file) { return matches_any(patterns, file.name); });
     return out;
 }
 
 /// Those of all that are run.
-std::vector<picture_tests::CaseFile> cases_of(const TestCommandArguments& arguments,
-                                              const std::vector<picture_tests::CaseFile>& all) {
+std::vector<CaseFile> cases_of(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     std::vector<std::string> patterns = arguments.names;
     patterns.insert(patterns.end(), arguments.update_names.begin(), arguments.update_names.end());
     return chosen(all, patterns);
@@ -85,23 +85,17 @@ std::vector<picture_tests::CaseFile> cases_of(const TestCommandArguments& argume
 
 // --- what is written
 
-/// Throws InputError unless the file has the extension of what it is to hold; so it is no scene, case or script.
-void check_kind(const std::filesystem::path& file, const char* extension, const char* what) {
-    if (file.empty() || lower_extension(file) == extension) return;
-    throw InputError(file.string(), "", std::string(what) + " is written as " + extension + "; rename it");
-}
-
 /// Throws InputError if a report would replace a golden or has a name that its kind does not, or if the pictures would
 /// go where the goldens are; MachineError if they cannot go where they are to.
-void check_reports(const TestCommandArguments& arguments, const std::vector<picture_tests::CaseFile>& all) {
+void check_reports(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     if (arguments.columns && arguments.contact_sheet.empty()) {
         throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
     }
-    check_kind(arguments.junit, ".xml", "the report for CI servers");
-    check_kind(arguments.html, ".html", "the report as a page");
-    check_kind(arguments.contact_sheet, ".png", "the contact sheet");
+    check_extension(arguments.junit, ".xml", "the report for CI servers is written as .xml; rename it");
+    check_extension(arguments.html, ".html", "the report as a page is written as .html; rename it");
+    check_extension(arguments.contact_sheet, ".png", "the contact sheet is written as .png; rename it");
     std::error_code ignored;
-    for (const picture_tests::CaseFile& file : all) {
+    for (const CaseFile& file : all) {
         for (const std::filesystem::path& golden : {file.golden(), file.plain()}) {
             if (!std::filesystem::equivalent(arguments.contact_sheet, golden, ignored)) continue;
             throw InputError(arguments.contact_sheet.string(), "",
@@ -117,12 +111,11 @@ void check_reports(const TestCommandArguments& arguments, const std::vector<pict
     }
 }
 
-using WriteReport = void (*)(std::ostream& out, const picture_tests::RunFacts& facts,
-                             std::span<const picture_tests::CaseResult> results);
+using WriteReport = void (*)(std::ostream& out, const RunFacts& facts, std::span<const CaseResult> results);
 
 /// Into a file, whose folder is made if need be.
-void write_report(const std::filesystem::path& file, WriteReport write, const picture_tests::RunFacts& facts,
-                  std::span<const picture_tests::CaseResult> results) {
+void write_report(const std::filesystem::path& file, WriteReport write, const RunFacts& facts,
+                  std::span<const CaseResult> results) {
     if (file.empty()) return;
     std::ostringstream text;
     write(text, facts, results);
@@ -137,11 +130,11 @@ Theme theme_around(const Image& picture) {
 }
 
 /// All pictures of the run with their names.
-void write_contact_sheet(const TestCommandArguments& arguments, std::span<const picture_tests::CaseResult> results,
+void write_contact_sheet(const TestCommandArguments& arguments, std::span<const CaseResult> results,
                          Renderer& renderer) {
     std::vector<SheetCell> cells;
     PictureSize all{1, 0};
-    for (const picture_tests::CaseResult& result : results) {
+    for (const CaseResult& result : results) {
         if (result.actual.rgba.empty()) continue;
         cells.push_back({result.file.name, result.actual});
         all.width = std::max(all.width, result.actual.width);
@@ -157,26 +150,67 @@ void write_contact_sheet(const TestCommandArguments& arguments, std::span<const 
     // Letters grow with the whole, which is looked at smaller than its pictures are.
     all = {all.width * columns, all.height * ((count + columns - 1) / columns)};
     const Palette& colors = palette(theme_around(cells.front().image));
-    try {
-        const Image sheet = make_sheet(cells, columns, colors, colors.background, metrics_of(all), renderer);
-        picture_tests::make_folder_of(arguments.contact_sheet);
-        write_png(arguments.contact_sheet, sheet);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(arguments.contact_sheet.string(), "", error.what());
+    const Image sheet = at_place(arguments.contact_sheet.string(), "", [&] {
+        return make_sheet(cells, columns, colors, colors.background, metrics_of(all), renderer);
+    });
+    picture_tests::make_folder_of(arguments.contact_sheet);
+    write_png(arguments.contact_sheet, sheet);
+}
+
+// --- present pictures become goldens
+
+enum class Answer { yes, no, all, quit };
+
+Answer ask(const CaseResult& result, const std::filesystem::path& folder, std::ostream& say) {
+    say << cleaned(result.file.name) << ": " << name(result.outcome) << ": " << cleaned(result.message) << '\n';
+    for (const std::filesystem::path& picture : keep_pictures(result, folder)) {
+        say << "  " << cleaned(picture.string()) << '\n';
+    }
+    say << "take it? [y/N/a/q] " << std::flush;
+    std::string line;
+    if (!std::getline(std::cin, line)) return Answer::quit;
+    const std::string_view answer = trimmed(line);
+    if (answer == "y") return Answer::yes;
+    if (answer == "a") return Answer::all;
+    return answer == "q" ? Answer::quit : Answer::no;
+}
+
+void take_one(CaseResult& result, std::ostream& say) {
+    for (const std::filesystem::path& file : take(result)) say << "wrote " << cleaned(file.string()) << '\n';
+}
+
+/// Takes what `named` says and is no golden yet; says what it wrote. Throws MachineError.
+template <class IsNamed>
+void take_named(std::span<CaseResult> results, const IsNamed& named, std::ostream& say) {
+    for (CaseResult& result : results) {
+        if (can_be_taken(result) && named(result)) take_one(result, say);
+    }
+}
+
+/// Asks for each that is no golden yet, with pictures to look at in `folder`, and takes what the answer says. Throws
+/// MachineError.
+void take_asked(std::span<CaseResult> results, const std::filesystem::path& folder, std::ostream& say) {
+    bool all = false;
+    for (CaseResult& result : results) {
+        if (!can_be_taken(result)) continue;
+        const Answer answer = all ? Answer::yes : ask(result, folder, say);
+        if (answer == Answer::quit) return;
+        all = all || answer == Answer::all;
+        if (answer != Answer::no) take_one(result, say);
     }
 }
 
 // --- where goldens are from
 
 /// The folders that the cases stand in.
-std::set<std::filesystem::path> folders_of(const std::vector<picture_tests::CaseFile>& cases) {
+std::set<std::filesystem::path> folders_of(const std::vector<CaseFile>& cases) {
     std::set<std::filesystem::path> out;
-    for (const picture_tests::CaseFile& file : cases) out.insert(file.file.parent_path());
+    for (const CaseFile& file : cases) out.insert(file.file.parent_path());
     return out;
 }
 
 /// Throws InputError if the goldens of a case are from elsewhere: one taken here would be the odd one.
-void check_references(const std::vector<picture_tests::CaseFile>& cases, const picture_tests::Reference& here) {
+void check_references(const std::vector<CaseFile>& cases, const picture_tests::Reference& here) {
     for (const std::filesystem::path& folder : folders_of(cases)) {
         const std::optional<picture_tests::Reference> reference = picture_tests::read_reference(folder);
         const std::string other = reference ? picture_tests::what_is_other(here, *reference) : "";
@@ -188,9 +222,8 @@ void check_references(const std::vector<picture_tests::CaseFile>& cases, const p
 }
 
 /// All goldens become what is drawn here, and their folders say so; nothing is taken if a case cannot be drawn.
-void take_as_reference(std::vector<picture_tests::CaseResult>& results,
-                       const std::vector<picture_tests::CaseFile>& cases, const picture_tests::Reference& here,
-                       std::ostream& say) {
+void take_as_reference(std::vector<CaseResult>& results, const std::vector<CaseFile>& cases,
+                       const picture_tests::Reference& here, std::ostream& say) {
     const picture_tests::Summary sum = picture_tests::summary(results);
     if (sum.failed > 0 || sum.skipped > 0) {
         warn(
@@ -199,7 +232,7 @@ void take_as_reference(std::vector<picture_tests::CaseResult>& results,
         return;
     }
     take_named(
-        results, [](const picture_tests::CaseResult&) { return true; }, say);
+        results, [](const CaseResult&) { return true; }, say);
     for (const std::filesystem::path& folder : folders_of(cases)) {
         picture_tests::write_reference(folder, here);
         say << "wrote " << cleaned(picture_tests::reference_file(folder).string()) << '\n';
@@ -212,7 +245,7 @@ void take_as_reference(std::vector<picture_tests::CaseResult>& results,
 struct Drawer {
     std::unique_ptr<picture_tests::PictureMaker> maker;
     std::string no_opengl;
-    picture_tests::RunFacts facts;
+    RunFacts facts;
 };
 
 Drawer open(const TestCommandArguments& arguments) {
@@ -229,16 +262,15 @@ Drawer open(const TestCommandArguments& arguments) {
 }
 
 /// The pictures of what did not pass; whether there are any.
-bool keep_all(const TestCommandArguments& arguments, std::span<const picture_tests::CaseResult> results) {
+bool keep_all(const TestCommandArguments& arguments, std::span<const CaseResult> results) {
     bool kept = false;
-    for (const picture_tests::CaseResult& result : results)
-        kept = !keep_pictures(result, arguments.output).empty() || kept;
+    for (const CaseResult& result : results) kept = !keep_pictures(result, arguments.output).empty() || kept;
     return kept;
 }
 
 /// What goes to standard output when it is all done.
-void print_results(const TestCommandArguments& arguments, const picture_tests::RunFacts& facts,
-                   std::span<const picture_tests::CaseResult> results, bool kept) {
+void print_results(const TestCommandArguments& arguments, const RunFacts& facts, std::span<const CaseResult> results,
+                   bool kept) {
     if (arguments.json) {
         write_json(std::cout, facts, results);
     } else {
@@ -249,10 +281,10 @@ void print_results(const TestCommandArguments& arguments, const picture_tests::R
 }
 
 int run_test(const TestCommandArguments& arguments) {
-    const std::vector<picture_tests::CaseFile> all = picture_tests::find_cases(arguments.folder);
-    const std::vector<picture_tests::CaseFile> cases = cases_of(arguments, all);
+    const std::vector<CaseFile> all = picture_tests::find_cases(arguments.folder);
+    const std::vector<CaseFile> cases = cases_of(arguments, all);
     if (arguments.list) {
-        for (const picture_tests::CaseFile& file : cases) std::cout << cleaned(file.name) << '\n';
+        for (const CaseFile& file : cases) std::cout << cleaned(file.name) << '\n';
         flush_results();
         return kDone;
     }
@@ -268,8 +300,8 @@ int run_test(const TestCommandArguments& arguments) {
         check_references(cases, picture_tests::reference_of(drawer.maker->renderer()));
     const picture_tests::GoldenSource source =
         renews ? picture_tests::GoldenSource::here : picture_tests::GoldenSource::reference;
-    std::vector<picture_tests::CaseResult> results;
-    for (const picture_tests::CaseFile& file : cases) {
+    std::vector<CaseResult> results;
+    for (const CaseFile& file : cases) {
         results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, source));
     }
     // Where standard output is a report, the rest goes beside it.
@@ -277,9 +309,9 @@ int run_test(const TestCommandArguments& arguments) {
     if (renews) {
         take_as_reference(results, cases, picture_tests::reference_of(drawer.maker->renderer()), say);
     } else if (asks) {
-        take_asked(results, arguments.output, std::cin, say);
+        take_asked(results, arguments.output, say);
     } else if (arguments.update) {
-        const auto named = [&](const picture_tests::CaseResult& result) {
+        const auto named = [&](const CaseResult& result) {
             return arguments.update_all || matches_any(arguments.update_names, result.file.name);
         };
         take_named(results, named, say);

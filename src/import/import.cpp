@@ -3,37 +3,31 @@
 #include <base/text.h>
 #include <import/bvh/bvh.h>
 #include <import/import.h>
-#include <import/nodes/fbx.h>
-#include <import/nodes/gltf.h>
+#include <import/nodes/node_files.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
-#include <import/tracks/track_clips.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <memory>
-#include <stdexcept>
 #include <type_traits>
 
 namespace mobbscope {
 
 namespace {
 
-std::unique_ptr<MotionFile> read_bvh(const std::filesystem::path& file) {
-    return bvh_motion(parse_bvh(read_file(file), file.string()));
-}
+MotionFile read_bvh(const std::filesystem::path& file) { return bvh_motion(parse_bvh(read_file(file), file.string())); }
 
 /// The clips of what `read` makes of a file.
 template <auto read, auto to_clips>
 ParsedFile parse_once(const std::filesystem::path& file) {
     using Path = const std::filesystem::path&;
     if constexpr (std::is_invocable_v<decltype(read), Path>) {
-        return [motion = std::shared_ptr(read(file))](Path from, const ImportOptions& options) {
-            return to_clips(*motion, from, options);
-        };
+        return
+            [parsed = read(file)](Path from, const ImportOptions& options) { return to_clips(parsed, from, options); };
     } else {
         return [parsed = read(read_file(file), file.string())](Path from, const ImportOptions& options) {
             return to_clips(parsed, from, options);
@@ -100,11 +94,7 @@ std::string listed_clip_extensions(std::string_view separator) { return list_for
 std::string listed_trajectory_extensions() { return list_formats(true, " ", " "); }
 
 std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, const ImportOptions& options) {
-    try {
-        check(options);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(file.string(), "", error.what());
-    }
+    at_place(file.string(), "", [&] { check(options); });
     if (const Format* format = format_of(file)) {
         auto parsed = parsed_.find(file);
         if (parsed == parsed_.end()) parsed = parsed_.emplace(file, format->parse(file)).first;

@@ -4,7 +4,7 @@
 #include <base/text.h>
 #include <render/drawlist/picture_options.h>
 #include <render/pictures/render.h>
-#include <scene/fit_json.h>
+#include <scene/scene_json.h>
 #include <scene/view_options.h>
 
 #include <algorithm>

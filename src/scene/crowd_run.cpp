@@ -4,9 +4,7 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 #include <unordered_set>
-#include <utility>
 
 namespace mobbscope {
 
@@ -15,12 +13,8 @@ namespace {
 constexpr double kJoint = 1e-6;  // metres, seconds, degrees: more than rounding, far less than a sample
 constexpr std::array<std::string_view, 3> kKinds{"chosen", "pivoted", "forced"};
 
-std::string_view kind_name(PlayKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
-
 PlayKind read_kind(const JsonPlace& place) {
-    for (std::size_t i = 0; i < kKinds.size(); ++i) {
-        if (place.string() == kKinds[i]) return static_cast<PlayKind>(i);
-    }
+    if (const auto kind = enumerator_named<PlayKind>(kKinds, place.string())) return *kind;
     place.fail(in_quotes(place.string()) + " is no kind of play; give " + listed(kKinds));
 }
 
@@ -93,10 +87,7 @@ class CrowdReader {
         Play play;
         const JsonPlace move = place.require("move");
         play.move = move.integer(0, static_cast<int>(scene_.graph->moves.size()) - 1);
-        const JsonPlace translate = place.require("translate");
-        translate.require_size(2, "[x, y] in metres");
-        play.placement.translate = {translate[0].number(-mobb::kMaxLength, mobb::kMaxLength),
-                                    translate[1].number(-mobb::kMaxLength, mobb::kMaxLength)};
+        play.placement.translate = place.require("translate").vector<glm::dvec2>(mobb::kMaxLength, "[x, y] in metres");
         play.placement.rotate_deg = place.require("rotate_deg").number(-1e9, 1e9);
         play.placement.start = place.require("start").number(-mobb::kMaxTime, mobb::kMaxTime);
         const auto chosen_at = place.find("chosen_at");
@@ -147,12 +138,11 @@ class CrowdReader {
 void write_play(JsonWriter& out, const Play& play) {
     out.begin_object(JsonWriter::Layout::row);
     out.member("move", play.move);
-    out.key("translate");
-    out.numbers({play.placement.translate.x, play.placement.translate.y});
+    out.member("translate", {play.placement.translate.x, play.placement.translate.y});
     out.member("rotate_deg", play.placement.rotate_deg);
     out.member("start", play.placement.start);
     if (play.chosen_at != play.placement.start) out.member("chosen_at", play.chosen_at);
-    if (play.kind != PlayKind::chosen) out.member("kind", kind_name(play.kind));
+    if (play.kind != PlayKind::chosen) out.member("kind", kKinds[static_cast<std::size_t>(play.kind)]);
     out.end_object();
 }
 
@@ -164,24 +154,17 @@ std::shared_ptr<const CrowdRun> read_crowd(const JsonPlace& place, const Scene& 
 
 void write_crowd(JsonWriter& out, const CrowdRun& crowd) {
     out.begin_object();
-    out.key("area");
-    out.numbers({crowd.area.x, crowd.area.y});
+    out.member("area", {crowd.area.x, crowd.area.y});
     out.member("seconds", crowd.seconds);
-    out.member("seed", static_cast<std::int64_t>(crowd.seed));
+    out.member("seed", crowd.seed);
     out.member("ahead", crowd.ahead);
     out.member("grace", crowd.grace);
-    out.key("agents");
-    out.begin_array();
-    for (const CrowdAgent& agent : crowd.agents) {
+    out.list("agents", crowd.agents, [&](const CrowdAgent& agent) {
         out.begin_object();
         out.member("name", agent.name);
-        out.key("plays");
-        out.begin_array();
-        for (const Play& play : agent.plays) write_play(out, play);
-        out.end_array();
+        out.list("plays", agent.plays, [&](const Play& play) { write_play(out, play); });
         out.end_object();
-    }
-    out.end_array();
+    });
     out.end_object();
 }
 

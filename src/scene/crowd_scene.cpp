@@ -1,11 +1,9 @@
-#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
 #include <iterator>
 #include <string>
-#include <utility>
 
 namespace mobbscope {
 

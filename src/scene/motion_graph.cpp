@@ -1,20 +1,43 @@
-#include <base/strong_components.h>
 #include <base/text.h>
-#include <mobb/clip.h>
 #include <scene/motion_graph.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <unordered_set>
-#include <utility>
 
 namespace mobbscope {
 
 namespace {
 
 using Layout = JsonWriter::Layout;
+
+using Neighbours = std::vector<std::vector<int>>;
+
+/// Adds the nodes reached from one that are not seen yet, each after those that it leads to.
+void add_reached(const Neighbours& next, int from, std::vector<bool>& seen, std::vector<int>& out) {
+    struct Step {
+        int node;
+        std::size_t done = 0;
+    };
+    if (seen[static_cast<std::size_t>(from)]) return;
+    seen[static_cast<std::size_t>(from)] = true;
+    std::vector<Step> open{{from}};
+    while (!open.empty()) {
+        const auto node = static_cast<std::size_t>(open.back().node);
+        if (open.back().done == next[node].size()) {
+            out.push_back(open.back().node);
+            open.pop_back();
+            continue;
+        }
+        const int other = next[node][open.back().done++];
+        if (seen[static_cast<std::size_t>(other)]) continue;
+        seen[static_cast<std::size_t>(other)] = true;
+        open.push_back({other});
+    }
+}
 
 constexpr double kMaxAngle = 1e9;  // degrees, as for placements
 
@@ -51,8 +74,7 @@ Stance read_stance(const JsonPlace& place) {
 }
 
 void write_stance(JsonWriter& out, const char* key, const Stance& stance) {
-    out.key(key);
-    out.numbers({stance.position.x, stance.position.y, stance.heading_deg});
+    out.member(key, {stance.position.x, stance.position.y, stance.heading_deg});
 }
 
 }  // namespace
@@ -67,6 +89,39 @@ mobb::Placement following(const mobb::Placement& before, const Stance& exit, dou
     next.translate = joint - mobb::Rotation::from_degrees(next.rotate_deg)(entry.position);
     next.start = before.start + duration;
     return next;
+}
+
+std::vector<int> strong_components(int nodes, const std::vector<std::pair<int, int>>& edges) {
+    const auto count = static_cast<std::size_t>(nodes);
+    Neighbours next(count);
+    Neighbours before(count);
+    for (const auto& [from, to] : edges) {
+        next[static_cast<std::size_t>(from)].push_back(to);
+        before[static_cast<std::size_t>(to)].push_back(from);
+    }
+    // Kosaraju's algorithm: backwards from the nodes that lead to most.
+    std::vector<int> order;
+    std::vector<bool> seen(count, false);
+    for (int node = 0; node < nodes; ++node) add_reached(next, node, seen, order);
+    std::reverse(order.begin(), order.end());
+    std::vector<int> first(count);  // of each node, the least node of its component
+    seen.assign(count, false);
+    for (const int node : order) {
+        std::vector<int> members;
+        add_reached(before, node, seen, members);
+        if (members.empty()) continue;
+        const int least = *std::min_element(members.begin(), members.end());
+        for (const int member : members) first[static_cast<std::size_t>(member)] = least;
+    }
+    std::vector<int> number(count, -1);
+    std::vector<int> out;
+    int components = 0;
+    for (const int node : first) {
+        int& of = number[static_cast<std::size_t>(node)];
+        if (of < 0) of = components++;
+        out.push_back(of);
+    }
+    return out;
 }
 
 std::vector<int> hub_components(const MotionGraph& graph) {
@@ -95,25 +150,23 @@ MotionGraph read_graph(const JsonPlace& place, const std::function<int(const Jso
     return graph;
 }
 
+void write_bounds(JsonWriter& out, const GraphBounds& bounds) {
+    out.begin_object("bounds", Layout::row);
+    // An infinite number is written as null, which reads as no bound.
+    out.member("pose_distance", bounds.pose_distance);
+    out.member("root_speed", bounds.root_speed);
+    out.end_object();
+}
+
 void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name) {
     out.begin_object();
-    out.key("hubs");
-    out.begin_array();
-    for (const GraphHub& hub : graph.hubs) {
+    out.list("hubs", graph.hubs, [&](const GraphHub& hub) {
         out.begin_object(Layout::row);
         out.member("name", hub.name);
         out.end_object();
-    }
-    out.end_array();
-    out.key("bounds");
-    out.begin_object(Layout::row);
-    // An infinite number is written as null, which reads as no bound.
-    out.member("pose_distance", graph.bounds.pose_distance);
-    out.member("root_speed", graph.bounds.root_speed);
-    out.end_object();
-    out.key("moves");
-    out.begin_array();
-    for (const GraphMove& move : graph.moves) {
+    });
+    write_bounds(out, graph.bounds);
+    out.list("moves", graph.moves, [&](const GraphMove& move) {
         out.begin_object(Layout::row);
         out.member("clip", clip_name(move.clip));
         out.member("from", move.from);
@@ -121,8 +174,7 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
         write_stance(out, "entry", move.entry);
         write_stance(out, "exit", move.exit);
         out.end_object();
-    }
-    out.end_array();
+    });
     out.end_object();
 }
 

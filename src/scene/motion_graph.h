@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -62,6 +63,10 @@ double heading_of(glm::dvec2 way);
 /// duration later. `duration` is that of the move before, in seconds.
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry);
 
+/// For each node the number of its strongly connected component, counted from 0 in the order of their first nodes.
+/// `edges`: pairs of nodes in [0, nodes), from and to.
+std::vector<int> strong_components(int nodes, const std::vector<std::pair<int, int>>& edges);
+
 /// For each hub the number of the part of the graph that it belongs to: from all hubs of a part moves lead to all
 /// others of it. Counted from 0 in the order of their first hubs.
 std::vector<int> hub_components(const MotionGraph& graph);
@@ -70,6 +75,9 @@ std::vector<int> hub_components(const MotionGraph& graph);
 /// move, that hubs have names of their own, that moves join hubs that exist, and that stances and bounds are in range.
 /// A hub that no move leaves is allowed. Throws InputError.
 MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at);
+
+/// The member `bounds` of an object.
+void write_bounds(JsonWriter& out, const GraphBounds& bounds);
 
 /// `clip_name` gives the name of the clip with an index.
 void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name);

@@ -4,7 +4,6 @@
 #include <scene/scene.h>
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>

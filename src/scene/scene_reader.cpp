@@ -4,14 +4,12 @@
 #include <base/text.h>
 #include <import/import.h>
 #include <scene/crowd_run.h>
-#include <scene/fit_json.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
-#include <scene/trace_json.h>
+#include <scene/scene_json.h>
 #include <scene/view_options.h>
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <unordered_map>
@@ -24,19 +22,9 @@ namespace {
 constexpr int kVersion = 1;
 /// Options over options: what `over` says wins.
 ImportOptions merged(ImportOptions base, const ImportOptions& over) {
-    const auto take = [](auto& option, const auto& replacement) {
-        if (replacement) option = replacement;
-    };
-    take(base.animation, over.animation);
-    take(base.root, over.root);
-    take(base.fps, over.fps);
-    take(base.unit, over.unit);
-    take(base.up, over.up);
-    take(base.trim, over.trim);
-    take(base.origin, over.origin);
-    take(base.id, over.id);
-    take(base.radius, over.radius);
-    take(base.dt, over.dt);
+    for_each_import_option([&](const char*, auto option) {
+        if (over.*option) base.*option = over.*option;
+    });
     return base;
 }
 
@@ -46,21 +34,29 @@ Color read_color(const JsonPlace& place) {
     return *color;
 }
 
-std::pair<double, double> read_pair(const JsonPlace& place, const char* what) {
-    place.require_size(2, what);
-    return {place[0].number(), place[1].number()};
-}
-
 mobb::Placement read_placement(const JsonPlace& place) {
     mobb::Placement placement;
     if (const auto translate = place.find("translate")) {
-        translate->require_size(2, "[x, y] in metres");
-        placement.translate = {(*translate)[0].number(-mobb::kMaxLength, mobb::kMaxLength),
-                               (*translate)[1].number(-mobb::kMaxLength, mobb::kMaxLength)};
+        placement.translate = translate->vector<glm::dvec2>(mobb::kMaxLength, "[x, y] in metres");
     }
     if (const auto degrees = place.find("rotate_deg")) placement.rotate_deg = degrees->number(-1e9, 1e9);
     if (const auto start = place.find("start")) placement.start = start->number(-mobb::kMaxTime, mobb::kMaxTime);
     return placement;
+}
+
+// One overload for each type of an import option; texts may stand as numbers.
+
+void read_option(const JsonPlace& place, std::string_view, double& to) { to = place.number(); }
+
+void read_option(const JsonPlace& place, std::string_view, std::pair<double, double>& to) {
+    place.require_size(2, "[A, B] in seconds");
+    to = {place[0].number(), place[1].number()};
+}
+
+void read_option(const JsonPlace& place, std::string_view, Origin& to) {
+    const auto origin = origin_from_name(place.string());
+    if (!origin) place.fail(in_quotes(place.string()) + " is no origin; give keep, start or start_heading");
+    to = *origin;
 }
 
 /// The name of a track: a string, or a whole number, which a file of tracks has as decimal digits.
@@ -73,36 +69,31 @@ std::string read_id(const JsonPlace& place) {
     return std::to_string(static_cast<std::int64_t>(number));
 }
 
-Origin read_origin(const JsonPlace& place) {
-    if (const auto origin = origin_from_name(place.string())) return *origin;
-    place.fail(in_quotes(place.string()) + " is no origin; give keep, start or start_heading");
+void read_option(const JsonPlace& place, std::string_view key, std::string& to) {
+    if (key == "id") {
+        to = read_id(place);
+    } else if (key == "animation" && place.is_number()) {
+        to = std::to_string(place.integer(0, kMaxInt));
+    } else if (key == "unit" && place.is_number()) {
+        to = short_double(place.number());
+    } else {
+        to = place.string();
+    }
 }
 
 ImportOptions read_import_options(const JsonPlace& place) {
     ImportOptions options;
-    // Checked after each key, so that a complaint stands at the value it is about.
-    const auto read = [&](const char* key, const auto& take) {
+    for_each_import_option([&](const char* key, auto option) {
         const auto value = place.find(key);
         if (!value) return;
-        take(*value);
+        read_option(*value, key, (options.*option).emplace());
+        // Checked after each key, so that a complaint stands at the value it is about.
         try {
             check(options);
         } catch (const std::invalid_argument& error) {
             value->fail(error.what());
         }
-    };
-    read("animation", [&](const JsonPlace& at) {
-        options.animation = at.is_number() ? std::to_string(at.integer(0, kMaxInt)) : at.string();
     });
-    read("root", [&](const JsonPlace& at) { options.root = at.string(); });
-    read("fps", [&](const JsonPlace& at) { options.fps = at.number(); });
-    read("unit", [&](const JsonPlace& at) { options.unit = at.is_number() ? short_double(at.number()) : at.string(); });
-    read("up", [&](const JsonPlace& at) { options.up = at.string(); });
-    read("trim", [&](const JsonPlace& at) { options.trim = read_pair(at, "[A, B] in seconds"); });
-    read("origin", [&](const JsonPlace& at) { options.origin = read_origin(at); });
-    read("id", [&](const JsonPlace& at) { options.id = read_id(at); });
-    read("radius", [&](const JsonPlace& at) { options.radius = at.number(); });
-    read("dt", [&](const JsonPlace& at) { options.dt = at.number(); });
     return options;
 }
 
@@ -211,8 +202,10 @@ class SceneReader {
         if (clip.name.empty()) place.fail("a clip needs a name");
         clip_names_.add(clip.name);
         // A misspelt key is named as such before anything is concluded from what is missing.
-        place.allow_only(
-            {"source", "animation", "root", "fps", "unit", "up", "trim", "origin", "id", "radius", "dt", "samples"});
+        std::vector<std::string_view> keys{"source"};
+        for_each_import_option([&keys](const char* key, auto) { keys.push_back(key); });
+        keys.push_back("samples");
+        place.allow_only(keys);
         if (place.find("source")) {
             read_source(place, clip);
         } else if (place.find("samples")) {
@@ -225,10 +218,11 @@ class SceneReader {
     }
 
     static void refuse_import_keys(const JsonPlace& place) {
-        for (const char* key : {"animation", "root", "fps", "unit", "up", "trim", "origin", "id", "radius"}) {
+        for_each_import_option([&place](std::string_view key, auto) {
             const auto import_key = place.find(key);
-            if (import_key) import_key->fail("an import key is for a clip with a source; remove it");
-        }
+            // `dt` is that of the samples too.
+            if (import_key && key != "dt") import_key->fail("an import key is for a clip with a source; remove it");
+        });
     }
 
     void read_source(const JsonPlace& place, SceneClip& clip) {
@@ -284,8 +278,8 @@ class SceneReader {
     SceneQuery read_query(const JsonPlace& place) {
         place.allow_only({"a", "b", "expect", "trace"});
         SceneQuery query;
-        query.a = read_participant(place.require("a"));
-        query.b = read_participant(place.require("b"));
+        query.a = read_placed_agent(place.require("a"));
+        query.b = read_placed_agent(place.require("b"));
         const int samples_a = clip_of(query.a).count();
         const int samples_b = clip_of(query.b).count();
         if (const auto expect = place.find("expect")) query.expect = read_expectation(*expect, samples_a, samples_b);
@@ -295,7 +289,7 @@ class SceneReader {
         return query;
     }
 
-    PlacedAgent read_participant(const JsonPlace& place) const {
+    PlacedAgent read_placed_agent(const JsonPlace& place) const {
         if (place.is_string()) {
             const int index = agent_names_.find(place, "agent");
             const Agent& agent = scene_.agents[static_cast<std::size_t>(index)];

@@ -4,7 +4,7 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
-#include <scene/trace_json.h>
+#include <scene/scene_json.h>
 #include <scene/view_options.h>
 
 #include <sstream>
@@ -15,20 +15,10 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-void write_options(JsonWriter& out, const ImportOptions& options) {
-    if (options.animation) out.member("animation", *options.animation);
-    if (options.root) out.member("root", *options.root);
-    if (options.fps) out.member("fps", *options.fps);
-    if (options.unit) out.member("unit", *options.unit);
-    if (options.up) out.member("up", *options.up);
-    if (options.trim) {
-        out.key("trim");
-        out.numbers({options.trim->first, options.trim->second});
-    }
-    if (options.origin) out.member("origin", name(*options.origin));
-    if (options.id) out.member("id", *options.id);
-    if (options.radius) out.member("radius", *options.radius);
-    if (options.dt) out.member("dt", *options.dt);
+void write_option(JsonWriter& out, const char* key, const auto& value) { out.member(key, value); }
+void write_option(JsonWriter& out, const char* key, Origin origin) { out.member(key, name(origin)); }
+void write_option(JsonWriter& out, const char* key, const std::pair<double, double>& trim) {
+    out.member(key, {trim.first, trim.second});
 }
 
 void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
@@ -36,22 +26,20 @@ void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
     if (clip.source && !inline_samples) {
         out.begin_object(Layout::row);
         out.member("source", *clip.source);
-        write_options(out, clip.options);
+        for_each_import_option([&](const char* key, auto option) {
+            if (clip.options.*option) write_option(out, key, *(clip.options.*option));
+        });
         out.end_object();
         return;
     }
     out.begin_object();
     out.member("dt", clip.clip->dt());
-    out.key("samples");
-    out.begin_array();
-    for (const mobb::Disk& disk : clip.clip->samples()) out.numbers({disk.x, disk.y, disk.r});
-    out.end_array();
+    out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.numbers({disk.x, disk.y, disk.r}); });
     out.end_object();
 }
 
 void write_placement(JsonWriter& out, const mobb::Placement& placement) {
-    out.key("translate");
-    out.numbers({placement.translate.x, placement.translate.y});
+    out.member("translate", {placement.translate.x, placement.translate.y});
     out.member("rotate_deg", placement.rotate_deg);
     out.member("start", placement.start);
 }
@@ -75,7 +63,7 @@ void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
     out.end_object();
 }
 
-void write_participant(JsonWriter& out, const Scene& scene, const PlacedAgent& who) {
+void write_placed_agent(JsonWriter& out, const Scene& scene, const PlacedAgent& who) {
     if (who.agent >= 0) return out.value(scene.agents[static_cast<std::size_t>(who.agent)].name);
     out.begin_object(Layout::row);
     out.member("clip", scene.clips[static_cast<std::size_t>(who.clip)].name);
@@ -86,12 +74,11 @@ void write_participant(JsonWriter& out, const Scene& scene, const PlacedAgent& w
 void write_query(JsonWriter& out, const Scene& scene, const SceneQuery& query) {
     out.begin_object();
     out.key("a");
-    write_participant(out, scene, query.a);
+    write_placed_agent(out, scene, query.a);
     out.key("b");
-    write_participant(out, scene, query.b);
+    write_placed_agent(out, scene, query.b);
     if (query.expect) {
-        out.key("expect");
-        out.begin_object(Layout::row);
+        out.begin_object("expect", Layout::row);
         out.member("collides", query.expect->collides);
         out.key("contact");
         write_contact(out, query.expect->contact);
@@ -111,8 +98,7 @@ std::string to_json(const Scene& scene, bool inline_samples) {
     JsonWriter out(text);
     out.begin_object();
     out.member("mobbscope", 1);
-    out.key("clips");
-    out.begin_object();
+    out.begin_object("clips");
     for (const SceneClip& clip : scene.clips) write_clip(out, clip, inline_samples);
     out.end_object();
     if (scene.graph) {
@@ -120,18 +106,12 @@ std::string to_json(const Scene& scene, bool inline_samples) {
         write_graph(out, *scene.graph, [&scene](int clip) { return scene.clips[static_cast<std::size_t>(clip)].name; });
     }
     if (!scene.agents.empty()) {
-        out.key("agents");
-        out.begin_array();
-        for (const Agent& agent : scene.agents) write_agent(out, scene, agent);
-        out.end_array();
+        out.list("agents", scene.agents, [&](const Agent& agent) { write_agent(out, scene, agent); });
     }
     out.key("fit");
     write_fit(out, scene.fit);
     if (!scene.queries.empty()) {
-        out.key("queries");
-        out.begin_array();
-        for (const SceneQuery& query : scene.queries) write_query(out, scene, query);
-        out.end_array();
+        out.list("queries", scene.queries, [&](const SceneQuery& query) { write_query(out, scene, query); });
     }
     if (scene.crowd) {
         out.key("crowd");

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 namespace mobbscope {
 
@@ -27,14 +26,10 @@ Camera read_camera(const JsonPlace& place) {
     if (const auto perspective = place.find("perspective")) camera.perspective = perspective->boolean();
     if (const auto fov = place.find("fov_deg")) camera.fov_deg = fov->number(kLeastFov, kMostFov);
     if (const auto target = place.find("target")) {
-        target->require_size(3, "[x, y, height] in metres");
-        glm::dvec3 point;
-        for (int i = 0; i < 3; ++i) point[i] = (*target)[i].number(-mobb::kMaxLength, mobb::kMaxLength);
-        camera.target = point;
+        camera.target = target->vector<glm::dvec3>(mobb::kMaxLength, "[x, y, height] in metres");
         camera.distance = place.require("distance").number(kSmallestDistance, mobb::kMaxLength);
         if (const auto shift = place.find("shift")) {
-            shift->require_size(2, "[right, up] in widths and heights of the picture");
-            for (int i = 0; i < 2; ++i) camera.shift[i] = (*shift)[i].number(-1, 1);
+            camera.shift = shift->vector<glm::dvec2>(1, "[right, up] in widths and heights of the picture");
         }
     } else if (const auto distance = place.find("distance")) {
         distance->fail("a distance needs a target; add one, or leave both out and the camera frames the scene");
@@ -72,13 +67,9 @@ void write_camera(JsonWriter& out, const Camera& camera) {
     if (camera.perspective != standard.perspective) out.member("perspective", camera.perspective);
     if (camera.fov_deg != standard.fov_deg) out.member("fov_deg", camera.fov_deg);
     if (camera.target) {
-        out.key("target");
-        out.numbers({camera.target->x, camera.target->y, camera.target->z});
+        out.member("target", {camera.target->x, camera.target->y, camera.target->z});
         out.member("distance", camera.distance);
-        if (camera.shift != standard.shift) {
-            out.key("shift");
-            out.numbers({camera.shift.x, camera.shift.y});
-        }
+        if (camera.shift != standard.shift) out.member("shift", {camera.shift.x, camera.shift.y});
     }
     out.end_object();
 }
@@ -98,6 +89,15 @@ template <auto member>
 ViewOption field(ViewOption row) {
     row.same = [](const ViewState& a, const ViewState& b) { return a.*member == b.*member; };
     return row;
+}
+
+/// A row about what stands in files, as on the command line, as a text or a whole number that `read` understands.
+template <auto member, auto read>
+ViewOption text_or_number(ViewOption row) {
+    row.read = [](const JsonPlace& place, ViewState& view) { view.*member = read_number_or_text(place, read); };
+    row.write = [](JsonWriter& out, const ViewState& view) { out.value(to_string(view.*member)); };
+    row.text = [](const ViewState& view) { return to_string(view.*member); };
+    return field<member>(std::move(row));
 }
 
 /// A row about something that is shown or not.
@@ -160,22 +160,18 @@ std::vector<ViewOption> all_view_options() {
         })",
              .read = [](const JsonPlace& place, ViewState& view) { view.camera = read_camera(place); },
              .write = [](JsonWriter& out, const ViewState& view) { write_camera(out, view.camera); }}),
-        field<&ViewState::levels>(
+        text_or_number<&ViewState::levels, parse_level_range>(
             {.key = "levels",
              .schema =
                  R"({"description": "A level, a range such as 1:3, or leaves", "type": ["integer", "string"], "pattern": "^([0-9]+(:[0-9]+)?|leaves)$", "minimum": 0, "maximum": 1000})",
              .option = "--level",
              .placeholder = "LEVELS",
              .help = "Levels: N, A:B or leaves",
-             .read = [](const JsonPlace& place,
-                        ViewState& view) { view.levels = read_number_or_text(place, parse_level_range); },
-             .write = [](JsonWriter& out, const ViewState& view) { out.value(to_string(view.levels)); },
              .parse =
                  [](const std::string& text, ViewState& view) {
                      view.levels = parse_level_range(text);
                      view.query.reset();
                  },
-             .text = [](const ViewState& view) { return to_string(view.levels); },
              .needed = [](const ViewState& from,
                           const ViewState& to) { return !to.query && (to.levels != from.levels || from.query); }}),
         field<&ViewState::query>(
@@ -199,7 +195,7 @@ std::vector<ViewOption> all_view_options() {
                      view.query = *index;
                  },
              .text = [](const ViewState& view) { return std::to_string(*view.query); }}),
-        field<&ViewState::step>(
+        text_or_number<&ViewState::step, parse_step>(
             {.key = "step",
              .schema = R"({
           "description": "An event number, a percentage such as 40%, or end",
@@ -211,11 +207,7 @@ std::vector<ViewOption> all_view_options() {
              .option = "--step",
              .placeholder = "STEP",
              .help = "Step of the query: an event number, a percentage (40%) or end",
-             .read = [](const JsonPlace& place,
-                        ViewState& view) { view.step = read_number_or_text(place, parse_step); },
-             .write = [](JsonWriter& out, const ViewState& view) { out.value(to_string(view.step)); },
              .parse = [](const std::string& text, ViewState& view) { view.step = parse_step(text); },
-             .text = [](const ViewState& view) { return to_string(view.step); },
              .needed = [](const ViewState& from, const ViewState& to) { return to.query && to.step != from.step; }}),
         field<&ViewState::projection>(
             {.key = "projection",

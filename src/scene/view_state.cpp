@@ -1,9 +1,7 @@
 #include <base/text.h>
 #include <scene/view_state.h>
 
-#include <algorithm>
 #include <array>
-#include <stdexcept>
 
 namespace mobbscope {
 
@@ -21,12 +19,6 @@ constexpr std::array<std::string_view, 5> kPresets{"iso", "top", "front", "side"
 constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};
 constexpr std::array<std::string_view, 2> kColorings{"agent", "level"};
 constexpr std::array<std::string_view, 2> kShows{"space-time", "moment"};
-
-template <class E, std::size_t count>
-std::optional<E> named(const std::array<std::string_view, count>& names, std::string_view text) {
-    const auto at = std::ranges::find(names, text);
-    return at == names.end() ? std::nullopt : std::optional(static_cast<E>(at - names.begin()));
-}
 
 }  // namespace
 
@@ -75,16 +67,18 @@ std::string to_string(const Step& step) {
     return "end";
 }
 
-std::optional<CameraPreset> camera_preset(const std::string& name) { return named<CameraPreset>(kPresets, name); }
+std::optional<CameraPreset> camera_preset(const std::string& name) {
+    return enumerator_named<CameraPreset>(kPresets, name);
+}
 std::string_view name(CameraPreset preset) { return kPresets[static_cast<std::size_t>(preset)]; }
 
-std::optional<Theme> theme_from_name(std::string_view text) { return named<Theme>(kThemes, text); }
+std::optional<Theme> theme_from_name(std::string_view text) { return enumerator_named<Theme>(kThemes, text); }
 std::string_view name(Theme theme) { return kThemes[static_cast<std::size_t>(theme)]; }
 
-std::optional<ColorBy> color_by_from_name(std::string_view text) { return named<ColorBy>(kColorings, text); }
+std::optional<ColorBy> color_by_from_name(std::string_view text) { return enumerator_named<ColorBy>(kColorings, text); }
 std::string_view name(ColorBy color_by) { return kColorings[static_cast<std::size_t>(color_by)]; }
 
-std::optional<Show> show_from_name(std::string_view text) { return named<Show>(kShows, text); }
+std::optional<Show> show_from_name(std::string_view text) { return enumerator_named<Show>(kShows, text); }
 std::string_view name(Show show) { return kShows[static_cast<std::size_t>(show)]; }
 
 }  // namespace mobbscope

@@ -1,9 +1,10 @@
 #include "run_program.h"
 
 #include <mobb/level_figures.h>
-#include <scene/fit_json.h>
 #include <scene/fitted_scene.h>
+#include <scene/scene_json.h>
 #include <support/json_keys.h>
+#include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,19 @@ TEST(Fit, TheTableHasTheColumnsOfALevel) {
         EXPECT_EQ(shown, level_text(column, mobb::level_figures(fitted.tree(0)).front())) << column.key;
     }
     EXPECT_EQ(line.size(), std::string("  level   nodes   volume m^2*s   tightness").size());
+}
+
+TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
+    const testing::TempFolder folder;
+    // Disks so thin that the tightness takes twelve characters.
+    const auto file = folder.write(
+        "thin.json", R"({"clips": {"thin": {"dt": 1, "samples": [[0, 0, 1e-60], [3, 1, 1e-60], [4, 9, 1e-60]]}}})");
+    const Result run = run_program({"fit", file.string(), "--leaf", "3"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s      tightness\n"
+                           "      0       1             69   1.36591e-121\n"),
+              std::string::npos)
+        << run.out;
 }
 
 TEST(Fit, AMovingBoxIsGivenAtT0WithItsVelocity) {

@@ -1,9 +1,8 @@
 // The FBX reader's process: what it sends, and what becomes of its crashes. Figures of real files:
 // motion_data_test.cpp.
 #include <base/error.h>
-#include <import/nodes/fbx.h>
+#include <import/nodes/node_files.h>
 #include <import/nodes/node_scene.h>
-#include <import/nodes/scene_packet.h>
 #include <support/input_error.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>
@@ -98,7 +97,7 @@ TEST(ScenePacket, DamageIsNoticedOrHarmless) {
             continue;
         }
         if (scene.animations.empty() || scene.animations[0].channels.empty()) continue;
-        const auto motion = node_motion_file(std::move(scene))->motion(0);
+        const auto motion = node_motion_file(std::move(scene)).motion(0);
         std::vector<glm::dvec3> positions(motion->joints().size());
         motion->pose(0.5, positions);
     }

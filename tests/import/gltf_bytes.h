@@ -1,7 +1,7 @@
 /// Small glTF files for tests: floats and bytes in one buffer, the rest as JSON.
 #pragma once
 
-#include <import/nodes/gltf_container.h>
+#include <import/nodes/node_files.h>
 
 #include <cstdint>
 #include <cstring>
@@ -11,6 +11,22 @@
 #include <vector>
 
 namespace mobbscope::testing {
+
+/// A GLB of these parts; `binary` is left out when empty.
+inline std::string join_glb(std::string_view json, std::string_view binary) {
+    const auto number = [](std::size_t value) {
+        std::string bytes;
+        for (int i = 0; i < 4; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
+        return bytes;
+    };
+    const auto chunk = [&](const char* type, std::string_view content, char padding) {
+        std::string padded(content);
+        padded.append((4 - content.size() % 4) % 4, padding);
+        return number(padded.size()) + std::string(type, 4) + padded;
+    };
+    const std::string chunks = chunk("JSON", json, ' ') + (binary.empty() ? "" : chunk("BIN\0", binary, '\0'));
+    return "glTF" + number(2) + number(12 + chunks.size()) + chunks;
+}
 
 /// Collects accessors, then nodes and channels, and makes a GLB of them.
 class GltfBytes {

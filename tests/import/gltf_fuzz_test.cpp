@@ -2,7 +2,7 @@
 #include "gltf_bytes.h"
 
 #include <base/error.h>
-#include <import/nodes/gltf.h>
+#include <import/nodes/node_files.h>
 #include <import/skeleton/motion_clips.h>
 #include <support/mutate.h>
 #include <support/temp_folder.h>
@@ -62,7 +62,7 @@ void try_to_read(const std::string& bytes, const std::string& name, Outcomes& ou
     try {
         ImportOptions options;
         options.fps = 10;
-        motion_clips(*parse_gltf(bytes, name), name, options);
+        motion_clips(parse_gltf(bytes, name), name, options);
         ++outcomes.read;
     } catch (const InputError& error) {
         const std::string_view message = error.what();

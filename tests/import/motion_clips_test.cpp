@@ -17,7 +17,7 @@ using testing::kWalker;
 using testing::replaced;
 
 ImportedClip clip_of(const std::string& text, const ImportOptions& options = {}) {
-    return motion_clips(*bvh_motion(parse_bvh(text, "walk.bvh")), "some/walk.bvh", options).at(0);
+    return motion_clips(bvh_motion(parse_bvh(text, "walk.bvh")), "some/walk.bvh", options).at(0);
 }
 
 void expect_disk(const ImportedClip& of, std::size_t sample, double x, double y, double r) {

@@ -1,6 +1,6 @@
 // Damaged trajectory files give clips or an InputError, nothing else, and soon; and never much more than they hold.
 #include <base/error.h>
-#include <import/tracks/track_clips.h>
+#include <import/tracks/tracks.h>
 #include <support/mutate.h>
 
 #include <gtest/gtest.h>

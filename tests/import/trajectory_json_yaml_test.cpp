@@ -1,5 +1,5 @@
 // TrajNet++ and plans of multi-agent path finding.
-#include <import/tracks/track_clips.h>
+#include <import/tracks/tracks.h>
 #include <support/input_error.h>
 
 #include <gtest/gtest.h>

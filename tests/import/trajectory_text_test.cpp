@@ -1,5 +1,5 @@
 // Trajectories in columns: formats are told apart by content, and nothing is assumed in silence.
-#include <import/tracks/track_clips.h>
+#include <import/tracks/tracks.h>
 #include <support/input_error.h>
 
 #include <gtest/gtest.h>

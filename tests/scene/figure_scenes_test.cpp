@@ -11,7 +11,7 @@
 namespace mobbscope {
 namespace {
 
-const std::filesystem::path kFigures = MOBBSCOPE_SOURCE_DIR "/assets/figures";
+const std::filesystem::path kFigures = MOBBSCOPE_SOURCE_DIR "/assets/figures/scenes";
 
 /// A scene with its query recorded.
 struct Figure {

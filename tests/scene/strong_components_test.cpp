@@ -1,5 +1,5 @@
 // Which nodes lead to each other.
-#include <base/strong_components.h>
+#include <scene/motion_graph.h>
 
 #include <gtest/gtest.h>
 

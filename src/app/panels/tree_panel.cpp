@@ -3,7 +3,7 @@
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <render/parts/node_boxes.h>
-#include <scene/fit_json.h>
+#include <scene/scene_json.h>
 
 #include <algorithm>
 #include <array>

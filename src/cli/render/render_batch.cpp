@@ -3,7 +3,7 @@
 #include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/program.h>
-#include <cli/render/render_batch.h>
+#include <cli/render/render_job.h>
 
 #include <iostream>
 #include <iterator>

@@ -3,7 +3,6 @@
 #include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/program.h>
-#include <cli/render/render_batch.h>
 #include <cli/render/render_job.h>
 #include <cli/render/render_options.h>
 #include <render/gl/backends.h>
@@ -37,9 +36,7 @@ void print_words(const std::vector<BackendReport>& backends) {
 void print_backends_json(const std::vector<BackendReport>& backends) {
     JsonWriter json(std::cout);
     json.begin_object();
-    json.key("backends");
-    json.begin_array();
-    for (const BackendReport& backend : backends) {
+    json.list("backends", backends, [&](const BackendReport& backend) {
         json.begin_object();
         json.member("name", backend.name);
         json.member("works", backend.works);
@@ -50,8 +47,7 @@ void print_backends_json(const std::vector<BackendReport>& backends) {
             json.member("why_not", backend.why_not);
         }
         json.end_object();
-    }
-    json.end_array();
+    });
     json.end_object();
 }
 

@@ -66,6 +66,17 @@ class RenderPlan {
     std::set<char32_t> missing_glyphs_;  ///< that the fonts of pictures lack
 };
 
+/// Many pictures at once: draws all of a list of what `render` takes, one picture or sequence a line; "-" is standard
+/// input.
+///
+///     # the arguments as one would type them; words with blanks stand in double quotes
+///     crossing.json --view top -o top.png
+///     crossing.json --query 0 --play --background "#14181D" -o query.png
+///
+/// Names are relative to the working directory. `defaults` hold for every line that does not say otherwise. Nothing is
+/// written unless every line can be drawn. Throws InputError and MachineError naming the line.
+void render_batch(const std::filesystem::path& list, const RenderArguments& defaults);
+
 /// By the file's name.
 bool is_case(const std::filesystem::path& file);
 

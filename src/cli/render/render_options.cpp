@@ -5,7 +5,6 @@
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/render/render_options.h>
-#include <render/drawlist/picture_options.h>
 #include <render/drawlist/view_projection.h>
 #include <render/pictures/render.h>
 #include <scene/load_files.h>
@@ -14,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 
 namespace mobbscope::cli {
 
@@ -205,12 +203,9 @@ void refuse_where_said(const std::filesystem::path& file, const std::string& key
     const JsonValue value = parse_json(read_file(file), name);
     const JsonPlace root(value, name);
     const auto view = root.find("clips") ? root.find("view") : root;
-    if (!view) return;
-    if (const auto said = view->find(key)) said->fail(message);
+    const auto said = view ? view->find(key) : std::nullopt;
+    if (said) said->fail(message);
 }
-
-/// Whether the command line says it itself.
-bool is_option_given(const ViewArguments& view, const std::string& key) { return view.says(key); }
 
 Camera camera_over(Camera camera, const ViewArguments& arguments) {
     if (arguments.preset) {
@@ -304,7 +299,7 @@ ViewState view_over(ViewState view, const ViewArguments& arguments) {
 void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch) {
     const std::string scene = arguments.file.string();
     const std::filesystem::path& state = arguments.view.state;
-    if (!is_option_given(arguments.view, mismatch.key())) {
+    if (!arguments.view.says(mismatch.key())) {
         if (!state.empty()) refuse_where_said(state, mismatch.key(), scene + ": " + mismatch.what());
         if (lower_extension(scene) == ".json") refuse_where_said(scene, mismatch.key(), mismatch.what());
     }

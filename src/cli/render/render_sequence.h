@@ -4,7 +4,6 @@
 #include <cli/render/render_options.h>
 #include <scene/fitted_scene.h>
 
-#include <optional>
 #include <vector>
 
 namespace mobbscope::cli {

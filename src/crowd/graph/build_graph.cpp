@@ -1,5 +1,4 @@
 #include <base/random.h>
-#include <base/strong_components.h>
 #include <base/text.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/cut_search.h>

@@ -1,5 +1,5 @@
 #include <crowd/graph/cut_search.h>
-#include <import/skeleton/motion_warnings.h>
+#include <import/skeleton/motion_clips.h>
 
 #include <glm/geometric.hpp>
 

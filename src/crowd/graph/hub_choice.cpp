@@ -1,5 +1,5 @@
-#include <base/strong_components.h>
 #include <crowd/graph/hub_choice.h>
+#include <scene/motion_graph.h>
 
 #include <glm/geometric.hpp>
 

@@ -1,13 +1,15 @@
+#include <base/error.h>
 #include <base/text.h>
 #include <import/bvh/bvh.h>
-#include <import/bvh/bvh_scanner.h>
 
 #include <glm/ext/scalar_constants.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -19,6 +21,126 @@ constexpr double kMaxFrameTime = 60;         // seconds; a slower capture is non
 constexpr std::size_t kMaxJoints = 100'000;  // a file of nothing but names would take many times its size
 constexpr std::array<std::string_view, kMaxBvhChannels> kChannels{"xposition", "yposition", "zposition",
                                                                   "xrotation", "yrotation", "zrotation"};
+
+std::string_view between(const char* begin, const char* end) { return {begin, static_cast<std::size_t>(end - begin)}; }
+
+/// A number that no double holds: too near to 0, which is 0, or too large.
+double tiny_or_huge(std::string_view number) {
+    const std::size_t exponent = number.find_first_of("eE");
+    const bool is_tiny = exponent != std::string_view::npos && number.substr(exponent + 1).starts_with('-');
+    return is_tiny ? 0 : std::numeric_limits<double>::infinity();
+}
+
+/// Numbers beyond this, in file units or degrees, come from damaged files.
+constexpr double kMaxBvhValue = 1e9;
+
+/// Words, numbers and lines of a BVH, taken off the front of its text; lines may end with LF, CRLF or CR. Text and file
+/// name must outlive it.
+class BvhScanner {
+  public:
+    BvhScanner(std::string_view text, const std::string& file)
+        : at_(text.data()), end_(text.data() + text.size()), file_(file) {}
+
+    int line() const { return line_; }  ///< from 1
+    std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+    bool at_end() const { return at_ == end_; }
+    bool at_line_end() const { return at_ == end_ || is_line_end(*at_); }
+
+    /// Throws InputError for a line of the file.
+    [[noreturn]] void fail(int line, const std::string& message) const {
+        throw InputError(file_, "line " + std::to_string(line), message);
+    }
+
+    [[noreturn]] void fail(const std::string& message) const { fail(line_, message); }
+
+    /// Past a byte order mark. Throws InputError if there is no text, or UTF-16.
+    void begin() {
+        const std::string_view text = between(at_, end_);
+        if (text.empty()) fail("the file is empty; a BVH begins with HIERARCHY");
+        if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) fail("is UTF-16 text; save it as UTF-8");
+        if (text.starts_with("\xef\xbb\xbf")) at_ += 3;
+    }
+
+    /// To the next word or end of this line.
+    void skip_blanks() {
+        while (at_ != end_ && is_blank(*at_)) ++at_;
+    }
+
+    /// To the next word, on this line or a later one.
+    void skip_space() {
+        for (skip_blanks(); at_ != end_ && is_line_end(*at_); skip_blanks()) {
+            if (*at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n') ++at_;
+            ++at_;
+            ++line_;
+        }
+    }
+
+    /// The next word, on this line or a later one: up to a blank, a line end or a brace; a brace is a word of its own.
+    /// Empty at the end of the file.
+    std::string_view next_word() {
+        skip_space();
+        const char* const begin = at_;
+        const auto is_brace = [](char c) { return c == '{' || c == '}'; };
+        if (at_ != end_ && is_brace(*at_)) {
+            ++at_;
+        } else {
+            while (!at_line_end() && !is_blank(*at_) && !is_brace(*at_)) ++at_;
+        }
+        return between(begin, at_);
+    }
+
+    /// Makes the word that was taken last the next one again.
+    void put_back(std::string_view word) { at_ = word.data(); }
+    /// What is left of this line, without blanks at its ends. Stays before the line end.
+    std::string_view rest_of_line() {
+        const char* const begin = at_;
+        at_ = std::find_if(at_, end_, is_line_end);
+        return trimmed(between(begin, at_));
+    }
+
+    /// The same, up to a { that may end the line.
+    std::string_view rest_before_brace() {
+        const std::string_view rest = rest_of_line();
+        if (!rest.ends_with('{')) return rest;
+        at_ = rest.data() + rest.size() - 1;
+        return trimmed(rest.substr(0, rest.size() - 1));
+    }
+
+    /// The number that begins here, before at_line_end(), within +-kMaxBvhValue. Throws InputError.
+    double number() {
+        // from_chars takes no plus sign.
+        const char* const begin = at_ + (*at_ == '+' && at_ + 1 != end_ && at_[1] != '-' ? 1 : 0);
+        double value = 0;
+        const auto [after, error] = std::from_chars(begin, end_, value);
+        const bool is_whole = after == end_ || is_blank(*after) || is_line_end(*after) || *after == '}';
+        if (error == std::errc::invalid_argument || !is_whole || !std::isfinite(value)) fail_number();
+        if (error == std::errc::result_out_of_range) value = tiny_or_huge(between(begin, after));
+        if (std::abs(value) > kMaxBvhValue) fail(in_quotes(next_word()) + " is beyond 1e9; the file is damaged");
+        at_ = after;
+        return value;
+    }
+
+  private:
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+    [[noreturn]] void fail_number() {
+        const std::string_view word = next_word();
+        const bool has_comma = word.find(',') != std::string_view::npos;
+        fail(in_quotes(word) + " is no finite number" +
+             (has_comma ? "; write decimals with a point and separate numbers with blanks" : "; write it like 12.5"));
+    }
+
+    const char* at_;
+    const char* end_;
+    const std::string& file_;
+    int line_ = 1;
+};
+
+/// Quotes what was found where something else was expected: "there is 'x'", or "the file ends".
+std::string found(std::string_view word) { return word.empty() ? "the file ends" : "there is " + in_quotes(word); }
+
+/// Whether a word is a keyword, in any case.
+bool is_keyword(std::string_view word, std::string_view lower_keyword) { return lower(word) == lower_keyword; }
 
 /// A joint whose } has not come yet.
 struct OpenJoint {
@@ -303,23 +425,14 @@ class BvhMotion : public Motion {
     MotionTimes times_;
 };
 
-class BvhFile : public MotionFile {
-  public:
-    explicit BvhFile(BvhData data) : motion_(std::make_shared<BvhMotion>(std::move(data))) {}
-
-    std::string format() const override { return "bvh"; }
-    std::optional<double> unit() const override { return std::nullopt; }
-    std::vector<std::string> animations() const override { return {"#0"}; }
-    std::shared_ptr<const Motion> motion(std::size_t) const override { return motion_; }
-
-  private:
-    std::shared_ptr<const Motion> motion_;
-};
-
 }  // namespace
 
 BvhData parse_bvh(std::string_view text, const std::string& file) { return BvhParser(text, file).parse(); }
 
-std::unique_ptr<MotionFile> bvh_motion(BvhData data) { return std::make_unique<BvhFile>(std::move(data)); }
+MotionFile bvh_motion(BvhData data) {
+    return {"bvh", std::nullopt, {"#0"}, [motion = std::make_shared<BvhMotion>(std::move(data))](std::size_t) {
+                return motion;
+            }};
+}
 
 }  // namespace mobbscope

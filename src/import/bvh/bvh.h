@@ -39,6 +39,6 @@ struct BvhData {
 BvhData parse_bvh(std::string_view text, const std::string& file);
 
 /// The one animation of a file.
-std::unique_ptr<MotionFile> bvh_motion(BvhData data);
+MotionFile bvh_motion(BvhData data);
 
 }  // namespace mobbscope

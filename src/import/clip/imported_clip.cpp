@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kMaxFps = 1e6;
 constexpr double kMaxUnit = 1e6;
-constexpr std::array<std::pair<std::string_view, Origin>, 3> kOrigins{
-    {{"keep", Origin::keep}, {"start", Origin::start}, {"start_heading", Origin::start_heading}}};
+constexpr std::array<std::string_view, 3> kOrigins{"keep", "start", "start_heading"};  // as enumerated
 
 void require(bool in_range, const std::string& message) {
     if (!in_range) throw std::invalid_argument(message);
@@ -46,18 +45,7 @@ std::optional<double> metres_per_unit(const std::string& unit) {
     return parse_double(unit);
 }
 
-std::string_view name(Origin origin) {
-    for (const auto& [text, value] : kOrigins) {
-        if (value == origin) return text;
-    }
-    return "";
-}
-
-std::optional<Origin> origin_from_name(std::string_view name) {
-    for (const auto& [text, value] : kOrigins) {
-        if (text == name) return value;
-    }
-    return std::nullopt;
-}
+std::string_view name(Origin origin) { return kOrigins[static_cast<std::size_t>(origin)]; }
+std::optional<Origin> origin_from_name(std::string_view name) { return enumerator_named<Origin>(kOrigins, name); }
 
 }  // namespace mobbscope

@@ -3,7 +3,6 @@
 
 #include <mobb/clip.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +35,21 @@ struct ImportOptions {
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };
+
+/// Calls `visit` with the key in a scene of every option, and the option as a member.
+template <class Visit>
+void for_each_import_option(const Visit& visit) {
+    visit("animation", &ImportOptions::animation);
+    visit("root", &ImportOptions::root);
+    visit("fps", &ImportOptions::fps);
+    visit("unit", &ImportOptions::unit);
+    visit("up", &ImportOptions::up);
+    visit("trim", &ImportOptions::trim);
+    visit("origin", &ImportOptions::origin);
+    visit("id", &ImportOptions::id);
+    visit("radius", &ImportOptions::radius);
+    visit("dt", &ImportOptions::dt);
+}
 
 /// Throws std::invalid_argument, naming the option, if one is out of range whatever the file.
 void check(const ImportOptions& options);

@@ -1,8 +1,7 @@
 #include <base/error.h>
 #include <base/text.h>
-#include <import/nodes/fbx.h>
+#include <import/nodes/node_files.h>
 #include <import/nodes/node_scene.h>
-#include <import/nodes/scene_packet.h>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,7 +14,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -127,7 +125,7 @@ int wait_for(pid_t child) {
 
 }  // namespace
 
-std::unique_ptr<MotionFile> read_fbx(const fs::path& file) {
+MotionFile read_fbx(const fs::path& file) {
     const std::string name = file.string();
     constexpr std::string_view kRemedy = "; export it again as binary FBX 2014/2015, or as glTF";
     check_header(file);

@@ -4,7 +4,6 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <import/nodes/node_scene.h>
-#include <import/nodes/scene_packet.h>
 #include <sys/resource.h>
 #include <unistd.h>
 

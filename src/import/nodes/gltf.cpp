@@ -1,16 +1,15 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
-#include <import/nodes/gltf.h>
 #include <import/nodes/gltf_accessor.h>
-#include <import/nodes/gltf_json.h>
-#include <import/nodes/node_scene.h>
+#include <import/nodes/gltf_file.h>
+#include <import/nodes/node_files.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -19,6 +18,9 @@ namespace mobbscope {
 namespace {
 
 constexpr double kTolerance = 1e-6;
+// In the order of their enumerations.
+constexpr std::array<std::string_view, 3> kProperties{"translation", "rotation", "scale"};
+constexpr std::array<std::string_view, 3> kInterpolations{"STEP", "LINEAR", "CUBICSPLINE"};
 
 std::string name_of(const tinygltf::Model& model, int node) {
     const std::string& name = model.nodes[as_index(node)].name;
@@ -29,86 +31,43 @@ std::string place_of_node(const tinygltf::Model& model, int node) {
     return "node " + std::to_string(node) + " " + in_quotes(name_of(model, node));
 }
 
-/// The files that hold buffers, for tinygltf's callbacks: it knows them by their buffer's index.
-struct BufferFiles {
-    std::map<std::string, std::string> bytes;
-
-    static std::string key(const std::string& path) { return path.substr(path.rfind('/') + 1); }
-    static bool exists(const std::string& path, void* self) {
-        return static_cast<BufferFiles*>(self)->bytes.contains(key(path));
+std::vector<unsigned char> outside_bytes(const GltfOutsideBuffer& buffer, const GltfParts& parts,
+                                         const std::filesystem::path& gltf) {
+    if (buffer.byte_length == 0) return {};
+    if (buffer.path.empty()) {
+        const std::string_view chunk = parts.binary->substr(0, buffer.byte_length);
+        return {chunk.begin(), chunk.end()};
     }
-    static std::string expand(const std::string& path, void*) { return path; }
-    static bool read(std::vector<unsigned char>* out, std::string*, const std::string& path, void* self) {
-        const std::string& bytes = static_cast<BufferFiles*>(self)->bytes[key(path)];
-        out->assign(bytes.begin(), bytes.end());
-        return true;
+    const std::string place = "buffer " + std::to_string(buffer.buffer);
+    std::string bytes;
+    try {
+        bytes = read_file(gltf.parent_path() / buffer.path);
+    } catch (const InputError& error) {
+        throw InputError(gltf.string(), place, error.what());
     }
-    static bool write(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
-    static bool size(std::size_t* out, std::string*, const std::string& path, void* self) {
-        *out = static_cast<BufferFiles*>(self)->bytes[key(path)].size();
-        return true;
+    if (bytes.size() < buffer.byte_length) {
+        throw InputError(gltf.string(), place,
+                         (gltf.parent_path() / buffer.path).string() + " holds " + std::to_string(bytes.size()) +
+                             " bytes of " + std::to_string(buffer.byte_length) + "; export or copy it again");
     }
-};
-
-/// tinygltf 2.9 takes all callbacks or none, and one more than 2.7, which has no such member: hence a template.
-template <class FsCallbacks>
-FsCallbacks callbacks(BufferFiles& files) {
-    FsCallbacks out{};
-    out.FileExists = &BufferFiles::exists;
-    out.ExpandFilePath = &BufferFiles::expand;
-    out.ReadWholeFile = &BufferFiles::read;
-    out.WriteWholeFile = &BufferFiles::write;
-    if constexpr (requires { out.GetFileSizeInBytes; }) out.GetFileSizeInBytes = &BufferFiles::size;
-    out.user_data = &files;
-    return out;
-}
-
-BufferFiles read_buffer_files(const std::vector<GltfBufferFile>& files, const std::filesystem::path& gltf) {
-    BufferFiles out;
-    for (const GltfBufferFile& file : files) {
-        if (file.path.empty()) {
-            out.bytes[std::to_string(file.buffer)] = std::string(file.byte_length, '\0');
-            continue;
-        }
-        const std::string place = "buffer " + std::to_string(file.buffer);
-        std::string bytes;
-        try {
-            bytes = read_file(gltf.parent_path() / file.path);
-        } catch (const InputError& error) {
-            throw InputError(gltf.string(), place, error.what());
-        }
-        if (bytes.size() < file.byte_length) {
-            throw InputError(gltf.string(), place,
-                             (gltf.parent_path() / file.path).string() + " holds " + std::to_string(bytes.size()) +
-                                 " bytes of " + std::to_string(file.byte_length) + "; export or copy it again");
-        }
-        bytes.resize(file.byte_length);
-        out.bytes[std::to_string(file.buffer)] = std::move(bytes);
-    }
-    return out;
+    bytes.resize(buffer.byte_length);
+    return {bytes.begin(), bytes.end()};
 }
 
 tinygltf::Model load_model(std::string_view bytes, const std::filesystem::path& file) {
     const GltfParts parts = split_gltf(bytes, lower_extension(file) == ".glb", file.string());
     const GltfText text = checked_gltf_text(parts, file.string());
-    BufferFiles buffer_files = read_buffer_files(text.buffer_files, file);
+    std::vector<std::vector<unsigned char>> outside;
+    for (const GltfOutsideBuffer& buffer : text.outside) outside.push_back(outside_bytes(buffer, parts, file));
 
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks(callbacks<tinygltf::FsCallbacks>(buffer_files));
     tinygltf::Model model;
     std::string error;
     std::string warning;
     bool is_loaded = false;
     try {
-        if (parts.is_glb) {
-            const std::string glb = join_glb(text.json, parts.binary.value_or(""));
-            is_loaded = loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                                    reinterpret_cast<const unsigned char*>(glb.data()),
-                                                    static_cast<unsigned int>(glb.size()));
-        } else {
-            is_loaded = loader.LoadASCIIFromString(&model, &error, &warning, text.json.data(),
-                                                   static_cast<unsigned int>(text.json.size()), "");
-        }
+        is_loaded = loader.LoadASCIIFromString(&model, &error, &warning, text.json.data(),
+                                               static_cast<unsigned int>(text.json.size()), "");
     } catch (const std::exception& thrown) {
         error = thrown.what();
     }
@@ -118,6 +77,9 @@ tinygltf::Model load_model(std::string_view bytes, const std::filesystem::path& 
         throw InputError(file.string(), is_uri ? "buffer " + std::to_string(model.buffers.size()) : "",
                          is_uri ? "its data URI does not hold byteLength bytes in base64; export the file again"
                                 : "cannot be read as glTF: " + in_quotes(error.substr(0, error.find('\n'))));
+    }
+    for (std::size_t i = 0; i < outside.size(); ++i) {
+        model.buffers[as_index(text.outside[i].buffer)].data = std::move(outside[i]);
     }
     return model;
 }
@@ -254,31 +216,23 @@ class SceneBuilder {
         Channel channel;
         channel.node = from.target_node;
         channel.times = times;
-        if (from.target_path == "translation") {
-            channel.property = NodeProperty::translation;
-        } else if (from.target_path == "rotation") {
-            channel.property = NodeProperty::rotation;
-        } else if (from.target_path == "scale") {
-            channel.property = NodeProperty::scale;
-        } else {
+        const auto property = enumerator_named<NodeProperty>(kProperties, from.target_path);
+        if (!property) {
             throw InputError(
                 scene_.file, place,
                 "channel path " + in_quotes(from.target_path) + " must be translation, rotation, scale or weights");
         }
+        channel.property = *property;
         if (!model_.nodes[as_index(channel.node)].matrix.empty()) {
             fail_node(channel.node, "is animated, so it needs translation, rotation and scale in place of its matrix");
         }
-        if (sampler.interpolation == "LINEAR") {
-            channel.interpolation = Interpolation::linear;
-        } else if (sampler.interpolation == "STEP") {
-            channel.interpolation = Interpolation::step;
-        } else if (sampler.interpolation == "CUBICSPLINE") {
-            channel.interpolation = Interpolation::cubic_spline;
-        } else {
+        const auto interpolation = enumerator_named<Interpolation>(kInterpolations, sampler.interpolation);
+        if (!interpolation) {
             throw InputError(
                 scene_.file, place,
                 "interpolation " + in_quotes(sampler.interpolation) + " must be LINEAR, STEP or CUBICSPLINE");
         }
+        channel.interpolation = *interpolation;
         const bool is_rotation = channel.property == NodeProperty::rotation;
         const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
         const std::size_t width = is_rotation ? 4 : 3;
@@ -317,12 +271,12 @@ class SceneBuilder {
 
 }  // namespace
 
-std::unique_ptr<MotionFile> parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
+MotionFile parse_gltf(std::string_view bytes, const std::filesystem::path& file) {
     const tinygltf::Model model = load_model(bytes, file);
     const std::string name = file.string();
     return node_motion_file(SceneBuilder(model, name).build());
 }
 
-std::unique_ptr<MotionFile> read_gltf(const std::filesystem::path& file) { return parse_gltf(read_file(file), file); }
+MotionFile read_gltf(const std::filesystem::path& file) { return parse_gltf(read_file(file), file); }
 
 }  // namespace mobbscope

@@ -1,7 +1,6 @@
 #include <base/error.h>
 #include <base/text.h>
 #include <import/nodes/gltf_accessor.h>
-#include <import/nodes/gltf_json.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -133,7 +132,7 @@ GltfAccessors::Elements GltfAccessors::elements(int index, const std::string& wh
     const tinygltf::BufferView& buffer_view = model_.bufferViews[as_index(view)];
     const std::vector<unsigned char>& bytes = model_.buffers[as_index(buffer_view.buffer)].data;
     const std::string where = what + "bufferView " + std::to_string(view);
-    if (model_.buffers[as_index(buffer_view.buffer)].name == kNowhere) {
+    if (bytes.empty()) {
         fail(index, where + ": buffer " + std::to_string(buffer_view.buffer) + " has no data; export the file with it");
     }
     if (buffer_view.byteLength == 0) fail(index, where + " is empty; export the file again");

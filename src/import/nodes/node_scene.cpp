@@ -72,11 +72,10 @@ int topmost_animated(const NodeScene& scene, const std::vector<int>& order) {
 /// True if a rotation is not the same at all keys.
 bool turns(const Channel& channel) {
     const std::vector<double>& values = *channel.values;
-    const glm::dquat first = glm::normalize(glm::dquat{values[3], values[0], values[1], values[2]});
+    const glm::dquat first = glm::normalize(quaternion(values.data()));
     for (std::size_t i = 4; i < values.size(); i += 4) {
-        const glm::dquat q{values[i + 3], values[i], values[i + 1], values[i + 2]};
         // The cosine of half the angle between them; single precision leaves it within 1e-7 of 1.
-        if (std::abs(glm::dot(first, glm::normalize(q))) < 1 - 1e-6) return true;
+        if (std::abs(glm::dot(first, glm::normalize(quaternion(&values[i])))) < 1 - 1e-6) return true;
     }
     return false;
 }
@@ -213,25 +212,6 @@ class NodeMotion : public Motion {
     std::vector<PosedNode> posed_;
 };
 
-class NodeMotionFile : public MotionFile {
-  public:
-    explicit NodeMotionFile(NodeScene scene) : scene_(std::make_shared<const NodeScene>(std::move(scene))) {}
-
-    std::string format() const override { return scene_->format; }
-    std::optional<double> unit() const override { return scene_->unit; }
-    std::vector<std::string> animations() const override {
-        std::vector<std::string> names;
-        for (const NodeAnimation& animation : scene_->animations) names.push_back(animation.name);
-        return names;
-    }
-    std::shared_ptr<const Motion> motion(std::size_t animation) const override {
-        return std::make_shared<NodeMotion>(scene_, animation);
-    }
-
-  private:
-    std::shared_ptr<const NodeScene> scene_;
-};
-
 }  // namespace
 
 Affine TranslationRotationScale::affine() const {
@@ -317,8 +297,13 @@ MotionTimes key_times(const std::vector<Numbers>& lists) {
     return times;
 }
 
-std::unique_ptr<MotionFile> node_motion_file(NodeScene scene) {
-    return std::make_unique<NodeMotionFile>(std::move(scene));
+MotionFile node_motion_file(NodeScene scene) {
+    const auto shared = std::make_shared<const NodeScene>(std::move(scene));
+    MotionFile out{shared->format, shared->unit, {}, [shared](std::size_t animation) {
+                       return std::make_shared<NodeMotion>(shared, animation);
+                   }};
+    for (const NodeAnimation& animation : shared->animations) out.animations.push_back(animation.name);
+    return out;
 }
 
 }  // namespace mobbscope

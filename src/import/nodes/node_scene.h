@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -94,6 +95,15 @@ void evaluate(const Channel& channel, double seconds, double* out);
 MotionTimes key_times(const std::vector<Numbers>& lists);
 
 /// The scene's animations as motions.
-std::unique_ptr<MotionFile> node_motion_file(NodeScene scene);
+MotionFile node_motion_file(NodeScene scene);
+
+/// What the FBX reader's process sends: a scene as bytes, or why there is none.
+std::string pack(const NodeScene& scene);
+std::string pack_error(std::string_view message);
+
+/// The scene in a packet, in which nothing is trusted; `file` and `format` left empty. Throws std::runtime_error if the
+/// packet says that there is none, with its message; std::length_error if the packet is cut off or holds what no scene
+/// can.
+NodeScene unpack(std::string_view packet);
 
 }  // namespace mobbscope

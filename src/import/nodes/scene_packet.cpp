@@ -1,6 +1,8 @@
-#include <import/nodes/scene_packet.h>
+#include <import/nodes/node_scene.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -24,13 +26,10 @@ class Writer {
         integer(static_cast<std::int64_t>(value.size()));
         bytes_ += value;
     }
-    template <int N, typename V>
-    void vector(const V& value) {
-        for (int i = 0; i < N; ++i) number(value[i]);
-    }
-    void affine(const Affine& value) {
-        for (int column = 0; column < 3; ++column) vector<3>(value.linear[column]);
-        vector<3>(value.offset);
+    /// Of something that is made of doubles.
+    template <typename T>
+    void doubles(const T& value) {
+        raw(&value, sizeof value);
     }
     void numbers(const std::vector<double>& values) {
         integer(static_cast<std::int64_t>(values.size()));
@@ -80,15 +79,12 @@ class Reader {
         rest_.remove_prefix(size);
         return value;
     }
-    template <int N, typename V>
-    void vector(V& value) {
-        for (int i = 0; i < N; ++i) value[i] = number();
-    }
-    Affine affine() {
-        Affine value;
-        for (int column = 0; column < 3; ++column) vector<3>(value.linear[column]);
-        vector<3>(value.offset);
-        return value;
+    /// Something that is made of doubles, all of them finite.
+    template <typename T>
+    T doubles() {
+        std::array<double, sizeof(T) / sizeof(double)> values;
+        for (double& value : values) value = number();
+        return std::bit_cast<T>(values);
     }
     Numbers numbers() {
         std::vector<double> values(count(sizeof(double)));
@@ -110,11 +106,9 @@ Node read_node(Reader& in, int index) {
     Node node;
     node.name = in.text();
     node.parent = in.integer(-1, index - 1);
-    node.matrix = in.affine();
-    in.vector<3>(node.rest.translation);
-    in.vector<4>(node.rest.rotation);
+    node.matrix = in.doubles<Affine>();
+    node.rest = in.doubles<TranslationRotationScale>();
     require_packet(std::abs(glm::length(node.rest.rotation) - 1) < 1e-6);
-    in.vector<3>(node.rest.scale);
     return node;
 }
 
@@ -148,10 +142,8 @@ std::string pack(const NodeScene& scene) {
     for (const Node& node : scene.nodes) {
         out.text(node.name);
         out.integer(node.parent);
-        out.affine(node.matrix);
-        out.vector<3>(node.rest.translation);
-        out.vector<4>(node.rest.rotation);
-        out.vector<3>(node.rest.scale);
+        out.doubles(node.matrix);
+        out.doubles(node.rest);
     }
     out.integer(static_cast<std::int64_t>(scene.animations.size()));
     for (const NodeAnimation& animation : scene.animations) {

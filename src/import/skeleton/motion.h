@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -51,18 +52,14 @@ class Motion {
 };
 
 /// A file of one or more animations, checked as a whole when it was read.
-class MotionFile {
-  public:
-    virtual ~MotionFile() = default;
-
-    virtual std::string format() const = 0;  ///< "bvh", "gltf", "fbx"
+struct MotionFile {
+    std::string format;  ///< "bvh", "gltf", "fbx"
     /// Metres per file unit as the format or the header says; none: to be guessed from the body's height.
-    virtual std::optional<double> unit() const = 0;
-    /// At least one name; an unnamed one is "#<index>".
-    virtual std::vector<std::string> animations() const = 0;
+    std::optional<double> unit;
+    std::vector<std::string> animations;  ///< at least one name; an unnamed one is "#<index>"
     /// The animation with that index, prepared only now: a file may hold many. It keeps alive what it needs, so it may
     /// outlive the file. Throws InputError.
-    virtual std::shared_ptr<const Motion> motion(std::size_t animation) const = 0;
+    std::function<std::shared_ptr<const Motion>(std::size_t)> motion;
 };
 
 /// Joint positions at every sample of a clip.

@@ -2,9 +2,7 @@
 #include <base/text.h>
 #include <import/clip/sampling.h>
 #include <import/skeleton/disk_sampler.h>
-#include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
-#include <import/skeleton/motion_warnings.h>
 
 #include <algorithm>
 #include <array>
@@ -169,25 +167,14 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
     refuse(options.id.has_value(), "id");
     refuse(options.dt.has_value(), "dt");
 
-    const std::vector<std::string> names = motions.animations();
-    const auto in_animation = [&](std::size_t i) {
-        return names.size() > 1 ? "animation " + in_quotes(names[i]) : std::string();
-    };
-    std::vector<std::size_t> chosen;
-    try {
-        chosen = chosen_animations(names, options.animation);
-    } catch (const std::invalid_argument& error) {
-        throw InputError(path, "", error.what());
-    }
+    const std::vector<std::string>& names = motions.animations;
     std::vector<ImportedClip> clips;
-    for (const std::size_t i : chosen) {
-        try {
+    for (const std::size_t i : at_place(path, "", [&] { return chosen_animations(names, options.animation); })) {
+        const std::string place = names.size() > 1 ? "animation " + in_quotes(names[i]) : "";
+        ImportedClip& clip = clips.emplace_back(at_place(path, place, [&] {
             const std::shared_ptr<const Motion> motion = motions.motion(i);
-            clips.push_back(MotionImport(*motion, motions.unit(), options).make(motions.format()));
-        } catch (const std::invalid_argument& error) {
-            throw InputError(path, in_animation(i), error.what());
-        }
-        ImportedClip& clip = clips.back();
+            return MotionImport(*motion, motions.unit, options).make(motions.format);
+        }));
         clip.facts.animation = names[i];
         clip.name = names.size() > 1 ? names[i] : file.stem().string();
         if (names.size() == 1) continue;

@@ -1,6 +1,5 @@
 #include <base/text.h>
-#include <import/skeleton/motion.h>
-#include <import/skeleton/motion_warnings.h>
+#include <import/skeleton/motion_clips.h>
 
 #include <algorithm>
 #include <cmath>

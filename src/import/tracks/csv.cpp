@@ -1,6 +1,5 @@
-#include <base/error.h>
-#include <base/text.h>
 #include <import/tracks/csv.h>
+#include <import/tracks/tracks.h>
 
 #include <algorithm>
 #include <array>
@@ -47,7 +46,7 @@ class CsvParser {
     }
 
   private:
-    static std::string values(std::size_t count) { return std::to_string(count) + (count == 1 ? " value" : " values"); }
+    static std::string values(std::size_t count) { return counted(count, "value", "values"); }
     [[noreturn]] void fail(const std::string& message) const { lines_.fail(message); }
     [[noreturn]] void fail(std::size_t column, const std::string& message) const {
         const std::string name = column < names_.size() ? " (" + names_[column] + ")" : "";
@@ -271,42 +270,16 @@ CsvTable parse_csv(std::string_view text, const std::string& file) { return CsvP
 
 std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem::path& file,
                                     const ImportOptions& options) {
+    refuse_skeleton_options(options, file, "CSV");
     const std::string name = file.string();
-    const auto refuse = [&](bool given, const char* option) {
-        if (given) throw InputError(name, "", std::string(option) + " does not apply to CSV; leave it out");
-    };
-    refuse(options.animation.has_value(), "animation");
-    refuse(options.root.has_value(), "root");
-    refuse(options.up.has_value(), "up");
     if (!table.has_radius && !options.radius) {
         throw InputError(name, "line 1", "the header names no column r; add one or give radius (metres)");
     }
     if (options.id && !table.has_id) throw InputError(name, "line 1", "the header names no column id; leave id out");
 
-    std::vector<ImportedClip> clips;
-    std::vector<std::string> ids;
-    try {
-        ClipMaker maker(table, options);
-        for (const CsvTrack& track : table.tracks) {
-            ids.push_back(track.id);
-            if (options.id && track.id != *options.id) continue;
-            try {
-                clips.push_back(maker.make(track));
-            } catch (const std::invalid_argument& error) {
-                const std::string place = at_line(track.lines.front());
-                throw InputError(name, table.has_id ? place + ", track " + in_quotes(track.id) : place, error.what());
-            }
-            clips.back().name = table.tracks.size() > 1 ? track.id : file.stem().string();
-        }
-    } catch (const std::invalid_argument& error) {
-        throw InputError(name, "", error.what());
-    }
-    if (clips.empty()) {
-        throw InputError(name, "",
-                         "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
-                             std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
-    }
-    return clips;
+    ClipMaker maker = at_place(name, "", [&] { return ClipMaker(table, options); });
+    return clips_by_track(table.tracks, file, options,
+                          [&](const CsvTrack& track) { return std::optional(maker.make(track)); });
 }
 
 std::string csv_field(std::string_view text) {

@@ -16,6 +16,8 @@ struct CsvTrack {
     std::string id;  ///< empty without an id column
     std::vector<TimedDisk> rows;
     std::vector<int> lines;  ///< of each row in the file, from 1
+
+    int first_line() const { return lines.front(); }
 };
 
 /// A file as it stands: nothing scaled, nothing sampled.

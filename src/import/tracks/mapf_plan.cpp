@@ -1,14 +1,10 @@
 // Plans of multi-agent path finding, as the solvers of atb033/multi_agent_path_planning write them.
-#include <base/error.h>
-#include <base/text.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
-#include <optional>
-#include <string>
 
 namespace mobbscope {
 

@@ -1,5 +1,4 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
-#include <base/text.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 
@@ -7,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <string>
 #include <utility>
 
 namespace mobbscope {
@@ -41,13 +39,6 @@ const Columns kTrajnet{"trajnet", 4, 1, 0, 2, 3};
 const Columns kPetrack{"petrack", 5, 0, 1, 2, 3, 4};
 const Columns kPetrackFlat{"petrack", 4, 0, 1, 2, 3};
 const Columns kSdd{"sdd", 10, 0, kSddFrame};
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    return out;
-}
 
 /// Words between blanks; one in double quotes may hold blanks. More than `limit` + 1 are not looked for.
 void split(std::string_view line, std::size_t limit, std::vector<std::string_view>& words) {

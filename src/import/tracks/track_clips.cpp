@@ -1,7 +1,5 @@
-#include <base/error.h>
-#include <base/text.h>
 #include <import/clip/sampling.h>
-#include <import/tracks/track_clips.h>
+#include <import/tracks/tracks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -195,48 +193,16 @@ class TrackClipMaker {
 
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
                                       const ImportOptions& options) {
+    refuse_skeleton_options(options, file, "trajectories");
     const std::string name = file.string();
-    const auto refuse = [&](bool given, const char* option) {
-        if (given) throw InputError(name, "", std::string(option) + " does not apply to trajectories; leave it out");
-    };
-    refuse(options.animation.has_value(), "animation");
-    refuse(options.root.has_value(), "root");
-    refuse(options.up.has_value(), "up");
-
-    std::vector<ImportedClip> clips;
-    std::vector<std::string> ids;
-    bool found = false;
-    double duration = 0;
-    try {
-        TrackClipMaker maker(tracks, options);
-        duration = maker.duration();
-        for (const Track& track : tracks.tracks) {
-            ids.push_back(track.id);
-            if (options.id && track.id != *options.id) continue;
-            found = true;
-            try {
-                std::optional<ImportedClip> clip = maker.make(track);
-                if (!clip) continue;
-                clip->name = tracks.tracks.size() > 1 ? track.id : file.stem().string();
-                clips.push_back(std::move(*clip));
-            } catch (const std::invalid_argument& error) {
-                throw InputError(name, at_line(track.points.front().line) + ", track " + in_quotes(track.id),
-                                 error.what());
-            }
-        }
-    } catch (const std::invalid_argument& error) {
-        throw InputError(name, "", error.what());
-    }
-    if (!found) {
-        throw InputError(name, "",
-                         "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
-                             std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
-    }
+    TrackClipMaker maker = at_place(name, "", [&] { return TrackClipMaker(tracks, options); });
+    std::vector<ImportedClip> clips =
+        clips_by_track(tracks.tracks, file, options, [&](const Track& track) { return maker.make(track); });
     if (clips.empty()) {
         throw InputError(name, "",
                          (options.id ? "track " + in_quotes(*options.id) + " has no point" : "nobody is there") +
                              " between " + brief(options.trim->first) + " and " + brief(options.trim->second) +
-                             " s of trim; the file lasts " + brief(duration) + " s");
+                             " s of trim; the file lasts " + brief(maker.duration()) + " s");
     }
     return clips;
 }

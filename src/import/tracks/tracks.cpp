@@ -1,5 +1,3 @@
-#include <base/error.h>
-#include <base/text.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
@@ -26,6 +24,16 @@ std::vector<Track> TrackCollector::take(const std::string& file) {
                              std::to_string(twice->line) + "; remove one");
     }
     return std::move(tracks_);
+}
+
+void refuse_skeleton_options(const ImportOptions& options, const std::filesystem::path& file, const std::string& what) {
+    const auto refuse = [&](bool given, const char* option) {
+        if (given)
+            throw InputError(file.string(), "", std::string(option) + " does not apply to " + what + "; leave it out");
+    };
+    refuse(options.animation.has_value(), "animation");
+    refuse(options.root.has_value(), "root");
+    refuse(options.up.has_value(), "up");
 }
 
 }  // namespace mobbscope

@@ -1,6 +1,9 @@
-/// Crowds as files hold them: many tracks by one clock of frame numbers. Where the readers of text, ndjson and YAML
-/// meet track_clips.h.
+/// Crowds as files hold them: many tracks by one clock of frame numbers; and the clips of tracks.
 #pragma once
+
+#include <base/error.h>
+#include <base/text.h>
+#include <import/clip/imported_clip.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -27,6 +30,8 @@ struct TrackPoint {
 struct Track {
     std::string id;
     std::vector<TrackPoint> points;  ///< at least one
+
+    int first_line() const { return points.front().line; }
 };
 
 /// A file as it stands, with what it or its format says of units and time. An assumption is a sentence that tells the
@@ -75,5 +80,44 @@ TrackFile parse_trajnetpp(std::string_view text, const std::string& file);
 
 /// A plan of multi-agent path finding in YAML: `schedule:` with a list of t, x, y for each agent. Throws InputError.
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
+
+/// Metres: the radius of people whose file has none, about half a shoulder width.
+inline constexpr double kDefaultTrackRadius = 0.2;
+
+/// The clips of a file's tracks, or of the one that options.id names, each with the time at which it starts on the
+/// crowd's common clock. Stored points are the samples; options.fps resamples them. Missing frames of a track are
+/// interpolated, tracks out of step are resampled (30 fps), both with a warning. options.dt is the time from one frame
+/// number to the next; options.trim counts from the file's first frame, and who is not there then is left out. Throws
+/// InputError.
+std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
+                                      const ImportOptions& options);
+
+/// Throws InputError if an option is given that means something for skeletons alone. `what`: the file's kind.
+void refuse_skeleton_options(const ImportOptions& options, const std::filesystem::path& file, const std::string& what);
+
+/// What `make` makes of each track, or of the one that options.id names; it may leave tracks out, and the
+/// std::invalid_argument that it throws names the track. Throws InputError if there is no such track.
+template <class Tracks, class Make>
+std::vector<ImportedClip> clips_by_track(const Tracks& tracks, const std::filesystem::path& file,
+                                         const ImportOptions& options, const Make& make) {
+    std::vector<ImportedClip> clips;
+    std::vector<std::string> ids;
+    bool found = false;
+    for (const auto& track : tracks) {
+        ids.push_back(track.id);
+        if (options.id && track.id != *options.id) continue;
+        found = true;
+        const std::string place =
+            at_line(track.first_line()) + (track.id.empty() ? "" : ", track " + in_quotes(track.id));
+        std::optional<ImportedClip> clip = at_place(file.string(), place, [&] { return make(track); });
+        if (!clip) continue;
+        clip->name = tracks.size() > 1 ? track.id : file.stem().string();
+        clips.push_back(std::move(*clip));
+    }
+    if (found) return clips;
+    throw InputError(file.string(), "",
+                     "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
+                         std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
+}
 
 }  // namespace mobbscope

@@ -1,14 +1,10 @@
 // TrajNet++: a JSON object a line (vita-epfl/trajnetplusplustools, "Data format").
-#include <base/error.h>
-#include <base/text.h>
 #include <import/tracks/tracks.h>
 #include <mobb/clip.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <optional>
-#include <string>
 
 namespace mobbscope {
 

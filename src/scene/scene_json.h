@@ -1,0 +1,40 @@
+/// Parts of the scene file that stand in other JSON too: fits, contacts and traces; and trees.
+#pragma once
+
+#include <base/json.h>
+#include <base/json_writer.h>
+#include <mobb/level_figures.h>
+#include <mobb/query.h>
+#include <mobb/trace.h>
+#include <mobb/tree.h>
+
+#include <optional>
+#include <string>
+
+namespace mobbscope {
+
+/// The `fit` of a scene file: every key is optional and has FitOptions' name for it.
+///
+///     {"tree": "mobb", "leaf": 10, "levels": 0, "axes": "endpoints", "time_scale": 1}
+///
+/// What the keys say, over `base`: a key that is not there keeps its value. Throws InputError.
+mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
+
+/// A figure for people, without its unit; "-" if the level has none.
+std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures);
+
+/// Per-level figures and every node of the tree over the clip of that name.
+void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree);
+
+/// An object, or null for no contact.
+void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact);
+/// `samples_a`, `samples_b`: how many samples the two clips have. Throws InputError.
+std::optional<mobb::Contact> read_contact(const JsonPlace& place, int samples_a, int samples_b);
+
+/// One event a line. `axis` and `gap` are null where nothing is separated, `pairs` is empty where none is measured.
+void write_trace(JsonWriter& out, const mobb::Trace& trace);
+/// Checks that steps count from 0, parents come earlier, depths follow from them, outcomes fit their tests, and nodes
+/// and samples exist in clips of so many samples. Throws InputError.
+mobb::Trace read_trace(const JsonPlace& place, int samples_a, int samples_b);
+
+}  // namespace mobbscope
