@@ -8,13 +8,21 @@ namespace mobbscope::app {
 
 namespace {
 
-std::vector<Command> all_commands() {
-    std::vector<Command> out;
-    for (const auto& part : {file_commands(), edit_commands(), view_commands(), tree_commands(), query_commands(),
-                             go_commands(), crowd_commands(), help_commands()}) {
-        out.insert(out.end(), part.begin(), part.end());
-    }
-    return out;
+std::vector<Command> help_commands() {
+    const std::vector<Command> rows{
+        {.id = "help.shortcuts",
+         .title = "Shortcuts",
+         .shortcut = "F1",
+         .doc = "Lists all shortcuts and what the mouse does.",
+         .enabled = always,
+         .run = [](Session& session) { session.open_dialog(Dialog::help); }},
+        {.id = "help.about",
+         .title = "About Mobbscope",
+         .doc = "Says which version this is and what it shows.",
+         .enabled = always,
+         .run = [](Session& session) { session.open_dialog(Dialog::about); }},
+    };
+    return in_menu("Help", rows);
 }
 
 /// Calls `use` with each of the blank-separated chords.
@@ -30,14 +38,16 @@ void each_chord(std::string_view shortcuts, const Use& use) {
 }  // namespace
 
 std::span<const Command> commands() {
-    static const std::vector<Command> table = all_commands();
+    static const std::vector<Command> table =
+        joined({file_commands(), edit_commands(), view_commands(), tree_commands(), query_commands(), go_commands(),
+                crowd_commands(), help_commands()});
     return table;
 }
 
 std::string_view why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
     if (session.job()) return "something is under way";
-    return session.empty() ? "nothing is open" : command.why_not(session);
+    return session.empty() ? "nothing is open" : command.enabled.why_not(session);
 }
 
 std::string_view why_no_step(const Session& session) {
@@ -92,10 +102,11 @@ Command option_command(const ViewOption& option) {
                 .title = option.title,
                 .menu = option.menu,
                 .shortcut = option.shortcut,
-                .doc = option.doc};
+                .doc = option.doc,
+                .enabled = always};
     if (option.toggle) {
         const auto value = option.toggle;
-        out.run = [value](Session& session, const std::string&) {
+        out.run = [value](Session& session) {
             session.change_view([&](ViewState& view) { view.*value = !(view.*value); });
         };
         out.checked = [value](const Session& session) { return session.view().*value; };
@@ -120,21 +131,18 @@ Command option_command(const ViewOption& option) {
     return out;
 }
 
-std::span<const Command> help_commands() {
-    static const std::vector<Command> table{
-        {.id = "help.shortcuts",
-         .title = "Shortcuts",
-         .menu = "Help",
-         .shortcut = "F1",
-         .doc = "Lists all shortcuts and what the mouse does.",
-         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::help); }},
-        {.id = "help.about",
-         .title = "About Mobbscope",
-         .menu = "Help",
-         .doc = "Says which version this is and what it shows.",
-         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::about); }},
-    };
-    return table;
+std::vector<Command> in_menu(std::string_view menu, std::vector<Command> rows) {
+    for (Command& row : rows) {
+        if (row.menu.empty()) row.menu = menu;
+        if (row.menu == kNoMenu) row.menu = {};
+    }
+    return rows;
+}
+
+std::vector<Command> joined(std::initializer_list<std::vector<Command>> parts) {
+    std::vector<Command> out;
+    for (const std::vector<Command>& part : parts) out.insert(out.end(), part.begin(), part.end());
+    return out;
 }
 
 }  // namespace mobbscope::app

@@ -63,7 +63,7 @@ void add(Session& session, const std::string& name) {
     select_agent(session, agent);
 }
 
-void duplicate(Session& session, const std::string&) {
+void duplicate(Session& session) {
     int copy = 0;
     edit_selected_agent(session, "duplicating", [&](Scene& scene, int agent) {
         copy = duplicate_agent(scene, agent);
@@ -74,7 +74,7 @@ void duplicate(Session& session, const std::string&) {
     select_agent(session, copy);
 }
 
-void remove(Session& session, const std::string&) {
+void remove(Session& session) {
     edit_selected_agent(session, "removing", [](Scene& scene, int agent) { remove_agent(scene, agent); });
     // The next agent has its index now.
     session.select({});
@@ -132,104 +132,94 @@ void set_color(Session& session, const std::string& text) {
 
 }  // namespace
 
-std::span<const Command> edit_commands() {
-    static const std::vector<Command> table{
+std::vector<Command> edit_commands() {
+    const std::vector<Command> rows{
         {.id = "edit.undo",
          .title = "Undo",
-         .menu = "Edit",
          .shortcut = "Ctrl+Z",
          .repeats = true,
          .doc = "Takes back the last edit, or the looking around since.",
          .enabled = [](const Session& session) { return session.history().can_undo(); },
-         .run = [](Session& session, const std::string&) { session.undo(); }},
+         .run = &Session::undo},
         {.id = "edit.redo",
          .title = "Redo",
-         .menu = "Edit",
          .shortcut = "Ctrl+Y Ctrl+Shift+Z",
          .repeats = true,
          .doc = "Brings back what was undone.",
          .enabled = [](const Session& session) { return session.history().can_redo(); },
-         .run = [](Session& session, const std::string&) { session.redo(); }},
+         .run = &Session::redo},
         {.id = "agent.add",
          .title = "Add agent",
-         .menu = "Edit",
          .argument = "CLIP",
          .doc = "Adds an agent that plays a clip, a little aside from the others.",
-         .enabled = [](const Session& session) { return has_scene(session) && !session.crowd(); },
-         .why_not = why_no_agent,
+         .enabled = {[](const Session& session) { return has_scene(session) && !session.crowd(); }, why_no_agent},
          .run = add,
          .choices = clip_names},
         {.id = "agent.duplicate",
          .title = "Duplicate agent",
-         .menu = "Edit",
          .shortcut = "Ctrl+D",
          .doc = "Adds a copy of the selected agent, a metre aside.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = duplicate},
         {.id = "agent.remove",
          .title = "Remove agent",
-         .menu = "Edit",
          .shortcut = "Delete",
          .doc = "Removes the selected agent and the queries about it; its clip stays.",
-         .enabled =
-             [](const Session& session) {
-                 return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
-             },
-         .why_not = why_no_agent,
+         .enabled = {[](const Session& session) {
+                         return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
+                     },
+                     why_no_agent},
          .run = remove},
         {.id = "agent.rename",
          .title = "Rename agent...",
-         .menu = "Edit",
          .argument = "NAME",
          .doc = "Gives the selected agent another name.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = rename},
         {.id = "agent.move",
          .title = "Place agent at",
+         .menu = kNoMenu,
          .argument = "X Y",
          .doc = "Places the selected agent on the floor, in metres.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = move},
         {.id = "agent.turn",
          .title = "Turn agent to",
+         .menu = kNoMenu,
          .argument = "DEG",
          .doc = "Turns the selected agent's path about its clip's origin: degrees, counter-clockwise.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = turn},
         {.id = "agent.start",
          .title = "Start agent at",
+         .menu = kNoMenu,
          .argument = "S",
          .doc = "Lets the selected agent begin at a moment, in seconds.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = start},
         {.id = "agent.nudge",
          .title = "Move agent by",
+         .menu = kNoMenu,
          .argument = "DX DY",
          .doc = "Moves the selected agent on the floor by metres.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = nudge},
         {.id = "agent.shift_start",
          .title = "Shift agent in time by",
+         .menu = kNoMenu,
          .argument = "S",
          .doc = "Lets the selected agent begin later by seconds; below 0 earlier.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = shift_start},
         {.id = "agent.color",
          .title = "Colour agent",
+         .menu = kNoMenu,
          .argument = "#RRGGBB|none",
          .doc = "Gives the selected agent a colour of its own, or the palette's again.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
+         .enabled = {has_selected_agent, why_no_agent},
          .run = set_color},
     };
-    return table;
+    return in_menu("Edit", rows);
 }
 
 }  // namespace mobbscope::app

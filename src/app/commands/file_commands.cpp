@@ -41,7 +41,7 @@ void export_picture(Session& session, const std::string& file) {
     session.tell(Message::Level::info, "Wrote " + file);
 }
 
-void copy_command(Session& session, const std::string&) {
+void copy_command(Session& session) {
     const std::string line = render_line(session);
     if (session.hooks.set_clipboard) session.hooks.set_clipboard(line);
     session.tell(Message::Level::info, "Copied: " + line);
@@ -49,79 +49,69 @@ void copy_command(Session& session, const std::string&) {
 
 }  // namespace
 
-std::span<const Command> file_commands() {
-    static const std::vector<Command> table{
+std::vector<Command> file_commands() {
+    const std::vector<Command> rows{
         {.id = "file.open",
          .title = "Open...",
-         .menu = "File",
          .shortcut = "Ctrl+O",
          .argument = "[FILE]",
          .doc = "Opens a scene, a capture, a clip, or a folder of clips, in place of what is open.",
+         .enabled = always,
          .run = open_file},
         {.id = "file.add",
          .title = "Add files...",
-         .menu = "File",
          .argument = "[FILE]",
          .doc = "Adds clips, or the agents and clips of another scene, to what is open.",
+         .enabled = always,
          .run = add_file},
         {.id = "file.recent",
          .title = "Open recent",
-         .menu = "File",
          .argument = "FILE",
          .doc = "Opens a file that was open before.",
+         .enabled = always,
          .run = [](Session& session, const std::string& file) { session.open({file}); },
          .choices = recent_names},
         {.id = "file.demo",
          .title = "Open the demo",
-         .menu = "File",
          .doc = "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
-         .run = [](Session& session, const std::string&) { session.open_demo(); }},
+         .enabled = always,
+         .run = &Session::open_demo},
         {.id = "file.reload",
          .title = "Reload",
-         .menu = "File",
          .shortcut = "F5",
          .doc = "Reads what is open again from its files, when another program has changed them.",
          .enabled = [](const Session& session) { return !session.opened().empty(); },
-         .run = [](Session& session,
-                   const std::string&) { session.open(std::vector<std::filesystem::path>(session.opened())); }},
+         .run = [](Session& session) { session.open(std::vector<std::filesystem::path>(session.opened())); }},
         {.id = "file.save",
          .title = "Save",
-         .menu = "File",
          .shortcut = "Ctrl+S",
          .doc = "Writes the scene and how it is seen to its file.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { session.save(); }},
+         .run = &Session::save},
         {.id = "file.save_as",
          .title = "Save as...",
-         .menu = "File",
          .shortcut = "Ctrl+Shift+S",
          .argument = "[FILE]",
          .doc = "Writes the scene to another file; its clips are still read from where they are.",
-         .enabled = has_scene,
          .run = save_as},
         {.id = "file.export_picture",
          .title = "Export picture...",
-         .menu = "File",
          .shortcut = "Ctrl+E",
          .argument = "[FILE.png]",
          .doc = "Writes the picture in the middle of the window to a PNG file.",
-         .enabled = has_scene,
          .run = export_picture},
         {.id = "file.copy_command",
          .title = "Copy as command",
-         .menu = "File",
          .shortcut = "Ctrl+Shift+C",
          .doc = "Copies the command line that draws this picture again without a window.",
-         .enabled = has_scene,
          .run = copy_command},
         {.id = "file.quit",
          .title = "Quit",
-         .menu = "File",
          .shortcut = "Ctrl+Q",
          .doc = "Ends the program; asks first if there are unsaved changes.",
-         .run = [](Session& session, const std::string&) { session.request_close(); }},
+         .enabled = always,
+         .run = &Session::request_close},
     };
-    return table;
+    return in_menu("File", rows);
 }
 
 }  // namespace mobbscope::app

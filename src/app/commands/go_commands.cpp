@@ -111,7 +111,7 @@ bool is_found(const Session& session) {
     return find(session) >= 0;
 }
 template <int (*find)(const Session&)>
-void go_to_found(Session& session, const std::string&) {
+void go_to_found(Session& session) {
     go_to_node(session, find(session));
 }
 
@@ -130,7 +130,7 @@ bool has_contact(const Session& session) {
     return recorded && recorded->contact;
 }
 
-void go_contact(Session& session, const std::string&) {
+void go_contact(Session& session) {
     const RecordedQuery& recorded = *session.recorded();
     session.change_view([&](ViewState& view) {
         view.time = recorded.contact->time;
@@ -140,47 +140,38 @@ void go_contact(Session& session, const std::string&) {
 
 }  // namespace
 
-std::span<const Command> go_commands() {
-    static const std::vector<Command> table{
+std::vector<Command> go_commands() {
+    const std::vector<Command> rows{
         {.id = "go.palette",
          .title = "Search...",
-         .menu = "Go",
          .shortcut = "Ctrl+P",
          .doc = "Finds commands, agents, clips, queries and nodes by a few letters.",
-         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::palette); }},
+         .enabled = always,
+         .run = [](Session& session) { session.open_dialog(Dialog::palette); }},
         {.id = "go.agent",
          .title = "Agent",
-         .menu = "Go",
          .argument = "NAME",
          .doc = "Selects an agent.",
-         .enabled = has_scene,
          .run = go_agent,
          .choices = names_of_paths},
         {.id = "go.clip",
          .title = "Clip",
-         .menu = "Go",
          .argument = "NAME",
          .doc = "Selects a clip.",
-         .enabled = has_scene,
          .run = go_clip,
          .choices = clip_names},
         {.id = "go.node",
          .title = "Node...",
-         .menu = "Go",
          .argument = "AGENT NODE",
          .doc = "Selects a node, by its index (A 12) or by level and place (A 2.1), and shows its level.",
-         .enabled = has_scene,
          .run = go_node},
         {.id = "go.sample",
          .title = "Sample...",
-         .menu = "Go",
          .argument = "AGENT INDEX",
          .doc = "Selects a sample of an agent by its number from 0.",
-         .enabled = has_scene,
          .run = go_sample},
         {.id = "go.parent",
          .title = "Parent node",
-         .menu = "Go",
          .shortcut = "Ctrl+Up",
          .repeats = true,
          .doc = "Selects the node above the selected one, or the leaf that holds the selected sample.",
@@ -188,7 +179,6 @@ std::span<const Command> go_commands() {
          .run = go_to_found<parent>},
         {.id = "go.child",
          .title = "First child node",
-         .menu = "Go",
          .shortcut = "Ctrl+Down",
          .repeats = true,
          .doc = "Selects the first node below the selected one, or the root of the selected agent's tree.",
@@ -196,7 +186,6 @@ std::span<const Command> go_commands() {
          .run = go_to_found<child>},
         {.id = "go.previous_node",
          .title = "Previous node",
-         .menu = "Go",
          .shortcut = "Ctrl+Left",
          .repeats = true,
          .doc = "Selects the node before the selected one on its level.",
@@ -204,7 +193,6 @@ std::span<const Command> go_commands() {
          .run = go_to_found<neighbour<-1>>},
         {.id = "go.next_node",
          .title = "Next node",
-         .menu = "Go",
          .shortcut = "Ctrl+Right",
          .repeats = true,
          .doc = "Selects the node after the selected one on its level.",
@@ -212,19 +200,16 @@ std::span<const Command> go_commands() {
          .run = go_to_found<neighbour<1>>},
         {.id = "go.contact",
          .title = "Contact",
-         .menu = "Go",
          .doc = "Goes to the moment and the step at which the two of the query in view first touch.",
-         .enabled = has_contact,
-         .why_not = why_no_step,
+         .enabled = {has_contact, why_no_step},
          .run = go_contact},
         {.id = "go.none",
          .title = "Select nothing",
-         .menu = "Go",
          .doc = "Selects nothing.",
          .enabled = [](const Session& session) { return session.selection.kind != Selection::Kind::none; },
-         .run = [](Session& session, const std::string&) { session.select({}); }},
+         .run = [](Session& session) { session.select({}); }},
     };
-    return table;
+    return in_menu("Go", rows);
 }
 
 }  // namespace mobbscope::app

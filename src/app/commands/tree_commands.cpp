@@ -51,51 +51,41 @@ void set_time_scale(Session& session, const std::string& text) {
 
 }  // namespace
 
-std::span<const Command> tree_commands() {
-    static const std::vector<Command> table{
+std::vector<Command> tree_commands() {
+    const std::vector<Command> rows{
         {.id = "tree.kind",
          .title = "Tree kind",
-         .menu = "Tree",
          .argument = "K",
          .doc = "Fits boxes upright in time (mobb), free boxes (umobb), or one kind at the root and the other below.",
-         .enabled = has_scene,
          .run = set_kind,
          .choices = [](const Session&) { return as_strings(mobb::tree_kind_names()); },
          .chosen = [](const Session& session,
                       const std::string& kind) { return name(session.fitted().options().tree) == kind; }},
         {.id = "tree.axes",
          .title = "Axes",
-         .menu = "Tree",
          .argument = "K",
          .doc = "Takes the directions of boxes from first to last sample, from the principal axes, or the tightest.",
-         .enabled = has_scene,
          .run = set_axes,
          .choices = [](const Session&) { return as_strings(mobb::axes_names()); },
          .chosen = [](const Session& session,
                       const std::string& axes) { return name(session.fitted().options().axes) == axes; }},
         {.id = "tree.leaf",
          .title = "Samples in a leaf...",
-         .menu = "Tree",
          .argument = "N",
          .doc = "Makes a node of at most N samples a leaf; 10 is the usual number.",
-         .enabled = has_scene,
          .run = set_leaf},
         {.id = "tree.levels",
          .title = "Levels of the trees...",
-         .menu = "Tree",
          .argument = "N",
          .doc = "Ends the trees after N levels; 0 lets them go down to their leaves.",
-         .enabled = has_scene,
          .run = set_tree_levels},
         {.id = "tree.time_scale",
          .title = "Time scale...",
-         .menu = "Tree",
          .argument = "W",
          .doc = "Mixes time with space in free boxes at so many metres per second.",
-         .enabled = has_scene,
          .run = set_time_scale},
     };
-    return table;
+    return in_menu("Tree", rows);
 }
 
 }  // namespace mobbscope::app
