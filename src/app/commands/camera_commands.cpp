@@ -1,6 +1,5 @@
 #include <app/commands/camera_commands.h>
 #include <app/document/agents.h>
-#include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
@@ -9,7 +8,6 @@
 #include <render/pictures/moment.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 namespace mobbscope::app {
@@ -81,10 +79,7 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
 bool follows(const Session& session) { return !session.view().follow.empty(); }
 
 void follow_agent(Session& session, const std::string& name, double metres) {
-    if (!can_follow(session.scene(), name)) {
-        std::vector<std::string> names = agent_names(session);
-        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
-    }
+    index_of_name(agent_names(session), name, "agent");
     session.candidate = -1;
     session.change_view([&](ViewState& view) { view.follow = name; });
     frame_followed(session, metres);

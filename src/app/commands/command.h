@@ -70,6 +70,8 @@ std::string_view why_no_step(const Session& session);
 
 /// Null if there is none.
 const Command* find_command(std::string_view id);
+/// Throws std::invalid_argument, with the nearest id, if there is none.
+const Command& command_named(std::string_view id);
 
 /// Runs a command by id at once, as a script does between frames: throws std::invalid_argument if there is none, it is
 /// not enabled, or it is given an argument that it does not take or none where it needs one; and what the command

@@ -1,4 +1,5 @@
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <base/text.h>
 
 #include <algorithm>
@@ -60,24 +61,21 @@ const Command* find_command(std::string_view id) {
     return at == table.end() ? nullptr : &*at;
 }
 
+const Command& command_named(std::string_view id) {
+    std::vector<std::string> ids;
+    for (const Command& command : commands()) ids.emplace_back(command.id);
+    return commands()[static_cast<std::size_t>(index_of_name(ids, id, "command"))];
+}
+
 void run_command(Session& session, std::string_view id, const std::string& argument) {
-    const Command* command = find_command(id);
-    if (!command) {
-        std::vector<std::string> ids;
-        for (const Command& c : commands()) ids.emplace_back(c.id);
-        throw std::invalid_argument("there is no command " + in_quotes(id) + did_you_mean(id, ids));
-    }
-    if (!command->enabled(session)) {
-        throw std::invalid_argument("\"" + std::string(command->title) + "\" cannot be done now");
-    }
-    if (command->needs_argument() && argument.empty()) {
-        throw std::invalid_argument("\"" + std::string(command->title) + "\" needs " + std::string(command->argument));
-    }
-    if (command->argument.empty() && !argument.empty()) {
-        throw std::invalid_argument("\"" + std::string(command->title) + "\" takes nothing, but was given " +
-                                    in_quotes(argument));
-    }
-    command->run(session, argument);
+    const Command& command = command_named(id);
+    const auto require = [&](bool holds, const std::string& what_is_wrong) {
+        if (!holds) throw std::invalid_argument('"' + std::string(command.title) + "\" " + what_is_wrong);
+    };
+    require(command.enabled(session), "cannot be done now");
+    require(!command.needs_argument() || !argument.empty(), "needs " + std::string(command.argument));
+    require(!command.argument.empty() || argument.empty(), "takes nothing, but was given " + in_quotes(argument));
+    command.run(session, argument);
 }
 
 void invoke(Session& session, std::string_view id, const std::string& argument) {

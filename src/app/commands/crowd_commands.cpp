@@ -2,7 +2,6 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
-#include <base/text.h>
 #include <render/layout/follow.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
@@ -167,12 +166,10 @@ void open_conflict(Session& session, const std::string& text) {
 
 void open_pair(Session& session, const std::string& name) {
     const auto path = current_path(session);
-    const auto other = path_of_agent(session, name);
-    if (!other) {
-        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, agent_names(session)));
-    }
-    if (other->name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
-    session.open_excerpt(*path, *other);
+    const int index = index_of_name(agent_names(session), name, "agent");
+    const PlacedAgent other = session.fitted().placed_agents()[static_cast<std::size_t>(index)];
+    if (other.name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
+    session.open_excerpt(*path, other);
 }
 
 }  // namespace

@@ -51,11 +51,7 @@ mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
 void select_agent(Session& session, int agent) { session.select({Selection::Kind::path, {agent, -1, 0}, -1}); }
 
 void add(Session& session, const std::string& name) {
-    const std::vector<std::string> names = clip_names(session);
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end())
-        throw std::invalid_argument("there is no clip " + in_quotes(name) + did_you_mean(name, names));
-    const int clip = static_cast<int>(at - names.begin());
+    const int clip = index_of_name(clip_names(session), name, "clip");
     const mobb::Placement placement =
         aside(session.fitted(), *session.scene().clips[static_cast<std::size_t>(clip)].clip);
     int agent = 0;
@@ -165,10 +161,7 @@ std::vector<Command> edit_commands() {
          .title = "Remove agent",
          .shortcut = "Delete",
          .doc = "Removes the selected agent and the queries about it; its clip stays.",
-         .enabled = {[](const Session& session) {
-                         return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
-                     },
-                     why_no_agent},
+         .enabled = {has_selected_of_several, why_no_agent},
          .run = remove},
         {.id = "agent.rename",
          .title = "Rename agent...",

@@ -1,33 +1,39 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
-#include <base/text.h>
 #include <render/parts/node_boxes.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <string>
+#include <unordered_set>
+#include <vector>
 
 namespace mobbscope::app {
 
 namespace {
 
-/// The paths that have names: those in the picture first, as a query may place clips itself.
-std::vector<AgentRef> paths(const Session& session) {
-    std::vector<AgentRef> out;
-    if (session.view().query) {
-        for (int side = 0; side < 2; ++side) out.push_back(agent_in_view(session.fitted(), session.view(), side));
+/// Paths by their names, the first of each name: those in the picture first, as a query may place clips itself.
+struct NamedPaths {
+    explicit NamedPaths(const Session& session) {
+        std::unordered_set<std::string> known;
+        const auto add = [&](const AgentRef& path) {
+            const std::string name = placed_agent_of(session.fitted(), path)->name;
+            if (!known.insert(name).second) return;
+            names.push_back(name);
+            paths.push_back(path);
+        };
+        for (int side = 0; side < (session.view().query ? 2 : 0); ++side) {
+            add(agent_in_view(session.fitted(), session.view(), side));
+        }
+        for (int i = 0; i < static_cast<int>(session.fitted().placed_agents().size()); ++i) add({i, -1, 0});
     }
-    for (int i = 0; i < static_cast<int>(session.fitted().placed_agents().size()); ++i) out.push_back({i, -1, 0});
-    return out;
-}
+    std::vector<std::string> names;
+    std::vector<AgentRef> paths;
+};
 
 AgentRef path_named(const Session& session, std::string_view name) {
-    std::vector<std::string> names;
-    for (const AgentRef& path : paths(session)) {
-        names.push_back(placed_agent_of(session.fitted(), path)->name);
-        if (names.back() == name) return path;
-    }
-    throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
+    const NamedPaths all(session);
+    return all.paths[static_cast<std::size_t>(index_of_name(all.names, name, "agent"))];
 }
 
 const mobb::Tree& tree_of(const Session& session, const AgentRef& path) {
@@ -53,15 +59,6 @@ void go_to(Session& session, const Selection& selected) {
 }
 
 void go_to_node(Session& session, int node) { go_to(session, {Selection::Kind::node, session.selection.path, node}); }
-
-std::vector<std::string> names_of_paths(const Session& session) {
-    std::vector<std::string> out;
-    for (const AgentRef& path : paths(session)) {
-        const std::string name = placed_agent_of(session.fitted(), path)->name;
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    }
-    return out;
-}
 
 void go_agent(Session& session, const std::string& name) {
     go_to(session, {Selection::Kind::path, path_named(session, name), -1});
@@ -118,11 +115,7 @@ void go_to_found(Session& session) {
 // --- the rest
 
 void go_clip(Session& session, const std::string& name) {
-    const std::vector<std::string> names = clip_names(session);
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end())
-        throw std::invalid_argument("there is no clip " + in_quotes(name) + did_you_mean(name, names));
-    session.select({Selection::Kind::clip, {}, static_cast<int>(at - names.begin())});
+    session.select({Selection::Kind::clip, {}, index_of_name(clip_names(session), name, "clip")});
 }
 
 bool has_contact(const Session& session) {
@@ -153,7 +146,7 @@ std::vector<Command> go_commands() {
          .argument = "NAME",
          .doc = "Selects an agent.",
          .run = go_agent,
-         .choices = names_of_paths},
+         .choices = [](const Session& session) { return NamedPaths(session).names; }},
         {.id = "go.clip",
          .title = "Clip",
          .argument = "NAME",

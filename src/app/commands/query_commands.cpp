@@ -63,7 +63,7 @@ std::optional<int> query_of(const Session& session, int a, int b) {
 
 void add_against(Session& session, const std::string& other) {
     const int a = selected_agent(session);
-    const int b = path_by_name(session, other);
+    const int b = index_of_name(path_names(session), other, "agent");
     // What is asked already is only shown.
     if (const auto known = query_of(session, a, b)) return show_query(session, *known);
     session.edit({"asking " + selected_agent_name(session) + " against " + other, ""}, [&](Scene& scene) {
@@ -214,10 +214,7 @@ std::vector<Command> query_commands() {
          .title = "Ask against",
          .argument = "AGENT",
          .doc = "Asks whether the selected agent collides with another.",
-         .enabled = {[](const Session& session) {
-                         return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
-                     },
-                     why_no_agent},
+         .enabled = {has_selected_of_several, why_no_agent},
          .run = add_against,
          .choices = others},
         {.id = "query.remove",

@@ -219,13 +219,8 @@ void set_time(Session& session, double time) {
 /// The shortest sample of the paths in the picture, seconds.
 double sample_time(const Session& session) {
     double dt = std::numeric_limits<double>::max();
-    const auto add = [&](const PlacedAgent& who) { dt = std::min(dt, session.fitted().tree(who.clip).clip().dt()); };
-    if (session.view().query) {
-        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(*session.view().query)];
-        add(query.a);
-        add(query.b);
-    } else {
-        for (const PlacedAgent& who : session.fitted().placed_agents()) add(who);
+    for (const PlacedAgent& who : agents_in_view(session.fitted(), session.view())) {
+        dt = std::min(dt, session.fitted().tree(who.clip).clip().dt());
     }
     return dt;
 }

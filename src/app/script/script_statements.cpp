@@ -224,11 +224,7 @@ ScriptAction make_run(const ScriptLine& line) {
     TextBudget words(line);
     const std::string id = words.next("a command");
     const std::string argument(trimmed(std::string_view(line.rest).substr(line.rest.find(id) + id.size())));
-    if (!find_command(id)) {
-        std::vector<std::string> ids;
-        for (const Command& command : commands()) ids.emplace_back(command.id);
-        throw std::invalid_argument("there is no command " + in_quotes(id) + did_you_mean(id, ids));
-    }
+    command_named(id);
     return [id, argument](ScriptRun& run) {
         run_command(run.session, id, argument);
         run.host.settle();
