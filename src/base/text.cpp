@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
@@ -118,6 +120,15 @@ std::string brief(double value) {
     char buffer[32];
     const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
     return {buffer, end};
+}
+
+std::string formatted(const char* format, ...) {
+    char text[128];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return text;
 }
 
 std::string counted(long long count, std::string_view singular, std::string_view plural) {

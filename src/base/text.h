@@ -33,6 +33,9 @@ std::string short_double(double value);
 /// A number for people: six significant digits.
 std::string brief(double value);
 
+/// As std::printf writes it; at most 127 bytes.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
 /// "1 sample", "12 samples".
 std::string counted(long long count, std::string_view singular, std::string_view plural);
 template <std::integral Count>

@@ -2,12 +2,12 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/text/labels.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -52,12 +52,11 @@ void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const 
 /// Text that stays inside the chart, on a ground that keeps it readable over the curve.
 void text_at(ImDrawList& list, const Style& style, const Chart& chart, ImVec2 at, ImU32 color,
              const std::string& text) {
-    ImFont* font = style.caption;
-    const ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str());
+    const ImVec2 size = text_size(*style.caption, text);
     const float x = std::clamp(at.x, chart.min.x + 2, std::max(chart.min.x + 2, chart.max.x - size.x - 2));
     list.AddRectFilled({x - 1, at.y}, {x + size.x + 1, at.y + size.y},
                        (style.raised & ~IM_COL32_A_MASK) | 0xB0u << IM_COL32_A_SHIFT);
-    list.AddText(font, font->FontSize, {x, at.y}, color, text.c_str());
+    draw_text(list, *style.caption, {x, at.y}, color, text);
 }
 
 void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const ClearancePiece& least) {
@@ -75,10 +74,9 @@ void chart_ticks(ImDrawList& list, const Style& style, const Chart& chart) {
         const float x = chart.x(t);
         list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * style.scale}, style.quiet, style.scale);
         const std::string text = tick_text(t, step) + " s";
-        ImFont* font = style.caption;
-        const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str()).x;
-        if (x + 3 * style.scale + width > chart.max.x) continue;
-        list.AddText(font, font->FontSize, {x + 3 * style.scale, chart.max.y + style.scale}, style.quiet, text.c_str());
+        const float left = x + 3 * style.scale;
+        if (left + text_size(*style.caption, text).x > chart.max.x) continue;
+        draw_text(list, *style.caption, {left, chart.max.y + style.scale}, style.quiet, text);
     }
 }
 
@@ -146,9 +144,7 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
         ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
     }
     if (!active) return;
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", t);
-    if (ui.session.view().time != t) invoke(ui.session, "time.at", text);
+    if (ui.session.view().time != t) invoke(ui.session, "time.at", formatted("%.17g", t));
 }
 
 }  // namespace mobbscope::app

@@ -1,6 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
 
 #include <algorithm>
 #include <array>
@@ -51,15 +52,11 @@ std::vector<Line> lines() {
 
 void help_line(Ui& ui, const Line& line, float keys_width) {
     if (line.heading) {
-        ImGui::PushFont(ui.style.caption);
-        ImGui::TextDisabled("%s", line.what.c_str());
-        ImGui::PopFont();
+        text_line(ui.style.quiet, line.what, ui.style.caption);
         return;
     }
     const float x = ImGui::GetCursorPosX();
-    ImGui::PushFont(ui.style.mono);
-    ImGui::TextUnformatted(line.keys.c_str());
-    ImGui::PopFont();
+    text_line(ui.style.text, line.keys, ui.style.mono);
     ImGui::SameLine();
     ImGui::SetCursorPosX(x + keys_width);
     ImGui::TextUnformatted(line.what.c_str());
@@ -73,8 +70,7 @@ void help_sheet(Ui& ui) {
     const std::vector<Line> all = lines();
     float keys_width = 0, what_width = 0;
     for (const Line& line : all) {
-        const ImFont& mono = *ui.style.mono;
-        keys_width = std::max(keys_width, mono.CalcTextSizeA(mono.FontSize, 1e6f, 0, line.keys.c_str()).x);
+        keys_width = std::max(keys_width, text_size(*ui.style.mono, line.keys).x);
         what_width = std::max(what_width, ImGui::CalcTextSize(line.what.c_str()).x);
     }
     keys_width += ui.px(12);

@@ -1,12 +1,12 @@
 #include <app/commands/command.h>
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
+#include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/text/labels.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -25,12 +25,6 @@ struct Square {
     float y(double t) const { return max.y - static_cast<float>((t - b.t0) / (b.t1 - b.t0)) * (max.y - min.y); }
 };
 
-std::string seconds(double t) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g s", t);
-    return text;
-}
-
 /// Where both times are equal: only what it crosses can hit.
 void common_time(ImDrawList& list, const Style& style, const Square& square) {
     const double t0 = std::max(square.a.t0, square.b.t0);
@@ -41,25 +35,23 @@ void common_time(ImDrawList& list, const Style& style, const Square& square) {
 
 void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    ImFont* font = ui.style.caption;
+    const ImFont& font = *ui.style.caption;
     const auto text = [&](ImVec2 at, ImU32 color, const std::string& words) {
-        list.AddText(font, font->FontSize, at, color, words.c_str());
+        draw_text(list, font, at, color, words);
     };
-    const auto width = [&](const std::string& words) {
-        return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, words.c_str()).x;
-    };
+    const auto width = [&](const std::string& words) { return text_size(font, words).x; };
     const ImU32 color_a = to_im(readable(findings.sides[0].color, ui.style.palette));
     const ImU32 color_b = to_im(readable(findings.sides[1].color, ui.style.palette));
     const float below = square.max.y + ui.px(3);
-    const std::string from = seconds(square.a.t0), to = seconds(square.a.t1);
+    const std::string from = formatted("%.4g s", square.a.t0), to = formatted("%.4g s", square.a.t1);
     text({square.min.x, below}, color_a, from);
     text({square.max.x - width(to), below}, color_a, to);
     const std::string name_a = findings.sides[0].label + " \u2192";
     const float middle = 0.5f * (square.min.x + square.max.x - width(name_a));
     if (middle > square.min.x + width(from) + ui.px(4)) text({middle, below}, color_a, name_a);
-    const float above = square.min.y - font->FontSize - ui.px(3);
+    const float above = square.min.y - font.FontSize - ui.px(3);
     text({square.min.x, above}, color_b,
-         findings.sides[1].label + " \u2191  " + seconds(square.b.t0) + " to " + seconds(square.b.t1));
+         findings.sides[1].label + formatted(" \u2191  %.4g s to %.4g s", square.b.t0, square.b.t1));
 }
 
 constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step

@@ -11,7 +11,6 @@
 #include <scene/motion_graph.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 
 namespace mobbscope::app {
@@ -23,16 +22,16 @@ constexpr float kMostBar = 26;  // height of a path's bar, pixels at scale 1
 /// Seconds below the bars.
 void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImFont* mono = ui.style.mono;
+    const ImFont& mono = *ui.style.mono;
     const double length = std::max(span.t1 - span.t0, 1e-12);
     const double step = nice_step(length, std::max(2.0f, width / ui.px(90)));
     for (const double t : ticks(span.t0, span.t1, step)) {
         const float x = corner.x + width * static_cast<float>((t - span.t0) / length);
         draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
         const std::string text = tick_text(t, step) + " s";
-        const float wide = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text.c_str()).x;
+        const float wide = text_size(mono, text).x;
         const float left = std::clamp(x - 0.5f * wide, corner.x, corner.x + width - wide);
-        draw.AddText(mono, mono->FontSize, {left, corner.y + ui.px(5)}, ui.style.quiet, text.c_str());
+        draw_text(draw, mono, {left, corner.y + ui.px(5)}, ui.style.quiet, text);
     }
 }
 
@@ -122,13 +121,9 @@ void time_row(Ui& ui, bool tall) {
     const mobb::Interval span = session.time_span();
     command_button(ui, session.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
-    char text[64];
-    std::snprintf(text, sizeof text, "%7.3f s", session.view().time.value_or(span.t0));
+    const auto time = session.view().time;
     ImGui::AlignTextToFramePadding();
-    ImGui::PushFont(ui.style.mono);
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(session.view().time ? ui.style.text : ui.style.quiet), "%s",
-                       session.view().time ? text : "   off   ");
-    ImGui::PopFont();
+    text_line(time ? ui.style.text : ui.style.quiet, time ? formatted("%7.3f s", *time) : "   off   ", ui.style.mono);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
     ImGui::SameLine();
     const float clear = ImGui::GetFrameHeight();
@@ -152,12 +147,9 @@ void time_row(Ui& ui, bool tall) {
 
 /// The second clock: where in the trace we stand.
 void step_row(Ui& ui, QueryPictures& pictures) {
-    char text[48];
-    std::snprintf(text, sizeof text, "step %d / %d", ui.session.step(), ui.session.recorded()->trace.size() - 1);
+    const int last = ui.session.recorded()->trace.size() - 1;
     ImGui::AlignTextToFramePadding();
-    ImGui::PushFont(ui.style.mono);
-    ImGui::TextUnformatted(text);
-    ImGui::PopFont();
+    text_line(ui.style.text, formatted("step %d / %d", ui.session.step(), last), ui.style.mono);
     ImGui::SameLine();
     pictures.strip(ui, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
 }
@@ -230,23 +222,20 @@ void step_transport(Ui& ui) {
     icon_button(ui, "step.last", true, true);
     text_button(ui, "over", "step.over");
     text_button(ui, "out", "step.out");
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("next");
-    ImGui::PopStyleColor();
+    text_line(ui.style.quiet, "next");
     text_button(ui, "separated", "step.next_separated");
     text_button(ui, "overlap", "step.next_overlap");
     text_button(ui, "hit", "step.next_hit");
     ImGui::PopStyleVar(2);
 
-    char format[48];
-    std::snprintf(format, sizeof format, "step %%d / %d", last);
+    const std::string format = formatted("step %%d / %d", last);
     ImGui::PushFont(ui.style.mono);
     // The number stays readable under the grab.
     ImGui::PushStyleColor(ImGuiCol_SliderGrab, to_im(with_alpha(ui.style.palette.accent, 0.45f)));
     ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, to_im(with_alpha(ui.style.palette.accent, 0.6f)));
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##step", &step, 0, last, format, ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
         invoke(ui.session, "step.to", std::to_string(step));
     }
     ui.mark("query.step");

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace mobbscope::app {
 
@@ -116,12 +115,12 @@ void shown_levels(Ui& ui, int depth) {
             draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.raised,
                                ui.px(3));
         const std::string label = std::to_string(level);
-        const ImFont* mono = ui.style.mono;
-        const ImVec2 text = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, label.c_str());
+        const ImFont& mono = *ui.style.mono;
+        const ImVec2 text = text_size(mono, label);
         // Of very deep trees only the cells remain.
         if (text.x > cell) continue;
-        draw.AddText(mono, mono->FontSize, {0.5f * (min.x + max.x - text.x), 0.5f * (min.y + max.y - text.y)},
-                     lit ? ui.style.text : ui.style.quiet, label.c_str());
+        draw_text(draw, mono, {0.5f * (min.x + max.x - text.x), 0.5f * (min.y + max.y - text.y)},
+                  lit ? ui.style.text : ui.style.quiet, label);
     }
     draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, ui.style.border, ui.px(4));
     if (beside) {
@@ -153,7 +152,7 @@ void level_bars(Ui& ui, int clip) {
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
-    const ImFont* mono = ui.style.mono;
+    const ImFont& mono = *ui.style.mono;
     const float height = ui.px(18);
     const auto draw_row = [&](int i) {
         const mobb::LevelFigures& level = figures[static_cast<std::size_t>(i)];
@@ -165,31 +164,28 @@ void level_bars(Ui& ui, int clip) {
         const LevelRange shown = session.view().levels;
         const bool drawn =
             !shown.leaves && !session.view().query && level.level >= shown.first && level.level <= shown.last;
-        char text[64];
         const bool large = level.volume >= 100 && level.volume < 1e6;
         const char* format = large ? (level.tightness ? "%.0f  %3.0f%%" : "%.0f      ")
                                    : (level.tightness ? "%.3g  %3.0f%%" : "%.3g      ");
-        std::snprintf(text, sizeof text, format, level.volume, 100 * level.tightness.value_or(0));
+        const std::string text = formatted(format, level.volume, 100 * level.tightness.value_or(0));
         const float label = ui.px(26);
-        const float figure = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, "000000  100%").x;
+        const float figure = text_size(mono, "000000  100%").x;
         const float room = std::max(ui.px(20), width - label - figure - ui.px(8));
         const float long_bar = room * static_cast<float>(level.volume / most);
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         const float y0 = corner.y + ui.px(3);
         const float y1 = corner.y + height - ui.px(3);
         const ImVec2 start{corner.x + label, y0};
-        draw.AddText(mono, mono->FontSize, {corner.x, corner.y + 0.5f * (height - mono->FontSize)},
-                     drawn || over ? ui.style.text : ui.style.quiet, ("L" + std::to_string(level.level)).c_str());
+        const float text_y = corner.y + 0.5f * (height - mono.FontSize);
+        draw_text(draw, mono, {corner.x, text_y}, drawn || over ? ui.style.text : ui.style.quiet,
+                  "L" + std::to_string(level.level));
         const Rgba accent = ui.style.palette.accent;
         draw.AddRectFilled(start, {start.x + std::max(ui.px(1), long_bar), y1},
                            to_im(with_alpha(accent, drawn || over ? 0.55f : 0.3f)), ui.px(2));
         // The filled part is what the disks take of the boxes.
         draw.AddRectFilled(start, {start.x + long_bar * static_cast<float>(level.tightness.value_or(0)), y1},
                            to_im(accent), ui.px(2));
-        draw.AddText(mono, mono->FontSize,
-                     {corner.x + width - mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text).x,
-                      corner.y + 0.5f * (height - mono->FontSize)},
-                     ui.style.quiet, text);
+        draw_text(draw, mono, {corner.x + width - text_size(mono, text).x, text_y}, ui.style.quiet, text);
         if (clicked) invoke(ui.session, "view.level", std::to_string(level.level));
         if (over) {
             std::string figures_of_level;

@@ -1,4 +1,5 @@
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -62,9 +63,7 @@ void end_dialog() {
 }
 
 void dialog_title(Ui& ui, const char* text) {
-    ImGui::PushFont(ui.style.title);
-    ImGui::TextUnformatted(text);
-    ImGui::PopFont();
+    text_line(ui.style.text, text, ui.style.title);
     ImGui::Dummy({0, ui.px(2)});
 }
 
