@@ -1,7 +1,11 @@
+#include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
-#include <app/commands/render_line.h>
 #include <base/file.h>
+#include <base/text.h>
+#include <render/drawlist/view_projection.h>
+#include <scene/view_options.h>
 
+#include <initializer_list>
 #include <stdexcept>
 
 namespace mobbscope::app {
@@ -39,6 +43,85 @@ void export_picture(Session& session, const std::string& file) {
     if (!session.hooks.export_picture) throw std::invalid_argument("there is no window to take a picture of");
     session.hooks.export_picture(file);
     session.tell(Message::Level::info, "Wrote " + file);
+}
+
+// --- "Copy as command"
+
+[[noreturn]] void ask_to_save() {
+    throw std::invalid_argument(
+        "save the scene first (Ctrl+S): this picture shows more than its files and the options of a command say");
+}
+
+/// Numbers with commas between them.
+std::string with_commas(std::initializer_list<double> numbers) {
+    std::string out;
+    for (const double number : numbers) out += (out.empty() ? "" : ",") + short_double(number);
+    return out;
+}
+
+/// The options that lead from one camera to another; the file's is taken as it is.
+std::string camera_options(const Camera& file, const Camera& now) {
+    if (now == file) return "";
+    Camera reached = file;  // as `render` applies the options
+    reached.preset = now.preset;
+    std::string out = " --view " + std::string(name(now.preset));
+    if (now.preset == CameraPreset::free) {
+        reached.yaw_deg = now.yaw_deg;
+        reached.pitch_deg = now.pitch_deg;
+        out += " --yaw " + short_double(now.yaw_deg) + " --pitch " + short_double(now.pitch_deg);
+    }
+    if (orientation(now).perspective != orientation(reached).perspective) {
+        out += now.perspective ? " --perspective" : " --ortho";
+    }
+    if (now.fov_deg != file.fov_deg && (orientation(now).perspective || now.target)) {
+        out += " --fov " + short_double(now.fov_deg);
+    }
+    if (!now.target) return out;
+    out += " --target " + with_commas({now.target->x, now.target->y, now.target->z});
+    out += " --distance " + short_double(now.distance);
+    if (now.shift != glm::dvec2(0)) out += " --shift " + with_commas({now.shift.x, now.shift.y});
+    return out;
+}
+
+std::string view_line(const ViewState& file, const ViewState& now) {
+    std::string out = camera_options(file.camera, now.camera);
+    ViewState reached = file;  // as `render` applies the options
+    reached.camera = now.camera;
+    for (const ViewOption& option : view_options()) {
+        const bool needed = option.needed ? option.needed(reached, now) : !option.same(reached, now);
+        if (!needed) continue;
+        if (option.option.empty()) ask_to_save();
+        out += in_command_line(option, now);
+        option.parse(option.text(now), reached);
+    }
+    return out;
+}
+
+/// The options of the fit in use, where the file's may be another.
+std::string fit_options(const FittedScene& fitted) {
+    if (fitted.fits().size() == 1) return "";
+    const mobb::FitOptions& fit = fitted.options();
+    return " --tree " + std::string(mobb::name(fit.tree)) + " --leaf " + std::to_string(fit.leaf) + " --levels " +
+           std::to_string(fit.levels) + " --axes " + std::string(mobb::name(fit.axes)) + " --time-scale " +
+           short_double(fit.time_scale);
+}
+
+/// "mobbscope render ..." that draws the present picture in the viewport's size, quoted for a shell. Throws
+/// std::invalid_argument, saying that the scene must be saved first, if its files and the command's options do not tell
+/// the whole picture.
+std::string render_line(const Session& session) {
+    const std::filesystem::path& file = session.scene().file;
+    const bool one_file =
+        session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
+    if (session.modified() || session.in_excerpt() || !one_file || file.empty()) ask_to_save();
+    const PictureSize size = viewport_size(session);
+    // 0: what suits the size, as `render` takes it without being told.
+    const double words = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
+    const std::string scale = words > 0 ? " --scale " + short_double(words) : "";
+    // Of an unchanged scene, its `view` is the one in the file.
+    return "mobbscope render " + shell_word(file.string()) + fit_options(*session.document().fitted) +
+           view_line(session.scene().view, session.view()) + " --size " + std::to_string(size.width) + 'x' +
+           std::to_string(size.height) + scale + " -o picture.png";
 }
 
 void copy_command(Session& session) {

@@ -20,15 +20,8 @@ namespace {
 struct Chart {
     ImVec2 min, max;
     mobb::Interval time;
-    double low = 0, high = 1;  ///< metres
-
-    float x(double t) const {
-        return min.x + static_cast<float>((t - time.t0) / (time.t1 - time.t0)) * (max.x - min.x);
-    }
-    float y(double metres) const { return max.y - static_cast<float>((metres - low) / (high - low)) * (max.y - min.y); }
-    double t(float x) const {
-        return time.t0 + static_cast<double>((x - min.x) / (max.x - min.x)) * (time.t1 - time.t0);
-    }
+    ChartAxis x;    ///< seconds
+    ChartAxis y{};  ///< metres
 };
 
 /// The least of each column as a curve, and above it how much more there is in the column.
@@ -38,11 +31,11 @@ void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const 
         const ClearanceColumn& column = columns[k];
         if (!column.any) continue;
         const float x = chart.min.x + static_cast<float>(k);
-        const float y = chart.y(column.least);
+        const float y = chart.y.pixel(column.least);
         if (column.least < 0) {
-            list.AddRectFilled({x, chart.y(0)}, {x + 1, y}, mark_color(style, EventMark::hit, 0.4f));
+            list.AddRectFilled({x, chart.y.pixel(0)}, {x + 1, y}, mark_color(style, EventMark::hit, 0.4f));
         }
-        const float most = chart.y(column.most);
+        const float most = chart.y.pixel(column.most);
         if (y - most > 1) list.AddRectFilled({x, most}, {x + 1, y}, to_im(with_alpha(style.palette.text, 0.35f)));
         curve.push_back({x + 0.5f, y});
     }
@@ -61,7 +54,7 @@ void text_at(ImDrawList& list, const Style& style, const Chart& chart, ImVec2 at
 
 void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const ClearancePiece& least) {
     const EventMark mark = least.clearance < 0 ? EventMark::hit : EventMark::separated;
-    const ImVec2 at{chart.x(0.5 * (least.t0 + least.t1)), chart.y(least.clearance)};
+    const ImVec2 at{chart.x.pixel(0.5 * (least.t0 + least.t1)), chart.y.pixel(least.clearance)};
     list.AddCircleFilled(at, 3.5f * style.scale, mark_color(style, mark));
     list.AddCircle(at, 3.5f * style.scale, style.text, 0, style.scale);
 }
@@ -71,7 +64,7 @@ void chart_ticks(ImDrawList& list, const Style& style, const Chart& chart) {
     const double parts = std::max(1.0, static_cast<double>((chart.max.x - chart.min.x) / (70 * style.scale)));
     const double step = nice_step(span, parts);
     for (const double t : ticks(chart.time.t0, chart.time.t1, step)) {
-        const float x = chart.x(t);
+        const float x = chart.x.pixel(t);
         list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * style.scale}, style.quiet, style.scale);
         const std::string text = tick_text(t, step) + " s";
         const float left = x + 3 * style.scale;
@@ -108,7 +101,9 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
     const bool hovered = ImGui::IsItemHovered();
     const bool active = ImGui::IsItemActive();
 
-    Chart chart{at, {at.x + static_cast<float>(width), at.y + height - label}, ui.session.time_span(), 0, 0};
+    const mobb::Interval time = ui.session.time_span();
+    const float right = at.x + static_cast<float>(width);
+    Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
     const std::vector<ClearanceColumn>& columns = clearance_.of(
         ui.session.findings(), width, 0, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
     double most = 0;
@@ -116,12 +111,11 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
         if (column.any) most = std::max(most, column.most);
     }
     const double range = std::max(most - std::min(0.0, least.clearance), 1e-3);
-    chart.low = std::min(0.0, least.clearance) - 0.12 * range;
-    chart.high = most + 0.08 * range;
+    chart.y = {std::min(0.0, least.clearance) - 0.12 * range, most + 0.08 * range, chart.max.y, chart.min.y};
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(chart.min, chart.max, ui.style.raised);
-    const float zero = chart.y(0);
+    const float zero = chart.y.pixel(0);
     dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.style, EventMark::hit), ui.style.scale,
                 ui.px(3));
     draw_curve(list, ui.style, chart, columns);
@@ -131,11 +125,12 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
             with_unit(most, "m"));
     least_mark(list, ui.style, chart, least);
     chart_ticks(list, ui.style, chart);
-    if (const auto& time = ui.session.view().time; time && *time >= chart.time.t0 && *time <= chart.time.t1) {
-        list.AddLine({chart.x(*time), chart.min.y}, {chart.x(*time), chart.max.y}, ui.style.accent, ui.px(1.5f));
+    if (const auto& now = ui.session.view().time; now && *now >= time.t0 && *now <= time.t1) {
+        list.AddLine({chart.x.pixel(*now), chart.min.y}, {chart.x.pixel(*now), chart.max.y}, ui.style.accent,
+                     ui.px(1.5f));
     }
     if (!hovered && !active) return;
-    const double t = std::clamp(chart.t(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);
+    const double t = std::clamp(chart.x.value(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);
     if (const ClearancePiece* piece = piece_at(clearance, t)) {
         ImGui::SetTooltip("%s: %s m\nsample %d of %s, sample %d of %s", with_unit(t, "s").c_str(),
                           signed_metres(piece->clearance).c_str(), piece->a_sample, findings.sides[0].label.c_str(),

@@ -182,12 +182,7 @@ void current_test(Ui& ui, const QueryFindings& findings) {
     const EventMark mark = mark_of(event.test, event.outcome);
     heading(ui, "THIS TEST", "depth " + std::to_string(event.depth));
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float side = ui.px(12);
-        const float down = 0.5f * (ImGui::GetTextLineHeight() - side);
-        outcome_cell(*ImGui::GetWindowDrawList(), ui.style, {at.x, at.y + down}, {at.x + side, at.y + down + side},
-                     mark, 1);
-        ImGui::Dummy({side, ImGui::GetTextLineHeight()});
+        outcome_sign(ui, mark, ui.px(12));
         ImGui::SameLine(0, ui.px(7));
         words(mark_text(ui.style, mark), headline(mark));
         std::string sentence = outcome_text(findings.sides, event) + ".";

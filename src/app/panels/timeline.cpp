@@ -11,7 +11,6 @@
 #include <scene/motion_graph.h>
 
 #include <algorithm>
-#include <functional>
 
 namespace mobbscope::app {
 
@@ -19,14 +18,19 @@ namespace {
 
 constexpr float kMostBar = 26;  // height of a path's bar, pixels at scale 1
 
+/// An empty span has some length too.
+ChartAxis time_axis(const mobb::Interval& span, float left, float width) {
+    return {span.t0, span.t1 > span.t0 ? span.t1 : span.t0 + 1, left, left + width};
+}
+
 /// Seconds below the bars.
 void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont& mono = *ui.style.mono;
-    const double length = std::max(span.t1 - span.t0, 1e-12);
-    const double step = nice_step(length, std::max(2.0f, width / ui.px(90)));
+    const ChartAxis axis = time_axis(span, corner.x, width);
+    const double step = nice_step(axis.to - axis.from, std::max(2.0f, width / ui.px(90)));
     for (const double t : ticks(span.t0, span.t1, step)) {
-        const float x = corner.x + width * static_cast<float>((t - span.t0) / length);
+        const float x = axis.pixel(t);
         draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
         const std::string text = tick_text(t, step) + " s";
         const float wide = text_size(mono, text).x;
@@ -36,7 +40,7 @@ void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) 
 }
 
 /// What the agent in question plays, move after move, and of everybody what was forced.
-void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(double)>& x_of) {
+void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
     const Session& session = ui.session;
     const CrowdRun& crowd = *session.crowd();
     const Palette& palette = ui.style.palette;
@@ -51,8 +55,8 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(dou
         const Rgba own = agent_color(session.fitted().scene(), who, *run_agent);
         const float gap = ui.px(1);
         for (const Play& play : crowd.agents[static_cast<std::size_t>(*run_agent)].plays) {
-            const float left = x_of(play.placement.start);
-            const float right = x_of(play.placement.start + duration(play));
+            const float left = time.pixel(play.placement.start);
+            const float right = time.pixel(play.placement.start + duration(play));
             draw.AddRectFilled({left + 0.5f * gap, corner.y + ui.px(3)},
                                {std::max(right - 0.5f * gap, left + gap), corner.y + size.y - ui.px(3)},
                                to_im(with_alpha(own, play.kind == PlayKind::chosen ? 0.75f : 0.4f)), ui.px(1));
@@ -61,7 +65,7 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(dou
     for (const CrowdAgent& agent : crowd.agents) {
         for (const Play& play : agent.plays) {
             if (play.kind != PlayKind::forced) continue;
-            const float x = x_of(play.placement.start);
+            const float x = time.pixel(play.placement.start);
             draw.AddLine({x, corner.y}, {x, corner.y + size.y}, to_im(palette.hit), ui.px(1.5f));
         }
     }
@@ -72,13 +76,12 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(dou
 void time_bars(Ui& ui, float width, float height) {
     Session& session = ui.session;
     const mobb::Interval span = session.time_span();
-    const double length = std::max(span.t1 - span.t0, 1e-12);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ChartAxis axis = time_axis(span, corner.x, width);
     ImGui::InvisibleButton("##time", {width, height});
     ui.mark("timeline.time");
-    const auto x_of = [&](double t) { return corner.x + width * static_cast<float>((t - span.t0) / length); };
     if (ImGui::IsItemActive()) {
-        const double at = span.t0 + length * std::clamp<double>((ImGui::GetIO().MousePos.x - corner.x) / width, 0, 1);
+        const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
         session.enqueue([&session, at] {
             session.stop();
             session.change_view([&](ViewState& view) { view.time = at; });
@@ -88,7 +91,7 @@ void time_bars(Ui& ui, float width, float height) {
     draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.style.window, ui.px(3));
     std::vector<DrawnAgent> paths;
     if (session.crowd()) {
-        play_bars(ui, corner, {width, height}, x_of);
+        play_bars(ui, corner, {width, height}, axis);
     } else {
         paths = drawn_agents(session.fitted(), session.view());
     }
@@ -97,8 +100,8 @@ void time_bars(Ui& ui, float width, float height) {
     const float gap = std::min(ui.px(1.5f), 0.2f * each);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const float y = corner.y + each * static_cast<float>(i);
-        const float left = x_of(paths[i].begin());
-        const float right = x_of(paths[i].end());
+        const float left = axis.pixel(paths[i].begin());
+        const float right = axis.pixel(paths[i].end());
         draw.AddRectFilled({left, y + gap}, {right, y + each - gap}, to_im(with_alpha(paths[i].color, 0.75f)),
                            ui.px(2));
         const float font = ImGui::GetFontSize();
@@ -109,7 +112,7 @@ void time_bars(Ui& ui, float width, float height) {
         draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
     }
     if (const auto time = session.view().time; time && *time >= span.t0 && *time <= span.t1) {
-        const float x = x_of(*time);
+        const float x = axis.pixel(*time);
         draw.AddLine({x, corner.y - ui.px(3)}, {x, corner.y + height + ui.px(3)}, ui.style.text, ui.px(2));
     }
     draw.AddRect(corner, {corner.x + width, corner.y + height}, ui.style.border, ui.px(3));

@@ -45,6 +45,19 @@ bool small_button(Ui& ui, const char* label, const std::string& mark, const char
 void draw_text(ImDrawList& list, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text);
 ImVec2 text_size(const ImFont& font, const std::string& text);
 
+/// Numbers along a side of a chart.
+struct ChartAxis {
+    double from = 0, to = 1;    ///< at the two ends, not equal
+    float first = 0, last = 1;  ///< pixels there
+
+    float pixel(double value) const {
+        return first + static_cast<float>((value - from) / (to - from)) * (last - first);
+    }
+    double value(float pixel) const {
+        return from + static_cast<double>((pixel - first) / (last - first)) * (to - from);
+    }
+};
+
 /// Pixels of a button with this label, in the present font and style.
 float button_width(const char* label);
 
