@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -41,21 +42,29 @@ struct Action : std::function<void(Session&, const std::string& argument)> {
     Action(Act act) : function([act](Session& session, const std::string&) { std::invoke(act, session); }) {}
 };
 
-struct Command {
-    std::string_view id;     ///< "view.top": for scripts
-    std::string_view title;  ///< "View from above": for menus and the palette
+/// What a command may have besides.
+struct CommandTraits {
     /// "File", "Edit", "View", "Tree", "Query", "Go" or "Help", and behind a slash the submenu; empty: not in a menu
     std::string_view menu{};
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
     bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
-    std::string_view doc;         ///< one sentence
     Condition enabled = has_scene;
-    Action run{};
     std::function<bool(const Session&)> checked{};                      ///< of a toggle: whether it is on
     std::function<std::vector<std::string>(const Session&)> choices{};  ///< arguments to choose from
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
     std::function<bool(const Session&, const std::string& choice)> chosen{};
+};
+
+struct Command : CommandTraits {
+    Command(std::string_view id_, std::string_view title_, std::string_view doc_, Action run_,
+            CommandTraits traits = {})
+        : CommandTraits(std::move(traits)), id(id_), title(title_), doc(doc_), run(std::move(run_)) {}
+
+    std::string_view id;     ///< "view.top": for scripts
+    std::string_view title;  ///< "View from above": for menus and the palette
+    std::string_view doc;    ///< one sentence
+    Action run;
 
     bool needs_argument() const { return !argument.empty() && !argument.starts_with('['); }
 };

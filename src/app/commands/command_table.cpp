@@ -11,17 +11,10 @@ namespace {
 
 std::vector<Command> help_commands() {
     const std::vector<Command> rows{
-        {.id = "help.shortcuts",
-         .title = "Shortcuts",
-         .shortcut = "F1",
-         .doc = "Lists all shortcuts and what the mouse does.",
-         .enabled = always,
-         .run = [](Session& session) { session.open_dialog(Dialog::help); }},
-        {.id = "help.about",
-         .title = "About Mobbscope",
-         .doc = "Says which version this is and what it shows.",
-         .enabled = always,
-         .run = [](Session& session) { session.open_dialog(Dialog::about); }},
+        Command("help.shortcuts", "Shortcuts", "Lists all shortcuts and what the mouse does.",
+                [](Session& session) { session.open_dialog(Dialog::help); }, {.shortcut = "F1", .enabled = always}),
+        Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
+                [](Session& session) { session.open_dialog(Dialog::about); }, {.enabled = always}),
     };
     return in_menu("Help", rows);
 }
@@ -96,22 +89,15 @@ std::string_view first_shortcut(const Command& command) {
 }
 
 Command option_command(const ViewOption& option) {
-    Command out{.id = option.command,
-                .title = option.title,
-                .menu = option.menu,
-                .shortcut = option.shortcut,
-                .doc = option.doc,
-                .enabled = always};
-    if (option.toggle) {
-        const auto value = option.toggle;
-        out.run = [value](Session& session) {
+    CommandTraits traits{.menu = option.menu, .shortcut = option.shortcut, .enabled = always};
+    if (const auto value = option.toggle) {
+        const auto flip = [value](Session& session) {
             session.change_view([&](ViewState& view) { view.*value = !(view.*value); });
         };
-        out.checked = [value](const Session& session) { return session.view().*value; };
-        return out;
+        traits.checked = [value](const Session& session) { return session.view().*value; };
+        return {option.command, option.title, option.doc, flip, traits};
     }
-    out.argument = option.argument;
-    out.run = [&option](Session& session, const std::string& text) {
+    const auto choose = [&option](Session& session, const std::string& text) {
         const std::vector<std::string>& all = option.choices;
         // Without an argument the next one.
         const auto now = std::ranges::find(all, option.text(session.view()));
@@ -122,11 +108,12 @@ Command option_command(const ViewOption& option) {
         }
         session.change_view([&](ViewState& view) { option.parse(wanted, view); });
     };
-    out.choices = [&option](const Session&) { return option.choices; };
-    out.chosen = [&option](const Session& session, const std::string& text) {
+    traits.argument = option.argument;
+    traits.choices = [&option](const Session&) { return option.choices; };
+    traits.chosen = [&option](const Session& session, const std::string& text) {
         return option.text(session.view()) == text;
     };
-    return out;
+    return {option.command, option.title, option.doc, choose, traits};
 }
 
 std::vector<Command> in_menu(std::string_view menu, std::vector<Command> rows) {

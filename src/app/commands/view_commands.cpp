@@ -44,7 +44,7 @@ Command see_from(CameraPreset preset, std::string_view id, std::string_view titl
         });
     };
     const auto is_seen = [preset](const Session& session) { return session.view().camera.preset == preset; };
-    return {.id = id, .title = title, .shortcut = key, .doc = doc, .run = see, .checked = is_seen};
+    return {id, title, doc, see, {.shortcut = key, .checked = is_seen}};
 }
 
 bool may_have_perspective(const Session& session) {
@@ -107,7 +107,7 @@ void orbit(Session& session, glm::dvec2 degrees) {
 Command orbit_step(glm::dvec2 way, std::string_view id, std::string_view title, std::string_view key,
                    std::string_view doc) {
     const auto step = [way](Session& session) { orbit(session, kOrbitStep * way); };
-    return {.id = id, .title = title, .shortcut = key, .repeats = true, .doc = doc, .run = step};
+    return {id, title, doc, step, {.shortcut = key, .repeats = true}};
 }
 
 // --- what is drawn
@@ -261,59 +261,38 @@ std::vector<Command> direction_commands() {
         see_from(CameraPreset::front, "view.front", "View from the front", "3",
                  "Looks along y: x to the right, time upwards."),
         see_from(CameraPreset::side, "view.side", "View from the side", "4", "Looks along x: y across, time upwards."),
-        {.id = "view.perspective",
-         .title = "Perspective",
-         .shortcut = "5",
-         .doc = "Draws what is farther smaller; without it, equal lengths stay equal.",
-         .enabled = may_have_perspective,
-         .run =
-             [](Session& session) {
-                 session.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
-             },
-         .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }},
-        {.id = "view.frame",
-         .title = "Frame the selection",
-         .shortcut = "F",
-         .doc =
-             "Brings what is selected into the middle, as large as it fits; without a selection everything. Following "
-             "somebody, it goes along with who is selected.",
-         .run = frame_selection},
-        {.id = "view.frame_all",
-         .title = "Frame everything",
-         .shortcut = "Home",
-         .doc = "Shows the whole scene again from the present direction.",
-         .run = frame_all},
+        Command("view.perspective", "Perspective",
+                "Draws what is farther smaller; without it, equal lengths stay equal.",
+                [](Session& session) {
+                    session.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+                },
+                {.shortcut = "5",
+                 .enabled = may_have_perspective,
+                 .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }}),
+        Command(
+            "view.frame", "Frame the selection",
+            "Brings what is selected into the middle, as large as it fits; without a selection everything. Following "
+            "somebody, it goes along with who is selected.",
+            frame_selection, {.shortcut = "F"}),
+        Command("view.frame_all", "Frame everything", "Shows the whole scene again from the present direction.",
+                frame_all, {.shortcut = "Home"}),
     };
     return in_menu("View", rows);
 }
 
 std::vector<Command> movement_commands() {
     const std::vector<Command> rows{
-        {.id = "view.zoom",
-         .title = "Zoom by",
-         .menu = kNoMenu,
-         .argument = "FACTOR",
-         .doc = "Goes nearer by a factor; below 1 farther.",
-         .run = [](Session& session,
-                   const std::string& text) { zoom(session, number_in(text, "the factor", 1e-3, 1e3)); }},
-        {.id = "view.zoom_in",
-         .title = "Zoom in",
-         .shortcut = "=",
-         .repeats = true,
-         .doc = "Goes nearer.",
-         .run = [](Session& session) { zoom(session, kKeyZoom); }},
-        {.id = "view.zoom_out",
-         .title = "Zoom out",
-         .shortcut = "-",
-         .repeats = true,
-         .doc = "Goes farther away.",
-         .run = [](Session& session) { zoom(session, 1 / kKeyZoom); }},
-        {.id = "view.orbit",
-         .title = "Turn by",
-         .menu = kNoMenu,
-         .argument = "DX DY",
-         .doc = "Turns the scene by degrees to the right and downwards.",
-         .run = [](Session& session, const std::string& text) { orbit(session, two_numbers(text, "the angles")); }},
+        Command(
+            "view.zoom", "Zoom by", "Goes nearer by a factor; below 1 farther.",
+            [](Session& session, const std::string& text) { zoom(session, number_in(text, "the factor", 1e-3, 1e3)); },
+            {.menu = kNoMenu, .argument = "FACTOR"}),
+        Command("view.zoom_in", "Zoom in", "Goes nearer.", [](Session& session) { zoom(session, kKeyZoom); },
+                {.shortcut = "=", .repeats = true}),
+        Command("view.zoom_out", "Zoom out", "Goes farther away.",
+                [](Session& session) { zoom(session, 1 / kKeyZoom); }, {.shortcut = "-", .repeats = true}),
+        Command("view.orbit", "Turn by", "Turns the scene by degrees to the right and downwards.",
+                [](Session& session, const std::string& text) { orbit(session, two_numbers(text, "the angles")); },
+                {.menu = kNoMenu, .argument = "DX DY"}),
         orbit_step({-1, 0}, "view.orbit_left", "Turn to the left", "Alt+Left",
                    "Turns the scene to the left by 5 degrees."),
         orbit_step({1, 0}, "view.orbit_right", "Turn to the right", "Alt+Right",
@@ -322,48 +301,37 @@ std::vector<Command> movement_commands() {
                    "Tips the scene upwards by 5 degrees: it is seen more from the side."),
         orbit_step({0, 1}, "view.orbit_down", "Tip downwards", "Alt+Down",
                    "Tips the scene downwards by 5 degrees: it is seen more from above."),
-        {.id = "view.pan",
-         .title = "Shift by",
-         .menu = kNoMenu,
-         .argument = "DX DY",
-         .doc = "Shifts the scene by pixels to the right and downwards.",
-         .run =
-             [](Session& session, const std::string& text) {
-                 const glm::vec2 pixels(two_numbers(text, "the way"));
-                 move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
-                     return panned(camera, pixels, picture.size);
-                 });
-             }},
+        Command("view.pan", "Shift by", "Shifts the scene by pixels to the right and downwards.",
+                [](Session& session, const std::string& text) {
+                    const glm::vec2 pixels(two_numbers(text, "the way"));
+                    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+                        return panned(camera, pixels, picture.size);
+                    });
+                },
+                {.menu = kNoMenu, .argument = "DX DY"}),
     };
     return in_menu("View/Camera", rows);
 }
 
 std::vector<Command> picture_commands() {
     const std::vector<Command> rows{
-        {.id = "view.moment",
-         .title = "Show the moment",
-         .shortcut = "M",
-         .doc = "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
-         .run = toggle_moment,
-         .checked = shows_moment},
-        {.id = "view.split",
-         .title = "Split",
-         .doc = "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
+        Command("view.moment", "Show the moment",
+                "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
+                toggle_moment, {.shortcut = "M", .checked = shows_moment}),
+        Command("view.split", "Split",
+                "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
                 "UMOBB.",
-         .run = toggle_split,
-         .checked = is_split},
-        {.id = "view.other",
-         .title = "Go to the other view",
-         .shortcut = "F6",
-         .doc = "Of a split view: commands and panels are about the next part from now on.",
-         .enabled = is_split,
-         .run = [](Session& session) { session.activate_view((session.active_place() + 1) % session.view_count()); }},
-        {.id = "view.link_cameras",
-         .title = "Link cameras",
-         .doc = "Of a split view: moving the camera of one part moves that of the other.",
-         .enabled = is_split,
-         .run = [](Session& session) { session.link_cameras(!session.document().linked_cameras); },
-         .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }},
+                toggle_split, {.checked = is_split}),
+        Command("view.other", "Go to the other view",
+                "Of a split view: commands and panels are about the next part from now on.",
+                [](Session& session) { session.activate_view((session.active_place() + 1) % session.view_count()); },
+                {.shortcut = "F6", .enabled = is_split}),
+        Command(
+            "view.link_cameras", "Link cameras",
+            "Of a split view: moving the camera of one part moves that of the other.",
+            [](Session& session) { session.link_cameras(!session.document().linked_cameras); },
+            {.enabled = is_split,
+             .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }}),
     };
     return in_menu("View", rows);
 }
@@ -380,138 +348,77 @@ std::vector<Command> show_commands() {
 std::vector<Command> level_commands() {
     const std::vector<Command> rows{
         option_command(view_option("color_by")),
-        {.id = "view.level",
-         .title = "Show levels",
-         .menu = kNoMenu,
-         .argument = "N|A:B|leaves",
-         .doc = "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
-         .run = set_shown_levels},
-        {.id = "view.finer",
-         .title = "Finer level",
-         .shortcut = "]",
-         .repeats = true,
-         .doc = "Shows the boxes one level further down the trees.",
-         .enabled = can_be_finer,
-         .run = finer},
-        {.id = "view.coarser",
-         .title = "Coarser level",
-         .shortcut = "[",
-         .repeats = true,
-         .doc = "Shows the boxes one level nearer to the roots.",
-         .enabled = can_be_coarser,
-         .run = coarser},
-        {.id = "view.leaves",
-         .title = "Leaves",
-         .shortcut = "E",
-         .doc = "Shows the leaves of the trees, whatever their level; leaves the query in view.",
-         .run = [](Session& session) { set_shown_levels(session, "leaves"); },
-         .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }},
-        {.id = "view.time_height",
-         .title = "Height of a second",
-         .menu = kNoMenu,
-         .argument = "M|auto",
-         .doc = "Draws a second so many metres high; auto makes the scene about as tall as wide.",
-         .run = set_time_height},
+        Command("view.level", "Show levels",
+                "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
+                set_shown_levels, {.menu = kNoMenu, .argument = "N|A:B|leaves"}),
+        Command("view.finer", "Finer level", "Shows the boxes one level further down the trees.", finer,
+                {.shortcut = "]", .repeats = true, .enabled = can_be_finer}),
+        Command("view.coarser", "Coarser level", "Shows the boxes one level nearer to the roots.", coarser,
+                {.shortcut = "[", .repeats = true, .enabled = can_be_coarser}),
+        Command(
+            "view.leaves", "Leaves", "Shows the leaves of the trees, whatever their level; leaves the query in view.",
+            [](Session& session) { set_shown_levels(session, "leaves"); },
+            {.shortcut = "E",
+             .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }}),
+        Command("view.time_height", "Height of a second",
+                "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
+                {.menu = kNoMenu, .argument = "M|auto"}),
     };
     return in_menu("View/Levels", rows);
 }
 
 std::vector<Command> window_commands() {
     const std::vector<Command> rows{
-        {.id = "view.projection",
-         .title = "Disk along the axes of its box",
-         .menu = "View/Show",
-         .doc =
-             "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
-         .enabled = {[](const Session& session) { return session.view().projection || selected_disk(session); },
-                     [](const Session&) { return std::string_view("no sample in the picture is selected"); }},
-         .run = toggle_projection,
-         .checked = [](const Session& session) { return session.view().projection.has_value(); }},
+        Command(
+            "view.projection", "Disk along the axes of its box",
+            "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
+            toggle_projection,
+            {.menu = "View/Show",
+             .enabled = {[](const Session& session) { return session.view().projection || selected_disk(session); },
+                         [](const Session&) { return std::string_view("no sample in the picture is selected"); }},
+             .checked = [](const Session& session) { return session.view().projection.has_value(); }}),
         option_command(view_option("theme")),
-        {.id = "window.scale",
-         .title = "Scale of text and panels",
-         .menu = kNoMenu,
-         .argument = "X",
-         .doc = "Makes text and panels so many times as large, 0.5 to 4.",
-         .enabled = always,
-         .run = set_scale},
-        {.id = "window.larger",
-         .title = "Larger text",
-         .shortcut = "Ctrl+=",
-         .repeats = true,
-         .doc = "Makes text and panels larger.",
-         .enabled = always,
-         .run = larger},
-        {.id = "window.smaller",
-         .title = "Smaller text",
-         .shortcut = "Ctrl+-",
-         .repeats = true,
-         .doc = "Makes text and panels smaller.",
-         .enabled = always,
-         .run = smaller},
-        {.id = "window.scale_reset",
-         .title = "Usual text size",
-         .shortcut = "Ctrl+0",
-         .doc = "Makes text and panels as large as the monitor's scale asks for.",
-         .enabled = always,
-         .run = [](Session& session) { session.settings.ui_scale = 0; }},
+        Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
+                set_scale, {.menu = kNoMenu, .argument = "X", .enabled = always}),
+        Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
+                {.shortcut = "Ctrl+=", .repeats = true, .enabled = always}),
+        Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
+                {.shortcut = "Ctrl+-", .repeats = true, .enabled = always}),
+        Command("window.scale_reset", "Usual text size",
+                "Makes text and panels as large as the monitor's scale asks for.",
+                [](Session& session) { session.settings.ui_scale = 0; }, {.shortcut = "Ctrl+0", .enabled = always}),
     };
     return in_menu("View/Window", rows);
 }
 
 std::vector<Command> time_commands() {
     const std::vector<Command> rows{
-        {.id = "time.at",
-         .title = "Time cursor at",
-         .menu = kNoMenu,
-         .argument = "S",
-         .doc = "Puts the time cursor at a moment, in seconds.",
-         .run =
-             [](Session& session, const std::string& text) {
-                 set_time(session, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
-             }},
-        {.id = "time.clear",
-         .title = "No time cursor",
-         .doc = "Takes the time cursor out of the picture.",
-         .enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); },
-         .run =
-             [](Session& session) {
-                 session.stop();
-                 session.change_view([](ViewState& view) { view.time.reset(); });
-             }},
-        {.id = "time.play",
-         .title = "Play",
-         .shortcut = "Space",
-         .doc = "Lets the time cursor run, or stops it.",
-         .run = play,
-         .checked = [](const Session& session) { return session.playing(); }},
-        {.id = "time.start",
-         .title = "To the first moment",
-         .doc = "Puts the time cursor where the first path begins.",
-         .run = [](Session& session) { set_time(session, session.time_span().t0); }},
-        {.id = "time.end",
-         .title = "To the last moment",
-         .doc = "Puts the time cursor where the last path ends.",
-         .run = [](Session& session) { set_time(session, session.time_span().t1); }},
-        {.id = "time.forward",
-         .title = "A sample on",
-         .shortcut = ".",
-         .repeats = true,
-         .doc = "Moves the time cursor on by a sample.",
-         .run = [](Session& session) { step_time(session, 1); }},
-        {.id = "time.back",
-         .title = "A sample back",
-         .shortcut = ",",
-         .repeats = true,
-         .doc = "Moves the time cursor back by a sample.",
-         .run = [](Session& session) { step_time(session, -1); }},
-        {.id = "time.speed",
-         .title = "Speed of playing",
-         .argument = "X",
-         .doc = "Plays so many seconds of the scene in a second, 0.01 to 100.",
-         .enabled = always,
-         .run = [](Session& session,
-                   const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); }},
+        Command("time.at", "Time cursor at", "Puts the time cursor at a moment, in seconds.",
+                [](Session& session, const std::string& text) {
+                    set_time(session, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
+                },
+                {.menu = kNoMenu, .argument = "S"}),
+        Command(
+            "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
+            [](Session& session) {
+                session.stop();
+                session.change_view([](ViewState& view) { view.time.reset(); });
+            },
+            {.enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); }}),
+        Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
+                {.shortcut = "Space", .checked = [](const Session& session) { return session.playing(); }}),
+        Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
+                [](Session& session) { set_time(session, session.time_span().t0); }),
+        Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
+                [](Session& session) { set_time(session, session.time_span().t1); }),
+        Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
+                [](Session& session) { step_time(session, 1); }, {.shortcut = ".", .repeats = true}),
+        Command("time.back", "A sample back", "Moves the time cursor back by a sample.",
+                [](Session& session) { step_time(session, -1); }, {.shortcut = ",", .repeats = true}),
+        Command(
+            "time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
+            [](Session& session, const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); },
+            {.argument = "X", .enabled = always}),
     };
     return in_menu("View/Time", rows);
 }
