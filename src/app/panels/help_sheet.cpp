@@ -64,6 +64,8 @@ void help_line(Ui& ui, const Line& line, float keys_width) {
 
 }  // namespace
 
+std::span<const std::pair<const char*, const char*>> mouse_help() { return kMouse; }
+
 void help_sheet(Ui& ui) {
     begin_dialog(ui, "help", {980, 640});
     dialog_title(ui, "Shortcuts");

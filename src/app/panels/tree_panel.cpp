@@ -6,48 +6,59 @@
 #include <scene/fit_json.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace mobbscope::app {
 
 namespace {
 
-struct PanelChoice {
-    const char* value;  ///< the command's argument
-    const char* label;
-    const char* help;
+/// How a choice is called in the panel, and what it means.
+struct ChoiceWords {
+    std::string label;
+    std::string help;
 };
 
-constexpr auto kTreeChoices = [] {
-    std::array<PanelChoice, mobb::kTreeKindCount> out{};
-    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
-        const mobb::TreeInfo& row = mobb::info(kind);
-        out[static_cast<std::size_t>(kind)] = {row.name.data(), row.label.data(), row.help.data()};
-    }
-    return out;
-}();
-constexpr std::array<PanelChoice, 3> kAxes{{{"endpoints", "endpoints", "Along first to last sample: the paper's"},
-                                            {"covariance", "covariance", "Principal axes of the centres"},
-                                            {"minarea", "minarea", "Smallest area or volume found"}}};
-constexpr std::array<PanelChoice, 2> kColours{{{"agent", "agent", "Boxes in their agent's colour"},
-                                               {"level", "level", "Boxes by their level, from dark to bright"}}};
+ChoiceWords words_of(mobb::TreeKind kind) {
+    return {std::string(mobb::info(kind).label), std::string(mobb::info(kind).help)};
+}
 
-template <std::size_t count>
-void choose(Ui& ui, const char* label, const char* command, const std::array<PanelChoice, count>& choices,
-            std::string_view now, const char* help) {
+ChoiceWords words_of(mobb::Axes axes) {
+    const auto help = [&] {
+        switch (axes) {
+            case mobb::Axes::endpoints:
+                return "Along first to last sample: the paper's";
+            case mobb::Axes::covariance:
+                return "Principal axes of the centres";
+            case mobb::Axes::minarea:
+                return "Smallest area or volume found";
+        }
+        return "";
+    };
+    return {std::string(mobb::name(axes)), help()};
+}
+
+ChoiceWords words_of(ColorBy color_by) {
+    return color_by == ColorBy::level ? ChoiceWords{"level", "Boxes by their level, from dark to bright"}
+                                      : ChoiceWords{"agent", "Boxes in their agent's colour"};
+}
+
+/// The choices of a command, which are those of an enumeration in its order.
+template <class Enum>
+void choose(Ui& ui, const char* label, const char* id, Enum now, const char* help) {
     form_label(ui, label, help);
-    const auto at = std::find_if(choices.begin(), choices.end(), [&](const PanelChoice& c) { return c.value == now; });
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-    const bool open = ImGui::BeginCombo((std::string("##") + command).c_str(), at == choices.end() ? "" : at->label);
+    const bool open = ImGui::BeginCombo((std::string("##") + id).c_str(), words_of(now).label.c_str());
     // Once it is open the last item is of its list.
-    ui.marks.add(command, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
+    ui.marks.add(id, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
     if (!open) return;
-    for (const PanelChoice& choice : choices) {
-        if (ImGui::Selectable(choice.label, choice.value == now)) invoke(ui.session, command, choice.value);
-        ui.mark(std::string(command) + "." + choice.value);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.help);
+    int index = 0;
+    for (const std::string& choice : find_command(id)->choices(ui.session)) {
+        const auto value = static_cast<Enum>(index++);
+        const ChoiceWords words = words_of(value);
+        if (ImGui::Selectable(words.label.c_str(), value == now)) invoke(ui.session, id, choice);
+        ui.mark(std::string(id) + "." + choice);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.help.c_str());
     }
     ImGui::EndCombo();
 }
@@ -210,17 +221,16 @@ void tree_panel(Ui& ui) {
     ImGui::PushID("tree");
     heading(ui, "TREE");
     const mobb::FitOptions fit = session.fitted().options();
-    choose(ui, "Kind", "tree.kind", kTreeChoices, mobb::name(fit.tree), "What bounds the disks");
+    choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
     whole(ui, "Leaf samples", "tree.leaf", fit.leaf, 1, "n_min: a node of at most so many samples is a leaf");
     ImGui::BeginDisabled(!mobb::info(fit.tree).chooses_axes());
-    choose(ui, "Axes", "tree.axes", kAxes, mobb::name(fit.axes), "How boxes are turned");
+    choose(ui, "Axes", "tree.axes", fit.axes, "How boxes are turned");
     ImGui::EndDisabled();
     whole(ui, "Levels", "tree.levels", fit.levels, 0, "0: all; 1 is the paper's \"1 level\" tree");
     time_scale(ui);
     const int clip = clip_in_focus(session);
     shown_levels(ui, session.fitted().tree(clip).depth());
-    choose(ui, "Colour by", "view.color_by", kColours, session.view().color_by == ColorBy::level ? "level" : "agent",
-           "What the boxes' colours mean");
+    choose(ui, "Colour by", "view.color_by", session.view().color_by, "What the boxes' colours mean");
     level_bars(ui, clip);
     ImGui::PopID();
 }
