@@ -16,14 +16,6 @@ namespace {
 
 constexpr PictureSize kWithoutWindow{1280, 720};
 
-void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
-    for (int i = range.first; i < range.end(); ++i) {
-        const mobb::Disk disk = clip.disk(i);
-        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
-        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
-    }
-}
-
 void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
     for (const glm::dvec3& corner : mobb::corners(world_box(tree, node))) {
         bounds.add({corner.x, corner.y, corner.z / tree.time_scale()});
@@ -31,6 +23,14 @@ void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
 }
 
 }  // namespace
+
+void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
+    for (int i = range.first; i < range.end(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
+        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
+    }
+}
 
 PictureSize viewport_size(const Session& session) {
     return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;

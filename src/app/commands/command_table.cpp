@@ -1,3 +1,4 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <base/text.h>
@@ -17,16 +18,6 @@ std::vector<Command> help_commands() {
                 [](Session& session) { session.open_dialog(Dialog::about); }, {.enabled = always}),
     };
     return in_menu("Help", rows);
-}
-
-/// Calls `use` with each of the blank-separated chords.
-template <class Use>
-void each_chord(std::string_view shortcuts, const Use& use) {
-    while (!shortcuts.empty()) {
-        const std::size_t blank = shortcuts.find(' ');
-        use(shortcuts.substr(0, blank));
-        shortcuts.remove_prefix(blank == std::string_view::npos ? shortcuts.size() : blank + 1);
-    }
 }
 
 }  // namespace
@@ -77,9 +68,9 @@ void invoke(Session& session, std::string_view id, const std::string& argument) 
 
 const Command* command_for(const Chord& chord) {
     for (const Command& command : commands()) {
-        bool calls = false;
-        each_chord(command.shortcut, [&](std::string_view name) { calls |= chord_from_name(name) == chord; });
-        if (calls) return &command;
+        for (const std::string& name : words_of(command.shortcut)) {
+            if (chord_from_name(name) == chord) return &command;
+        }
     }
     return nullptr;
 }

@@ -1,10 +1,9 @@
 #include <app/commands/arguments.h>
+#include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <base/text.h>
 #include <scene/scene_edits.h>
-
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,29 +18,16 @@ constexpr double kAside = 1;         // metres from the original to its copy
 constexpr double kBetween = 0.5;     // metres from the others to a new agent
 constexpr double kMaxDegrees = 1e9;  // as placements allow
 
-struct FloorBounds {
-    glm::dvec2 min{std::numeric_limits<double>::max()};
-    glm::dvec2 max{std::numeric_limits<double>::lowest()};
-
-    void add(const mobb::PlacedClip& clip) {
-        for (int i = 0; i < clip.count(); ++i) {
-            const mobb::Disk disk = clip.disk(i);
-            min = glm::min(min, glm::dvec2(disk.x - disk.r, disk.y - disk.r));
-            max = glm::max(max, glm::dvec2(disk.x + disk.r, disk.y + disk.r));
-        }
-    }
-};
-
 /// Beside all others, level with the middle of them, beginning when the first of them does.
 mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
-    FloorBounds others, own;
+    Bounds others, own;
     double start = std::numeric_limits<double>::max();
     for (const PlacedAgent& who : fitted.placed_agents()) {
         const mobb::PlacedTree tree = fitted.placed(who);
-        others.add(tree.placed_clip());
+        add_samples(others, tree.placed_clip(), {0, tree.placed_clip().count()});
         start = std::min(start, who.placement.start);
     }
-    own.add(mobb::PlacedClip(clip, {}));
+    add_samples(own, mobb::PlacedClip(clip, {}), {0, clip.count()});
     const double x = 0.5 * (others.min.x + others.max.x - own.min.x - own.max.x);
     const double y = others.max.y + kBetween - own.min.y;
     const auto rounded_up = [](double metres) { return std::ceil(metres * 10) / 10; };

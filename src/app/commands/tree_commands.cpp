@@ -2,8 +2,8 @@
 #include <app/commands/command.h>
 #include <base/text.h>
 
-#include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace mobbscope::app {
@@ -12,41 +12,43 @@ namespace {
 
 std::vector<std::string> as_strings(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
 
-void fit(Session& session, const std::string& doing, const std::function<void(mobb::FitOptions&)>& change) {
-    session.refit({doing, doing}, change);
+/// Sets an option of the fit.
+template <class Option>
+void fit(Session& session, const std::string& doing, Option mobb::FitOptions::*option, Option value) {
+    session.refit({doing, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
+}
+
+/// What a name stands for.
+template <class Option>
+Option named(std::string_view what, const std::string& text, std::optional<Option> (*from_name)(std::string_view),
+             std::span<const std::string_view> names) {
+    if (const auto value = from_name(text)) return *value;
+    throw std::invalid_argument(std::string(what) + " cannot be " + in_quotes(text) + ": give one of " + listed(names));
 }
 
 void set_kind(Session& session, const std::string& text) {
-    const auto kind = mobb::tree_kind_from_name(text);
-    if (!kind) {
-        throw std::invalid_argument("the trees cannot be " + in_quotes(text) + ": give one of " +
-                                    listed(mobb::tree_kind_names()));
-    }
-    fit(session, "changing the kind of trees", [=](mobb::FitOptions& options) { options.tree = *kind; });
+    fit(session, "changing the kind of trees", &mobb::FitOptions::tree,
+        named("the trees", text, mobb::tree_kind_from_name, mobb::tree_kind_names()));
 }
 
 void set_axes(Session& session, const std::string& text) {
-    const auto axes = mobb::axes_from_name(text);
-    if (!axes) {
-        throw std::invalid_argument("the axes cannot be " + in_quotes(text) + ": give one of " +
-                                    listed(mobb::axes_names()));
-    }
-    fit(session, "changing the axes", [=](mobb::FitOptions& options) { options.axes = *axes; });
+    fit(session, "changing the axes", &mobb::FitOptions::axes,
+        named("the axes", text, mobb::axes_from_name, mobb::axes_names()));
 }
 
 void set_leaf(Session& session, const std::string& text) {
-    const int leaf = whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max());
-    fit(session, "changing the leaves", [=](mobb::FitOptions& options) { options.leaf = leaf; });
+    fit(session, "changing the leaves", &mobb::FitOptions::leaf,
+        whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max()));
 }
 
 void set_tree_levels(Session& session, const std::string& text) {
-    const int levels = whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max());
-    fit(session, "changing the levels", [=](mobb::FitOptions& options) { options.levels = levels; });
+    fit(session, "changing the levels", &mobb::FitOptions::levels,
+        whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max()));
 }
 
 void set_time_scale(Session& session, const std::string& text) {
-    const double scale = number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
-    fit(session, "changing the time scale", [=](mobb::FitOptions& options) { options.time_scale = scale; });
+    fit(session, "changing the time scale", &mobb::FitOptions::time_scale,
+        number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale));
 }
 
 }  // namespace

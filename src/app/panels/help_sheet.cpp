@@ -1,3 +1,4 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,8 +42,7 @@ std::vector<Line> lines() {
         menu = of;
         std::string what(command.title);
         if (what.ends_with("...")) what.resize(what.size() - 3);
-        std::istringstream chords{std::string(command.shortcut)};
-        for (std::string chord; chords >> chord;) out.push_back({chord, what, false});
+        for (const std::string& chord : words_of(command.shortcut)) out.push_back({chord, what, false});
     }
     out.push_back({"", "Mouse", true});
     for (const auto& [keys, what] : kMouse) out.push_back({keys, what, false});
@@ -98,9 +97,7 @@ void help_sheet(Ui& ui) {
     if (pressed(ImGuiKey_DownArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() + ui.px(60));
     if (pressed(ImGuiKey_UpArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() - ui.px(60));
     ImGui::EndChild();
-    if (marked_button(ui, "Close", "help.close", true) || pressed(ImGuiKey_Enter)) {
-        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
-    }
+    close_button(ui, "help.close");
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("Ctrl+P finds everything else by a few letters.");

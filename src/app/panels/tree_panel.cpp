@@ -18,11 +18,11 @@ struct ChoiceWords {
     std::string help;
 };
 
-ChoiceWords words_of(mobb::TreeKind kind) {
+ChoiceWords choice_words(mobb::TreeKind kind) {
     return {std::string(mobb::info(kind).label), std::string(mobb::info(kind).help)};
 }
 
-ChoiceWords words_of(mobb::Axes axes) {
+ChoiceWords choice_words(mobb::Axes axes) {
     const auto help = [&] {
         switch (axes) {
             case mobb::Axes::endpoints:
@@ -37,7 +37,7 @@ ChoiceWords words_of(mobb::Axes axes) {
     return {std::string(mobb::name(axes)), help()};
 }
 
-ChoiceWords words_of(ColorBy color_by) {
+ChoiceWords choice_words(ColorBy color_by) {
     return color_by == ColorBy::level ? ChoiceWords{"level", "Boxes by their level, from dark to bright"}
                                       : ChoiceWords{"agent", "Boxes in their agent's colour"};
 }
@@ -48,14 +48,14 @@ void choose(Ui& ui, const char* label, const char* id, Enum now, const char* hel
     form_label(ui, label, help);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-    const bool open = ImGui::BeginCombo((std::string("##") + id).c_str(), words_of(now).label.c_str());
+    const bool open = ImGui::BeginCombo((std::string("##") + id).c_str(), choice_words(now).label.c_str());
     // Once it is open the last item is of its list.
     ui.marks.add(id, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
     if (!open) return;
     int index = 0;
     for (const std::string& choice : find_command(id)->choices(ui.session)) {
         const auto value = static_cast<Enum>(index++);
-        const ChoiceWords words = words_of(value);
+        const ChoiceWords words = choice_words(value);
         if (ImGui::Selectable(words.label.c_str(), value == now)) invoke(ui.session, id, choice);
         ui.mark(std::string(id) + "." + choice);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.help.c_str());

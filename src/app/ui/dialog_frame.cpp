@@ -75,6 +75,12 @@ bool marked_button(Ui& ui, const char* label, const char* mark, bool is_default)
     return hit;
 }
 
+void close_button(Ui& ui, const char* mark) {
+    if (marked_button(ui, "Close", mark, true) || pressed(ImGuiKey_Enter)) {
+        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
+    }
+}
+
 bool pressed(ImGuiKey key, bool repeat) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); }
 
 bool pressed(Key key) {

@@ -1,3 +1,4 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cfloat>
-#include <sstream>
 #include <vector>
 
 namespace mobbscope::app {
@@ -17,8 +17,7 @@ namespace {
 /// The words of a text; a number and its unit are one.
 std::vector<std::string> unbroken_words(const std::string& text) {
     std::vector<std::string> out;
-    std::istringstream in(text);
-    for (std::string word; in >> word;) {
+    for (const std::string& word : words_of(text)) {
         const bool unit = (word[0] == 'm' || word[0] == 's') && (word.size() == 1 || std::ispunct(word[1]) != 0);
         if (unit && word.size() <= 2 && !out.empty()) {
             out.back() += ' ' + word;
