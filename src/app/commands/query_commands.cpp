@@ -5,7 +5,6 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace mobbscope::app {
 

@@ -7,10 +7,7 @@
 #include <render/text/labels.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
-#include <utility>
 
 namespace mobbscope::app {
 

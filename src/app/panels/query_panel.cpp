@@ -8,7 +8,6 @@
 #include <explain/query_sentence.h>
 
 #include <algorithm>
-#include <array>
 
 namespace mobbscope::app {
 
