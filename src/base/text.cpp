@@ -1,8 +1,11 @@
 #include <base/error.h>
 #include <base/text.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <numeric>
 #include <stdexcept>
 
@@ -114,6 +117,17 @@ std::string brief(double value) {
     char buffer[32];
     const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
     return {buffer, end};
+}
+
+std::string formatted(const char* format, ...) {
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    std::string out(static_cast<std::size_t>(std::max(0, std::vsnprintf(nullptr, 0, format, arguments))), '\0');
+    std::vsnprintf(out.data(), out.size() + 1, format, again);
+    va_end(again);
+    va_end(arguments);
+    return out;
 }
 
 std::string listed(std::span<const std::string_view> names) {

@@ -34,6 +34,9 @@ std::string short_double(double value);
 /// A number for people: six significant digits.
 std::string brief(double value);
 
+/// As std::printf writes it; at most 127 bytes.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
 /// "1 sample", "12 samples".
 std::string counted(std::integral auto count, std::string_view singular, std::string_view plural) {
     return std::to_string(count) + ' ' + std::string(count == 1 ? singular : plural);

@@ -1,9 +1,12 @@
 // The table as a whole: ids, shortcuts, arguments, what can be done when.
 #include "app/crossing_folder.h"
 
+#include <app/panels/panels.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <sstream>
 #include <string>
@@ -54,6 +57,16 @@ TEST(CommandTable, EveryChordIsReadAndCallsOneCommand) {
     }
     EXPECT_GT(chords.size(), 50u);
     EXPECT_EQ(command_for({Key::f12}), nullptr);
+}
+
+TEST(HelpSheet, SaysOfTheMouseWhatTheReadmeSays) {
+    const std::string readme = mobbscope::testing::slurp(MOBBSCOPE_SOURCE_DIR "/README.md");
+    for (const auto& [keys, what] : mouse_help()) {
+        std::string row = "| " + std::string(keys) + " | " + what;
+        char& first = row[row.size() - std::string_view(what).size()];
+        first = static_cast<char>(std::tolower(static_cast<unsigned char>(first)));
+        EXPECT_NE(readme.find(row), std::string::npos) << row;
+    }
 }
 
 TEST(CommandTable, WhatThereIsNotIsRefusedWithTheNearest) {

@@ -518,6 +518,21 @@ TEST(Views, WhatIsSavedIsTheActiveOne) {
 
 // --- jobs
 
+TEST(Excerpts, OfAnAgentAgainstItselfHaveItTwice) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.scene});
+    const PlacedAgent who = session.fitted().placed_agents()[0];
+    session.open_excerpt(who, who);
+    const Scene& scene = session.scene();
+    ASSERT_EQ(scene.clips.size(), 1u);
+    ASSERT_EQ(scene.agents.size(), 2u);
+    EXPECT_EQ(scene.agents[0].name, "A");
+    EXPECT_EQ(scene.agents[1].name, "A (2)");
+    ASSERT_TRUE(session.recorded());
+    EXPECT_TRUE(session.recorded()->contact);
+}
+
 TEST(Jobs, ACancelledFitLeavesTheDocument) {
     CrossingFolder folder;
     Session opened(true);

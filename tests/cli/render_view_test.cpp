@@ -1,6 +1,8 @@
 // What `render` shows: views from files, exact cameras, toggles, backgrounds.
 #include "render_runs.h"
 
+#include <scene/view_options.h>
+
 namespace mobbscope {
 namespace {
 
@@ -136,8 +138,9 @@ TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
         EXPECT_NE(picture({kCrossing, "--query", "0", "--step", "40%", off}).rgba, all.rgba) << off;
     }
     EXPECT_NE(picture({kCrossing, "--no-legend"}).rgba, picture({kCrossing}).rgba);
-    for (const char* on :
-         {"--labels", "--caption", "--legend", "--floor", "--time-axis", "--boxes", "--disks", "--tested-before"}) {
+    for (const ViewOption& option : view_options()) {
+        if (!option.toggle || option.option.empty()) continue;
+        const std::string on(option.option.substr(0, option.option.find(',')));
         EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", on}).rgba, all.rgba) << on;
     }
 }

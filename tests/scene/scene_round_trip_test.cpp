@@ -3,6 +3,7 @@
 #include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <scene/view_options.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -55,8 +56,9 @@ Scene random_scene(std::mt19937_64& random) {
     scene.view.time_height = positive(random);
     scene.view.color_by = ColorBy::level;
     scene.view.theme = Theme::light;
-    scene.view.caption = false;
-    scene.view.legend = false;
+    for (const ViewOption& option : view_options()) {
+        if (option.toggle) scene.view.*option.toggle = random() % 2 == 0;
+    }
     return scene;
 }
 

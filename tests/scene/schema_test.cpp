@@ -179,7 +179,7 @@ void expect_known(const nlohmann::json& value, const std::set<std::string>& keys
 TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
     const testing::TempFolder folder;
     folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,0\n1,1,0,0,0\n1,5,0,0,0\n");
-    const Scene scene = parse_scene(R"({"clips": {"root": {"dt": 1, "samples": [[0, 0, 1]]},
+    Scene scene = parse_scene(R"({"clips": {"root": {"dt": 1, "samples": [[0, 0, 1]]},
         "source": {"source": "a.csv", "id": 1, "fps": 9, "unit": "m", "trim": [0, 3], "origin": "start", "radius": 1, "dt": 1}},
         "graph": {"hubs": [{"name": "h"}], "bounds": {"pose_distance": 0.1, "root_speed": null},
           "moves": [{"clip": "root", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [1, 0, 0]}]},
@@ -188,9 +188,11 @@ TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
           {"time": 0, "a_sample": 0, "b_sample": 0, "distance": 0, "radii": 2}}, "trace":
           [{"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "samples", "outcome": "hit", "pairs": [[0, 0, 0]]}]}],
         "view": {"camera": {"preset": "free", "yaw_deg": 1, "pitch_deg": 1, "perspective": false, "fov_deg": 50,
-          "target": [0, 0, 0], "distance": 1, "shift": [0, 0.1]}, "levels": 1, "query": 0, "step": 0, "time": 0, "time_height": 1, "color_by": "level", "theme": "light",
-          "disks": false, "boxes": false, "floor": false, "time_axis": false, "labels": false, "caption": false, "legend": false}})",
-                                    "s.json", folder.path());
+          "target": [0, 0, 0], "distance": 1, "shift": [0, 0.1]}, "levels": 1, "query": 0, "step": 0, "time": 0, "time_height": 1, "color_by": "level", "theme": "light"}})",
+                              "s.json", folder.path());
+    for (const ViewOption& option : view_options()) {
+        if (option.toggle) scene.view.*option.toggle = false;
+    }
     std::set<std::string> keys;
     collect_properties(schema(), keys);
     expect_known(nlohmann::json::parse(to_json(scene)), keys);

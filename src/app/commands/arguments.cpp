@@ -1,9 +1,10 @@
 #include <app/commands/arguments.h>
 #include <base/text.h>
 
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
-#include <vector>
 
 namespace mobbscope::app {
 
@@ -14,6 +15,11 @@ namespace {
 }
 
 }  // namespace
+
+std::vector<std::string> words_of(std::string_view text) {
+    std::istringstream in{std::string(text)};
+    return {std::istream_iterator<std::string>(in), {}};
+}
 
 double number_in(std::string_view text, std::string_view what, double low, double high) {
     const std::optional<double> value = parse_double(trimmed(text));

@@ -8,8 +8,12 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::app {
+
+/// The words of a text, apart from blanks; throws nothing.
+std::vector<std::string> words_of(std::string_view text);
 
 /// A finite number within [low, high]; `what` names it: "the step".
 double number_in(std::string_view text, std::string_view what, double low, double high);

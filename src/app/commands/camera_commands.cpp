@@ -1,6 +1,5 @@
 #include <app/commands/camera_commands.h>
 #include <app/document/agents.h>
-#include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
@@ -9,7 +8,6 @@
 #include <render/pictures/moment.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 namespace mobbscope::app {
@@ -18,14 +16,6 @@ namespace {
 
 constexpr PictureSize kWithoutWindow{1280, 720};
 
-void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
-    for (int i = range.first; i < range.end(); ++i) {
-        const mobb::Disk disk = clip.disk(i);
-        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
-        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
-    }
-}
-
 void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
     for (const glm::dvec3& corner : mobb::corners(world_box(tree, node))) {
         bounds.add({corner.x, corner.y, corner.z / tree.time_scale()});
@@ -33,6 +23,14 @@ void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
 }
 
 }  // namespace
+
+void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
+    for (int i = range.first; i < range.end(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
+        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
+    }
+}
 
 PictureSize viewport_size(const Session& session) {
     return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
@@ -81,10 +79,7 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
 bool follows(const Session& session) { return !session.view().follow.empty(); }
 
 void follow_agent(Session& session, const std::string& name, double metres) {
-    if (!can_follow(session.scene(), name)) {
-        std::vector<std::string> names = agent_names(session);
-        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
-    }
+    index_of_name(agent_names(session), name, "agent");
     session.candidate = -1;
     session.change_view([&](ViewState& view) { view.follow = name; });
     frame_followed(session, metres);

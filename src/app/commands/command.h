@@ -6,38 +6,68 @@
 #include <app/input/key.h>
 #include <scene/view_options.h>
 
+#include <concepts>
 #include <functional>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
 
-struct Command {
-    std::string_view id;     ///< "view.top": for scripts
-    std::string_view title;  ///< "View from above": for menus and the palette
+/// The rule of commands that need nothing but a scene.
+inline bool has_scene(const Session& session) { return !session.empty(); }
+inline bool always(const Session&) { return true; }
+
+/// Whether a command can be done; and why not, where a scene is open and no job under way.
+struct Condition {
+    template <class Holds>
+    Condition(
+        Holds if_,
+        std::string_view (*else_)(const Session&) = [](const Session&) -> std::string_view { return "not now"; })
+        : holds(if_), why_not(else_) {}
+    bool operator()(const Session& session) const { return holds(session); }
+
+    std::function<bool(const Session&)> holds;
+    std::string_view (*why_not)(const Session&);
+};
+
+/// What a command does; what takes no argument need not name it. Throws InputError, MachineError or
+/// std::invalid_argument, in words for the person.
+struct Action : std::function<void(Session&, const std::string& argument)> {
+    using function::function;
+    template <std::invocable<Session&> Act>
+    Action(Act act) : function([act](Session& session, const std::string&) { std::invoke(act, session); }) {}
+};
+
+/// What a command may have besides.
+struct CommandTraits {
     /// "File", "Edit", "View", "Tree", "Query", "Go" or "Help", and behind a slash the submenu; empty: not in a menu
     std::string_view menu{};
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
     bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
-    std::string_view doc;         ///< one sentence
-    bool (*enabled)(const Session&) = [](const Session&) { return true; };
-    /// Why not, where it is not enabled though a scene is open and no job under way.
-    std::string_view (*why_not)(const Session&) = [](const Session&) { return std::string_view("not now"); };
-    /// Throws InputError, MachineError or std::invalid_argument, in words for the person.
-    std::function<void(Session&, const std::string& argument)> run{};
+    Condition enabled = has_scene;
     std::function<bool(const Session&)> checked{};                      ///< of a toggle: whether it is on
     std::function<std::vector<std::string>(const Session&)> choices{};  ///< arguments to choose from
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
     std::function<bool(const Session&, const std::string& choice)> chosen{};
+};
+
+struct Command : CommandTraits {
+    Command(std::string_view id_, std::string_view title_, std::string_view doc_, Action run_,
+            CommandTraits traits = {})
+        : CommandTraits(std::move(traits)), id(id_), title(title_), doc(doc_), run(std::move(run_)) {}
+
+    std::string_view id;     ///< "view.top": for scripts
+    std::string_view title;  ///< "View from above": for menus and the palette
+    std::string_view doc;    ///< one sentence
+    Action run;
 
     bool needs_argument() const { return !argument.empty() && !argument.starts_with('['); }
 };
-
-/// The rule of commands that need nothing but a scene.
-inline bool has_scene(const Session& session) { return !session.empty(); }
 
 /// The table, in the order of the menus.
 std::span<const Command> commands();
@@ -49,6 +79,8 @@ std::string_view why_no_step(const Session& session);
 
 /// Null if there is none.
 const Command* find_command(std::string_view id);
+/// Throws std::invalid_argument, with the nearest id, if there is none.
+const Command& command_named(std::string_view id);
 
 /// Runs a command by id at once, as a script does between frames: throws std::invalid_argument if there is none, it is
 /// not enabled, or it is given an argument that it does not take or none where it needs one; and what the command
@@ -68,13 +100,18 @@ std::string_view first_shortcut(const Command& command);
 Command option_command(const ViewOption& option);
 
 // The parts of the table, one file each.
-std::span<const Command> file_commands();
-std::span<const Command> edit_commands();
-std::span<const Command> view_commands();
-std::span<const Command> tree_commands();
-std::span<const Command> query_commands();
-std::span<const Command> go_commands();
-std::span<const Command> crowd_commands();
-std::span<const Command> help_commands();
+std::vector<Command> file_commands();
+std::vector<Command> edit_commands();
+std::vector<Command> view_commands();
+std::vector<Command> tree_commands();
+std::vector<Command> query_commands();
+std::vector<Command> go_commands();
+std::vector<Command> crowd_commands();
+
+/// Rows of a part: those that say no menu stand in this one.
+std::vector<Command> in_menu(std::string_view menu, std::vector<Command> rows);
+inline constexpr std::string_view kNoMenu = "none";  ///< of a row there: it stands in no menu
+/// The rows of all these parts.
+std::vector<Command> joined(std::initializer_list<std::vector<Command>> parts);
 
 }  // namespace mobbscope::app

@@ -1,4 +1,6 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <base/text.h>
 
 #include <algorithm>
@@ -8,36 +10,29 @@ namespace mobbscope::app {
 
 namespace {
 
-std::vector<Command> all_commands() {
-    std::vector<Command> out;
-    for (const auto& part : {file_commands(), edit_commands(), view_commands(), tree_commands(), query_commands(),
-                             go_commands(), crowd_commands(), help_commands()}) {
-        out.insert(out.end(), part.begin(), part.end());
-    }
-    return out;
-}
-
-/// Calls `use` with each of the blank-separated chords.
-template <class Use>
-void each_chord(std::string_view shortcuts, const Use& use) {
-    while (!shortcuts.empty()) {
-        const std::size_t blank = shortcuts.find(' ');
-        use(shortcuts.substr(0, blank));
-        shortcuts.remove_prefix(blank == std::string_view::npos ? shortcuts.size() : blank + 1);
-    }
+std::vector<Command> help_commands() {
+    const std::vector<Command> rows{
+        Command("help.shortcuts", "Shortcuts", "Lists all shortcuts and what the mouse does.",
+                [](Session& session) { session.open_dialog(Dialog::help); }, {.shortcut = "F1", .enabled = always}),
+        Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
+                [](Session& session) { session.open_dialog(Dialog::about); }, {.enabled = always}),
+    };
+    return in_menu("Help", rows);
 }
 
 }  // namespace
 
 std::span<const Command> commands() {
-    static const std::vector<Command> table = all_commands();
+    static const std::vector<Command> table =
+        joined({file_commands(), edit_commands(), view_commands(), tree_commands(), query_commands(), go_commands(),
+                crowd_commands(), help_commands()});
     return table;
 }
 
 std::string_view why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
     if (session.job()) return "something is under way";
-    return session.empty() ? "nothing is open" : command.why_not(session);
+    return session.empty() ? "nothing is open" : command.enabled.why_not(session);
 }
 
 std::string_view why_no_step(const Session& session) {
@@ -50,24 +45,21 @@ const Command* find_command(std::string_view id) {
     return at == table.end() ? nullptr : &*at;
 }
 
+const Command& command_named(std::string_view id) {
+    std::vector<std::string> ids;
+    for (const Command& command : commands()) ids.emplace_back(command.id);
+    return commands()[static_cast<std::size_t>(index_of_name(ids, id, "command"))];
+}
+
 void run_command(Session& session, std::string_view id, const std::string& argument) {
-    const Command* command = find_command(id);
-    if (!command) {
-        std::vector<std::string> ids;
-        for (const Command& c : commands()) ids.emplace_back(c.id);
-        throw std::invalid_argument("there is no command " + in_quotes(id) + did_you_mean(id, ids));
-    }
-    if (!command->enabled(session)) {
-        throw std::invalid_argument("\"" + std::string(command->title) + "\" cannot be done now");
-    }
-    if (command->needs_argument() && argument.empty()) {
-        throw std::invalid_argument("\"" + std::string(command->title) + "\" needs " + std::string(command->argument));
-    }
-    if (command->argument.empty() && !argument.empty()) {
-        throw std::invalid_argument("\"" + std::string(command->title) + "\" takes nothing, but was given " +
-                                    in_quotes(argument));
-    }
-    command->run(session, argument);
+    const Command& command = command_named(id);
+    const auto require = [&](bool holds, const std::string& what_is_wrong) {
+        if (!holds) throw std::invalid_argument('"' + std::string(command.title) + "\" " + what_is_wrong);
+    };
+    require(command.enabled(session), "cannot be done now");
+    require(!command.needs_argument() || !argument.empty(), "needs " + std::string(command.argument));
+    require(!command.argument.empty() || argument.empty(), "takes nothing, but was given " + in_quotes(argument));
+    command.run(session, argument);
 }
 
 void invoke(Session& session, std::string_view id, const std::string& argument) {
@@ -76,9 +68,9 @@ void invoke(Session& session, std::string_view id, const std::string& argument) 
 
 const Command* command_for(const Chord& chord) {
     for (const Command& command : commands()) {
-        bool calls = false;
-        each_chord(command.shortcut, [&](std::string_view name) { calls |= chord_from_name(name) == chord; });
-        if (calls) return &command;
+        for (const std::string& name : words_of(command.shortcut)) {
+            if (chord_from_name(name) == chord) return &command;
+        }
     }
     return nullptr;
 }
@@ -88,21 +80,15 @@ std::string_view first_shortcut(const Command& command) {
 }
 
 Command option_command(const ViewOption& option) {
-    Command out{.id = option.command,
-                .title = option.title,
-                .menu = option.menu,
-                .shortcut = option.shortcut,
-                .doc = option.doc};
-    if (option.toggle) {
-        const auto value = option.toggle;
-        out.run = [value](Session& session, const std::string&) {
+    CommandTraits traits{.menu = option.menu, .shortcut = option.shortcut, .enabled = always};
+    if (const auto value = option.toggle) {
+        const auto flip = [value](Session& session) {
             session.change_view([&](ViewState& view) { view.*value = !(view.*value); });
         };
-        out.checked = [value](const Session& session) { return session.view().*value; };
-        return out;
+        traits.checked = [value](const Session& session) { return session.view().*value; };
+        return {option.command, option.title, option.doc, flip, traits};
     }
-    out.argument = option.argument;
-    out.run = [&option](Session& session, const std::string& text) {
+    const auto choose = [&option](Session& session, const std::string& text) {
         const std::vector<std::string>& all = option.choices;
         // Without an argument the next one.
         const auto now = std::ranges::find(all, option.text(session.view()));
@@ -113,28 +99,26 @@ Command option_command(const ViewOption& option) {
         }
         session.change_view([&](ViewState& view) { option.parse(wanted, view); });
     };
-    out.choices = [&option](const Session&) { return option.choices; };
-    out.chosen = [&option](const Session& session, const std::string& text) {
+    traits.argument = option.argument;
+    traits.choices = [&option](const Session&) { return option.choices; };
+    traits.chosen = [&option](const Session& session, const std::string& text) {
         return option.text(session.view()) == text;
     };
-    return out;
+    return {option.command, option.title, option.doc, choose, traits};
 }
 
-std::span<const Command> help_commands() {
-    static const std::vector<Command> table{
-        {.id = "help.shortcuts",
-         .title = "Shortcuts",
-         .menu = "Help",
-         .shortcut = "F1",
-         .doc = "Lists all shortcuts and what the mouse does.",
-         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::help); }},
-        {.id = "help.about",
-         .title = "About Mobbscope",
-         .menu = "Help",
-         .doc = "Says which version this is and what it shows.",
-         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::about); }},
-    };
-    return table;
+std::vector<Command> in_menu(std::string_view menu, std::vector<Command> rows) {
+    for (Command& row : rows) {
+        if (row.menu.empty()) row.menu = menu;
+        if (row.menu == kNoMenu) row.menu = {};
+    }
+    return rows;
+}
+
+std::vector<Command> joined(std::initializer_list<std::vector<Command>> parts) {
+    std::vector<Command> out;
+    for (const std::vector<Command>& part : parts) out.insert(out.end(), part.begin(), part.end());
+    return out;
 }
 
 }  // namespace mobbscope::app

@@ -2,7 +2,6 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
-#include <base/text.h>
 #include <render/layout/follow.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
@@ -22,7 +21,7 @@ constexpr double kBefore = 0.5;  // seconds before a conflict
 
 // --- following
 
-void stop_following(Session& session, const std::string&) {
+void stop_following(Session& session) {
     session.candidate = -1;
     const double time = shown_time(session);
     const glm::dvec3 anchor = camera_anchor(session.fitted(), session.view(), time);
@@ -37,7 +36,7 @@ void follow(Session& session, const std::string& name) {
     if (!name.empty()) return follow_agent(session, name, kAroundFollowed);
     const std::string who = current_agent(session);
     if (who.empty()) return session.tell(Message::Level::info, "Click somebody first to follow them");
-    if (who == session.view().follow) return stop_following(session, "");
+    if (who == session.view().follow) return stop_following(session);
     follow_agent(session, who, kAroundFollowed);
 }
 
@@ -80,7 +79,7 @@ bool has_choice(const Session& session) {
     return next_choice<direction>(session).has_value();
 }
 template <int direction>
-void to_choice(Session& session, const std::string&) {
+void to_choice(Session& session) {
     to_time(session, *next_choice<direction>(session));
 }
 
@@ -88,11 +87,9 @@ void to_choice(Session& session, const std::string&) {
 
 Command candidates_command() {
     Command out = option_command(view_option("candidates"));
-    out.enabled = [](const Session& session) { return session.crowd() != nullptr; };
+    out.enabled = &Session::crowd;
     return out;
 }
-
-bool has_candidates(const Session& session) { return session.choice() != nullptr; }
 
 void point_out(Session& session, const std::string& text) {
     const int count = static_cast<int>(session.choice()->choice.candidates.size());
@@ -132,8 +129,6 @@ void open_candidate(Session& session, const std::string& text) {
 bool can_find(const Session& session) { return !session.empty() && !session.job() && can_conflict(session); }
 bool has_conflicts(const Session& session) { return session.conflicts() && !session.conflicts()->empty(); }
 
-void find(Session& session, const std::string&) { session.find_conflicts(); }
-
 void to_conflict(Session& session, int index) {
     const SceneConflict& found = (*session.conflicts())[static_cast<std::size_t>(index)];
     session.stop();
@@ -157,7 +152,7 @@ bool has_next_conflict(const Session& session) {
     return next >= 0 && next < static_cast<int>(session.conflicts()->size());
 }
 template <int direction>
-void next_conflict(Session& session, const std::string&) {
+void next_conflict(Session& session) {
     to_conflict(session, session.conflict + direction);
 }
 
@@ -171,129 +166,61 @@ void open_conflict(Session& session, const std::string& text) {
 
 void open_pair(Session& session, const std::string& name) {
     const auto path = current_path(session);
-    const auto other = path_of_agent(session, name);
-    if (!other) {
-        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, agent_names(session)));
-    }
-    if (other->name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
-    session.open_excerpt(*path, *other);
+    const int index = index_of_name(agent_names(session), name, "agent");
+    const PlacedAgent other = session.fitted().placed_agents()[static_cast<std::size_t>(index)];
+    if (other.name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
+    session.open_excerpt(*path, other);
 }
 
 }  // namespace
 
-std::span<const Command> crowd_commands() {
-    static const std::vector<Command> table{
-        {.id = "crowd.follow",
-         .title = "Follow",
-         .menu = "Go/Crowd",
-         .shortcut = "W",
-         .argument = "[AGENT]",
-         .doc = "Lets the camera go along with the selected agent, and shows a run's last choice; once more: stops.",
-         .enabled = has_scene,
-         .run = follow,
-         .checked = follows},
-        {.id = "crowd.stop",
-         .title = "Stop following",
-         .menu = "Go/Crowd",
-         .doc = "Leaves the camera where it is.",
-         .enabled = follows,
-         .run = stop_following},
+std::vector<Command> crowd_commands() {
+    const std::vector<Command> rows{
+        Command("crowd.follow", "Follow",
+                "Lets the camera go along with the selected agent, and shows a run's last choice; once more: stops.",
+                follow, {.shortcut = "W", .argument = "[AGENT]", .checked = follows}),
+        Command("crowd.stop", "Stop following", "Leaves the camera where it is.", stop_following, {.enabled = follows}),
         candidates_command(),
-        {.id = "crowd.window",
-         .title = "Seconds around the time",
-         .argument = "S",
-         .doc = "Shows so many seconds of a run before and after its time in space-time, 0.1 to 60.",
-         .enabled = [](const Session& session) { return session.crowd() != nullptr; },
-         .run =
-             [](Session& session, const std::string& text) {
-                 const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
-                 session.change_view([&](ViewState& view) { view.time_window = window; });
-             }},
-        {.id = "crowd.next_choice",
-         .title = "Next choice",
-         .menu = "Go/Crowd",
-         .shortcut = "N",
-         .doc = "Goes to the time at which the agent chooses next.",
-         .enabled = has_choice<1>,
-         .run = to_choice<1>},
-        {.id = "crowd.previous_choice",
-         .title = "Previous choice",
-         .menu = "Go/Crowd",
-         .shortcut = "Shift+N",
-         .doc = "Goes to the time at which the agent chose before.",
-         .enabled = has_choice<-1>,
-         .run = to_choice<-1>},
-        {.id = "crowd.play",
-         .title = "To a play",
-         .argument = "N",
-         .doc = "Goes to the time at which the agent's play begins, by its number from 0.",
-         .enabled = [](const Session& session) { return followed(session) != nullptr; },
-         .run = to_play},
-        {.id = "crowd.candidate",
-         .title = "Point out a candidate",
-         .argument = "N",
-         .doc = "Points out one of the moves that the followed agent could choose, by its number from 0.",
-         .enabled = has_candidates,
-         .run = point_out},
-        {.id = "crowd.open_candidate",
-         .title = "Open the candidate as a scene",
-         .menu = "Go/Crowd",
-         .argument = "[N]",
-         .doc =
-             "Opens the candidate that is pointed out, and who rules it out, as a scene with the query between them.",
-         .enabled = has_candidates,
-         .run = open_candidate},
-        {.id = "crowd.open_pair",
-         .title = "Open as a scene with",
-         .menu = "Go/Crowd",
-         .argument = "AGENT",
-         .doc = "Opens what the selected agent and another walk now as a scene with the query between them.",
-         .enabled = [](const Session& session) { return session.is_crowd() && current_path(session).has_value(); },
-         .run = open_pair},
-        {.id = "conflicts.find",
-         .title = "Find conflicts",
-         .menu = "Go/Crowd",
-         .doc = "Looks for all that collide, through the trees.",
-         .enabled = can_find,
-         .run = find},
-        {.id = "conflicts.next",
-         .title = "Next conflict",
-         .menu = "Go/Crowd",
-         .shortcut = "Shift+PageDown",
-         .repeats = true,
-         .doc = "Goes to just before the next two collide, and follows one of them.",
-         .enabled = has_next_conflict<1>,
-         .run = next_conflict<1>},
-        {.id = "conflicts.previous",
-         .title = "Previous conflict",
-         .menu = "Go/Crowd",
-         .shortcut = "Shift+PageUp",
-         .repeats = true,
-         .doc = "Goes to just before the two of the conflict before.",
-         .enabled = has_next_conflict<-1>,
-         .run = next_conflict<-1>},
-        {.id = "conflicts.go",
-         .title = "To a conflict",
-         .argument = "N",
-         .doc = "Goes to just before a conflict, by its number from 0.",
-         .enabled = has_conflicts,
-         .run = go_conflict},
-        {.id = "conflicts.open",
-         .title = "Open the conflict as a scene",
-         .menu = "Go/Crowd",
-         .argument = "[N]",
-         .doc = "Opens the two of a conflict as a scene with the query between them.",
-         .enabled = has_conflicts,
-         .run = open_conflict},
-        {.id = "crowd.back",
-         .title = "Back to the crowd",
-         .menu = "Go/Crowd",
-         .shortcut = "Backspace",
-         .doc = "Leaves the scene of two for the crowd that they were taken from.",
-         .enabled = [](const Session& session) { return session.in_excerpt(); },
-         .run = [](Session& session, const std::string&) { session.leave_excerpt(); }},
+        Command("crowd.window", "Seconds around the time",
+                "Shows so many seconds of a run before and after its time in space-time, 0.1 to 60.",
+                [](Session& session, const std::string& text) {
+                    const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
+                    session.change_view([&](ViewState& view) { view.time_window = window; });
+                },
+                {.menu = kNoMenu, .argument = "S", .enabled = &Session::crowd}),
+        Command("crowd.next_choice", "Next choice", "Goes to the time at which the agent chooses next.", to_choice<1>,
+                {.shortcut = "N", .enabled = has_choice<1>}),
+        Command("crowd.previous_choice", "Previous choice", "Goes to the time at which the agent chose before.",
+                to_choice<-1>, {.shortcut = "Shift+N", .enabled = has_choice<-1>}),
+        Command("crowd.play", "To a play", "Goes to the time at which the agent's play begins, by its number from 0.",
+                to_play, {.menu = kNoMenu, .argument = "N", .enabled = followed}),
+        Command("crowd.candidate", "Point out a candidate",
+                "Points out one of the moves that the followed agent could choose, by its number from 0.", point_out,
+                {.menu = kNoMenu, .argument = "N", .enabled = &Session::choice}),
+        Command(
+            "crowd.open_candidate", "Open the candidate as a scene",
+            "Opens the candidate that is pointed out, and who rules it out, as a scene with the query between them.",
+            open_candidate, {.argument = "[N]", .enabled = &Session::choice}),
+        Command("crowd.open_pair", "Open as a scene with",
+                "Opens what the selected agent and another walk now as a scene with the query between them.", open_pair,
+                {.argument = "AGENT",
+                 .enabled =
+                     [](const Session& session) { return session.is_crowd() && current_path(session).has_value(); }}),
+        Command("conflicts.find", "Find conflicts", "Looks for all that collide, through the trees.",
+                &Session::find_conflicts, {.enabled = can_find}),
+        Command("conflicts.next", "Next conflict", "Goes to just before the next two collide, and follows one of them.",
+                next_conflict<1>, {.shortcut = "Shift+PageDown", .repeats = true, .enabled = has_next_conflict<1>}),
+        Command("conflicts.previous", "Previous conflict", "Goes to just before the two of the conflict before.",
+                next_conflict<-1>, {.shortcut = "Shift+PageUp", .repeats = true, .enabled = has_next_conflict<-1>}),
+        Command("conflicts.go", "To a conflict", "Goes to just before a conflict, by its number from 0.", go_conflict,
+                {.menu = kNoMenu, .argument = "N", .enabled = has_conflicts}),
+        Command("conflicts.open", "Open the conflict as a scene",
+                "Opens the two of a conflict as a scene with the query between them.", open_conflict,
+                {.argument = "[N]", .enabled = has_conflicts}),
+        Command("crowd.back", "Back to the crowd", "Leaves the scene of two for the crowd that they were taken from.",
+                &Session::leave_excerpt, {.shortcut = "Backspace", .enabled = &Session::in_excerpt}),
     };
-    return table;
+    return in_menu("Go/Crowd", rows);
 }
 
 }  // namespace mobbscope::app

@@ -1,10 +1,9 @@
 #include <app/commands/arguments.h>
+#include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <base/text.h>
 #include <scene/scene_edits.h>
-
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,29 +18,16 @@ constexpr double kAside = 1;         // metres from the original to its copy
 constexpr double kBetween = 0.5;     // metres from the others to a new agent
 constexpr double kMaxDegrees = 1e9;  // as placements allow
 
-struct FloorBounds {
-    glm::dvec2 min{std::numeric_limits<double>::max()};
-    glm::dvec2 max{std::numeric_limits<double>::lowest()};
-
-    void add(const mobb::PlacedClip& clip) {
-        for (int i = 0; i < clip.count(); ++i) {
-            const mobb::Disk disk = clip.disk(i);
-            min = glm::min(min, glm::dvec2(disk.x - disk.r, disk.y - disk.r));
-            max = glm::max(max, glm::dvec2(disk.x + disk.r, disk.y + disk.r));
-        }
-    }
-};
-
 /// Beside all others, level with the middle of them, beginning when the first of them does.
 mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
-    FloorBounds others, own;
+    Bounds others, own;
     double start = std::numeric_limits<double>::max();
     for (const PlacedAgent& who : fitted.placed_agents()) {
         const mobb::PlacedTree tree = fitted.placed(who);
-        others.add(tree.placed_clip());
+        add_samples(others, tree.placed_clip(), {0, tree.placed_clip().count()});
         start = std::min(start, who.placement.start);
     }
-    own.add(mobb::PlacedClip(clip, {}));
+    add_samples(own, mobb::PlacedClip(clip, {}), {0, clip.count()});
     const double x = 0.5 * (others.min.x + others.max.x - own.min.x - own.max.x);
     const double y = others.max.y + kBetween - own.min.y;
     const auto rounded_up = [](double metres) { return std::ceil(metres * 10) / 10; };
@@ -51,11 +37,7 @@ mobb::Placement aside(const FittedScene& fitted, const mobb::Clip& clip) {
 void select_agent(Session& session, int agent) { session.select({Selection::Kind::path, {agent, -1, 0}, -1}); }
 
 void add(Session& session, const std::string& name) {
-    const std::vector<std::string> names = clip_names(session);
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end())
-        throw std::invalid_argument("there is no clip " + in_quotes(name) + did_you_mean(name, names));
-    const int clip = static_cast<int>(at - names.begin());
+    const int clip = index_of_name(clip_names(session), name, "clip");
     const mobb::Placement placement =
         aside(session.fitted(), *session.scene().clips[static_cast<std::size_t>(clip)].clip);
     int agent = 0;
@@ -63,7 +45,7 @@ void add(Session& session, const std::string& name) {
     select_agent(session, agent);
 }
 
-void duplicate(Session& session, const std::string&) {
+void duplicate(Session& session) {
     int copy = 0;
     edit_selected_agent(session, "duplicating", [&](Scene& scene, int agent) {
         copy = duplicate_agent(scene, agent);
@@ -74,7 +56,7 @@ void duplicate(Session& session, const std::string&) {
     select_agent(session, copy);
 }
 
-void remove(Session& session, const std::string&) {
+void remove(Session& session) {
     edit_selected_agent(session, "removing", [](Scene& scene, int agent) { remove_agent(scene, agent); });
     // The next agent has its index now.
     session.select({});
@@ -132,104 +114,44 @@ void set_color(Session& session, const std::string& text) {
 
 }  // namespace
 
-std::span<const Command> edit_commands() {
-    static const std::vector<Command> table{
-        {.id = "edit.undo",
-         .title = "Undo",
-         .menu = "Edit",
-         .shortcut = "Ctrl+Z",
-         .repeats = true,
-         .doc = "Takes back the last edit, or the looking around since.",
-         .enabled = [](const Session& session) { return session.history().can_undo(); },
-         .run = [](Session& session, const std::string&) { session.undo(); }},
-        {.id = "edit.redo",
-         .title = "Redo",
-         .menu = "Edit",
-         .shortcut = "Ctrl+Y Ctrl+Shift+Z",
-         .repeats = true,
-         .doc = "Brings back what was undone.",
-         .enabled = [](const Session& session) { return session.history().can_redo(); },
-         .run = [](Session& session, const std::string&) { session.redo(); }},
-        {.id = "agent.add",
-         .title = "Add agent",
-         .menu = "Edit",
-         .argument = "CLIP",
-         .doc = "Adds an agent that plays a clip, a little aside from the others.",
-         .enabled = [](const Session& session) { return has_scene(session) && !session.crowd(); },
-         .why_not = why_no_agent,
-         .run = add,
-         .choices = clip_names},
-        {.id = "agent.duplicate",
-         .title = "Duplicate agent",
-         .menu = "Edit",
-         .shortcut = "Ctrl+D",
-         .doc = "Adds a copy of the selected agent, a metre aside.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = duplicate},
-        {.id = "agent.remove",
-         .title = "Remove agent",
-         .menu = "Edit",
-         .shortcut = "Delete",
-         .doc = "Removes the selected agent and the queries about it; its clip stays.",
-         .enabled =
-             [](const Session& session) {
-                 return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
-             },
-         .why_not = why_no_agent,
-         .run = remove},
-        {.id = "agent.rename",
-         .title = "Rename agent...",
-         .menu = "Edit",
-         .argument = "NAME",
-         .doc = "Gives the selected agent another name.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = rename},
-        {.id = "agent.move",
-         .title = "Place agent at",
-         .argument = "X Y",
-         .doc = "Places the selected agent on the floor, in metres.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = move},
-        {.id = "agent.turn",
-         .title = "Turn agent to",
-         .argument = "DEG",
-         .doc = "Turns the selected agent's path about its clip's origin: degrees, counter-clockwise.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = turn},
-        {.id = "agent.start",
-         .title = "Start agent at",
-         .argument = "S",
-         .doc = "Lets the selected agent begin at a moment, in seconds.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = start},
-        {.id = "agent.nudge",
-         .title = "Move agent by",
-         .argument = "DX DY",
-         .doc = "Moves the selected agent on the floor by metres.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = nudge},
-        {.id = "agent.shift_start",
-         .title = "Shift agent in time by",
-         .argument = "S",
-         .doc = "Lets the selected agent begin later by seconds; below 0 earlier.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = shift_start},
-        {.id = "agent.color",
-         .title = "Colour agent",
-         .argument = "#RRGGBB|none",
-         .doc = "Gives the selected agent a colour of its own, or the palette's again.",
-         .enabled = has_selected_agent,
-         .why_not = why_no_agent,
-         .run = set_color},
+std::vector<Command> edit_commands() {
+    const std::vector<Command> rows{
+        Command("edit.undo", "Undo", "Takes back the last edit, or the looking around since.", &Session::undo,
+                {.shortcut = "Ctrl+Z",
+                 .repeats = true,
+                 .enabled = [](const Session& session) { return session.history().can_undo(); }}),
+        Command("edit.redo", "Redo", "Brings back what was undone.", &Session::redo,
+                {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
+                 .repeats = true,
+                 .enabled = [](const Session& session) { return session.history().can_redo(); }}),
+        Command(
+            "agent.add", "Add agent", "Adds an agent that plays a clip, a little aside from the others.", add,
+            {.argument = "CLIP",
+             .enabled = {[](const Session& session) { return has_scene(session) && !session.crowd(); }, why_no_agent},
+             .choices = clip_names}),
+        Command("agent.duplicate", "Duplicate agent", "Adds a copy of the selected agent, a metre aside.", duplicate,
+                {.shortcut = "Ctrl+D", .enabled = {has_selected_agent, why_no_agent}}),
+        Command("agent.remove", "Remove agent", "Removes the selected agent and the queries about it; its clip stays.",
+                remove, {.shortcut = "Delete", .enabled = {has_selected_of_several, why_no_agent}}),
+        Command("agent.rename", "Rename agent...", "Gives the selected agent another name.", rename,
+                {.argument = "NAME", .enabled = {has_selected_agent, why_no_agent}}),
+        Command("agent.move", "Place agent at", "Places the selected agent on the floor, in metres.", move,
+                {.menu = kNoMenu, .argument = "X Y", .enabled = {has_selected_agent, why_no_agent}}),
+        Command("agent.turn", "Turn agent to",
+                "Turns the selected agent's path about its clip's origin: degrees, counter-clockwise.", turn,
+                {.menu = kNoMenu, .argument = "DEG", .enabled = {has_selected_agent, why_no_agent}}),
+        Command("agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
+                {.menu = kNoMenu, .argument = "S", .enabled = {has_selected_agent, why_no_agent}}),
+        Command("agent.nudge", "Move agent by", "Moves the selected agent on the floor by metres.", nudge,
+                {.menu = kNoMenu, .argument = "DX DY", .enabled = {has_selected_agent, why_no_agent}}),
+        Command("agent.shift_start", "Shift agent in time by",
+                "Lets the selected agent begin later by seconds; below 0 earlier.", shift_start,
+                {.menu = kNoMenu, .argument = "S", .enabled = {has_selected_agent, why_no_agent}}),
+        Command("agent.color", "Colour agent", "Gives the selected agent a colour of its own, or the palette's again.",
+                set_color,
+                {.menu = kNoMenu, .argument = "#RRGGBB|none", .enabled = {has_selected_agent, why_no_agent}}),
     };
-    return table;
+    return in_menu("Edit", rows);
 }
 
 }  // namespace mobbscope::app

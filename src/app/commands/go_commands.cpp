@@ -1,33 +1,39 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
-#include <base/text.h>
 #include <render/parts/node_boxes.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <string>
+#include <unordered_set>
+#include <vector>
 
 namespace mobbscope::app {
 
 namespace {
 
-/// The paths that have names: those in the picture first, as a query may place clips itself.
-std::vector<AgentRef> paths(const Session& session) {
-    std::vector<AgentRef> out;
-    if (session.view().query) {
-        for (int side = 0; side < 2; ++side) out.push_back(agent_in_view(session.fitted(), session.view(), side));
+/// Paths by their names, the first of each name: those in the picture first, as a query may place clips itself.
+struct NamedPaths {
+    explicit NamedPaths(const Session& session) {
+        std::unordered_set<std::string> known;
+        const auto add = [&](const AgentRef& path) {
+            const std::string name = placed_agent_of(session.fitted(), path)->name;
+            if (!known.insert(name).second) return;
+            names.push_back(name);
+            paths.push_back(path);
+        };
+        for (int side = 0; side < (session.view().query ? 2 : 0); ++side) {
+            add(agent_in_view(session.fitted(), session.view(), side));
+        }
+        for (int i = 0; i < static_cast<int>(session.fitted().placed_agents().size()); ++i) add({i, -1, 0});
     }
-    for (int i = 0; i < static_cast<int>(session.fitted().placed_agents().size()); ++i) out.push_back({i, -1, 0});
-    return out;
-}
+    std::vector<std::string> names;
+    std::vector<AgentRef> paths;
+};
 
 AgentRef path_named(const Session& session, std::string_view name) {
-    std::vector<std::string> names;
-    for (const AgentRef& path : paths(session)) {
-        names.push_back(placed_agent_of(session.fitted(), path)->name);
-        if (names.back() == name) return path;
-    }
-    throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
+    const NamedPaths all(session);
+    return all.paths[static_cast<std::size_t>(index_of_name(all.names, name, "agent"))];
 }
 
 const mobb::Tree& tree_of(const Session& session, const AgentRef& path) {
@@ -53,15 +59,6 @@ void go_to(Session& session, const Selection& selected) {
 }
 
 void go_to_node(Session& session, int node) { go_to(session, {Selection::Kind::node, session.selection.path, node}); }
-
-std::vector<std::string> names_of_paths(const Session& session) {
-    std::vector<std::string> out;
-    for (const AgentRef& path : paths(session)) {
-        const std::string name = placed_agent_of(session.fitted(), path)->name;
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    }
-    return out;
-}
 
 void go_agent(Session& session, const std::string& name) {
     go_to(session, {Selection::Kind::path, path_named(session, name), -1});
@@ -111,18 +108,14 @@ bool is_found(const Session& session) {
     return find(session) >= 0;
 }
 template <int (*find)(const Session&)>
-void go_to_found(Session& session, const std::string&) {
+void go_to_found(Session& session) {
     go_to_node(session, find(session));
 }
 
 // --- the rest
 
 void go_clip(Session& session, const std::string& name) {
-    const std::vector<std::string> names = clip_names(session);
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end())
-        throw std::invalid_argument("there is no clip " + in_quotes(name) + did_you_mean(name, names));
-    session.select({Selection::Kind::clip, {}, static_cast<int>(at - names.begin())});
+    session.select({Selection::Kind::clip, {}, index_of_name(clip_names(session), name, "clip")});
 }
 
 bool has_contact(const Session& session) {
@@ -130,7 +123,7 @@ bool has_contact(const Session& session) {
     return recorded && recorded->contact;
 }
 
-void go_contact(Session& session, const std::string&) {
+void go_contact(Session& session) {
     const RecordedQuery& recorded = *session.recorded();
     session.change_view([&](ViewState& view) {
         view.time = recorded.contact->time;
@@ -140,91 +133,38 @@ void go_contact(Session& session, const std::string&) {
 
 }  // namespace
 
-std::span<const Command> go_commands() {
-    static const std::vector<Command> table{
-        {.id = "go.palette",
-         .title = "Search...",
-         .menu = "Go",
-         .shortcut = "Ctrl+P",
-         .doc = "Finds commands, agents, clips, queries and nodes by a few letters.",
-         .run = [](Session& session, const std::string&) { session.open_dialog(Dialog::palette); }},
-        {.id = "go.agent",
-         .title = "Agent",
-         .menu = "Go",
-         .argument = "NAME",
-         .doc = "Selects an agent.",
-         .enabled = has_scene,
-         .run = go_agent,
-         .choices = names_of_paths},
-        {.id = "go.clip",
-         .title = "Clip",
-         .menu = "Go",
-         .argument = "NAME",
-         .doc = "Selects a clip.",
-         .enabled = has_scene,
-         .run = go_clip,
-         .choices = clip_names},
-        {.id = "go.node",
-         .title = "Node...",
-         .menu = "Go",
-         .argument = "AGENT NODE",
-         .doc = "Selects a node, by its index (A 12) or by level and place (A 2.1), and shows its level.",
-         .enabled = has_scene,
-         .run = go_node},
-        {.id = "go.sample",
-         .title = "Sample...",
-         .menu = "Go",
-         .argument = "AGENT INDEX",
-         .doc = "Selects a sample of an agent by its number from 0.",
-         .enabled = has_scene,
-         .run = go_sample},
-        {.id = "go.parent",
-         .title = "Parent node",
-         .menu = "Go",
-         .shortcut = "Ctrl+Up",
-         .repeats = true,
-         .doc = "Selects the node above the selected one, or the leaf that holds the selected sample.",
-         .enabled = is_found<parent>,
-         .run = go_to_found<parent>},
-        {.id = "go.child",
-         .title = "First child node",
-         .menu = "Go",
-         .shortcut = "Ctrl+Down",
-         .repeats = true,
-         .doc = "Selects the first node below the selected one, or the root of the selected agent's tree.",
-         .enabled = is_found<child>,
-         .run = go_to_found<child>},
-        {.id = "go.previous_node",
-         .title = "Previous node",
-         .menu = "Go",
-         .shortcut = "Ctrl+Left",
-         .repeats = true,
-         .doc = "Selects the node before the selected one on its level.",
-         .enabled = is_found<neighbour<-1>>,
-         .run = go_to_found<neighbour<-1>>},
-        {.id = "go.next_node",
-         .title = "Next node",
-         .menu = "Go",
-         .shortcut = "Ctrl+Right",
-         .repeats = true,
-         .doc = "Selects the node after the selected one on its level.",
-         .enabled = is_found<neighbour<1>>,
-         .run = go_to_found<neighbour<1>>},
-        {.id = "go.contact",
-         .title = "Contact",
-         .menu = "Go",
-         .doc = "Goes to the moment and the step at which the two of the query in view first touch.",
-         .enabled = has_contact,
-         .why_not = why_no_step,
-         .run = go_contact},
-        {.id = "go.none",
-         .title = "Select nothing",
-         .menu = "Go",
-         .doc = "Selects nothing.",
-         .enabled = [](const Session& session) { return session.selection.kind != Selection::Kind::none; },
-         .run = [](Session& session, const std::string&) { session.select({}); }},
+std::vector<Command> go_commands() {
+    const std::vector<Command> rows{
+        Command("go.palette", "Search...", "Finds commands, agents, clips, queries and nodes by a few letters.",
+                [](Session& session) { session.open_dialog(Dialog::palette); },
+                {.shortcut = "Ctrl+P", .enabled = always}),
+        Command("go.agent", "Agent", "Selects an agent.", go_agent,
+                {.argument = "NAME", .choices = [](const Session& session) { return NamedPaths(session).names; }}),
+        Command("go.clip", "Clip", "Selects a clip.", go_clip, {.argument = "NAME", .choices = clip_names}),
+        Command("go.node", "Node...",
+                "Selects a node, by its index (A 12) or by level and place (A 2.1), and shows its level.", go_node,
+                {.argument = "AGENT NODE"}),
+        Command("go.sample", "Sample...", "Selects a sample of an agent by its number from 0.", go_sample,
+                {.argument = "AGENT INDEX"}),
+        Command("go.parent", "Parent node",
+                "Selects the node above the selected one, or the leaf that holds the selected sample.",
+                go_to_found<parent>, {.shortcut = "Ctrl+Up", .repeats = true, .enabled = is_found<parent>}),
+        Command("go.child", "First child node",
+                "Selects the first node below the selected one, or the root of the selected agent's tree.",
+                go_to_found<child>, {.shortcut = "Ctrl+Down", .repeats = true, .enabled = is_found<child>}),
+        Command("go.previous_node", "Previous node", "Selects the node before the selected one on its level.",
+                go_to_found<neighbour<-1>>,
+                {.shortcut = "Ctrl+Left", .repeats = true, .enabled = is_found<neighbour<-1>>}),
+        Command("go.next_node", "Next node", "Selects the node after the selected one on its level.",
+                go_to_found<neighbour<1>>,
+                {.shortcut = "Ctrl+Right", .repeats = true, .enabled = is_found<neighbour<1>>}),
+        Command("go.contact", "Contact",
+                "Goes to the moment and the step at which the two of the query in view first touch.", go_contact,
+                {.enabled = {has_contact, why_no_step}}),
+        Command("go.none", "Select nothing", "Selects nothing.", [](Session& session) { session.select({}); },
+                {.enabled = [](const Session& session) { return session.selection.kind != Selection::Kind::none; }}),
     };
-    return table;
+    return in_menu("Go", rows);
 }
 
 }  // namespace mobbscope::app

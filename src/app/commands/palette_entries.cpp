@@ -7,7 +7,6 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -19,13 +18,6 @@ namespace {
 constexpr double kIdShare = 0.8;
 constexpr double kDocShare = 0.3;
 constexpr std::size_t kMostQueries = 2000;
-
-std::vector<std::string> words_of(const std::string& text) {
-    std::istringstream in(text);
-    std::vector<std::string> out;
-    for (std::string word; in >> word;) out.push_back(word);
-    return out;
-}
 
 struct SearchField {
     std::string_view text;
@@ -98,17 +90,14 @@ void add_command(Collector& out, const Session& session, const Command& command)
     }
 }
 
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
 /// "A 2.1".
 void add_node(Collector& out, const Session& session, const std::string& text) {
     try {
         const auto [name, place] = name_and_word(text, "the node");
-        const auto lower = [](std::string_view of) {
-            std::string low(of);
-            std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return std::tolower(c); });
-            return low;
-        };
         for (const PlacedAgent& who : session.fitted().placed_agents()) {
-            if (lower(who.name) != lower(name)) continue;
+            if (!std::ranges::equal(who.name, name, {}, lower, lower)) continue;
             static_cast<void>(node_at(session.fitted().tree(who.clip), place));
             const std::string named = who.name + ' ' + std::string(place);
             out.add("go.node", named, named, "Node", {{named}});
@@ -139,7 +128,6 @@ constexpr double kLeastPerLetter = 4;  // below, the letters are strewn about
 constexpr double kPerLength = 0.02;    // shorter texts say more of what was meant
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80; }
 
 }  // namespace
@@ -195,9 +183,7 @@ std::optional<double> word_score(std::string_view word, std::string_view text) {
     for (std::size_t at = 0; at + word.size() <= text.size(); ++at) {
         if (at > 0 && in_word(text[at - 1])) continue;
         const std::string_view here = text.substr(at, word.size());
-        if (std::equal(word.begin(), word.end(), here.begin(), [](char a, char b) { return lower(a) == lower(b); })) {
-            return fuzzy_score(word, here);
-        }
+        if (std::ranges::equal(word, here, {}, lower, lower)) return fuzzy_score(word, here);
     }
     return std::nullopt;
 }

@@ -5,7 +5,6 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace mobbscope::app {
 
@@ -31,7 +30,7 @@ void select(Session& session, const std::string& text) {
 bool stays(const Message& message) { return message.level != Message::Level::info; }
 
 /// One thing after the other, what lies in front first.
-void leave(Session& session, const std::string&) {
+void leave(Session& session) {
     const auto& messages = session.messages();
     const auto last = std::find_if(messages.rbegin(), messages.rend(), stays);
     if (last != messages.rend()) return session.dismiss(static_cast<std::size_t>(messages.rend() - last) - 1);
@@ -39,11 +38,9 @@ void leave(Session& session, const std::string&) {
     session.change_view([](ViewState& view) { view.query.reset(); });
 }
 
-void next(Session& session, const std::string&) { show_query(session, session.view().query.value_or(-1) + 1); }
+void next(Session& session) { show_query(session, session.view().query.value_or(-1) + 1); }
 
-void previous(Session& session, const std::string&) {
-    show_query(session, session.view().query.value_or(query_total(session)) - 1);
-}
+void previous(Session& session) { show_query(session, session.view().query.value_or(query_total(session)) - 1); }
 
 // --- what is asked
 
@@ -65,7 +62,7 @@ std::optional<int> query_of(const Session& session, int a, int b) {
 
 void add_against(Session& session, const std::string& other) {
     const int a = selected_agent(session);
-    const int b = path_by_name(session, other);
+    const int b = index_of_name(path_names(session), other, "agent");
     // What is asked already is only shown.
     if (const auto known = query_of(session, a, b)) return show_query(session, *known);
     session.edit({"asking " + selected_agent_name(session) + " against " + other, ""}, [&](Scene& scene) {
@@ -81,7 +78,7 @@ std::optional<int> edited_query(const Session& session) {
     return session.view().query;
 }
 
-void remove_edited(Session& session, const std::string&) {
+void remove_edited(Session& session) {
     const int query = *edited_query(session);
     session.edit({"removing a query", ""}, [&](Scene& scene) {
         remove_query(scene, static_cast<std::size_t>(query));
@@ -98,7 +95,7 @@ bool is_expected(const Session& session) {
     return query && session.fitted().queries()[static_cast<std::size_t>(*query)].expect.has_value();
 }
 
-void expect(Session& session, const std::string&) {
+void expect(Session& session) {
     const auto query = static_cast<std::size_t>(*edited_query(session));
     const bool was_expected = is_expected(session);
     const std::optional<mobb::Contact> contact = session.answer_of(query).contact;
@@ -125,20 +122,20 @@ bool entered(Session& session, Step step) {
 constexpr Step kFirst{Step::Unit::event, 0};
 constexpr Step kEnd{Step::Unit::end, 0};
 
-void first(Session& session, const std::string&) {
+void first(Session& session) {
     if (!entered(session, kFirst)) to_event(session, 0);
 }
 
-void back(Session& session, const std::string&) {
+void back(Session& session) {
     if (!entered(session, kEnd)) to_event(session, std::max(session.step() - 1, 0));
 }
 
-void forward(Session& session, const std::string&) {
+void forward(Session& session) {
     if (!entered(session, kFirst))
         to_event(session, std::min(session.step() + 1, session.recorded()->trace.size() - 1));
 }
 
-void last(Session& session, const std::string&) {
+void last(Session& session) {
     if (!entered(session, kEnd)) session.change_view([](ViewState& view) { view.step = kEnd; });
 }
 
@@ -179,159 +176,76 @@ int parent_event(const Session& session) {
 
 }  // namespace
 
-std::span<const Command> query_commands() {
-    static const std::vector<Command> table{
-        {.id = "query.select",
-         .title = "Show query",
-         .argument = "N",
-         .doc = "Shows a query, by its number from 0, with its answer.",
-         .enabled = has_queries,
-         .run = select},
-        {.id = "query.next",
-         .title = "Next query",
-         .menu = "Query",
-         .shortcut = "PageDown",
-         .repeats = true,
-         .doc = "Shows the next query with its answer.",
-         .enabled = [](const Session& session) { return session.view().query.value_or(-1) + 1 < query_total(session); },
-         .run = next},
-        {.id = "query.previous",
-         .title = "Previous query",
-         .menu = "Query",
-         .shortcut = "PageUp",
-         .repeats = true,
-         .doc = "Shows the previous query with its answer.",
-         .enabled = [](const Session& session) { return session.view().query.value_or(query_total(session)) > 0; },
-         .run = previous},
-        {.id = "query.none",
-         .title = "Back",
-         .menu = "Query",
-         .shortcut = "Escape",
-         .doc = "Dismisses a message; else leaves the query in view for the levels of all trees; else selects nothing.",
-         .enabled =
-             [](const Session& session) {
-                 return in_query(session) || session.selection.kind != Selection::Kind::none ||
-                        std::any_of(session.messages().begin(), session.messages().end(), stays);
-             },
-         .run = leave},
-        {.id = "query.add",
-         .title = "Ask against",
-         .menu = "Query",
-         .argument = "AGENT",
-         .doc = "Asks whether the selected agent collides with another.",
-         .enabled =
-             [](const Session& session) {
-                 return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
-             },
-         .why_not = why_no_agent,
-         .run = add_against,
-         .choices = others},
-        {.id = "query.remove",
-         .title = "Remove the query",
-         .menu = "Query",
-         .doc = "Asks the selected query, or that in view, no more.",
-         .enabled = [](const Session& session) { return edited_query(session) && query_total(session) > 1; },
-         .run = remove_edited},
-        {.id = "query.expect",
-         .title = "Expect this answer",
-         .menu = "Query",
-         .doc = "Writes the present answer into the scene: `mobbscope query` then says when it has changed.",
-         .enabled = [](const Session& session) { return edited_query(session).has_value(); },
-         .run = expect,
-         .checked = is_expected},
-        {.id = "step.first",
-         .title = "First step",
-         .menu = "Query",
-         .shortcut = "Shift+Left",
-         .doc = "Shows the first test of the query.",
-         .enabled = has_queries,
-         .why_not = why_no_step,
-         .run = first},
-        {.id = "step.back",
-         .title = "Step back",
-         .menu = "Query",
-         .shortcut = "Left",
-         .repeats = true,
-         .doc = "Shows the test before.",
-         .enabled = has_queries,
-         .why_not = why_no_step,
-         .run = back},
-        {.id = "step.forward",
-         .title = "Step forward",
-         .menu = "Query",
-         .shortcut = "Right",
-         .repeats = true,
-         .doc = "Shows the next test.",
-         .enabled = has_queries,
-         .why_not = why_no_step,
-         .run = forward},
-        {.id = "step.last",
-         .title = "Last step",
-         .menu = "Query",
-         .shortcut = "Shift+Right",
-         .doc = "Shows the last test, with the answer.",
-         .enabled = has_queries,
-         .why_not = why_no_step,
-         .run = last},
-        {.id = "step.to",
-         .title = "Go to step",
-         .argument = "N",
-         .doc = "Shows a test by its number from 0.",
-         .enabled = in_query,
-         .why_not = why_no_step,
-         .run = to},
-        {.id = "step.next_separated",
-         .title = "Next separation",
-         .menu = "Query",
-         .shortcut = "S",
-         .doc = "Shows the next test that found two boxes separated in space.",
-         .enabled = has_queries,
-         .why_not = why_no_step,
-         .run = [](Session& session,
-                   const std::string&) { to_next(session, Outcome::separated, "found boxes separated in space"); }},
-        {.id = "step.next_overlap",
-         .title = "Next overlap",
-         .menu = "Query",
-         .shortcut = "O",
-         .doc = "Shows the next test that found an overlap, so that the search went on below.",
-         .enabled = has_queries,
-         .why_not = why_no_step,
-         .run = [](Session& session, const std::string&) { to_next(session, Outcome::overlap, "found an overlap"); }},
-        {.id = "step.next_hit",
-         .title = "Next hit",
-         .menu = "Query",
-         .shortcut = "H",
-         .doc = "Shows the test that found samples which collide.",
-         .enabled = has_queries,
-         .why_not = why_no_step,
-         .run = [](Session& session, const std::string&) { to_next(session, Outcome::hit, "found a hit"); }},
-        {.id = "step.over",
-         .title = "Step over",
-         .menu = "Query",
-         .shortcut = "Down",
-         .repeats = true,
-         .doc = "Shows the next test that is not about parts of the present two nodes.",
-         .enabled = [](const Session& session) { return in_query(session) && event_after_pair(session); },
-         .why_not = why_no_step,
-         .run = [](Session& session, const std::string&) { to_event(session, *event_after_pair(session)); }},
-        {.id = "step.out",
-         .title = "Step out",
-         .menu = "Query",
-         .shortcut = "Up",
-         .repeats = true,
-         .doc = "Shows the test that led to the present one.",
-         .enabled = [](const Session& session) { return in_query(session) && parent_event(session) >= 0; },
-         .why_not = why_no_step,
-         .run = [](Session& session, const std::string&) { to_event(session, parent_event(session)); }},
-        {.id = "step.percent",
-         .title = "Go to a percentage of the steps",
-         .argument = "P",
-         .doc = "Shows the test at a percentage of the way, 0 to 100.",
-         .enabled = in_query,
-         .why_not = why_no_step,
-         .run = percent},
+std::vector<Command> query_commands() {
+    const std::vector<Command> rows{
+        Command("query.select", "Show query", "Shows a query, by its number from 0, with its answer.", select,
+                {.menu = kNoMenu, .argument = "N", .enabled = has_queries}),
+        Command(
+            "query.next", "Next query", "Shows the next query with its answer.", next,
+            {.shortcut = "PageDown",
+             .repeats = true,
+             .enabled =
+                 [](const Session& session) { return session.view().query.value_or(-1) + 1 < query_total(session); }}),
+        Command("query.previous", "Previous query", "Shows the previous query with its answer.", previous,
+                {.shortcut = "PageUp",
+                 .repeats = true,
+                 .enabled =
+                     [](const Session& session) { return session.view().query.value_or(query_total(session)) > 0; }}),
+        Command("query.none", "Back",
+                "Dismisses a message; else leaves the query in view for the levels of all trees; else selects nothing.",
+                leave,
+                {.shortcut = "Escape",
+                 .enabled =
+                     [](const Session& session) {
+                         return in_query(session) || session.selection.kind != Selection::Kind::none ||
+                                std::any_of(session.messages().begin(), session.messages().end(), stays);
+                     }}),
+        Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
+                {.argument = "AGENT", .enabled = {has_selected_of_several, why_no_agent}, .choices = others}),
+        Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,
+                {.enabled = [](const Session& session) { return edited_query(session) && query_total(session) > 1; }}),
+        Command("query.expect", "Expect this answer",
+                "Writes the present answer into the scene: `mobbscope query` then says when it has changed.", expect,
+                {.enabled = [](const Session& session) { return edited_query(session).has_value(); },
+                 .checked = is_expected}),
+        Command("step.first", "First step", "Shows the first test of the query.", first,
+                {.shortcut = "Shift+Left", .enabled = {has_queries, why_no_step}}),
+        Command("step.back", "Step back", "Shows the test before.", back,
+                {.shortcut = "Left", .repeats = true, .enabled = {has_queries, why_no_step}}),
+        Command("step.forward", "Step forward", "Shows the next test.", forward,
+                {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}}),
+        Command("step.last", "Last step", "Shows the last test, with the answer.", last,
+                {.shortcut = "Shift+Right", .enabled = {has_queries, why_no_step}}),
+        Command("step.to", "Go to step", "Shows a test by its number from 0.", to,
+                {.menu = kNoMenu, .argument = "N", .enabled = {in_query, why_no_step}}),
+        Command("step.next_separated", "Next separation",
+                "Shows the next test that found two boxes separated in space.",
+                [](Session& session) { to_next(session, Outcome::separated, "found boxes separated in space"); },
+                {.shortcut = "S", .enabled = {has_queries, why_no_step}}),
+        Command("step.next_overlap", "Next overlap",
+                "Shows the next test that found an overlap, so that the search went on below.",
+                [](Session& session) { to_next(session, Outcome::overlap, "found an overlap"); },
+                {.shortcut = "O", .enabled = {has_queries, why_no_step}}),
+        Command("step.next_hit", "Next hit", "Shows the test that found samples which collide.",
+                [](Session& session) { to_next(session, Outcome::hit, "found a hit"); },
+                {.shortcut = "H", .enabled = {has_queries, why_no_step}}),
+        Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
+                [](Session& session) { to_event(session, *event_after_pair(session)); },
+                {.shortcut = "Down",
+                 .repeats = true,
+                 .enabled = {[](const Session& session) { return in_query(session) && event_after_pair(session); },
+                             why_no_step}}),
+        Command("step.out", "Step out", "Shows the test that led to the present one.",
+                [](Session& session) { to_event(session, parent_event(session)); },
+                {.shortcut = "Up",
+                 .repeats = true,
+                 .enabled = {[](const Session& session) { return in_query(session) && parent_event(session) >= 0; },
+                             why_no_step}}),
+        Command("step.percent", "Go to a percentage of the steps",
+                "Shows the test at a percentage of the way, 0 to 100.", percent,
+                {.menu = kNoMenu, .argument = "P", .enabled = {in_query, why_no_step}}),
     };
-    return table;
+    return in_menu("Query", rows);
 }
 
 }  // namespace mobbscope::app

@@ -2,8 +2,8 @@
 #include <app/commands/command.h>
 #include <base/text.h>
 
-#include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace mobbscope::app {
@@ -12,90 +12,72 @@ namespace {
 
 std::vector<std::string> as_strings(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
 
-void fit(Session& session, const std::string& doing, const std::function<void(mobb::FitOptions&)>& change) {
-    session.refit({doing, doing}, change);
+/// Sets an option of the fit.
+template <class Option>
+void fit(Session& session, const std::string& doing, Option mobb::FitOptions::*option, Option value) {
+    session.refit({doing, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
+}
+
+/// What a name stands for.
+template <class Option>
+Option named(std::string_view what, const std::string& text, std::optional<Option> (*from_name)(std::string_view),
+             std::span<const std::string_view> names) {
+    if (const auto value = from_name(text)) return *value;
+    throw std::invalid_argument(std::string(what) + " cannot be " + in_quotes(text) + ": give one of " + listed(names));
 }
 
 void set_kind(Session& session, const std::string& text) {
-    const auto kind = mobb::tree_kind_from_name(text);
-    if (!kind) {
-        throw std::invalid_argument("the trees cannot be " + in_quotes(text) + ": give one of " +
-                                    listed(mobb::tree_kind_names()));
-    }
-    fit(session, "changing the kind of trees", [=](mobb::FitOptions& options) { options.tree = *kind; });
+    fit(session, "changing the kind of trees", &mobb::FitOptions::tree,
+        named("the trees", text, mobb::tree_kind_from_name, mobb::tree_kind_names()));
 }
 
 void set_axes(Session& session, const std::string& text) {
-    const auto axes = mobb::axes_from_name(text);
-    if (!axes) {
-        throw std::invalid_argument("the axes cannot be " + in_quotes(text) + ": give one of " +
-                                    listed(mobb::axes_names()));
-    }
-    fit(session, "changing the axes", [=](mobb::FitOptions& options) { options.axes = *axes; });
+    fit(session, "changing the axes", &mobb::FitOptions::axes,
+        named("the axes", text, mobb::axes_from_name, mobb::axes_names()));
 }
 
 void set_leaf(Session& session, const std::string& text) {
-    const int leaf = whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max());
-    fit(session, "changing the leaves", [=](mobb::FitOptions& options) { options.leaf = leaf; });
+    fit(session, "changing the leaves", &mobb::FitOptions::leaf,
+        whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max()));
 }
 
 void set_tree_levels(Session& session, const std::string& text) {
-    const int levels = whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max());
-    fit(session, "changing the levels", [=](mobb::FitOptions& options) { options.levels = levels; });
+    fit(session, "changing the levels", &mobb::FitOptions::levels,
+        whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max()));
 }
 
 void set_time_scale(Session& session, const std::string& text) {
-    const double scale = number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale);
-    fit(session, "changing the time scale", [=](mobb::FitOptions& options) { options.time_scale = scale; });
+    fit(session, "changing the time scale", &mobb::FitOptions::time_scale,
+        number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale));
 }
 
 }  // namespace
 
-std::span<const Command> tree_commands() {
-    static const std::vector<Command> table{
-        {.id = "tree.kind",
-         .title = "Tree kind",
-         .menu = "Tree",
-         .argument = "K",
-         .doc = "Fits boxes upright in time (mobb), free boxes (umobb), or one kind at the root and the other below.",
-         .enabled = has_scene,
-         .run = set_kind,
-         .choices = [](const Session&) { return as_strings(mobb::tree_kind_names()); },
-         .chosen = [](const Session& session,
-                      const std::string& kind) { return name(session.fitted().options().tree) == kind; }},
-        {.id = "tree.axes",
-         .title = "Axes",
-         .menu = "Tree",
-         .argument = "K",
-         .doc = "Takes the directions of boxes from first to last sample, from the principal axes, or the tightest.",
-         .enabled = has_scene,
-         .run = set_axes,
-         .choices = [](const Session&) { return as_strings(mobb::axes_names()); },
-         .chosen = [](const Session& session,
-                      const std::string& axes) { return name(session.fitted().options().axes) == axes; }},
-        {.id = "tree.leaf",
-         .title = "Samples in a leaf...",
-         .menu = "Tree",
-         .argument = "N",
-         .doc = "Makes a node of at most N samples a leaf; 10 is the usual number.",
-         .enabled = has_scene,
-         .run = set_leaf},
-        {.id = "tree.levels",
-         .title = "Levels of the trees...",
-         .menu = "Tree",
-         .argument = "N",
-         .doc = "Ends the trees after N levels; 0 lets them go down to their leaves.",
-         .enabled = has_scene,
-         .run = set_tree_levels},
-        {.id = "tree.time_scale",
-         .title = "Time scale...",
-         .menu = "Tree",
-         .argument = "W",
-         .doc = "Mixes time with space in free boxes at so many metres per second.",
-         .enabled = has_scene,
-         .run = set_time_scale},
+std::vector<Command> tree_commands() {
+    const std::vector<Command> rows{
+        Command("tree.kind", "Tree kind",
+                "Fits boxes upright in time (mobb), free boxes (umobb), or one kind at the root and the other below.",
+                set_kind,
+                {.argument = "K",
+                 .choices = [](const Session&) { return as_strings(mobb::tree_kind_names()); },
+                 .chosen = [](const Session& session,
+                              const std::string& kind) { return name(session.fitted().options().tree) == kind; }}),
+        Command("tree.axes", "Axes",
+                "Takes the directions of boxes from first to last sample, from the principal axes, or the tightest.",
+                set_axes,
+                {.argument = "K",
+                 .choices = [](const Session&) { return as_strings(mobb::axes_names()); },
+                 .chosen = [](const Session& session,
+                              const std::string& axes) { return name(session.fitted().options().axes) == axes; }}),
+        Command("tree.leaf", "Samples in a leaf...",
+                "Makes a node of at most N samples a leaf; 10 is the usual number.", set_leaf, {.argument = "N"}),
+        Command("tree.levels", "Levels of the trees...",
+                "Ends the trees after N levels; 0 lets them go down to their leaves.", set_tree_levels,
+                {.argument = "N"}),
+        Command("tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
+                set_time_scale, {.argument = "W"}),
     };
-    return table;
+    return in_menu("Tree", rows);
 }
 
 }  // namespace mobbscope::app

@@ -11,9 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <stdexcept>
 
 namespace mobbscope::app {
 
@@ -35,17 +33,16 @@ void frame_by_itself(Camera& camera) {
     camera.shift = {0, 0};
 }
 
-template <CameraPreset preset>
-void see_from(Session& session, const std::string&) {
-    session.change_view([](ViewState& view) {
-        view.camera.preset = preset;
-        frame_by_itself(view.camera);
-    });
-}
-
-template <CameraPreset preset>
-bool is_seen_from(const Session& session) {
-    return session.view().camera.preset == preset;
+Command see_from(CameraPreset preset, std::string_view id, std::string_view title, std::string_view key,
+                 std::string_view doc) {
+    const auto see = [preset](Session& session) {
+        session.change_view([&](ViewState& view) {
+            view.camera.preset = preset;
+            frame_by_itself(view.camera);
+        });
+    };
+    const auto is_seen = [preset](const Session& session) { return session.view().camera.preset == preset; };
+    return {id, title, doc, see, {.shortcut = key, .checked = is_seen}};
 }
 
 bool may_have_perspective(const Session& session) {
@@ -54,7 +51,7 @@ bool may_have_perspective(const Session& session) {
     return has_scene(session) && orientation(camera).perspective;
 }
 
-void frame_all(Session& session, const std::string&) {
+void frame_all(Session& session) {
     session.change_view([](ViewState& view) { frame_by_itself(view.camera); });
 }
 
@@ -74,13 +71,13 @@ void frame_selected_agent(Session& session) {
     follow_agent(session, who, kAroundFollowed);
 }
 
-void frame_selection(Session& session, const std::string& none) {
+void frame_selection(Session& session) {
     const Selection selected = session.selection;
     if (follows(session) && (selected.kind == Selection::Kind::none || is_agent_selected(session))) {
         return frame_selected_agent(session);
     }
     const std::optional<Bounds> box = box_of(session, selected);
-    if (!box) return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session, none);
+    if (!box) return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session);
     move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
         const auto target = [&](glm::dvec3 at) {
             return picture.space.to_target(picture.space.point(at.x, at.y, at.z));
@@ -105,9 +102,10 @@ void orbit(Session& session, glm::dvec2 degrees) {
     });
 }
 
-template <int x, int y>
-void orbit_step(Session& session, const std::string&) {
-    orbit(session, kOrbitStep * glm::dvec2(x, y));
+Command orbit_step(glm::dvec2 way, std::string_view id, std::string_view title, std::string_view key,
+                   std::string_view doc) {
+    const auto step = [way](Session& session) { orbit(session, kOrbitStep * way); };
+    return {id, title, doc, step, {.shortcut = key, .repeats = true}};
 }
 
 // --- what is drawn
@@ -115,7 +113,7 @@ void orbit_step(Session& session, const std::string&) {
 bool shows_moment(const Session& session) { return session.view().show == Show::moment; }
 
 /// Heights mean something else then, so the camera frames the scene anew; who it goes along with stays as near.
-void toggle_moment(Session& session, const std::string&) {
+void toggle_moment(Session& session) {
     const bool goes_along = follows(session) && session.view().camera.target;
     session.change_view([&](ViewState& view) {
         view.show = view.show == Show::moment ? Show::space_time : Show::moment;
@@ -146,7 +144,7 @@ bool can_be_finer(const Session& session) {
     return shows_levels(session) && !levels.leaves && levels.last + 1 < depth_in_view(session);
 }
 
-void finer(Session& session, const std::string&) {
+void finer(Session& session) {
     const LevelRange levels = session.view().levels;
     show_levels(session, {levels.first + 1, levels.last + 1, false});
 }
@@ -155,7 +153,7 @@ bool can_be_coarser(const Session& session) {
     return shows_levels(session) && (session.view().levels.leaves || session.view().levels.first > 0);
 }
 
-void coarser(Session& session, const std::string&) {
+void coarser(Session& session) {
     const LevelRange levels = session.view().levels;
     const int deepest = depth_in_view(session) - 1;
     // Leaves are of several levels, and a range from a file may go deeper than the trees do.
@@ -182,7 +180,7 @@ std::optional<DiskProjection> selected_disk(const Session& session) {
     return DiskProjection{*who, leaf_of_sample(tree, selected.index), selected.index};
 }
 
-void toggle_projection(Session& session, const std::string&) {
+void toggle_projection(Session& session) {
     const auto disk = session.view().projection ? std::nullopt : selected_disk(session);
     session.change_view([&](ViewState& view) { view.projection = disk; });
 }
@@ -200,12 +198,12 @@ void set_scale(Session& session, const std::string& text) {
 
 constexpr double kHair = 1e-3;
 
-void larger(Session& session, const std::string&) {
+void larger(Session& session) {
     const auto next = std::upper_bound(kScales.begin(), kScales.end(), present_scale(session) + kHair);
     session.settings.ui_scale = next == kScales.end() ? kScales.back() : *next;
 }
 
-void smaller(Session& session, const std::string&) {
+void smaller(Session& session) {
     const auto next = std::lower_bound(kScales.begin(), kScales.end(), present_scale(session) - kHair);
     session.settings.ui_scale = next == kScales.begin() ? kScales.front() : *(next - 1);
 }
@@ -219,13 +217,8 @@ void set_time(Session& session, double time) {
 /// The shortest sample of the paths in the picture, seconds.
 double sample_time(const Session& session) {
     double dt = std::numeric_limits<double>::max();
-    const auto add = [&](const PlacedAgent& who) { dt = std::min(dt, session.fitted().tree(who.clip).clip().dt()); };
-    if (session.view().query) {
-        const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(*session.view().query)];
-        add(query.a);
-        add(query.b);
-    } else {
-        for (const PlacedAgent& who : session.fitted().placed_agents()) add(who);
+    for (const PlacedAgent& who : agents_in_view(session.fitted(), session.view())) {
+        dt = std::min(dt, session.fitted().tree(who.clip).clip().dt());
     }
     return dt;
 }
@@ -240,7 +233,7 @@ void step_time(Session& session, int direction) {
     set_time(session, std::clamp(span.t0 + next * dt, span.t0, span.t1));
 }
 
-void play(Session& session, const std::string&) {
+void play(Session& session) {
     if (session.playing()) return session.stop();
     session.play();
     if (!session.view().time) set_time(session, session.time_span().t0);
@@ -248,336 +241,191 @@ void play(Session& session, const std::string&) {
 
 bool is_split(const Session& session) { return session.view_count() > 1; }
 
-void toggle_split(Session& session, const std::string&) {
+void toggle_split(Session& session) {
     if (is_split(session)) return session.close_other_views();
     mobb::FitOptions other = session.fitted().options();
     other.tree = other.tree == mobb::TreeKind::umobb ? mobb::TreeKind::mobb : mobb::TreeKind::umobb;
     session.split_view(other.tree == mobb::TreeKind::umobb ? "UMOBB" : "MOBB", other);
 }
 
-// --- the tables
+// --- the tables, in the order of the menus
 
-std::vector<Command> camera_table() {
-    return {
-        {.id = "view.iso",
-         .title = "View from a corner",
-         .menu = "View",
-         .shortcut = "1",
-         .doc = "Looks from above a corner of the floor, with the whole scene in the picture.",
-         .enabled = has_scene,
-         .run = see_from<CameraPreset::iso>,
-         .checked = is_seen_from<CameraPreset::iso>},
-        {.id = "view.top",
-         .title = "View from above",
-         .menu = "View",
-         .shortcut = "2",
-         .doc = "Looks down on the floor: the paths as on a map.",
-         .enabled = has_scene,
-         .run = see_from<CameraPreset::top>,
-         .checked = is_seen_from<CameraPreset::top>},
-        {.id = "view.front",
-         .title = "View from the front",
-         .menu = "View",
-         .shortcut = "3",
-         .doc = "Looks along y: x to the right, time upwards.",
-         .enabled = has_scene,
-         .run = see_from<CameraPreset::front>,
-         .checked = is_seen_from<CameraPreset::front>},
-        {.id = "view.side",
-         .title = "View from the side",
-         .menu = "View",
-         .shortcut = "4",
-         .doc = "Looks along x: y across, time upwards.",
-         .enabled = has_scene,
-         .run = see_from<CameraPreset::side>,
-         .checked = is_seen_from<CameraPreset::side>},
-        {.id = "view.perspective",
-         .title = "Perspective",
-         .menu = "View",
-         .shortcut = "5",
-         .doc = "Draws what is farther smaller; without it, equal lengths stay equal.",
-         .enabled = may_have_perspective,
-         .run =
-             [](Session& session, const std::string&) {
-                 session.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
-             },
-         .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }},
-        {.id = "view.frame",
-         .title = "Frame the selection",
-         .menu = "View",
-         .shortcut = "F",
-         .doc =
-             "Brings what is selected into the middle, as large as it fits; without a selection everything. Following "
-             "somebody, it goes along with who is selected.",
-         .enabled = has_scene,
-         .run = frame_selection},
-        {.id = "view.frame_all",
-         .title = "Frame everything",
-         .menu = "View",
-         .shortcut = "Home",
-         .doc = "Shows the whole scene again from the present direction.",
-         .enabled = has_scene,
-         .run = frame_all},
-        {.id = "view.zoom",
-         .title = "Zoom by",
-         .argument = "FACTOR",
-         .doc = "Goes nearer by a factor; below 1 farther.",
-         .enabled = has_scene,
-         .run = [](Session& session,
-                   const std::string& text) { zoom(session, number_in(text, "the factor", 1e-3, 1e3)); }},
-        {.id = "view.zoom_in",
-         .title = "Zoom in",
-         .menu = "View/Camera",
-         .shortcut = "=",
-         .repeats = true,
-         .doc = "Goes nearer.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { zoom(session, kKeyZoom); }},
-        {.id = "view.zoom_out",
-         .title = "Zoom out",
-         .menu = "View/Camera",
-         .shortcut = "-",
-         .repeats = true,
-         .doc = "Goes farther away.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { zoom(session, 1 / kKeyZoom); }},
-        {.id = "view.orbit",
-         .title = "Turn by",
-         .argument = "DX DY",
-         .doc = "Turns the scene by degrees to the right and downwards.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string& text) { orbit(session, two_numbers(text, "the angles")); }},
-        {.id = "view.orbit_left",
-         .title = "Turn to the left",
-         .menu = "View/Camera",
-         .shortcut = "Alt+Left",
-         .repeats = true,
-         .doc = "Turns the scene to the left by 5 degrees.",
-         .enabled = has_scene,
-         .run = orbit_step<-1, 0>},
-        {.id = "view.orbit_right",
-         .title = "Turn to the right",
-         .menu = "View/Camera",
-         .shortcut = "Alt+Right",
-         .repeats = true,
-         .doc = "Turns the scene to the right by 5 degrees.",
-         .enabled = has_scene,
-         .run = orbit_step<1, 0>},
-        {.id = "view.orbit_up",
-         .title = "Tip upwards",
-         .menu = "View/Camera",
-         .shortcut = "Alt+Up",
-         .repeats = true,
-         .doc = "Tips the scene upwards by 5 degrees: it is seen more from the side.",
-         .enabled = has_scene,
-         .run = orbit_step<0, -1>},
-        {.id = "view.orbit_down",
-         .title = "Tip downwards",
-         .menu = "View/Camera",
-         .shortcut = "Alt+Down",
-         .repeats = true,
-         .doc = "Tips the scene downwards by 5 degrees: it is seen more from above.",
-         .enabled = has_scene,
-         .run = orbit_step<0, 1>},
-        {.id = "view.pan",
-         .title = "Shift by",
-         .argument = "DX DY",
-         .doc = "Shifts the scene by pixels to the right and downwards.",
-         .enabled = has_scene,
-         .run =
-             [](Session& session, const std::string& text) {
-                 const glm::vec2 pixels(two_numbers(text, "the way"));
-                 move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
-                     return panned(camera, pixels, picture.size);
-                 });
-             }},
-        {.id = "view.moment",
-         .title = "Show the moment",
-         .menu = "View",
-         .shortcut = "M",
-         .doc = "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
-         .enabled = has_scene,
-         .run = toggle_moment,
-         .checked = shows_moment},
-        {.id = "view.split",
-         .title = "Split",
-         .menu = "View",
-         .doc = "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
+std::vector<Command> direction_commands() {
+    const std::vector<Command> rows{
+        see_from(CameraPreset::iso, "view.iso", "View from a corner", "1",
+                 "Looks from above a corner of the floor, with the whole scene in the picture."),
+        see_from(CameraPreset::top, "view.top", "View from above", "2",
+                 "Looks down on the floor: the paths as on a map."),
+        see_from(CameraPreset::front, "view.front", "View from the front", "3",
+                 "Looks along y: x to the right, time upwards."),
+        see_from(CameraPreset::side, "view.side", "View from the side", "4", "Looks along x: y across, time upwards."),
+        Command("view.perspective", "Perspective",
+                "Draws what is farther smaller; without it, equal lengths stay equal.",
+                [](Session& session) {
+                    session.change_view([](ViewState& view) { view.camera.perspective = !view.camera.perspective; });
+                },
+                {.shortcut = "5",
+                 .enabled = may_have_perspective,
+                 .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }}),
+        Command(
+            "view.frame", "Frame the selection",
+            "Brings what is selected into the middle, as large as it fits; without a selection everything. Following "
+            "somebody, it goes along with who is selected.",
+            frame_selection, {.shortcut = "F"}),
+        Command("view.frame_all", "Frame everything", "Shows the whole scene again from the present direction.",
+                frame_all, {.shortcut = "Home"}),
+    };
+    return in_menu("View", rows);
+}
+
+std::vector<Command> movement_commands() {
+    const std::vector<Command> rows{
+        Command(
+            "view.zoom", "Zoom by", "Goes nearer by a factor; below 1 farther.",
+            [](Session& session, const std::string& text) { zoom(session, number_in(text, "the factor", 1e-3, 1e3)); },
+            {.menu = kNoMenu, .argument = "FACTOR"}),
+        Command("view.zoom_in", "Zoom in", "Goes nearer.", [](Session& session) { zoom(session, kKeyZoom); },
+                {.shortcut = "=", .repeats = true}),
+        Command("view.zoom_out", "Zoom out", "Goes farther away.",
+                [](Session& session) { zoom(session, 1 / kKeyZoom); }, {.shortcut = "-", .repeats = true}),
+        Command("view.orbit", "Turn by", "Turns the scene by degrees to the right and downwards.",
+                [](Session& session, const std::string& text) { orbit(session, two_numbers(text, "the angles")); },
+                {.menu = kNoMenu, .argument = "DX DY"}),
+        orbit_step({-1, 0}, "view.orbit_left", "Turn to the left", "Alt+Left",
+                   "Turns the scene to the left by 5 degrees."),
+        orbit_step({1, 0}, "view.orbit_right", "Turn to the right", "Alt+Right",
+                   "Turns the scene to the right by 5 degrees."),
+        orbit_step({0, -1}, "view.orbit_up", "Tip upwards", "Alt+Up",
+                   "Tips the scene upwards by 5 degrees: it is seen more from the side."),
+        orbit_step({0, 1}, "view.orbit_down", "Tip downwards", "Alt+Down",
+                   "Tips the scene downwards by 5 degrees: it is seen more from above."),
+        Command("view.pan", "Shift by", "Shifts the scene by pixels to the right and downwards.",
+                [](Session& session, const std::string& text) {
+                    const glm::vec2 pixels(two_numbers(text, "the way"));
+                    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+                        return panned(camera, pixels, picture.size);
+                    });
+                },
+                {.menu = kNoMenu, .argument = "DX DY"}),
+    };
+    return in_menu("View/Camera", rows);
+}
+
+std::vector<Command> picture_commands() {
+    const std::vector<Command> rows{
+        Command("view.moment", "Show the moment",
+                "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
+                toggle_moment, {.shortcut = "M", .checked = shows_moment}),
+        Command("view.split", "Split",
+                "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
                 "UMOBB.",
-         .enabled = has_scene,
-         .run = toggle_split,
-         .checked = is_split},
-        {.id = "view.other",
-         .title = "Go to the other view",
-         .menu = "View",
-         .shortcut = "F6",
-         .doc = "Of a split view: commands and panels are about the next part from now on.",
-         .enabled = is_split,
-         .run = [](Session& session,
-                   const std::string&) { session.activate_view((session.active_place() + 1) % session.view_count()); }},
-        {.id = "view.link_cameras",
-         .title = "Link cameras",
-         .menu = "View",
-         .doc = "Of a split view: moving the camera of one part moves that of the other.",
-         .enabled = is_split,
-         .run = [](Session& session, const std::string&) { session.link_cameras(!session.document().linked_cameras); },
-         .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }},
+                toggle_split, {.checked = is_split}),
+        Command("view.other", "Go to the other view",
+                "Of a split view: commands and panels are about the next part from now on.",
+                [](Session& session) { session.activate_view((session.active_place() + 1) % session.view_count()); },
+                {.shortcut = "F6", .enabled = is_split}),
+        Command(
+            "view.link_cameras", "Link cameras",
+            "Of a split view: moving the camera of one part moves that of the other.",
+            [](Session& session) { session.link_cameras(!session.document().linked_cameras); },
+            {.enabled = is_split,
+             .checked = [](const Session& session) { return is_split(session) && session.document().linked_cameras; }}),
     };
+    return in_menu("View", rows);
 }
 
-std::vector<Command> shown_table() {
-    return {
-        option_command(view_option("color_by")),
-        {.id = "view.level",
-         .title = "Show levels",
-         .argument = "N|A:B|leaves",
-         .doc = "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
-         .enabled = has_scene,
-         .run = set_shown_levels},
-        {.id = "view.finer",
-         .title = "Finer level",
-         .menu = "View/Levels",
-         .shortcut = "]",
-         .repeats = true,
-         .doc = "Shows the boxes one level further down the trees.",
-         .enabled = can_be_finer,
-         .run = finer},
-        {.id = "view.coarser",
-         .title = "Coarser level",
-         .menu = "View/Levels",
-         .shortcut = "[",
-         .repeats = true,
-         .doc = "Shows the boxes one level nearer to the roots.",
-         .enabled = can_be_coarser,
-         .run = coarser},
-        {.id = "view.leaves",
-         .title = "Leaves",
-         .menu = "View/Levels",
-         .shortcut = "E",
-         .doc = "Shows the leaves of the trees, whatever their level; leaves the query in view.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { set_shown_levels(session, "leaves"); },
-         .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }},
-        {.id = "view.time_height",
-         .title = "Height of a second",
-         .argument = "M|auto",
-         .doc = "Draws a second so many metres high; auto makes the scene about as tall as wide.",
-         .enabled = has_scene,
-         .run = set_time_height},
-        {.id = "view.projection",
-         .title = "Disk along the axes of its box",
-         .menu = "View/Show",
-         .doc =
-             "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
-         .enabled = [](const Session& session) { return session.view().projection || selected_disk(session); },
-         .why_not = [](const Session&) { return std::string_view("no sample in the picture is selected"); },
-         .run = toggle_projection,
-         .checked = [](const Session& session) { return session.view().projection.has_value(); }},
-        option_command(view_option("theme")),
-        {.id = "window.scale",
-         .title = "Scale of text and panels",
-         .argument = "X",
-         .doc = "Makes text and panels so many times as large, 0.5 to 4.",
-         .run = set_scale},
-        {.id = "window.larger",
-         .title = "Larger text",
-         .menu = "View/Window",
-         .shortcut = "Ctrl+=",
-         .repeats = true,
-         .doc = "Makes text and panels larger.",
-         .run = larger},
-        {.id = "window.smaller",
-         .title = "Smaller text",
-         .menu = "View/Window",
-         .shortcut = "Ctrl+-",
-         .repeats = true,
-         .doc = "Makes text and panels smaller.",
-         .run = smaller},
-        {.id = "window.scale_reset",
-         .title = "Usual text size",
-         .menu = "View/Window",
-         .shortcut = "Ctrl+0",
-         .doc = "Makes text and panels as large as the monitor's scale asks for.",
-         .run = [](Session& session, const std::string&) { session.settings.ui_scale = 0; }},
-        {.id = "time.at",
-         .title = "Time cursor at",
-         .argument = "S",
-         .doc = "Puts the time cursor at a moment, in seconds.",
-         .enabled = has_scene,
-         .run =
-             [](Session& session, const std::string& text) {
-                 set_time(session, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
-             }},
-        {.id = "time.clear",
-         .title = "No time cursor",
-         .menu = "View/Time",
-         .doc = "Takes the time cursor out of the picture.",
-         .enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); },
-         .run =
-             [](Session& session, const std::string&) {
-                 session.stop();
-                 session.change_view([](ViewState& view) { view.time.reset(); });
-             }},
-        {.id = "time.play",
-         .title = "Play",
-         .menu = "View/Time",
-         .shortcut = "Space",
-         .doc = "Lets the time cursor run, or stops it.",
-         .enabled = has_scene,
-         .run = play,
-         .checked = [](const Session& session) { return session.playing(); }},
-        {.id = "time.start",
-         .title = "To the first moment",
-         .menu = "View/Time",
-         .doc = "Puts the time cursor where the first path begins.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { set_time(session, session.time_span().t0); }},
-        {.id = "time.end",
-         .title = "To the last moment",
-         .menu = "View/Time",
-         .doc = "Puts the time cursor where the last path ends.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { set_time(session, session.time_span().t1); }},
-        {.id = "time.forward",
-         .title = "A sample on",
-         .menu = "View/Time",
-         .shortcut = ".",
-         .repeats = true,
-         .doc = "Moves the time cursor on by a sample.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { step_time(session, 1); }},
-        {.id = "time.back",
-         .title = "A sample back",
-         .menu = "View/Time",
-         .shortcut = ",",
-         .repeats = true,
-         .doc = "Moves the time cursor back by a sample.",
-         .enabled = has_scene,
-         .run = [](Session& session, const std::string&) { step_time(session, -1); }},
-        {.id = "time.speed",
-         .title = "Speed of playing",
-         .argument = "X",
-         .doc = "Plays so many seconds of the scene in a second, 0.01 to 100.",
-         .run = [](Session& session,
-                   const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); }},
-    };
-}
-
-/// The toggles of the menu "View/Show" are made from their rows in scene/view_options.cpp.
-std::vector<Command> all_view_commands() {
-    std::vector<Command> out = camera_table();
+/// The toggles, made from their rows in scene/view_options.cpp.
+std::vector<Command> show_commands() {
+    std::vector<Command> out;
     for (const ViewOption& option : view_options()) {
         if (option.menu == "View/Show") out.push_back(option_command(option));
     }
-    std::ranges::move(shown_table(), std::back_inserter(out));
     return out;
+}
+
+std::vector<Command> level_commands() {
+    const std::vector<Command> rows{
+        option_command(view_option("color_by")),
+        Command("view.level", "Show levels",
+                "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
+                set_shown_levels, {.menu = kNoMenu, .argument = "N|A:B|leaves"}),
+        Command("view.finer", "Finer level", "Shows the boxes one level further down the trees.", finer,
+                {.shortcut = "]", .repeats = true, .enabled = can_be_finer}),
+        Command("view.coarser", "Coarser level", "Shows the boxes one level nearer to the roots.", coarser,
+                {.shortcut = "[", .repeats = true, .enabled = can_be_coarser}),
+        Command(
+            "view.leaves", "Leaves", "Shows the leaves of the trees, whatever their level; leaves the query in view.",
+            [](Session& session) { set_shown_levels(session, "leaves"); },
+            {.shortcut = "E",
+             .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }}),
+        Command("view.time_height", "Height of a second",
+                "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
+                {.menu = kNoMenu, .argument = "M|auto"}),
+    };
+    return in_menu("View/Levels", rows);
+}
+
+std::vector<Command> window_commands() {
+    const std::vector<Command> rows{
+        Command(
+            "view.projection", "Disk along the axes of its box",
+            "Shows how far the selected sample's disk reaches along the axes of its leaf's box, instead of all else.",
+            toggle_projection,
+            {.menu = "View/Show",
+             .enabled = {[](const Session& session) { return session.view().projection || selected_disk(session); },
+                         [](const Session&) { return std::string_view("no sample in the picture is selected"); }},
+             .checked = [](const Session& session) { return session.view().projection.has_value(); }}),
+        option_command(view_option("theme")),
+        Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
+                set_scale, {.menu = kNoMenu, .argument = "X", .enabled = always}),
+        Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
+                {.shortcut = "Ctrl+=", .repeats = true, .enabled = always}),
+        Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
+                {.shortcut = "Ctrl+-", .repeats = true, .enabled = always}),
+        Command("window.scale_reset", "Usual text size",
+                "Makes text and panels as large as the monitor's scale asks for.",
+                [](Session& session) { session.settings.ui_scale = 0; }, {.shortcut = "Ctrl+0", .enabled = always}),
+    };
+    return in_menu("View/Window", rows);
+}
+
+std::vector<Command> time_commands() {
+    const std::vector<Command> rows{
+        Command("time.at", "Time cursor at", "Puts the time cursor at a moment, in seconds.",
+                [](Session& session, const std::string& text) {
+                    set_time(session, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
+                },
+                {.menu = kNoMenu, .argument = "S"}),
+        Command(
+            "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
+            [](Session& session) {
+                session.stop();
+                session.change_view([](ViewState& view) { view.time.reset(); });
+            },
+            {.enabled = [](const Session& session) { return session.view().time.has_value() && !session.crowd(); }}),
+        Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
+                {.shortcut = "Space", .checked = [](const Session& session) { return session.playing(); }}),
+        Command("time.start", "To the first moment", "Puts the time cursor where the first path begins.",
+                [](Session& session) { set_time(session, session.time_span().t0); }),
+        Command("time.end", "To the last moment", "Puts the time cursor where the last path ends.",
+                [](Session& session) { set_time(session, session.time_span().t1); }),
+        Command("time.forward", "A sample on", "Moves the time cursor on by a sample.",
+                [](Session& session) { step_time(session, 1); }, {.shortcut = ".", .repeats = true}),
+        Command("time.back", "A sample back", "Moves the time cursor back by a sample.",
+                [](Session& session) { step_time(session, -1); }, {.shortcut = ",", .repeats = true}),
+        Command(
+            "time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
+            [](Session& session, const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); },
+            {.argument = "X", .enabled = always}),
+    };
+    return in_menu("View/Time", rows);
 }
 
 }  // namespace
 
-std::span<const Command> view_commands() {
-    static const std::vector<Command> table = all_view_commands();
-    return table;
+std::vector<Command> view_commands() {
+    return joined({direction_commands(), movement_commands(), picture_commands(), show_commands(), level_commands(),
+                   window_commands(), time_commands()});
 }
 
 }  // namespace mobbscope::app

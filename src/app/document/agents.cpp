@@ -27,6 +27,10 @@ bool has_selected_agent(const Session& session) {
     return !session.crowd() && session.selection.on_path() && session.selection.path.agent >= 0;
 }
 
+bool has_selected_of_several(const Session& session) {
+    return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
+}
+
 std::string_view why_no_agent(const Session& session) {
     if (session.crowd()) return "a run is not edited";
     return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
@@ -59,11 +63,10 @@ std::vector<std::string> path_names(const Session& session) {
     return out;
 }
 
-int path_by_name(const Session& session, const std::string& name) {
-    const std::vector<std::string> names = path_names(session);
+int index_of_name(const std::vector<std::string>& names, std::string_view name, const std::string& what) {
     const auto at = std::find(names.begin(), names.end(), name);
     if (at == names.end()) {
-        throw std::invalid_argument("there is no agent " + in_quotes(name) + did_you_mean(name, names));
+        throw std::invalid_argument("there is no " + what + ' ' + in_quotes(name) + did_you_mean(name, names));
     }
     return static_cast<int>(at - names.begin());
 }
@@ -84,22 +87,15 @@ std::optional<int> current_run_agent(const Session& session) {
 }
 
 std::optional<PlacedAgent> current_path(const Session& session) {
-    return path_of_agent(session, current_agent(session));
-}
-
-std::optional<PlacedAgent> path_of_agent(const Session& session, const std::string& name) {
-    const auto index = participant_named(session, name);
+    const auto index = participant_named(session, current_agent(session));
     if (!index) return std::nullopt;
     return session.fitted().placed_agents()[static_cast<std::size_t>(*index)];
 }
 
 std::vector<std::string> agent_names(const Session& session) {
+    if (!session.crowd()) return path_names(session);
     std::vector<std::string> out;
-    if (session.crowd()) {
-        for (const CrowdAgent& agent : session.crowd()->agents) out.push_back(agent.name);
-    } else {
-        for (const PlacedAgent& who : session.fitted().placed_agents()) out.push_back(who.name);
-    }
+    for (const CrowdAgent& agent : session.crowd()->agents) out.push_back(agent.name);
     return out;
 }
 

@@ -16,6 +16,9 @@ namespace mobbscope::app {
 /// Whether an agent is selected; in a scene without agents a clip that is seen counts as one, as an edit makes it one.
 bool has_selected_agent(const Session& session);
 
+/// ... beside at least one other.
+bool has_selected_of_several(const Session& session);
+
 /// Why a command about an agent cannot be done.
 std::string_view why_no_agent(const Session& session);
 
@@ -33,8 +36,9 @@ std::vector<std::string> clip_names(const Session& session);
 /// The names of agents, or of the clips where there are no agents.
 std::vector<std::string> path_names(const Session& session);
 
-/// The index of a path among them. Throws std::invalid_argument, with the nearest name, if there is none.
-int path_by_name(const Session& session, const std::string& name);
+/// The index of `name` in `names`, the first of equals. Throws std::invalid_argument, with the nearest name, if there
+/// is none; `what` they name: "agent".
+int index_of_name(const std::vector<std::string>& names, std::string_view name, const std::string& what);
 
 // The current agent: the selected one, else the one that the view follows.
 
@@ -47,10 +51,7 @@ std::optional<int> current_run_agent(const Session& session);
 /// Its clip and placement at the view's time.
 std::optional<PlacedAgent> current_path(const Session& session);
 
-/// The clip and placement of an agent at the view's time; none if no agent has that name.
-std::optional<PlacedAgent> path_of_agent(const Session& session, const std::string& name);
-
-/// The names of all agents of a run, or of a scene.
+/// The names of all agents of a run, or of a scene: the first of FittedScene::placed_agents() are these.
 std::vector<std::string> agent_names(const Session& session);
 
 void select_agent_named(Session& session, const std::string& name);

@@ -39,8 +39,7 @@ std::size_t History::bytes() const {
                            [](std::size_t sum, const State& state) { return sum + state.bytes; });
 }
 
-/// Becomes the present document's.
-void History::set(Document document) {
+void History::amend(Document document) {
     State& state = states_[now_];
     // A view that moves changes nothing of what is held.
     if (document.fitted != state.document.fitted || state.bytes == 0) {
@@ -52,7 +51,7 @@ void History::set(Document document) {
 /// Behind the present state, which it becomes; what follows stays.
 void History::append(State state) {
     states_.insert(states_.begin() + static_cast<std::ptrdiff_t>(++now_), state);
-    set(std::move(state.document));
+    amend(std::move(state.document));
     while (now_ > 0 && (states_.size() > kMostStates || bytes() > most_bytes_)) {
         states_.erase(states_.begin());
         --now_;
@@ -66,7 +65,7 @@ void History::change(Document document, const EditName& name) {
     const bool joins = open_ && now_ > 0 && !name.group.empty() && states_[now_].name.group == name.group;
     states_.resize(now_ + 1);
     if (joins) {
-        set(std::move(document));
+        amend(std::move(document));
     } else {
         append({std::move(document), name, false, 0});
     }
@@ -75,12 +74,10 @@ void History::change(Document document, const EditName& name) {
 
 void History::change_view(Document document) {
     const std::string title = what_changes(now().view, document.view);
-    if (states_[now_].looked && states_[now_].name.title == title) return set(std::move(document));
+    if (states_[now_].looked && states_[now_].name.title == title) return amend(std::move(document));
     append({std::move(document), {title, ""}, true, 0});
     open_ = false;
 }
-
-void History::amend(Document document) { set(std::move(document)); }
 
 void History::undo() {
     --now_;

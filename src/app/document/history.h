@@ -88,7 +88,6 @@ class History {
         std::size_t bytes = 0;  ///< that the state before does not share
     };
     void append(State state);
-    void set(Document document);
 
     std::size_t most_bytes_;
     std::vector<State> states_;

@@ -63,7 +63,7 @@ Job::Job(std::string title, Work work, std::function<void()> wake)
 }
 
 Job::~Job() {
-    cancel();
+    shared_->control.cancel();
     // Who is to be woken may go now.
     const std::scoped_lock lock(shared_->mutex);
     shared_->wake = nullptr;
@@ -72,8 +72,6 @@ Job::~Job() {
 bool Job::any_left() { return jobs > 0; }
 
 double Job::progress() const { return shared_->control.progress(); }
-
-void Job::cancel() { shared_->control.cancel(); }
 
 bool Job::wait(std::chrono::milliseconds longest) const {
     std::unique_lock lock(shared_->mutex);

@@ -51,7 +51,6 @@ class Job {
 
     const std::string& title() const { return title_; }
     double progress() const;
-    void cancel();
     /// Waits so long at most; true if the work is done.
     bool wait(std::chrono::milliseconds longest) const;
     bool done() const { return wait(std::chrono::milliseconds(0)); }

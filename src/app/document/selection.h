@@ -5,6 +5,7 @@
 #include <scene/fitted_scene.h>
 
 #include <optional>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -31,6 +32,9 @@ struct Selection {
         return {kind == Kind::node ? AgentPart::Kind::node : AgentPart::Kind::sample, index};
     }
 };
+
+/// The agents of a picture of `view`: all, or the two of its query.
+std::vector<PlacedAgent> agents_in_view(const FittedScene& fitted, const ViewState& view);
 
 /// The agent that ObjectId::agent means in a picture of `view`.
 AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int agent);

@@ -158,6 +158,13 @@ void Session::change_document(Document next, const EditName& name) {
     changed();
 }
 
+void Session::amend(const std::function<void(Document&)>& change) {
+    Document next = document();
+    change(next);
+    history_.amend(std::move(next));
+    changed();
+}
+
 void Session::change_view(const std::function<void(ViewState&)>& change) {
     Document next = document();
     change(next.view);
@@ -199,22 +206,18 @@ void Session::close_other_views() {
 
 void Session::activate_view(std::size_t place) {
     if (place == document().place || place > document().beside.size()) return;
-    Document next = document();
-    next.beside.insert(next.beside.begin() + static_cast<std::ptrdiff_t>(next.place), {next.fitted, next.view});
-    const auto chosen = next.beside.begin() + static_cast<std::ptrdiff_t>(place);
-    next.fitted = chosen->fitted;
-    next.view = chosen->view;
-    next.beside.erase(chosen);
-    next.place = place;
-    history_.amend(std::move(next));
-    changed();
+    amend([&](Document& next) {
+        next.beside.insert(next.beside.begin() + static_cast<std::ptrdiff_t>(next.place), {next.fitted, next.view});
+        const auto chosen = next.beside.begin() + static_cast<std::ptrdiff_t>(place);
+        next.fitted = chosen->fitted;
+        next.view = chosen->view;
+        next.beside.erase(chosen);
+        next.place = place;
+    });
 }
 
 void Session::link_cameras(bool linked) {
-    Document next = document();
-    next.linked_cameras = linked;
-    history_.amend(std::move(next));
-    changed();
+    amend([&](Document& next) { next.linked_cameras = linked; });
 }
 
 SceneView Session::view_at(std::size_t place) const {
@@ -371,38 +374,33 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
     Scene excerpt;
     excerpt.file = scene().file;
     excerpt.fit = document().fitted->options();
-    for (const PlacedAgent* side : {&a, &b}) {
-        int clip = 0;
-        if (side == &b && b.clip == a.clip) {
-            clip = 0;
-        } else {
-            clip = static_cast<int>(excerpt.clips.size());
-            excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(side->clip)]);
-        }
-        Agent agent{side->name, clip, side->placement, std::nullopt};
-        if (side == &b && b.name == a.name) agent.name += " (2)";
-        excerpt.agents.push_back(std::move(agent));
-    }
+    excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(a.clip)]);
+    if (b.clip != a.clip) excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(b.clip)]);
+    excerpt.agents.push_back({a.name, 0, a.placement, std::nullopt});
+    excerpt.agents.push_back(
+        {b.name == a.name ? b.name + " (2)" : b.name, b.clip == a.clip ? 0 : 1, b.placement, std::nullopt});
     excerpt.view.theme = view().theme;
     excerpt.view.query = 0;
     Document next = document_of(std::move(excerpt), document().fitted.get());
     const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
     next.excerpt_of = std::make_shared<const ExcerptSource>(
         ExcerptSource{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
-    stop();
-    selection = {};
-    hovered = {};
+    point_at_nothing();
     ++excerpts_opened_;
     history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
     changed();
 }
 
-void Session::leave_excerpt() {
-    require_no_job();
-    const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
+void Session::point_at_nothing() {
     stop();
     selection = {};
     hovered = {};
+}
+
+void Session::leave_excerpt() {
+    require_no_job();
+    const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
+    point_at_nothing();
     history_.change({origin->fitted, origin->view, nullptr}, {"going back to the whole", ""});
     changed();
 }
@@ -436,9 +434,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     opened_ = opened;
     ++files_opened_;
     if (attended_ && !opened.empty()) settings.remember(opened.front());
-    selection = {};
-    hovered = {};
-    stop();
+    point_at_nothing();
     candidate = -1;
     conflict = -1;
     // What went wrong with the last document is over.
@@ -447,20 +443,20 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     changed();
 }
 
-void Session::load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files) {
-    // What is opened last is meant.
-    std::erase_if(jobs_, [](const Running& running) { return running.opens; });
-    start(
-        std::move(title),
-        [this, load_all, files, present = document().fitted](JobControl& control) -> Job::Finish {
+void Session::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files) {
+    after_asking([this, title, load_all, files] {
+        // What is opened last is meant.
+        std::erase_if(jobs_, [](const Running& running) { return running.opens; });
+        const auto work = [this, load_all, files, present = document().fitted](JobControl& control) -> Job::Finish {
             Document document = document_of(load_all(control), nullptr, progress_of(control));
             return [this, document = std::move(document), files, present] {
                 // Who edited meanwhile is asked again.
                 if (&scene() == &present->scene()) return replace(document, files);
                 after_asking([this, document, files] { replace(document, files); });
             };
-        },
-        true);
+        };
+        start(title, work, true);
+    });
 }
 
 void Session::open(const std::vector<std::filesystem::path>& files) {
@@ -470,22 +466,18 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
         if (std::filesystem::exists(file, ignored)) continue;
         return tell(Message::Level::error, file.string() + ": no such file; check the path");
     }
-    after_asking([this, files] {
-        load(
-            "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),
-            [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
-    });
+    load(
+        "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),
+        [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
 }
 
 void Session::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
-    after_asking([this, scene, files] {
-        load(
-            "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
-    });
+    load(
+        "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
 }
 
 void Session::open_demo() {
-    after_asking([this] { load("Opening the demo", [](JobControl&) { return demo_scene(); }, {}); });
+    load("Opening the demo", [](JobControl&) { return demo_scene(); }, {});
 }
 
 void Session::add(const std::vector<std::filesystem::path>& files) {
@@ -655,18 +647,11 @@ void Session::finish(Job& job) {
 mobb::Interval Session::time_span() const {
     if (crowd()) return {0, crowd()->seconds};
     mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    const auto add = [&](const PlacedAgent& who) {
+    for (const PlacedAgent& who : agents_in_view(fitted(), view())) {
         const mobb::PlacedTree tree = fitted().placed(who);
         const mobb::PlacedClip& clip = tree.placed_clip();
         span.t0 = std::min(span.t0, clip.time(0));
         span.t1 = std::max(span.t1, clip.time(clip.count()));
-    };
-    if (view().query) {
-        const SceneQuery query = fitted().queries()[static_cast<std::size_t>(*view().query)];
-        add(query.a);
-        add(query.b);
-    } else {
-        for (const PlacedAgent& who : fitted().placed_agents()) add(who);
     }
     return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
 }
@@ -684,10 +669,7 @@ void Session::advance(double seconds) {
     if (time == view().time) return;
     if (!std::exchange(has_played_, true)) return change_view([&](ViewState& v) { v.time = time; });
     // A drag meanwhile stays one state, and so does the play.
-    Document next = document();
-    next.view.time = time;
-    history_.amend(std::move(next));
-    changed();
+    amend([&](Document& next) { next.view.time = time; });
 }
 
 }  // namespace mobbscope::app

@@ -244,7 +244,12 @@ class Session {
     void edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
                         const FittedScene* fitted_beside);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
-    void load(std::string title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
+    /// Replaces the document by what `load_all` gives, after asking if there are unsaved changes.
+    void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
+    /// The present state is another; no edit of its own.
+    void amend(const std::function<void(Document&)>& change);
+    /// Another document comes: what plays stops.
+    void point_at_nothing();
     void change_document(Document next, const EditName& name);
     void share_time_and_camera();
     void step_in_history(void (History::*undo_or_redo)());

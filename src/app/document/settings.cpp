@@ -5,8 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -18,13 +17,15 @@ namespace {
 
 constexpr std::size_t kMostRecent = 12;
 
-/// Replaces `value` by a number of the file within these bounds.
-void read(const nlohmann::json& json, const char* key, double least, double most, double& value) {
-    const auto at = json.find(key);
-    if (at == json.end() || !at->is_number()) return;
-    const double read = at->get<double>();
-    if (read >= least && read <= most) value = read;
-}
+struct NumberSetting {
+    const char* key;
+    double Settings::*value;
+    double least, most;  ///< others in the file do not count
+};
+constexpr std::array<NumberSetting, 4> kNumberSettings{{{"ui_scale", &Settings::ui_scale, 0.5, 4},
+                                                        {"left_width", &Settings::left_width, 50, 5000},
+                                                        {"right_width", &Settings::right_width, 50, 5000},
+                                                        {"bottom_height", &Settings::bottom_height, 50, 5000}}};
 
 std::filesystem::path folder_named_by(const char* variable) {
     const char* value = std::getenv(variable);
@@ -64,10 +65,12 @@ Settings load_settings(const std::filesystem::path& file) {
     }
     const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_object()) return settings;
-    read(json, "ui_scale", 0.5, 4, settings.ui_scale);
-    read(json, "left_width", 50, 5000, settings.left_width);
-    read(json, "right_width", 50, 5000, settings.right_width);
-    read(json, "bottom_height", 50, 5000, settings.bottom_height);
+    for (const NumberSetting& number : kNumberSettings) {
+        const auto at = json.find(number.key);
+        if (at == json.end() || !at->is_number()) continue;
+        const double read = at->get<double>();
+        if (read >= number.least && read <= number.most) settings.*number.value = read;
+    }
     const auto recent = json.find("recent");
     if (recent == json.end() || !recent->is_array()) return settings;
     for (const nlohmann::json& entry : *recent) {
@@ -84,10 +87,7 @@ void save_settings(const std::filesystem::path& file, const Settings& settings) 
     std::ostringstream text;
     JsonWriter out(text);
     out.begin_object();
-    out.member("ui_scale", settings.ui_scale);
-    out.member("left_width", settings.left_width);
-    out.member("right_width", settings.right_width);
-    out.member("bottom_height", settings.bottom_height);
+    for (const NumberSetting& number : kNumberSettings) out.member(number.key, settings.*number.value);
     out.key("recent");
     out.begin_array();
     for (const std::filesystem::path& path : settings.recent) out.value(std::string_view(path.native()));

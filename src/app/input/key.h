@@ -8,13 +8,13 @@
 
 namespace mobbscope::app {
 
-// The order is that of the names in key.cpp; a line for each would say nothing.
+// The order is that of the names in key.cpp, and within rows of the keyboard GLFW's; a line for each would say nothing.
 // clang-format off
 enum class Key : std::uint16_t {
     none, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, n0, n1, n2, n3, n4, n5, n6,
-    n7, n8, n9, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, space, enter, escape, tab, backspace, del, insert,
-    left, right, up, down, home, end, page_up, page_down, comma, period, slash, minus, equal, left_bracket,
-    right_bracket, ctrl, shift, alt, super, count
+    n7, n8, n9, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, space, escape, enter, tab, backspace, insert, del,
+    right, left, down, up, page_up, page_down, home, end, comma, minus, period, slash, equal, left_bracket,
+    right_bracket, shift, ctrl, alt, super, count
 };
 // clang-format on
 

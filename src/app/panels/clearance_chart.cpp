@@ -2,15 +2,12 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/text/labels.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
 #include <string>
-#include <utility>
 
 namespace mobbscope::app {
 
@@ -20,15 +17,8 @@ namespace {
 struct Chart {
     ImVec2 min, max;
     mobb::Interval time;
-    double low = 0, high = 1;  ///< metres
-
-    float x(double t) const {
-        return min.x + static_cast<float>((t - time.t0) / (time.t1 - time.t0)) * (max.x - min.x);
-    }
-    float y(double metres) const { return max.y - static_cast<float>((metres - low) / (high - low)) * (max.y - min.y); }
-    double t(float x) const {
-        return time.t0 + static_cast<double>((x - min.x) / (max.x - min.x)) * (time.t1 - time.t0);
-    }
+    ChartAxis x;    ///< seconds
+    ChartAxis y{};  ///< metres
 };
 
 /// The least of each column as a curve, and above it how much more there is in the column.
@@ -38,11 +28,11 @@ void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const 
         const ClearanceColumn& column = columns[k];
         if (!column.any) continue;
         const float x = chart.min.x + static_cast<float>(k);
-        const float y = chart.y(column.least);
+        const float y = chart.y.pixel(column.least);
         if (column.least < 0) {
-            list.AddRectFilled({x, chart.y(0)}, {x + 1, y}, mark_color(style, EventMark::hit, 0.4f));
+            list.AddRectFilled({x, chart.y.pixel(0)}, {x + 1, y}, mark_color(style, EventMark::hit, 0.4f));
         }
-        const float most = chart.y(column.most);
+        const float most = chart.y.pixel(column.most);
         if (y - most > 1) list.AddRectFilled({x, most}, {x + 1, y}, to_im(with_alpha(style.palette.text, 0.35f)));
         curve.push_back({x + 0.5f, y});
     }
@@ -52,17 +42,16 @@ void draw_curve(ImDrawList& list, const Style& style, const Chart& chart, const 
 /// Text that stays inside the chart, on a ground that keeps it readable over the curve.
 void text_at(ImDrawList& list, const Style& style, const Chart& chart, ImVec2 at, ImU32 color,
              const std::string& text) {
-    ImFont* font = style.caption;
-    const ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str());
+    const ImVec2 size = text_size(*style.caption, text);
     const float x = std::clamp(at.x, chart.min.x + 2, std::max(chart.min.x + 2, chart.max.x - size.x - 2));
     list.AddRectFilled({x - 1, at.y}, {x + size.x + 1, at.y + size.y},
                        (style.raised & ~IM_COL32_A_MASK) | 0xB0u << IM_COL32_A_SHIFT);
-    list.AddText(font, font->FontSize, {x, at.y}, color, text.c_str());
+    draw_text(list, *style.caption, {x, at.y}, color, text);
 }
 
 void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const ClearancePiece& least) {
     const EventMark mark = least.clearance < 0 ? EventMark::hit : EventMark::separated;
-    const ImVec2 at{chart.x(0.5 * (least.t0 + least.t1)), chart.y(least.clearance)};
+    const ImVec2 at{chart.x.pixel(0.5 * (least.t0 + least.t1)), chart.y.pixel(least.clearance)};
     list.AddCircleFilled(at, 3.5f * style.scale, mark_color(style, mark));
     list.AddCircle(at, 3.5f * style.scale, style.text, 0, style.scale);
 }
@@ -72,13 +61,12 @@ void chart_ticks(ImDrawList& list, const Style& style, const Chart& chart) {
     const double parts = std::max(1.0, static_cast<double>((chart.max.x - chart.min.x) / (70 * style.scale)));
     const double step = nice_step(span, parts);
     for (const double t : ticks(chart.time.t0, chart.time.t1, step)) {
-        const float x = chart.x(t);
+        const float x = chart.x.pixel(t);
         list.AddLine({x, chart.max.y}, {x, chart.max.y + 3 * style.scale}, style.quiet, style.scale);
         const std::string text = tick_text(t, step) + " s";
-        ImFont* font = style.caption;
-        const float width = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, text.c_str()).x;
-        if (x + 3 * style.scale + width > chart.max.x) continue;
-        list.AddText(font, font->FontSize, {x + 3 * style.scale, chart.max.y + style.scale}, style.quiet, text.c_str());
+        const float left = x + 3 * style.scale;
+        if (left + text_size(*style.caption, text).x > chart.max.x) continue;
+        draw_text(list, *style.caption, {left, chart.max.y + style.scale}, style.quiet, text);
     }
 }
 
@@ -110,7 +98,9 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
     const bool hovered = ImGui::IsItemHovered();
     const bool active = ImGui::IsItemActive();
 
-    Chart chart{at, {at.x + static_cast<float>(width), at.y + height - label}, ui.session.time_span(), 0, 0};
+    const mobb::Interval time = ui.session.time_span();
+    const float right = at.x + static_cast<float>(width);
+    Chart chart{at, {right, at.y + height - label}, time, {time.t0, time.t1, at.x, right}};
     const std::vector<ClearanceColumn>& columns = clearance_.of(
         ui.session.findings(), width, 0, [&] { return columns_of(clearance, chart.time.t0, chart.time.t1, width); });
     double most = 0;
@@ -118,12 +108,11 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
         if (column.any) most = std::max(most, column.most);
     }
     const double range = std::max(most - std::min(0.0, least.clearance), 1e-3);
-    chart.low = std::min(0.0, least.clearance) - 0.12 * range;
-    chart.high = most + 0.08 * range;
+    chart.y = {std::min(0.0, least.clearance) - 0.12 * range, most + 0.08 * range, chart.max.y, chart.min.y};
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(chart.min, chart.max, ui.style.raised);
-    const float zero = chart.y(0);
+    const float zero = chart.y.pixel(0);
     dashed_line(list, {chart.min.x, zero}, {chart.max.x, zero}, mark_color(ui.style, EventMark::hit), ui.style.scale,
                 ui.px(3));
     draw_curve(list, ui.style, chart, columns);
@@ -133,11 +122,12 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
             with_unit(most, "m"));
     least_mark(list, ui.style, chart, least);
     chart_ticks(list, ui.style, chart);
-    if (const auto& time = ui.session.view().time; time && *time >= chart.time.t0 && *time <= chart.time.t1) {
-        list.AddLine({chart.x(*time), chart.min.y}, {chart.x(*time), chart.max.y}, ui.style.accent, ui.px(1.5f));
+    if (const auto& now = ui.session.view().time; now && *now >= time.t0 && *now <= time.t1) {
+        list.AddLine({chart.x.pixel(*now), chart.min.y}, {chart.x.pixel(*now), chart.max.y}, ui.style.accent,
+                     ui.px(1.5f));
     }
     if (!hovered && !active) return;
-    const double t = std::clamp(chart.t(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);
+    const double t = std::clamp(chart.x.value(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);
     if (const ClearancePiece* piece = piece_at(clearance, t)) {
         ImGui::SetTooltip("%s: %s m\nsample %d of %s, sample %d of %s", with_unit(t, "s").c_str(),
                           signed_metres(piece->clearance).c_str(), piece->a_sample, findings.sides[0].label.c_str(),
@@ -146,9 +136,7 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
         ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
     }
     if (!active) return;
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", t);
-    if (ui.session.view().time != t) invoke(ui.session, "time.at", text);
+    if (ui.session.view().time != t) invoke(ui.session, "time.at", formatted("%.17g", t));
 }
 
 }  // namespace mobbscope::app

@@ -2,6 +2,7 @@
 #include <app/document/agents.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 namespace mobbscope::app {
 
@@ -17,11 +17,7 @@ namespace {
 
 constexpr int kMostCrowdRows = 9;
 
-std::string at_time(double time) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.2f s", time);
-    return text;
-}
+std::string at_time(double time) { return formatted("%.2f s", time); }
 
 /// Who is followed, and the way to change that.
 void following(Ui& ui) {
@@ -62,9 +58,7 @@ std::string move_name(const Session& session, const Candidate& candidate) {
     const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
     std::string name = session.scene().clips[static_cast<std::size_t>(move.clip)].name;
     if (candidate.turn_deg == 0) return name;
-    char turn[32];
-    std::snprintf(turn, sizeof turn, ", %+.0f\u00B0", candidate.turn_deg);
-    return name + turn;
+    return name + formatted(", %+.0f\u00B0", candidate.turn_deg);
 }
 
 std::string remark_of(const Session& session, const Choice& choice, std::size_t index) {
@@ -101,12 +95,11 @@ void last_choice_list(Ui& ui) {
         const CandidateOutcome outcome = outcome_of(choice, index);
         const Rgba color = outcome_style_of(outcome, ui.style.palette).color;
         const bool pointed_out = session.candidate == static_cast<int>(index);
-        if (row(ui, {"candidate" + std::to_string(index), move_name(session, choice.candidates[index]),
+        if (row(ui, {"candidate." + std::to_string(index), move_name(session, choice.candidates[index]),
                      remark_of(session, choice, index), pointed_out, false, ui.px(26),
                      to_im(readable(color, ui.style.palette))})) {
             invoke(session, "crowd.candidate", std::to_string(index));
         }
-        ui.mark("candidate." + std::to_string(index));
         fate_line(ui, corner, outcome);
         if (!ImGui::IsItemHovered()) return;
         ImGui::SetTooltip("%s", candidate_sentence(session.scene(), choice, index).c_str());
@@ -139,11 +132,10 @@ void plays(Ui& ui) {
         const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
                             : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
                                                              : 0;
-        if (row(ui, {"play" + std::to_string(i), session.scene().clips[static_cast<std::size_t>(move.clip)].name,
+        if (row(ui, {"play." + std::to_string(i), session.scene().clips[static_cast<std::size_t>(move.clip)].name,
                      kind + at_time(play.placement.start), static_cast<std::size_t>(i) == now, false, 0, color})) {
             invoke(session, "crowd.play", std::to_string(i));
         }
-        ui.mark("play." + std::to_string(i));
     });
 }
 
@@ -161,13 +153,11 @@ void conflicts(Ui& ui) {
     }
     rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, [&](int i) {
         const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
-        char depth[48];
-        std::snprintf(depth, sizeof depth, "%.2f s  %.2f m", conflict.begin(), -conflict.facts.least_clearance);
-        if (row(ui, {"conflict" + std::to_string(i), conflict.a.name + " and " + conflict.b.name, depth,
+        if (row(ui, {"conflict." + std::to_string(i), conflict.a.name + " and " + conflict.b.name,
+                     formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.least_clearance),
                      session.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
             session.conflict = i;
         }
-        ui.mark("conflict." + std::to_string(i));
         if (!ImGui::IsItemHovered()) return;
         ImGui::SetTooltip("When they first touch, and how deep they overlap. Double-click goes to just before it");
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "conflicts.go", std::to_string(i));
@@ -187,10 +177,8 @@ void crowd_panel(Ui& ui) {
         session.crowd() ? session.crowd()->agents.size() : session.fitted().placed_agents().size();
     heading(ui, "CROWD", std::to_string(people) + " agents");
     if (session.crowd()) {
-        char text[96];
-        std::snprintf(text, sizeof text, "%.2f of %.4g s on %.4g x %.4g m", run_time(session.scene(), session.view()),
-                      session.crowd()->seconds, session.crowd()->area.x, session.crowd()->area.y);
-        words(ui.style.quiet, text);
+        words(ui.style.quiet, formatted("%.2f of %.4g s on %.4g x %.4g m", run_time(session.scene(), session.view()),
+                                        session.crowd()->seconds, session.crowd()->area.x, session.crowd()->area.y));
     }
     following(ui);
     if (session.crowd()) last_choice_list(ui);

@@ -1,12 +1,12 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
 #include <explain/axis_intervals.h>
 #include <explain/query_sentence.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,9 +39,7 @@ void node_line(Ui& ui, const QueryFindings& findings, std::size_t side, int node
     const float width = ImGui::CalcTextSize(samples.c_str()).x;
     if (name_width + width + ui.px(12) < room) {
         ImGui::SameLine(left + room - width);
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-        ImGui::TextUnformatted(samples.c_str());
-        ImGui::PopStyleColor();
+        text_line(ui.style.quiet, samples);
     }
     ImGui::PopFont();
     ImGui::PopID();
@@ -177,12 +175,6 @@ void untried_axes(Ui& ui, const QueryFindings& findings, const mobb::Trace::Even
 
 constexpr std::size_t kMostPairs = 100;
 
-std::string three_decimals(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3f", value);
-    return text;
-}
-
 }  // namespace
 
 void current_test(Ui& ui, const QueryFindings& findings) {
@@ -190,12 +182,7 @@ void current_test(Ui& ui, const QueryFindings& findings) {
     const EventMark mark = mark_of(event.test, event.outcome);
     heading(ui, "THIS TEST", "depth " + std::to_string(event.depth));
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float side = ui.px(12);
-        const float down = 0.5f * (ImGui::GetTextLineHeight() - side);
-        outcome_cell(*ImGui::GetWindowDrawList(), ui.style, {at.x, at.y + down}, {at.x + side, at.y + down + side},
-                     mark, 1);
-        ImGui::Dummy({side, ImGui::GetTextLineHeight()});
+        outcome_sign(ui, mark, ui.px(12));
         ImGui::SameLine(0, ui.px(7));
         words(mark_text(ui.style, mark), headline(mark));
         std::string sentence = outcome_text(findings.sides, event) + ".";
@@ -239,30 +226,23 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
     heading(ui, "PAIRS OF SAMPLES, METRES", std::to_string(event.pairs.size()));
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.px(2), ui.px(1)});
     if (ImGui::BeginTable("pairs", 5, ImGuiTableFlags_SizingStretchProp)) {
-        const char* const heads[] = {"A", "B", "apart", "radii", "clear"};
-        ImGui::PushFont(ui.style.caption);
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-        ImGui::TableNextRow();
-        for (const char* head : heads) {
+        for (const char* head : {"A", "B", "apart", "radii", "clear"}) {
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(head);
+            text_line(ui.style.quiet, head, ui.style.caption);
         }
-        ImGui::PopStyleColor();
-        ImGui::PopFont();
         const auto row = [&](const mobb::MeasuredPair& p, bool nearest) {
             ImGui::TableNextRow();
             const EventMark mark = clearance(p) < 0 ? EventMark::hit : EventMark::overlap;
             const ImU32 color = nearest ? mark_text(ui.style, mark) : ui.style.text;
-            ImGui::TableNextColumn();
-            number(ui, std::to_string(p.i), p.i, "", color);
-            ImGui::TableNextColumn();
-            number(ui, std::to_string(p.j), p.j, "", color);
-            ImGui::TableNextColumn();
-            number(ui, three_decimals(p.distance), p.distance, "m", color);
-            ImGui::TableNextColumn();
-            number(ui, three_decimals(radii(p)), radii(p), "m", color);
-            ImGui::TableNextColumn();
-            number(ui, signed_metres(clearance(p)), clearance(p), "m", color);
+            const auto cell = [&](const std::string& shown, double value, const char* unit) {
+                ImGui::TableNextColumn();
+                number(ui, shown, value, unit, color);
+            };
+            cell(std::to_string(p.i), p.i, "");
+            cell(std::to_string(p.j), p.j, "");
+            cell(formatted("%.3f", p.distance), p.distance, "m");
+            cell(formatted("%.3f", radii(p)), radii(p), "m");
+            cell(signed_metres(clearance(p)), clearance(p), "m");
             if (nearest) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, mark_color(ui.style, mark, 0.14f));
         };
         const std::size_t shown = std::min(event.pairs.size(), kMostPairs);

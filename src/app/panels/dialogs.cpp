@@ -73,9 +73,7 @@ void about(Ui& ui) {
         "The method is from the paper \"Detecting Collisions in Graph-Driven Motion Synthesis for Crowd Simulation\".");
     ImGui::PopStyleColor();
     ImGui::Dummy({0, ui.px(6)});
-    if (marked_button(ui, "Close", "about.close", true) || pressed(ImGuiKey_Enter)) {
-        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
-    }
+    close_button(ui, "about.close");
     end_dialog();
 }
 

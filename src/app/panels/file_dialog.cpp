@@ -2,10 +2,11 @@
 #include <app/panels/panels.h>
 #include <app/panels/path_completion.h>
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
 #include <scene/load_files.h>
 
 #include <array>
-#include <cstdio>
 #include <exception>
 #include <system_error>
 
@@ -53,16 +54,10 @@ std::string first_text(const Session& session, const Purpose& purpose) {
 }
 
 std::string size_text(std::uintmax_t bytes) {
-    char text[32];
     const double size = static_cast<double>(bytes);
-    if (bytes < 1000) {
-        std::snprintf(text, sizeof text, "%ju B", bytes);
-    } else if (size < 999.5e3) {
-        std::snprintf(text, sizeof text, "%.*f kB", size < 9.95e3 ? 1 : 0, size / 1e3);
-    } else {
-        std::snprintf(text, sizeof text, "%.1f MB", size / 1e6);
-    }
-    return text;
+    if (bytes < 1000) return formatted("%ju B", bytes);
+    if (size < 999.5e3) return formatted("%.*f kB", size < 9.95e3 ? 1 : 0, size / 1e3);
+    return formatted("%.1f MB", size / 1e6);
 }
 
 /// The path that is meant, with the extension that it lacks.
@@ -115,11 +110,8 @@ void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, b
         if (moved && i == input.picked) ImGui::SetScrollHereY();
         if (!entry.folder) {
             const std::string size = size_text(entry.size);
-            const float width = ui.style.mono->CalcTextSizeA(ui.style.mono->FontSize, 1e6f, 0, size.c_str()).x;
-            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-            ImGui::PushFont(ui.style.mono);
-            ImGui::TextDisabled("%s", size.c_str());
-            ImGui::PopFont();
+            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - text_size(*ui.style.mono, size).x);
+            text_line(ui.style.quiet, size, ui.style.mono);
         }
         if (clicked) {
             const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
@@ -136,9 +128,7 @@ void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, b
 }
 
 void recent_files(Ui& ui, const Purpose& purpose, bool& accepted) {
-    ImGui::PushFont(ui.style.caption);
-    ImGui::TextDisabled("RECENT");
-    ImGui::PopFont();
+    text_line(ui.style.quiet, "RECENT", ui.style.caption);
     int index = 0;
     for (const std::filesystem::path& file : ui.session.settings.recent) {
         ImGui::PushID(index);
@@ -205,9 +195,7 @@ void file_dialog(Ui& ui) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     if (input.confirming) {
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.warning);
-        ImGui::TextUnformatted("This file exists. Enter overwrites it.");
-        ImGui::PopStyleColor();
+        text_line(ui.style.warning, "This file exists. Enter overwrites it.");
     } else if (!purpose.extension) {
         ImGui::TextDisabled("Enter goes into a folder; Open opens all clips in it.");
     }

@@ -1,11 +1,12 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,8 +42,7 @@ std::vector<Line> lines() {
         menu = of;
         std::string what(command.title);
         if (what.ends_with("...")) what.resize(what.size() - 3);
-        std::istringstream chords{std::string(command.shortcut)};
-        for (std::string chord; chords >> chord;) out.push_back({chord, what, false});
+        for (const std::string& chord : words_of(command.shortcut)) out.push_back({chord, what, false});
     }
     out.push_back({"", "Mouse", true});
     for (const auto& [keys, what] : kMouse) out.push_back({keys, what, false});
@@ -51,15 +51,11 @@ std::vector<Line> lines() {
 
 void help_line(Ui& ui, const Line& line, float keys_width) {
     if (line.heading) {
-        ImGui::PushFont(ui.style.caption);
-        ImGui::TextDisabled("%s", line.what.c_str());
-        ImGui::PopFont();
+        text_line(ui.style.quiet, line.what, ui.style.caption);
         return;
     }
     const float x = ImGui::GetCursorPosX();
-    ImGui::PushFont(ui.style.mono);
-    ImGui::TextUnformatted(line.keys.c_str());
-    ImGui::PopFont();
+    text_line(ui.style.text, line.keys, ui.style.mono);
     ImGui::SameLine();
     ImGui::SetCursorPosX(x + keys_width);
     ImGui::TextUnformatted(line.what.c_str());
@@ -67,14 +63,15 @@ void help_line(Ui& ui, const Line& line, float keys_width) {
 
 }  // namespace
 
+std::span<const std::pair<const char*, const char*>> mouse_help() { return kMouse; }
+
 void help_sheet(Ui& ui) {
     begin_dialog(ui, "help", {980, 640});
     dialog_title(ui, "Shortcuts");
     const std::vector<Line> all = lines();
     float keys_width = 0, what_width = 0;
     for (const Line& line : all) {
-        const ImFont& mono = *ui.style.mono;
-        keys_width = std::max(keys_width, mono.CalcTextSizeA(mono.FontSize, 1e6f, 0, line.keys.c_str()).x);
+        keys_width = std::max(keys_width, text_size(*ui.style.mono, line.keys).x);
         what_width = std::max(what_width, ImGui::CalcTextSize(line.what.c_str()).x);
     }
     keys_width += ui.px(12);
@@ -100,9 +97,7 @@ void help_sheet(Ui& ui) {
     if (pressed(ImGuiKey_DownArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() + ui.px(60));
     if (pressed(ImGuiKey_UpArrow, true)) ImGui::SetScrollY(ImGui::GetScrollY() - ui.px(60));
     ImGui::EndChild();
-    if (marked_button(ui, "Close", "help.close", true) || pressed(ImGuiKey_Enter)) {
-        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
-    }
+    close_button(ui, "help.close");
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("Ctrl+P finds everything else by a few letters.");

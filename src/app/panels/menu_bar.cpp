@@ -1,6 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
 
 #include <algorithm>
 #include <cctype>
@@ -110,14 +111,14 @@ void search(Ui& ui, float left, float right) {
     draw.AddRect(min, max, ImGui::IsItemHovered() ? ui.style.accent : ui.style.border, ui.px(4));
     const float pad = ui.px(10);
     const std::string key(first_shortcut(*find_command("go.palette")));
-    const float key_width = ui.style.mono->CalcTextSizeA(ui.style.mono->FontSize, 1e6f, 0, key.c_str()).x;
+    const float key_width = text_size(*ui.style.mono, key).x;
     const float y = (min.y + max.y - ui.style.body->FontSize) / 2;
     for (const char* text : {"Search commands, agents, nodes", "Search commands", "Search"}) {
         if (ImGui::CalcTextSize(text).x + key_width + 3 * pad > width) continue;
         draw.AddText({min.x + pad, y}, ui.style.quiet, text);
         break;
     }
-    draw.AddText(ui.style.mono, ui.style.mono->FontSize, {max.x - pad - key_width, y}, ui.style.quiet, key.c_str());
+    draw_text(draw, *ui.style.mono, {max.x - pad - key_width, y}, ui.style.quiet, key);
 }
 
 /// The file's name at the right, with a dot when it is not saved; returns where it begins. A long name loses its end.

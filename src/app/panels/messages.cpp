@@ -1,5 +1,6 @@
 #include <app/document/job.h>
 #include <app/panels/panels.h>
+#include <app/ui/widgets.h>
 
 #include <imgui_internal.h>
 
@@ -62,11 +63,10 @@ bool draw(Ui& ui, const Message& message, std::size_t index) {
     bool gone = false;
     if (stays) {
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons + ui.px(8));
-        if (ImGui::SmallButton("Copy") && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(message.text);
-        ui.mark(mark + ".copy");
+        const bool copies = small_button(ui, "Copy", mark + ".copy");
+        if (copies && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(message.text);
         ImGui::SameLine();
-        gone = ImGui::SmallButton("x");
-        ui.mark(mark + ".dismiss");
+        gone = small_button(ui, "x", mark + ".dismiss");
     }
     ImGui::PopID();
     return gone;
@@ -116,8 +116,7 @@ bool draw_job(Ui& ui, const Job& job, std::size_t index) {
     ImGui::Dummy({width, height});
     ui.mark(mark + ".bar");
     ImGui::SameLine(0, ui.px(10));
-    const bool cancelled = ImGui::SmallButton("Cancel");
-    ui.mark(mark + ".cancel");
+    const bool cancelled = small_button(ui, "Cancel", mark + ".cancel");
     ImGui::PopID();
     return cancelled;
 }

@@ -1,6 +1,7 @@
 #include <app/commands/palette_entries.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
 
 #include <string>
 
@@ -22,15 +23,14 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
     const float y = at.y + (height - ImGui::GetFontSize()) / 2;
     const float pad = ui.px(8);
     float right = at.x + width - pad;
-    const auto put = [&](ImFont* font, const std::string& what) {
+    const auto put = [&](const ImFont& font, const std::string& what) {
         if (what.empty()) return;
-        right -= font->CalcTextSizeA(font->FontSize, 1e6f, 0, what.c_str()).x;
-        draw.AddText(font, font->FontSize, {right, y + (ImGui::GetFontSize() - font->FontSize) / 2}, ui.style.quiet,
-                     what.c_str());
+        right -= text_size(font, what).x;
+        draw_text(draw, font, {right, y + (ImGui::GetFontSize() - font.FontSize) / 2}, ui.style.quiet, what);
         right -= 2 * pad;
     };
-    put(ui.style.mono, key);
-    put(ui.style.caption, detail);
+    put(*ui.style.mono, key);
+    put(*ui.style.caption, detail);
     draw.PushClipRect(at, {right, at.y + height}, true);
     draw.AddText({at.x + pad, y}, enabled ? ui.style.text : ui.style.quiet, text.c_str());
     draw.PopClipRect();

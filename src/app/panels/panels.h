@@ -5,6 +5,10 @@
 #include <app/ui/ui.h>
 #include <app/viewport/viewport.h>
 
+#include <span>
+#include <utility>
+#include <vector>
+
 namespace mobbscope::app {
 
 void menu_bar(Ui& ui);
@@ -25,6 +29,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
 void palette(Ui& ui);
 void file_dialog(Ui& ui);  ///< open, add, save as, export: a path is asked for
 void help_sheet(Ui& ui);
+/// What the mouse does, as the help sheet says it; README says the same.
+std::span<const std::pair<const char*, const char*>> mouse_help();
 void about(Ui& ui);
 
 }  // namespace mobbscope::app

@@ -80,11 +80,9 @@ void placement_panel(Ui& ui) {
                          [&](Scene& scene) { place_agent(scene, who.agent, placement); });
         });
     }
-    if (ImGui::SmallButton("Duplicate")) invoke(session, "agent.duplicate");
-    ui.mark("agent.duplicate");
+    if (small_button(ui, "Duplicate", "agent.duplicate")) invoke(session, "agent.duplicate");
     ImGui::SameLine();
-    if (ImGui::SmallButton("Remove")) invoke(session, "agent.remove");
-    ui.mark("agent.remove");
+    if (small_button(ui, "Remove", "agent.remove")) invoke(session, "agent.remove");
     ImGui::PopID();
 }
 

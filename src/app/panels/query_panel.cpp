@@ -8,7 +8,6 @@
 #include <explain/query_sentence.h>
 
 #include <algorithm>
-#include <array>
 
 namespace mobbscope::app {
 
@@ -20,9 +19,7 @@ void query_header(Ui& ui) {
     const std::string which = std::to_string(*ui.session.view().query + 1) + " / " + std::to_string(count);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(1)});
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-    ImGui::TextUnformatted(count == 1 ? "Query" : ("Query " + which).c_str());
-    ImGui::PopStyleColor();
+    text_line(ui.style.quiet, count == 1 ? "Query" : "Query " + which);
     if (count > 1) {
         flow(button_width("previous"));
         query_button(ui, "previous", "query.previous");
@@ -120,9 +117,7 @@ void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& co
 
 void right_aligned(const std::string& text, float right, ImU32 color) {
     ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
+    text_line(color, text);
 }
 
 }  // namespace
@@ -216,9 +211,7 @@ void query_counters(Ui& ui, const QueryFindings& findings) {
     right_aligned("in all", second, ui.style.quiet);
     ImGui::PopFont();
     const auto row = [&](const std::string& label, std::string_view doc, std::int64_t so_far, std::int64_t in_all) {
-        ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-        ImGui::TextUnformatted(label.c_str());
-        ImGui::PopStyleColor();
+        text_line(ui.style.quiet, label);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(doc).c_str());
         ImGui::PushFont(ui.style.mono);
         right_aligned(std::to_string(so_far), first, ui.style.text);

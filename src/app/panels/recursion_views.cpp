@@ -1,14 +1,13 @@
 #include <app/commands/command.h>
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
+#include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/text/labels.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string>
-#include <utility>
 
 namespace mobbscope::app {
 
@@ -18,17 +17,33 @@ constexpr float kSquareAhead = 0.28f;  // strength of what comes after the prese
 
 /// What both axes cover, and where.
 struct Square {
+    Square(ImVec2 corner, float side, mobb::Interval of_a, mobb::Interval of_b)
+        : min(corner),
+          max{corner.x + side, corner.y + side},
+          a(of_a),
+          b(of_b),
+          x{a.t0, a.t1, min.x, max.x},
+          y{b.t0, b.t1, max.y, min.y} {}
+
     ImVec2 min, max;
     mobb::Interval a, b;
-
-    float x(double t) const { return min.x + static_cast<float>((t - a.t0) / (a.t1 - a.t0)) * (max.x - min.x); }
-    float y(double t) const { return max.y - static_cast<float>((t - b.t0) / (b.t1 - b.t0)) * (max.y - min.y); }
+    ChartAxis x, y;
 };
 
-std::string seconds(double t) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g s", t);
-    return text;
+/// Draws each cell with its pair, its corners and whether its test is past; null or the last one that the mouse is in.
+template <class Draw>
+const PairCell* draw_cells(const Recursion& recursion, const std::vector<PairCell>& cells, ImVec2 at, int step,
+                           const Draw& draw) {
+    const PairCell* under = nullptr;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    for (const PairCell& cell : cells) {
+        const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
+        const ImVec2 min{at.x + static_cast<float>(cell.x0), at.y + static_cast<float>(cell.y0)};
+        const ImVec2 max{at.x + static_cast<float>(cell.x1), at.y + static_cast<float>(cell.y1)};
+        draw(cell, pair, min, max, pair.first <= step);
+        if (mouse.x >= min.x && mouse.x < max.x && mouse.y >= min.y && mouse.y < max.y) under = &cell;
+    }
+    return under;
 }
 
 /// Where both times are equal: only what it crosses can hit.
@@ -36,30 +51,29 @@ void common_time(ImDrawList& list, const Style& style, const Square& square) {
     const double t0 = std::max(square.a.t0, square.b.t0);
     const double t1 = std::min(square.a.t1, square.b.t1);
     if (t1 <= t0) return;
-    list.AddLine({square.x(t0), square.y(t0)}, {square.x(t1), square.y(t1)}, style.accent, 1.3f * style.scale);
+    list.AddLine({square.x.pixel(t0), square.y.pixel(t0)}, {square.x.pixel(t1), square.y.pixel(t1)}, style.accent,
+                 1.3f * style.scale);
 }
 
 void axis_labels(Ui& ui, const QueryFindings& findings, const Square& square) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    ImFont* font = ui.style.caption;
+    const ImFont& font = *ui.style.caption;
     const auto text = [&](ImVec2 at, ImU32 color, const std::string& words) {
-        list.AddText(font, font->FontSize, at, color, words.c_str());
+        draw_text(list, font, at, color, words);
     };
-    const auto width = [&](const std::string& words) {
-        return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, words.c_str()).x;
-    };
+    const auto width = [&](const std::string& words) { return text_size(font, words).x; };
     const ImU32 color_a = to_im(readable(findings.sides[0].color, ui.style.palette));
     const ImU32 color_b = to_im(readable(findings.sides[1].color, ui.style.palette));
     const float below = square.max.y + ui.px(3);
-    const std::string from = seconds(square.a.t0), to = seconds(square.a.t1);
+    const std::string from = formatted("%.4g s", square.a.t0), to = formatted("%.4g s", square.a.t1);
     text({square.min.x, below}, color_a, from);
     text({square.max.x - width(to), below}, color_a, to);
     const std::string name_a = findings.sides[0].label + " \u2192";
     const float middle = 0.5f * (square.min.x + square.max.x - width(name_a));
     if (middle > square.min.x + width(from) + ui.px(4)) text({middle, below}, color_a, name_a);
-    const float above = square.min.y - font->FontSize - ui.px(3);
+    const float above = square.min.y - font.FontSize - ui.px(3);
     text({square.min.x, above}, color_b,
-         findings.sides[1].label + " \u2191  " + seconds(square.b.t0) + " to " + seconds(square.b.t1));
+         findings.sides[1].label + formatted(" \u2191  %.4g s to %.4g s", square.b.t0, square.b.t1));
 }
 
 constexpr float kIcicleAhead = 0.35f;  // strength of what comes after the present step
@@ -105,10 +119,7 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     const float label = caption + ui.px(5);
     const float side = std::floor(std::min(ImGui::GetContentRegionAvail().x, ui.px(340)));
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const Square square{{at.x, at.y + label},
-                        {at.x + side, at.y + label + side},
-                        recursion.pairs.front().time_a,
-                        recursion.pairs.front().time_b};
+    const Square square({at.x, at.y + label}, side, recursion.pairs.front().time_a, recursion.pairs.front().time_b);
     const int size = static_cast<int>(side);
     if (size < 16) return;
     ImGui::SetCursorScreenPos(square.min);
@@ -123,29 +134,26 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     list.AddRectFilled(square.min, square.max, ui.style.raised);
     const int step = ui.session.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
-    const PairCell* under = nullptr;
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    for (const PairCell& cell : cells) {
-        const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
-        const ImVec2 min{square.min.x + static_cast<float>(cell.x0), square.min.y + static_cast<float>(cell.y0)};
-        const ImVec2 max{square.min.x + static_cast<float>(cell.x1), square.min.y + static_cast<float>(cell.y1)};
-        const float strength = pair.first <= step ? 1 : kSquareAhead;
-        if (pair.has_children()) {
-            list.AddRect(min, max, to_im(with_alpha(ui.style.palette.axis, 0.6f * strength)), 0, 0, ui.style.scale);
-        } else {
-            const float gap = cell.x1 - cell.x0 > 4 ? 1.0f : 0.0f;
-            outcome_cell(list, ui.style, min, {max.x - gap, max.y - gap}, mark_of(pair), strength);
-        }
-        // Later cells lie in earlier ones: the last that the mouse is in is the smallest.
-        if (mouse.x >= min.x && mouse.x < max.x && mouse.y >= min.y && mouse.y < max.y) under = &cell;
-    }
+    // Later cells lie in earlier ones: the last that the mouse is in is the smallest.
+    const PairCell* under = draw_cells(
+        recursion, cells, square.min, step,
+        [&](const PairCell& cell, const RecursionPair& pair, ImVec2 min, ImVec2 max, bool past) {
+            const float strength = past ? 1 : kSquareAhead;
+            if (pair.has_children()) {
+                list.AddRect(min, max, to_im(with_alpha(ui.style.palette.axis, 0.6f * strength)), 0, 0, ui.style.scale);
+            } else {
+                const float gap = cell.x1 - cell.x0 > 4 ? 1.0f : 0.0f;
+                outcome_cell(list, ui.style, min, {max.x - gap, max.y - gap}, mark_of(pair), strength);
+            }
+        });
     common_time(list, ui.style, square);
     const RecursionPair& now = recursion.pairs[static_cast<std::size_t>(present)];
     // However small the pair is, its outline is seen.
-    const ImVec2 middle{0.5f * (square.x(now.time_a.t0) + square.x(now.time_a.t1)),
-                        0.5f * (square.y(now.time_b.t0) + square.y(now.time_b.t1))};
-    const float half_x = std::max(ui.px(4), square.x(now.time_a.t1) - middle.x + ui.px(1));
-    const float half_y = std::max(ui.px(4), square.y(now.time_b.t0) - middle.y + ui.px(1));
+    const ImVec2 first{square.x.pixel(now.time_a.t0), square.y.pixel(now.time_b.t0)};
+    const ImVec2 last{square.x.pixel(now.time_a.t1), square.y.pixel(now.time_b.t1)};
+    const ImVec2 middle{0.5f * (first.x + last.x), 0.5f * (first.y + last.y)};
+    const float half_x = std::max(ui.px(4), last.x - middle.x + ui.px(1));
+    const float half_y = std::max(ui.px(4), first.y - middle.y + ui.px(1));
     list.AddRect({middle.x - half_x, middle.y - half_y}, {middle.x + half_x, middle.y + half_y}, ui.style.text, 0, 0,
                  ui.px(2));
     axis_labels(ui, findings, square);
@@ -177,17 +185,12 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
     const bool clicked = ImGui::IsItemClicked();
     const int step = ui.session.step();
     const int present = recursion.pair_of[static_cast<std::size_t>(step)];
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const PairCell* under = nullptr;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
-    for (const PairCell& cell : cells) {
-        const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(cell.pair)];
-        const ImVec2 min{at.x + static_cast<float>(cell.x0), at.y + static_cast<float>(cell.y0)};
-        const ImVec2 end{at.x + static_cast<float>(cell.x1), at.y + static_cast<float>(cell.y1)};
+    const auto draw = [&](const PairCell& cell, const RecursionPair& pair, ImVec2 min, ImVec2 end, bool past) {
         const float gap = cell.x1 - cell.x0 > 3 && row > 4 ? 1.0f : 0.0f;
         const ImVec2 max{end.x - gap, end.y - gap};
-        const float strength = pair.first <= step ? 1 : kIcicleAhead;
+        const float strength = past ? 1 : kIcicleAhead;
         if (pair.has_children()) {
             draw_inner(list, ui.style, min, max, pair.hit, strength);
         } else {
@@ -198,13 +201,13 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
                 node_name(findings->sides[0], pair.a) + "  " + node_name(findings->sides[1], pair.b);
             const ImVec2 text = ImGui::CalcTextSize(name.c_str());
             if (text.x + ui.px(8) < max.x - min.x && text.y <= max.y - min.y) {
-                list.AddText({min.x + ui.px(4), 0.5f * (min.y + max.y - text.y)},
-                             pair.first <= step ? ui.style.text : ui.style.quiet, name.c_str());
+                list.AddText({min.x + ui.px(4), 0.5f * (min.y + max.y - text.y)}, past ? ui.style.text : ui.style.quiet,
+                             name.c_str());
             }
         }
         if (cell.pair == present) list.AddRect(min, max, ui.style.text, 0, 0, ui.px(2));
-        if (mouse.x >= min.x && mouse.x < end.x && mouse.y >= min.y && mouse.y < end.y) under = &cell;
-    }
+    };
+    const PairCell* under = draw_cells(recursion, cells, at, step, draw);
     list.PopClipRect();
     if (!hovered || !under) return;
     const RecursionPair& pair = recursion.pairs[static_cast<std::size_t>(under->pair)];

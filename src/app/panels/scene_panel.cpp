@@ -2,21 +2,14 @@
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 #include <app/viewport/describe.h>
+#include <base/text.h>
 #include <render/drawlist/palette.h>
-
-#include <cstdio>
 
 namespace mobbscope::app {
 
 namespace {
 
 constexpr int kMostSceneRows = 9;
-
-std::string tenths_of_seconds(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f s", value);
-    return text;
-}
 
 void agent_menu(Ui& ui, const Selection& self) {
     if (!ImGui::BeginPopupContextItem()) return;
@@ -37,7 +30,7 @@ void agent_menu(Ui& ui, const Selection& self) {
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
 std::string clip_remark(const Session& session, const SceneClip& clip) {
-    return session.crowd() ? fitted_text(clip.name, 90) : tenths_of_seconds(clip.clip->duration());
+    return session.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
 }
 
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
@@ -48,9 +41,8 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
-    const bool clicked = row(ui, {"agent" + std::to_string(index), who.name, clip_remark(session, clip),
+    const bool clicked = row(ui, {"agent." + std::to_string(index), who.name, clip_remark(session, clip),
                                   on_it(session.selection), on_it(session.hovered), ui.px(18), 0});
-    ui.mark("agent." + std::to_string(index));
     agent_menu(ui, self);
     const float side = ui.px(10);
     const float y = corner.y + 0.5f * (ImGui::GetFrameHeight() - side);
@@ -71,9 +63,9 @@ void agents(Ui& ui) {
     heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
     rows(ui, "##agents", count, kMostSceneRows, [&](int i) { path_row(ui, fitted, i); });
     if (session.crowd()) return;
-    if (ImGui::SmallButton("+ agent")) ImGui::OpenPopup("add agent");
-    ui.mark("scene.add_agent");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add an agent that plays one of the clips");
+    if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
+        ImGui::OpenPopup("add agent");
+    }
     if (ImGui::BeginPopup("add agent")) {
         for (const SceneClip& clip : fitted.scene().clips) {
             ImGui::PushID(&clip);  // names may look alike to ImGui
@@ -92,18 +84,17 @@ void clips(Ui& ui) {
         const SceneClip& clip = all[static_cast<std::size_t>(i)];
         const Selection self{Selection::Kind::clip, {}, i};
         const bool warned = !clip.facts.warnings.empty();
-        if (row(ui,
-                {"clip" + std::to_string(i), clip.name, (warned ? "! " : "") + tenths_of_seconds(clip.clip->duration()),
-                 session.selection == self, session.hovered == self, 0, warned ? ui.style.warning : 0})) {
+        if (row(ui, {"clip." + std::to_string(i), clip.name,
+                     (warned ? "! " : "") + formatted("%.1f s", clip.clip->duration()), session.selection == self,
+                     session.hovered == self, 0, warned ? ui.style.warning : 0})) {
             session.select(self);
         }
-        ui.mark("clip." + std::to_string(i));
         if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().c_str());
     });
     if (session.crowd()) return;
-    if (ImGui::SmallButton("+ files")) invoke(session, "file.add");
-    ui.mark("scene.add_files");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Add clips, or the clips and agents of another scene");
+    if (small_button(ui, "+ files", "scene.add_files", "Add clips, or the clips and agents of another scene")) {
+        invoke(session, "file.add");
+    }
 }
 
 void queries(Ui& ui) {
@@ -117,13 +108,12 @@ void queries(Ui& ui) {
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.style.palette;
-        if (row(ui, {"query" + std::to_string(i), query.a.name + " against " + query.b.name,
+        if (row(ui, {"query." + std::to_string(i), query.a.name + " against " + query.b.name,
                      std::string(unexpected ? "! " : "") + (hit ? "hit" : "miss"), session.view().query == i, false, 0,
                      to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
             invoke(session, session.view().query == i ? "query.none" : "query.select",
                    session.view().query == i ? "" : std::to_string(i));
         }
-        ui.mark("query." + std::to_string(i));
         if (unexpected && ImGui::IsItemHovered()) ImGui::SetTooltip("The scene expects the other answer");
     });
     if (count == 0)

@@ -11,8 +11,6 @@
 #include <scene/motion_graph.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <functional>
 
 namespace mobbscope::app {
 
@@ -20,24 +18,29 @@ namespace {
 
 constexpr float kMostBar = 26;  // height of a path's bar, pixels at scale 1
 
+/// An empty span has some length too.
+ChartAxis time_axis(const mobb::Interval& span, float left, float width) {
+    return {span.t0, span.t1 > span.t0 ? span.t1 : span.t0 + 1, left, left + width};
+}
+
 /// Seconds below the bars.
 void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImFont* mono = ui.style.mono;
-    const double length = std::max(span.t1 - span.t0, 1e-12);
-    const double step = nice_step(length, std::max(2.0f, width / ui.px(90)));
+    const ImFont& mono = *ui.style.mono;
+    const ChartAxis axis = time_axis(span, corner.x, width);
+    const double step = nice_step(axis.to - axis.from, std::max(2.0f, width / ui.px(90)));
     for (const double t : ticks(span.t0, span.t1, step)) {
-        const float x = corner.x + width * static_cast<float>((t - span.t0) / length);
+        const float x = axis.pixel(t);
         draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
         const std::string text = tick_text(t, step) + " s";
-        const float wide = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text.c_str()).x;
+        const float wide = text_size(mono, text).x;
         const float left = std::clamp(x - 0.5f * wide, corner.x, corner.x + width - wide);
-        draw.AddText(mono, mono->FontSize, {left, corner.y + ui.px(5)}, ui.style.quiet, text.c_str());
+        draw_text(draw, mono, {left, corner.y + ui.px(5)}, ui.style.quiet, text);
     }
 }
 
 /// What the agent in question plays, move after move, and of everybody what was forced.
-void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(double)>& x_of) {
+void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
     const Session& session = ui.session;
     const CrowdRun& crowd = *session.crowd();
     const Palette& palette = ui.style.palette;
@@ -52,8 +55,8 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(dou
         const Rgba own = agent_color(session.fitted().scene(), who, *run_agent);
         const float gap = ui.px(1);
         for (const Play& play : crowd.agents[static_cast<std::size_t>(*run_agent)].plays) {
-            const float left = x_of(play.placement.start);
-            const float right = x_of(play.placement.start + duration(play));
+            const float left = time.pixel(play.placement.start);
+            const float right = time.pixel(play.placement.start + duration(play));
             draw.AddRectFilled({left + 0.5f * gap, corner.y + ui.px(3)},
                                {std::max(right - 0.5f * gap, left + gap), corner.y + size.y - ui.px(3)},
                                to_im(with_alpha(own, play.kind == PlayKind::chosen ? 0.75f : 0.4f)), ui.px(1));
@@ -62,7 +65,7 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(dou
     for (const CrowdAgent& agent : crowd.agents) {
         for (const Play& play : agent.plays) {
             if (play.kind != PlayKind::forced) continue;
-            const float x = x_of(play.placement.start);
+            const float x = time.pixel(play.placement.start);
             draw.AddLine({x, corner.y}, {x, corner.y + size.y}, to_im(palette.hit), ui.px(1.5f));
         }
     }
@@ -73,13 +76,12 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const std::function<float(dou
 void time_bars(Ui& ui, float width, float height) {
     Session& session = ui.session;
     const mobb::Interval span = session.time_span();
-    const double length = std::max(span.t1 - span.t0, 1e-12);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ChartAxis axis = time_axis(span, corner.x, width);
     ImGui::InvisibleButton("##time", {width, height});
     ui.mark("timeline.time");
-    const auto x_of = [&](double t) { return corner.x + width * static_cast<float>((t - span.t0) / length); };
     if (ImGui::IsItemActive()) {
-        const double at = span.t0 + length * std::clamp<double>((ImGui::GetIO().MousePos.x - corner.x) / width, 0, 1);
+        const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
         session.enqueue([&session, at] {
             session.stop();
             session.change_view([&](ViewState& view) { view.time = at; });
@@ -89,7 +91,7 @@ void time_bars(Ui& ui, float width, float height) {
     draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.style.window, ui.px(3));
     std::vector<DrawnAgent> paths;
     if (session.crowd()) {
-        play_bars(ui, corner, {width, height}, x_of);
+        play_bars(ui, corner, {width, height}, axis);
     } else {
         paths = drawn_agents(session.fitted(), session.view());
     }
@@ -98,8 +100,8 @@ void time_bars(Ui& ui, float width, float height) {
     const float gap = std::min(ui.px(1.5f), 0.2f * each);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const float y = corner.y + each * static_cast<float>(i);
-        const float left = x_of(paths[i].begin());
-        const float right = x_of(paths[i].end());
+        const float left = axis.pixel(paths[i].begin());
+        const float right = axis.pixel(paths[i].end());
         draw.AddRectFilled({left, y + gap}, {right, y + each - gap}, to_im(with_alpha(paths[i].color, 0.75f)),
                            ui.px(2));
         const float font = ImGui::GetFontSize();
@@ -110,7 +112,7 @@ void time_bars(Ui& ui, float width, float height) {
         draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
     }
     if (const auto time = session.view().time; time && *time >= span.t0 && *time <= span.t1) {
-        const float x = x_of(*time);
+        const float x = axis.pixel(*time);
         draw.AddLine({x, corner.y - ui.px(3)}, {x, corner.y + height + ui.px(3)}, ui.style.text, ui.px(2));
     }
     draw.AddRect(corner, {corner.x + width, corner.y + height}, ui.style.border, ui.px(3));
@@ -122,13 +124,9 @@ void time_row(Ui& ui, bool tall) {
     const mobb::Interval span = session.time_span();
     command_button(ui, session.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
     ImGui::SameLine();
-    char text[64];
-    std::snprintf(text, sizeof text, "%7.3f s", session.view().time.value_or(span.t0));
+    const auto time = session.view().time;
     ImGui::AlignTextToFramePadding();
-    ImGui::PushFont(ui.style.mono);
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(session.view().time ? ui.style.text : ui.style.quiet), "%s",
-                       session.view().time ? text : "   off   ");
-    ImGui::PopFont();
+    text_line(time ? ui.style.text : ui.style.quiet, time ? formatted("%7.3f s", *time) : "   off   ", ui.style.mono);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
     ImGui::SameLine();
     const float clear = ImGui::GetFrameHeight();
@@ -152,12 +150,9 @@ void time_row(Ui& ui, bool tall) {
 
 /// The second clock: where in the trace we stand.
 void step_row(Ui& ui, QueryPictures& pictures) {
-    char text[48];
-    std::snprintf(text, sizeof text, "step %d / %d", ui.session.step(), ui.session.recorded()->trace.size() - 1);
+    const int last = ui.session.recorded()->trace.size() - 1;
     ImGui::AlignTextToFramePadding();
-    ImGui::PushFont(ui.style.mono);
-    ImGui::TextUnformatted(text);
-    ImGui::PopFont();
+    text_line(ui.style.text, formatted("step %d / %d", ui.session.step(), last), ui.style.mono);
     ImGui::SameLine();
     pictures.strip(ui, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
 }
@@ -230,23 +225,20 @@ void step_transport(Ui& ui) {
     icon_button(ui, "step.last", true, true);
     text_button(ui, "over", "step.over");
     text_button(ui, "out", "step.out");
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("next");
-    ImGui::PopStyleColor();
+    text_line(ui.style.quiet, "next");
     text_button(ui, "separated", "step.next_separated");
     text_button(ui, "overlap", "step.next_overlap");
     text_button(ui, "hit", "step.next_hit");
     ImGui::PopStyleVar(2);
 
-    char format[48];
-    std::snprintf(format, sizeof format, "step %%d / %d", last);
+    const std::string format = formatted("step %%d / %d", last);
     ImGui::PushFont(ui.style.mono);
     // The number stays readable under the grab.
     ImGui::PushStyleColor(ImGuiCol_SliderGrab, to_im(with_alpha(ui.style.palette.accent, 0.45f)));
     ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, to_im(with_alpha(ui.style.palette.accent, 0.6f)));
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##step", &step, 0, last, format, ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
         invoke(ui.session, "step.to", std::to_string(step));
     }
     ui.mark("query.step");

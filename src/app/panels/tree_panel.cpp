@@ -6,49 +6,59 @@
 #include <scene/scene_json.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace mobbscope::app {
 
 namespace {
 
-struct PanelChoice {
-    const char* value;  ///< the command's argument
-    const char* label;
-    const char* help;
+/// How a choice is called in the panel, and what it means.
+struct ChoiceWords {
+    std::string label;
+    std::string help;
 };
 
-constexpr auto kTreeChoices = [] {
-    std::array<PanelChoice, mobb::kTreeKindCount> out{};
-    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
-        const mobb::TreeInfo& row = mobb::info(kind);
-        out[static_cast<std::size_t>(kind)] = {row.name.data(), row.label.data(), row.help.data()};
-    }
-    return out;
-}();
-constexpr std::array<PanelChoice, 3> kAxes{{{"endpoints", "endpoints", "Along first to last sample: the paper's"},
-                                            {"covariance", "covariance", "Principal axes of the centres"},
-                                            {"minarea", "minarea", "Smallest area or volume found"}}};
-constexpr std::array<PanelChoice, 2> kColours{{{"agent", "agent", "Boxes in their agent's colour"},
-                                               {"level", "level", "Boxes by their level, from dark to bright"}}};
+ChoiceWords choice_words(mobb::TreeKind kind) {
+    return {std::string(mobb::info(kind).label), std::string(mobb::info(kind).help)};
+}
 
-template <std::size_t count>
-void choose(Ui& ui, const char* label, const char* command, const std::array<PanelChoice, count>& choices,
-            std::string_view now, const char* help) {
+ChoiceWords choice_words(mobb::Axes axes) {
+    const auto help = [&] {
+        switch (axes) {
+            case mobb::Axes::endpoints:
+                return "Along first to last sample: the paper's";
+            case mobb::Axes::covariance:
+                return "Principal axes of the centres";
+            case mobb::Axes::minarea:
+                return "Smallest area or volume found";
+        }
+        return "";
+    };
+    return {std::string(mobb::name(axes)), help()};
+}
+
+ChoiceWords choice_words(ColorBy color_by) {
+    return color_by == ColorBy::level ? ChoiceWords{"level", "Boxes by their level, from dark to bright"}
+                                      : ChoiceWords{"agent", "Boxes in their agent's colour"};
+}
+
+/// The choices of a command, which are those of an enumeration in its order.
+template <class Enum>
+void choose(Ui& ui, const char* label, const char* id, Enum now, const char* help) {
     form_label(ui, label, help);
-    const auto at = std::find_if(choices.begin(), choices.end(), [&](const PanelChoice& c) { return c.value == now; });
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-    const bool open = ImGui::BeginCombo((std::string("##") + command).c_str(), at == choices.end() ? "" : at->label);
+    const bool open = ImGui::BeginCombo((std::string("##") + id).c_str(), choice_words(now).label.c_str());
     // Once it is open the last item is of its list.
-    ui.marks.add(command, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
+    ui.marks.add(id, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
     if (!open) return;
-    for (const PanelChoice& choice : choices) {
-        if (ImGui::Selectable(choice.label, choice.value == now)) invoke(ui.session, command, choice.value);
-        ui.mark(std::string(command) + "." + choice.value);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.help);
+    int index = 0;
+    for (const std::string& choice : find_command(id)->choices(ui.session)) {
+        const auto value = static_cast<Enum>(index++);
+        const ChoiceWords words = choice_words(value);
+        if (ImGui::Selectable(words.label.c_str(), value == now)) invoke(ui.session, id, choice);
+        ui.mark(std::string(id) + "." + choice);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.help.c_str());
     }
     ImGui::EndCombo();
 }
@@ -116,12 +126,12 @@ void shown_levels(Ui& ui, int depth) {
             draw.AddRectFilled(min, max, lit ? to_im(with_alpha(ui.style.palette.accent, 0.45f)) : ui.style.raised,
                                ui.px(3));
         const std::string label = std::to_string(level);
-        const ImFont* mono = ui.style.mono;
-        const ImVec2 text = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, label.c_str());
+        const ImFont& mono = *ui.style.mono;
+        const ImVec2 text = text_size(mono, label);
         // Of very deep trees only the cells remain.
         if (text.x > cell) continue;
-        draw.AddText(mono, mono->FontSize, {0.5f * (min.x + max.x - text.x), 0.5f * (min.y + max.y - text.y)},
-                     lit ? ui.style.text : ui.style.quiet, label.c_str());
+        draw_text(draw, mono, {0.5f * (min.x + max.x - text.x), 0.5f * (min.y + max.y - text.y)},
+                  lit ? ui.style.text : ui.style.quiet, label);
     }
     draw.AddRect(corner, {corner.x + size.x, corner.y + size.y}, ui.style.border, ui.px(4));
     if (beside) {
@@ -153,7 +163,7 @@ void level_bars(Ui& ui, int clip) {
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
-    const ImFont* mono = ui.style.mono;
+    const ImFont& mono = *ui.style.mono;
     const float height = ui.px(18);
     const auto draw_row = [&](int i) {
         const mobb::LevelFigures& level = figures[static_cast<std::size_t>(i)];
@@ -165,31 +175,28 @@ void level_bars(Ui& ui, int clip) {
         const LevelRange shown = session.view().levels;
         const bool drawn =
             !shown.leaves && !session.view().query && level.level >= shown.first && level.level <= shown.last;
-        char text[64];
         const bool large = level.volume >= 100 && level.volume < 1e6;
         const char* format = large ? (level.tightness ? "%.0f  %3.0f%%" : "%.0f      ")
                                    : (level.tightness ? "%.3g  %3.0f%%" : "%.3g      ");
-        std::snprintf(text, sizeof text, format, level.volume, 100 * level.tightness.value_or(0));
+        const std::string text = formatted(format, level.volume, 100 * level.tightness.value_or(0));
         const float label = ui.px(26);
-        const float figure = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, "000000  100%").x;
+        const float figure = text_size(mono, "000000  100%").x;
         const float room = std::max(ui.px(20), width - label - figure - ui.px(8));
         const float long_bar = room * static_cast<float>(level.volume / most);
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         const float y0 = corner.y + ui.px(3);
         const float y1 = corner.y + height - ui.px(3);
         const ImVec2 start{corner.x + label, y0};
-        draw.AddText(mono, mono->FontSize, {corner.x, corner.y + 0.5f * (height - mono->FontSize)},
-                     drawn || over ? ui.style.text : ui.style.quiet, ("L" + std::to_string(level.level)).c_str());
+        const float text_y = corner.y + 0.5f * (height - mono.FontSize);
+        draw_text(draw, mono, {corner.x, text_y}, drawn || over ? ui.style.text : ui.style.quiet,
+                  "L" + std::to_string(level.level));
         const Rgba accent = ui.style.palette.accent;
         draw.AddRectFilled(start, {start.x + std::max(ui.px(1), long_bar), y1},
                            to_im(with_alpha(accent, drawn || over ? 0.55f : 0.3f)), ui.px(2));
         // The filled part is what the disks take of the boxes.
         draw.AddRectFilled(start, {start.x + long_bar * static_cast<float>(level.tightness.value_or(0)), y1},
                            to_im(accent), ui.px(2));
-        draw.AddText(mono, mono->FontSize,
-                     {corner.x + width - mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, text).x,
-                      corner.y + 0.5f * (height - mono->FontSize)},
-                     ui.style.quiet, text);
+        draw_text(draw, mono, {corner.x + width - text_size(mono, text).x, text_y}, ui.style.quiet, text);
         if (clicked) invoke(ui.session, "view.level", std::to_string(level.level));
         if (over) {
             std::string figures_of_level;
@@ -214,17 +221,16 @@ void tree_panel(Ui& ui) {
     ImGui::PushID("tree");
     heading(ui, "TREE");
     const mobb::FitOptions fit = session.fitted().options();
-    choose(ui, "Kind", "tree.kind", kTreeChoices, mobb::name(fit.tree), "What bounds the disks");
+    choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
     whole(ui, "Leaf samples", "tree.leaf", fit.leaf, 1, "n_min: a node of at most so many samples is a leaf");
     ImGui::BeginDisabled(!mobb::info(fit.tree).chooses_axes());
-    choose(ui, "Axes", "tree.axes", kAxes, mobb::name(fit.axes), "How boxes are turned");
+    choose(ui, "Axes", "tree.axes", fit.axes, "How boxes are turned");
     ImGui::EndDisabled();
     whole(ui, "Levels", "tree.levels", fit.levels, 0, "0: all; 1 is the paper's \"1 level\" tree");
     time_scale(ui);
     const int clip = clip_in_focus(session);
     shown_levels(ui, session.fitted().tree(clip).depth());
-    choose(ui, "Colour by", "view.color_by", kColours, session.view().color_by == ColorBy::level ? "level" : "agent",
-           "What the boxes' colours mean");
+    choose(ui, "Colour by", "view.color_by", session.view().color_by, "What the boxes' colours mean");
     level_bars(ui, clip);
     ImGui::PopID();
 }

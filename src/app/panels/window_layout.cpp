@@ -31,12 +31,14 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 template <class Draw>
 void panel(const Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
     const Session& session = ui.session;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
     ImGui::BeginChild((session.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
     if (std::exchange(shown, session.opening()) != session.opening()) ImGui::SetScrollY(0);
     draw();
     ImGui::EndChild();
+    ImGui::PopStyleVar();
 }
 
 /// Side by side, equally wide, with a line between them.
@@ -95,12 +97,10 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
     panel(ui, "left", {left, room.y}, [&] {
         scene_panel(ui);
         tree_panel(ui);
     });
-    ImGui::PopStyleVar();
     spacing();
     settings.left_width += splitter(ui, "splitter.left", {bar, room.y}, true) / ui.style.scale;
     spacing();
@@ -112,14 +112,11 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     draw_views(ui, viewports);
     ImGui::EndChild();
     settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
     panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui, pictures); });
-    ImGui::PopStyleVar();
     ImGui::EndGroup();
     spacing();
     settings.right_width -= splitter(ui, "splitter.right", {bar, room.y}, true) / ui.style.scale;
     spacing();
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2{ui.px(8), ui.px(5)});
     panel(ui, "right", {right, room.y}, [&] {
         if (ui.session.is_crowd() && !ui.session.view().query) {
             crowd_panel(ui);
@@ -128,7 +125,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         }
         selection_panel(ui);
     });
-    ImGui::PopStyleVar(2);
+    ImGui::PopStyleVar();
     ImGui::End();
 
     settings.left_width = std::clamp(settings.left_width, 180.0, 900.0);

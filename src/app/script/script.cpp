@@ -2,9 +2,6 @@
 #include <base/error.h>
 #include <base/text.h>
 
-#include <optional>
-#include <utility>
-
 namespace mobbscope::app {
 
 namespace {

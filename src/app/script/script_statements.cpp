@@ -1,5 +1,4 @@
 #include <app/commands/command.h>
-#include <app/script/script_expectation.h>
 #include <app/script/script_statements.h>
 #include <app/script/state_json.h>
 #include <base/file.h>
@@ -33,20 +32,28 @@ constexpr double kLongestWait = 3600;
 using Place = std::variant<glm::vec2, std::string>;
 
 /// The words behind the statement's name, taken one after the other.
-class TextBudget {
+class StatementWords {
   public:
-    explicit TextBudget(const ScriptLine& line) : words_(line.words) {}
+    explicit StatementWords(const ScriptLine& line) : line_(line) {}
 
-    bool done() const { return at_ == words_.size(); }
-    std::string next(const char* what) {
-        if (done()) throw std::invalid_argument("\"" + words_.front() + "\" needs " + what);
-        return words_[at_++];
+    bool done() const { return at_ == line_.words.size(); }
+    std::string next(const std::string& what) {
+        if (done()) throw std::invalid_argument("\"" + line_.words.front() + "\" needs " + what);
+        return line_.words[at_++];
+    }
+    /// All that is left, as it stands.
+    std::string_view rest() {
+        std::string_view text = line_.rest;
+        for (std::size_t i = 1; i < at_; ++i) text.remove_prefix(text.find(line_.words[i]) + line_.words[i].size());
+        at_ = line_.words.size();
+        return trimmed(text);
     }
     double number(const char* what) {
         const std::string word = next(what);
         const std::optional<double> value = parse_double(word);
-        if (!value)
-            throw std::invalid_argument(in_quotes(word) + " is no number: " + words_.front() + " needs " + what);
+        if (!value) {
+            throw std::invalid_argument(in_quotes(word) + " is no number: " + line_.words.front() + " needs " + what);
+        }
         return *value;
     }
     int count(const char* what, int most) {
@@ -57,9 +64,8 @@ class TextBudget {
         }
         return *value;
     }
-    bool number_comes() const { return !done() && parse_double(words_[at_]).has_value(); }
     Place place() {
-        if (!number_comes()) return next("a place: X Y, or a widget's name");
+        if (done() || !parse_double(line_.words[at_])) return next("a place: X Y, or a widget's name");
         const double x = number("a place");
         return glm::vec2(x, number("Y behind X"));
     }
@@ -72,24 +78,26 @@ class TextBudget {
         if (at == of.end()) throw std::invalid_argument(in_quotes(word) + " is none of " + listed(of));
         return static_cast<int>(at - of.begin());
     }
+    /// All that is left, a file's name with this extension.
+    std::string file(const char* extension) {
+        if (done()) throw std::invalid_argument("\"" + line_.words[0] + "\" needs a file name");
+        // A single word may have stood in quotes.
+        const std::string name = line_.words.size() == 2 ? next("") : std::string(rest());
+        if (lower_extension(name) != extension) {
+            throw std::invalid_argument(in_quotes(name) + " must end in " + extension);
+        }
+        return name;
+    }
+    /// ... or none: empty.
+    std::string file_if_any(const char* extension) { return done() ? "" : file(extension); }
     void end() const {
-        if (!done()) throw std::invalid_argument(in_quotes(words_[at_]) + " is too much here");
+        if (!done()) throw std::invalid_argument(in_quotes(line_.words[at_]) + " is too much here");
     }
 
   private:
-    const std::vector<std::string>& words_;
+    const ScriptLine& line_;
     std::size_t at_ = 1;
 };
-
-std::string file_name(const ScriptLine& line, const char* extension) {
-    if (line.rest.empty()) throw std::invalid_argument("\"" + line.words[0] + "\" needs a file name");
-    // A single word may have stood in quotes.
-    const std::string& name = line.words.size() == 2 ? line.words[1] : line.rest;
-    if (lower_extension(name) != extension) {
-        throw std::invalid_argument(in_quotes(name) + " must end in " + extension);
-    }
-    return name;
-}
 
 // --- mouse and keys
 
@@ -149,39 +157,31 @@ void press_chord(ScriptRun& run, const Chord& chord) {
     run.host.settle();
 }
 
-ScriptAction make_move(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_move(StatementWords& words) {
     const Place place = words.place();
-    words.end();
     return [place](ScriptRun& run) { move_to(run, resolve(run, place)); };
 }
 
-ScriptAction make_click(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_click(StatementWords& words) {
     const Place place = words.place();
     const int how = words.choice(std::array<std::string_view, 4>{"left", "right", "middle", "double"});
-    words.end();
     return [place, how](ScriptRun& run) { click(run, resolve(run, place), how == 3 ? 0 : how, how == 3 ? 2 : 1); };
 }
 
-ScriptAction make_drag(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_drag(StatementWords& words) {
     const Place from = words.place();
     const double x = words.number("where to");
     const glm::vec2 to(x, words.number("where to"));
     const int button = words.choice(std::array<std::string_view, 3>{"left", "right", "middle"});
-    words.end();
     return [from, to, button](ScriptRun& run) {
         const glm::vec2 begin = resolve(run, from);
         drag(run, begin, std::holds_alternative<std::string>(from) ? begin + to : to, button);
     };
 }
 
-ScriptAction make_scroll(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_scroll(StatementWords& words) {
     const Place place = words.place();
     const double notches = words.number("a number of notches");
-    words.end();
     return [place, notches](ScriptRun& run) {
         move_to(run, resolve(run, place));
         run.host.shell().feed(Wheel{{0, notches}});
@@ -189,25 +189,22 @@ ScriptAction make_scroll(const ScriptLine& line) {
     };
 }
 
-ScriptAction make_key(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_key(StatementWords& words) {
     const std::string name = words.next("a chord, such as Ctrl+S");
-    words.end();
     const std::optional<Chord> chord = chord_from_name(name);
     if (!chord) throw std::invalid_argument(in_quotes(name) + " is no chord; write it like Ctrl+Shift+S");
     return [chord](ScriptRun& run) { press_chord(run, *chord); };
 }
 
-ScriptAction make_type(const ScriptLine& line) {
-    if (line.rest.empty()) throw std::invalid_argument("\"type\" needs a text");
-    return [text = line.rest](ScriptRun& run) {
+ScriptAction make_type(StatementWords& words) {
+    if (words.done()) throw std::invalid_argument("\"type\" needs a text");
+    return [text = std::string(words.rest())](ScriptRun& run) {
         for (const char32_t code : code_points(text)) run.host.shell().feed(TypedText{code});
         run.host.settle();
     };
 }
 
-ScriptAction make_drop(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_drop(StatementWords& words) {
     Drop drop;
     do {
         drop.paths.emplace_back(words.next("files or folders"));
@@ -220,25 +217,18 @@ ScriptAction make_drop(const ScriptLine& line) {
 
 // --- the window
 
-ScriptAction make_run(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_run(StatementWords& words) {
     const std::string id = words.next("a command");
-    const std::string argument(trimmed(std::string_view(line.rest).substr(line.rest.find(id) + id.size())));
-    if (!find_command(id)) {
-        std::vector<std::string> ids;
-        for (const Command& command : commands()) ids.emplace_back(command.id);
-        throw std::invalid_argument("there is no command " + in_quotes(id) + did_you_mean(id, ids));
-    }
+    const std::string argument(words.rest());
+    command_named(id);
     return [id, argument](ScriptRun& run) {
         run_command(run.session, id, argument);
         run.host.settle();
     };
 }
 
-ScriptAction make_frames(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_frames(StatementWords& words) {
     const int count = words.count("a number of frames", 100'000);
-    words.end();
     return [count](ScriptRun& run) {
         for (int i = 0; i < count; ++i) run.host.frame();
     };
@@ -252,32 +242,28 @@ double seconds_in(const std::string& word) {
     return *seconds;
 }
 
-ScriptAction make_wait(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_wait(StatementWords& words) {
     const double seconds = seconds_in(words.next("seconds"));
-    words.end();
     return [seconds](ScriptRun& run) {
         run.host.run_for(seconds);
         run.clicked = false;
     };
 }
 
-ScriptAction make_size(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_size(StatementWords& words) {
     const PictureSize size = parse_size(words.next("a size: WxH"));
-    words.end();
     return [size](ScriptRun& run) {
         run.host.resize(size);
         run.host.settle();
     };
 }
 
-ScriptAction make_picture(const ScriptLine& line) {
-    return [file = file_name(line, ".png")](ScriptRun& run) { write_png(file, run.host.shell().read_back()); };
+ScriptAction make_picture(StatementWords& words) {
+    return [file = words.file(".png")](ScriptRun& run) { write_png(file, run.host.shell().read_back()); };
 }
 
-ScriptAction make_viewport(const ScriptLine& line) {
-    return [file = file_name(line, ".png")](ScriptRun& run) { write_png(file, run.host.shell().viewport_picture()); };
+ScriptAction make_viewport(StatementWords& words) {
+    return [file = words.file(".png")](ScriptRun& run) { write_png(file, run.host.shell().viewport_picture()); };
 }
 
 /// To a file, or where the script prints.
@@ -289,8 +275,8 @@ void put(ScriptRun& run, const std::string& file, const std::string& text) {
     }
 }
 
-ScriptAction make_marks(const ScriptLine& line) {
-    const std::string file = line.rest.empty() ? "" : file_name(line, ".txt");
+ScriptAction make_marks(StatementWords& words) {
+    const std::string file = words.file_if_any(".txt");
     return [file](ScriptRun& run) {
         std::ostringstream text;
         for (const auto& [name, rect] : run.host.shell().marks().all()) {
@@ -302,8 +288,8 @@ ScriptAction make_marks(const ScriptLine& line) {
 
 // --- the state
 
-ScriptAction make_state(const ScriptLine& line) {
-    const std::string file = line.rest.empty() ? "" : file_name(line, ".json");
+ScriptAction make_state(StatementWords& words) {
+    const std::string file = words.file_if_any(".json");
     return [file](ScriptRun& run) { put(run, file, state_text(state_json(run.session), 2) + '\n'); };
 }
 
@@ -330,20 +316,19 @@ Check widget_appears(const std::string& name) {
     };
 }
 
-ScriptAction make_expect(const ScriptLine& line) {
-    return [expected = parse_expectation(line.rest)](ScriptRun& run) {
+ScriptAction make_expect(StatementWords& words) {
+    return [expected = parse_expectation(words.rest())](ScriptRun& run) {
         if (const auto instead = expected(run.session)) throw ExpectationError(*instead);
     };
 }
 
-ScriptAction make_until(const ScriptLine& line) {
-    TextBudget words(line);
+ScriptAction make_until(StatementWords& words) {
     const std::string for_so_long = words.next("seconds");
     const double seconds = seconds_in(for_so_long);
-    const std::string_view rest = trimmed(std::string_view(line.rest).substr(for_so_long.size()));
+    const std::string_view rest = words.rest();
     Check check;
-    if (line.words.size() == 3 && !rest.starts_with('/') && !rest.starts_with('"')) {
-        check = widget_appears(line.words[2]);
+    if (!rest.empty() && !rest.starts_with('/') && !rest.starts_with('"') && rest.find_first_of(" \t") == rest.npos) {
+        check = widget_appears(std::string(rest));
     } else {
         check = [expected = parse_expectation(rest)](ScriptRun& run) { return expected(run.session); };
     }
@@ -356,7 +341,7 @@ ScriptAction make_until(const ScriptLine& line) {
 
 struct Verb {
     std::string_view name;
-    ScriptAction (*make)(const ScriptLine& line);
+    ScriptAction (*make)(StatementWords& words);
     bool writes = false;
 };
 
@@ -392,7 +377,12 @@ bool writes_output(const ScriptLine& line) {
 
 ScriptAction make_action(const ScriptLine& line) {
     const std::string& name = line.words.front();
-    if (const Verb* verb = find_verb(name)) return verb->make(line);
+    if (const Verb* verb = find_verb(name)) {
+        StatementWords words(line);
+        ScriptAction action = verb->make(words);
+        words.end();
+        return action;
+    }
     std::vector<std::string> names;
     for (const Verb& verb : kVerbs) names.emplace_back(verb.name);
     throw std::invalid_argument(in_quotes(name) + " is no statement" + did_you_mean(name, names));

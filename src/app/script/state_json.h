@@ -1,4 +1,4 @@
-/// What a session shows, as JSON: what scripts print and expect.
+/// What a session shows, as JSON: what scripts print, and what they expect of it.
 ///
 ///     {"title": "crossing.json", "file": "...", "modified": false, "empty": false,
 ///      "scene": {...}, "view": {...}, "selection": {"kind": "node", "name": "A", "path": {...}, "index": 3},
@@ -15,7 +15,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace mobbscope::app {
 
@@ -23,5 +26,12 @@ nlohmann::ordered_json state_json(const Session& session);
 
 /// It, or a part of it, as text; `indent` -1: on one line. File names may be no UTF-8: what is none is replaced.
 std::string state_text(const nlohmann::ordered_json& json, int indent = -1);
+
+/// What is there instead, in words; none if it is as expected.
+using ScriptExpectation = std::function<std::optional<std::string>(const Session&)>;
+
+/// `text`: "POINTER VALUE", "POINTER != VALUE" or "POINTER ~ NUMBER TOLERANCE", see script.h. Throws
+/// std::invalid_argument, in words, if it is none of them.
+ScriptExpectation parse_expectation(std::string_view text);
 
 }  // namespace mobbscope::app

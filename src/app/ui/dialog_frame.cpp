@@ -1,4 +1,5 @@
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -62,9 +63,7 @@ void end_dialog() {
 }
 
 void dialog_title(Ui& ui, const char* text) {
-    ImGui::PushFont(ui.style.title);
-    ImGui::TextUnformatted(text);
-    ImGui::PopFont();
+    text_line(ui.style.text, text, ui.style.title);
     ImGui::Dummy({0, ui.px(2)});
 }
 
@@ -74,6 +73,12 @@ bool marked_button(Ui& ui, const char* label, const char* mark, bool is_default)
     if (is_default) ImGui::PopStyleColor();
     ui.mark(mark);
     return hit;
+}
+
+void close_button(Ui& ui, const char* mark) {
+    if (marked_button(ui, "Close", mark, true) || pressed(ImGuiKey_Enter)) {
+        ui.session.enqueue([&session = ui.session] { session.close_dialog(); });
+    }
 }
 
 bool pressed(ImGuiKey key, bool repeat) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); }

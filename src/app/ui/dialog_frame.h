@@ -20,6 +20,9 @@ void dialog_title(Ui& ui, const char* text);
 /// A button with a mark for scripts.
 bool marked_button(Ui& ui, const char* label, const char* mark, bool is_default = false);
 
+/// Closes the dialog, as Enter does.
+void close_button(Ui& ui, const char* mark);
+
 /// Whether a key went down in this frame.
 bool pressed(ImGuiKey key, bool repeat = false);
 /// A key that Dear ImGui has no name for.

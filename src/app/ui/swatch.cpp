@@ -4,6 +4,7 @@
 #include <render/query/query_boxes.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mobbscope::app {
@@ -23,17 +24,33 @@ void hatch(ImDrawList& list, ImVec2 min, ImVec2 max, ImU32 color, float spacing,
     }
 }
 
+struct MarkInfo {
+    const char* headline;
+    BoxState state;  ///< whose colour and line it has in pictures
+};
+/// In the order of EventMark. A time test that finds common time has no state of its own.
+constexpr std::array<MarkInfo, kEventMarks> kMarks{{{"They share time", BoxState::under_test},
+                                                    {"Apart in time", BoxState::apart_in_time},
+                                                    {"Separated in space", BoxState::separated},
+                                                    {"Boxes overlap", BoxState::overlap},
+                                                    {"No hit in these samples", BoxState::overlap},
+                                                    {"Hit", BoxState::hit}}};
+
+const MarkInfo& info(EventMark mark) { return kMarks[static_cast<std::size_t>(mark)]; }
+
 }  // namespace
 
+const char* headline(EventMark mark) { return info(mark).headline; }
+
 ImU32 mark_color(const Style& style, EventMark mark, float strength) {
-    const Rgba color =
-        mark == EventMark::shares_time ? style.palette.quiet_text : outcome_style(state_of(mark), style.palette).color;
+    const Rgba color = mark == EventMark::shares_time ? style.palette.quiet_text
+                                                      : outcome_style(info(mark).state, style.palette).color;
     return to_im(with_alpha(color, strength));
 }
 
 ImU32 mark_text(const Style& style, EventMark mark) {
     if (mark == EventMark::shares_time) return style.text;
-    return to_im(readable(outcome_style(state_of(mark), style.palette).color, style.palette));
+    return to_im(readable(outcome_style(info(mark).state, style.palette).color, style.palette));
 }
 
 void dashed_line(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 color, float width, float on) {
@@ -95,6 +112,13 @@ void outcome_cell(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, 
     }
 }
 
+void outcome_sign(Ui& ui, EventMark mark, float side) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + 0.5f * (ImGui::GetTextLineHeight() - side);
+    outcome_cell(*ImGui::GetWindowDrawList(), ui.style, {at.x, top}, {at.x + side, top + side}, mark, 1);
+    ImGui::Dummy({side, ImGui::GetTextLineHeight()});
+}
+
 void outcome_legend(Ui& ui) {
     struct Entry {
         EventMark mark;
@@ -112,11 +136,7 @@ void outcome_legend(Ui& ui) {
         if (!first) flow(side + ui.px(4) + ImGui::CalcTextSize(entry.text).x);
         first = false;
         ImGui::BeginGroup();
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float down = 0.5f * (ImGui::GetTextLineHeight() - side);
-        outcome_cell(*ImGui::GetWindowDrawList(), ui.style, {at.x, at.y + down}, {at.x + side, at.y + down + side},
-                     entry.mark, 1);
-        ImGui::Dummy({side, side});
+        outcome_sign(ui, entry.mark, side);
         ImGui::SameLine(0, ui.px(4));
         ImGui::TextUnformatted(entry.text);
         ImGui::EndGroup();
@@ -139,41 +159,6 @@ EventMark mark_of(mobb::TestKind test, mobb::Outcome outcome) {
             break;
     }
     return test == mobb::TestKind::time ? EventMark::shares_time : EventMark::overlap;
-}
-
-BoxState state_of(EventMark mark) {
-    switch (mark) {
-        case EventMark::apart_in_time:
-            return BoxState::apart_in_time;
-        case EventMark::separated:
-            return BoxState::separated;
-        case EventMark::overlap:
-        case EventMark::no_hit:
-            return BoxState::overlap;
-        case EventMark::hit:
-            return BoxState::hit;
-        case EventMark::shares_time:
-            break;
-    }
-    return BoxState::under_test;
-}
-
-const char* headline(EventMark mark) {
-    switch (mark) {
-        case EventMark::shares_time:
-            return "They share time";
-        case EventMark::apart_in_time:
-            return "Apart in time";
-        case EventMark::separated:
-            return "Separated in space";
-        case EventMark::overlap:
-            return "Boxes overlap";
-        case EventMark::no_hit:
-            return "No hit in these samples";
-        case EventMark::hit:
-            break;
-    }
-    return "Hit";
 }
 
 }  // namespace mobbscope::app

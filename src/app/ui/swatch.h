@@ -16,9 +16,6 @@ inline constexpr std::size_t kEventMarks = 6;
 
 EventMark mark_of(mobb::TestKind test, mobb::Outcome outcome);
 
-/// The state whose colour and line it has in pictures; a time test that finds common time has none.
-BoxState state_of(EventMark mark);
-
 /// "Separated in space"
 const char* headline(EventMark mark);
 
@@ -32,6 +29,9 @@ ImU32 mark_text(const Style& style, EventMark mark);
 
 /// Separated in space: solid. Apart in time: an empty dashed outline. Overlap: hatched. Hit: solid with a cross in it.
 void outcome_cell(ImDrawList& list, const Style& style, ImVec2 min, ImVec2 max, EventMark mark, float strength);
+
+/// A cell of `side` pixels at the cursor, in the middle of a line of text.
+void outcome_sign(Ui& ui, EventMark mark, float side);
 
 /// A line in dashes of `on` pixels.
 void dashed_line(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 color, float width, float on);

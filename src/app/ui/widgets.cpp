@@ -1,3 +1,4 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
@@ -6,8 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
-#include <sstream>
+#include <cfloat>
 #include <vector>
 
 namespace mobbscope::app {
@@ -17,8 +17,7 @@ namespace {
 /// The words of a text; a number and its unit are one.
 std::vector<std::string> unbroken_words(const std::string& text) {
     std::vector<std::string> out;
-    std::istringstream in(text);
-    for (std::string word; in >> word;) {
+    for (const std::string& word : words_of(text)) {
         const bool unit = (word[0] == 'm' || word[0] == 's') && (word.size() == 1 || std::ispunct(word[1]) != 0);
         if (unit && word.size() <= 2 && !out.empty()) {
             out.back() += ' ' + word;
@@ -47,6 +46,14 @@ void heading(Ui& ui, const char* text, const std::string& right) {
     ImGui::PopFont();
 }
 
+void text_line(ImU32 color, const std::string& text, ImFont* font) {
+    ImGui::PushFont(font ? font : ImGui::GetFont());
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
 void words(ImU32 color, const std::string& text) {
     const float wrap = ImGui::GetCurrentWindowRead()->DC.TextWrapPos;
     const float room = wrap > 0 ? wrap - ImGui::GetCursorPosX() : ImGui::GetContentRegionAvail().x;
@@ -68,24 +75,17 @@ void words(ImU32 color, const std::string& text) {
 }
 
 void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color) {
-    ImGui::PushFont(ui.style.mono);
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(shown.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
+    text_line(color, shown, ui.style.mono);
     if (!ImGui::IsItemHovered()) return;
-    char digits[40];
-    std::snprintf(digits, sizeof digits, "%.17g", value);
-    ImGui::SetTooltip("%s %s\nClick to copy", digits, unit);
+    const std::string digits = formatted("%.17g", value);
+    ImGui::SetTooltip("%s %s\nClick to copy", digits.c_str(), unit);
     if (ImGui::IsItemClicked() && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(digits);
 }
 
 void number_row(Ui& ui, const char* label, const std::string& shown, double value, const char* unit) {
     const float room = ImGui::GetContentRegionAvail().x;
     const float left = ImGui::GetCursorPosX();
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-    ImGui::TextUnformatted(label);
-    ImGui::PopStyleColor();
+    text_line(ui.style.quiet, label);
     ImGui::PushFont(ui.style.mono);
     const float width = ImGui::CalcTextSize(shown.c_str()).x;
     ImGui::PopFont();
@@ -95,9 +95,7 @@ void number_row(Ui& ui, const char* label, const std::string& shown, double valu
 
 void form_label(Ui& ui, const char* label, const char* help) {
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
-    ImGui::TextUnformatted(label);
-    ImGui::PopStyleColor();
+    text_line(ui.style.quiet, label);
     if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
     // Below the longest label of all forms the columns still stand under one another.
     const float column = ImGui::GetWindowContentRegionMin().x + ImGui::CalcTextSize("Leaf samples").x + ui.px(12);
@@ -133,11 +131,7 @@ void flow(float width) {
     if (ImGui::GetItemRectMax().x + spacing + width <= right) ImGui::SameLine();
 }
 
-std::string signed_metres(double metres) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%+.3f", metres);
-    return text;
-}
+std::string signed_metres(double metres) { return formatted("%+.3f", metres); }
 
 void command_button(Ui& ui, const char* label, const char* id, const std::string& mark) {
     const Command& command = *find_command(id);
@@ -155,6 +149,21 @@ void command_button(Ui& ui, const char* label, const char* id, const std::string
         ImGui::PopStyleColor();
     }
     if (pressed) invoke(ui.session, id);
+}
+
+bool small_button(Ui& ui, const char* label, const std::string& mark, const char* help) {
+    const bool pressed = ImGui::SmallButton(label);
+    ui.mark(mark);
+    if (*help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    return pressed;
+}
+
+void draw_text(ImDrawList& list, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text) {
+    list.AddText(&font, font.FontSize, at, color, text.c_str());
+}
+
+ImVec2 text_size(const ImFont& font, const std::string& text) {
+    return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, text.c_str());
 }
 
 float button_width(const char* label) {
@@ -190,9 +199,10 @@ bool row(Ui& ui, const Row& row) {
     const float height = ImGui::GetFrameHeight();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
-    ImGui::PushID(row.id.c_str());
+    ImGui::PushID(row.mark.c_str());
     const bool clicked = ImGui::InvisibleButton("##row", {width, height});
     ImGui::PopID();
+    ui.mark(row.mark);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + width, corner.y + height};
     if (row.selected || row.hovered || ImGui::IsItemHovered()) {
@@ -200,14 +210,14 @@ bool row(Ui& ui, const Row& row) {
     }
     if (row.selected) draw.AddRectFilled(corner, {corner.x + ui.px(2), end.y}, ui.style.accent, ui.px(1));
     const float pad = ui.px(6);
-    const ImFont* mono = ui.style.mono;
+    const ImFont& mono = *ui.style.mono;
     const float y = corner.y + 0.5f * (height - ImGui::GetFontSize());
-    const ImVec2 remark = mono->CalcTextSizeA(mono->FontSize, 1e6f, 0, row.remark.c_str());
+    const ImVec2 remark = text_size(mono, row.remark);
     const float left = corner.x + pad + row.indent;
     const std::string name = fitted_text(row.name, std::max(ui.px(24), end.x - pad - remark.x - ui.px(8) - left));
     draw.AddText({left, y}, ui.style.text, name.c_str());
-    draw.AddText(mono, mono->FontSize, {end.x - pad - remark.x, corner.y + 0.5f * (height - mono->FontSize)},
-                 row.remark_color != 0 ? row.remark_color : ui.style.quiet, row.remark.c_str());
+    draw_text(draw, mono, {end.x - pad - remark.x, corner.y + 0.5f * (height - mono.FontSize)},
+              row.remark_color != 0 ? row.remark_color : ui.style.quiet, row.remark);
     return clicked;
 }
 

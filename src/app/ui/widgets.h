@@ -11,6 +11,9 @@ namespace mobbscope::app {
 /// A quiet heading with room above it; `right` stands at the other end of its line if there is room.
 void heading(Ui& ui, const char* text, const std::string& right = "");
 
+/// A line of text in a colour, and in a font; null: the present one.
+void text_line(ImU32 color, const std::string& text, ImFont* font = nullptr);
+
 /// Text in a colour, wrapped between words: ImGui would break numbers at their points.
 void words(ImU32 color, const std::string& text);
 
@@ -35,6 +38,26 @@ std::string signed_metres(double metres);
 /// Disabled as the command is; its tooltip says what the command does and by which key. `mark` names it for scripts.
 void command_button(Ui& ui, const char* label, const char* command, const std::string& mark);
 
+/// A small button with a mark for scripts, and a tooltip; empty: none.
+bool small_button(Ui& ui, const char* label, const std::string& mark, const char* help = "");
+
+/// Text of a font where it is told, in a picture.
+void draw_text(ImDrawList& list, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text);
+ImVec2 text_size(const ImFont& font, const std::string& text);
+
+/// Numbers along a side of a chart.
+struct ChartAxis {
+    double from = 0, to = 1;    ///< at the two ends, not equal
+    float first = 0, last = 1;  ///< pixels there
+
+    float pixel(double value) const {
+        return first + static_cast<float>((value - from) / (to - from)) * (last - first);
+    }
+    double value(float pixel) const {
+        return from + static_cast<double>((pixel - first) / (last - first)) * (to - from);
+    }
+};
+
 /// Pixels of a button with this label, in the present font and style.
 float button_width(const char* label);
 
@@ -46,7 +69,7 @@ void rows(Ui& ui, const char* name, int count, int most_rows, const std::functio
 
 /// A list's row across the panel: a name, and a short remark at its right end. Returns true when it is clicked.
 struct Row {
-    std::string id;  ///< unique in the list
+    std::string mark;  ///< its name for scripts
     std::string name;
     std::string remark;
     bool selected = false;

@@ -56,54 +56,36 @@ class WindowContext final : public GlContext {
     GLFWwindow* window_;
 };
 
+/// Keys that follow one another in GLFW and in Key.
+struct KeyRow {
+    int first, last;  ///< GLFW's
+    Key ours;         ///< the first
+};
+
+static_assert(static_cast<int>(Key::end) - static_cast<int>(Key::escape) == GLFW_KEY_END - GLFW_KEY_ESCAPE);
+
 Key physical_key(int key) {
-    const auto in_row = [](int pressed, int first, Key of_first) {
-        return static_cast<Key>(static_cast<int>(of_first) + pressed - first);
-    };
-    if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) return in_row(key, GLFW_KEY_A, Key::a);
-    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return in_row(key, GLFW_KEY_0, Key::n0);
-    if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return in_row(key, GLFW_KEY_KP_0, Key::n0);
-    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return in_row(key, GLFW_KEY_F1, Key::f1);
-    constexpr std::array<std::pair<int, Key>, 36> kOthers{{
-        {GLFW_KEY_SPACE, Key::space},
-        {GLFW_KEY_ENTER, Key::enter},
-        {GLFW_KEY_KP_ENTER, Key::enter},
-        {GLFW_KEY_ESCAPE, Key::escape},
-        {GLFW_KEY_TAB, Key::tab},
-        {GLFW_KEY_BACKSPACE, Key::backspace},
-        {GLFW_KEY_DELETE, Key::del},
-        {GLFW_KEY_INSERT, Key::insert},
-        {GLFW_KEY_LEFT, Key::left},
-        {GLFW_KEY_RIGHT, Key::right},
-        {GLFW_KEY_UP, Key::up},
-        {GLFW_KEY_DOWN, Key::down},
-        {GLFW_KEY_HOME, Key::home},
-        {GLFW_KEY_END, Key::end},
-        {GLFW_KEY_PAGE_UP, Key::page_up},
-        {GLFW_KEY_PAGE_DOWN, Key::page_down},
-        {GLFW_KEY_COMMA, Key::comma},
-        {GLFW_KEY_PERIOD, Key::period},
-        {GLFW_KEY_KP_DECIMAL, Key::period},
-        {GLFW_KEY_SLASH, Key::slash},
-        {GLFW_KEY_KP_DIVIDE, Key::slash},
-        {GLFW_KEY_MINUS, Key::minus},
-        {GLFW_KEY_KP_SUBTRACT, Key::minus},
-        {GLFW_KEY_EQUAL, Key::equal},
-        {GLFW_KEY_KP_ADD, Key::equal},
-        {GLFW_KEY_LEFT_BRACKET, Key::left_bracket},
-        {GLFW_KEY_RIGHT_BRACKET, Key::right_bracket},
-        {GLFW_KEY_LEFT_CONTROL, Key::ctrl},
-        {GLFW_KEY_RIGHT_CONTROL, Key::ctrl},
-        {GLFW_KEY_LEFT_SHIFT, Key::shift},
-        {GLFW_KEY_RIGHT_SHIFT, Key::shift},
-        {GLFW_KEY_LEFT_ALT, Key::alt},
-        {GLFW_KEY_RIGHT_ALT, Key::alt},
-        {GLFW_KEY_LEFT_SUPER, Key::super},
-        {GLFW_KEY_RIGHT_SUPER, Key::super},
-        {GLFW_KEY_UNKNOWN, Key::none},
-    }};
-    const auto at = std::find_if(kOthers.begin(), kOthers.end(), [&](const auto& other) { return other.first == key; });
-    return at == kOthers.end() ? Key::none : at->second;
+    constexpr std::array<KeyRow, 17> kRows{{{GLFW_KEY_A, GLFW_KEY_Z, Key::a},
+                                            {GLFW_KEY_0, GLFW_KEY_9, Key::n0},
+                                            {GLFW_KEY_KP_0, GLFW_KEY_KP_9, Key::n0},
+                                            {GLFW_KEY_F1, GLFW_KEY_F12, Key::f1},
+                                            {GLFW_KEY_SPACE, GLFW_KEY_SPACE, Key::space},
+                                            {GLFW_KEY_ESCAPE, GLFW_KEY_END, Key::escape},
+                                            {GLFW_KEY_COMMA, GLFW_KEY_SLASH, Key::comma},
+                                            {GLFW_KEY_EQUAL, GLFW_KEY_EQUAL, Key::equal},
+                                            {GLFW_KEY_LEFT_BRACKET, GLFW_KEY_LEFT_BRACKET, Key::left_bracket},
+                                            {GLFW_KEY_RIGHT_BRACKET, GLFW_KEY_RIGHT_BRACKET, Key::right_bracket},
+                                            {GLFW_KEY_LEFT_SHIFT, GLFW_KEY_LEFT_SUPER, Key::shift},
+                                            {GLFW_KEY_RIGHT_SHIFT, GLFW_KEY_RIGHT_SUPER, Key::shift},
+                                            {GLFW_KEY_KP_ENTER, GLFW_KEY_KP_ENTER, Key::enter},
+                                            {GLFW_KEY_KP_DECIMAL, GLFW_KEY_KP_DECIMAL, Key::period},
+                                            {GLFW_KEY_KP_DIVIDE, GLFW_KEY_KP_DIVIDE, Key::slash},
+                                            {GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_SUBTRACT, Key::minus},
+                                            {GLFW_KEY_KP_ADD, GLFW_KEY_KP_ADD, Key::equal}}};
+    for (const KeyRow& row : kRows) {
+        if (key >= row.first && key <= row.last) return static_cast<Key>(static_cast<int>(row.ours) + key - row.first);
+    }
+    return Key::none;
 }
 
 /// What stands on the key; where that is no name of ours (Cyrillic, the digits of a French keyboard), what an American
@@ -133,7 +115,7 @@ int standard_cursor(ImGuiMouseCursor cursor) {
     }
 }
 
-[[maybe_unused]] bool is_set(const char* variable) {
+bool is_set(const char* variable) {
     const char* value = std::getenv(variable);
     return value && *value;
 }
@@ -203,13 +185,7 @@ float distance_to_rounded_square(glm::vec2 p, float radius) {
 
 }  // namespace
 
-bool has_display() {
-    const auto is_set = [](const char* name) {
-        const char* value = std::getenv(name);
-        return value && *value != '\0';
-    };
-    return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
-}
+bool has_display() { return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"); }
 
 struct GlfwWindow::State {
     State(Session& of, std::optional<PictureSize> size)

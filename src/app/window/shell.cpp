@@ -9,7 +9,7 @@
 #include <scene/load_files.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <deque>
 #include <limits>
 #include <optional>
@@ -54,24 +54,9 @@ std::unique_ptr<ImGuiContext, ImGuiContextDeleter> make_imgui() {
 bool edits_text(const Chord& chord) {
     const bool function_key = chord.key >= Key::f1 && chord.key <= Key::f12;
     if (!chord.ctrl) return !function_key;
-    switch (chord.key) {
-        case Key::a:
-        case Key::c:
-        case Key::v:
-        case Key::x:
-        case Key::y:
-        case Key::z:
-        case Key::left:
-        case Key::right:
-        case Key::home:
-        case Key::end:
-        case Key::backspace:
-        case Key::del:
-        case Key::enter:
-            return true;
-        default:
-            return false;
-    }
+    constexpr std::array kEditing{Key::a,     Key::c,    Key::v,   Key::x,         Key::y,   Key::z,    Key::left,
+                                  Key::right, Key::home, Key::end, Key::backspace, Key::del, Key::enter};
+    return std::ranges::find(kEditing, chord.key) != kEditing.end();
 }
 
 /// Clips that are dropped join what a person has opened, but not the demo.
