@@ -219,7 +219,7 @@ std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& proj
         // What is little nearer than the middle is little larger.
         const float pixels = scale.at_depth(block.reach < kFlatBlock * middle ? middle : depth);
         const int level = DiskLevels::choose(block, pixels, projection);
-        const int sides = coarse_sides(block.widest * pixels);
+        const int sides = coarse_sides(block.usual_radius * pixels);
         const Part part = !projection.below(block.highest) ? Part::side_and_upper_face
                           : projection.below(block.lowest) ? Part::side_and_lower_face
                                                            : Part::all;
