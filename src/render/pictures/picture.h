@@ -14,12 +14,13 @@
 
 #include <glm/vec2.hpp>
 
-#include <span>
+#include <memory>
 #include <vector>
 
 namespace mobbscope {
 
 struct FollowedChoice;  // crowd/simulation/choice.h
+class KeptPaths;        // render/pictures/kept_paths.h
 
 class Picture {
   public:
@@ -76,6 +77,9 @@ class Picture {
 
 /// The middle of those points.
 glm::dvec3 middle_of(const ShownPoints& points);
+
+/// Paths and boxes of a scene in space-time. `kept`: of the scene; outlives the picture.
+std::unique_ptr<Picture> space_time_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options);
 
 /// Of a run that scene_at made a scene, in space-time. The plane of the view's time stays where it is while time runs,
 /// and the stacks sink through it. `choice`: of the followed agent, or null. Both outlive the picture. Throws
