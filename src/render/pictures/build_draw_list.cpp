@@ -23,7 +23,7 @@ std::unique_ptr<Picture> picture_of(KeptPaths& kept, const ViewState& view, cons
                                     const FollowedChoice* choice) {
     const FittedScene& seen = *kept.fitted();
     if (view.show == Show::moment) return moment_picture(seen, view, options, choice);
-    if (seen.scene().crowd) return crowd_picture(seen, view, options, choice);
+    if (seen.scene().crowd) return crowd_picture(kept, view, options, choice);
     if (view.projection) return disk_projection_picture(seen, view, options);
     return space_time_picture(kept, view, options);
 }
@@ -35,7 +35,7 @@ auto with_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& 
     check_scale(options.scale);
     const FittedScene& fitted = *kept.fitted();
     if (!is_run(fitted.scene())) return use(*picture_of(kept, view, options, choice));
-    KeptPaths seen(std::make_shared<const FittedScene>(fitted_at(fitted, view)));
+    KeptPaths& seen = kept.shown_in(view);
     if (view.follow.empty() || !view.candidates) return use(*picture_of(seen, view, options, nullptr));
     const MoveSet moves(fitted);
     const auto own = choice_in_view(moves, view);

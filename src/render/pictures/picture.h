@@ -84,7 +84,7 @@ std::unique_ptr<Picture> space_time_picture(KeptPaths& kept, const ViewState& vi
 /// Of a run that scene_at made a scene, in space-time. The plane of the view's time stays where it is while time runs,
 /// and the stacks sink through it. `choice`: of the followed agent, or null. Both outlive the picture. Throws
 /// std::invalid_argument if the view follows nobody there is, or asks for a query.
-std::unique_ptr<Picture> crowd_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+std::unique_ptr<Picture> crowd_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                        const FollowedChoice* choice);
 
 /// Boxes of more people would bury everything: those of the followed one are shown alone.
