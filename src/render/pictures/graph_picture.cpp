@@ -1,7 +1,7 @@
 #include <base/text.h>
+#include <render/drawlist/picture_options.h>
 #include <render/pictures/graph_moves.h>
 #include <render/pictures/graph_picture.h>
-#include <render/pictures/render.h>
 #include <render/text/labels.h>
 #include <scene/motion_graph.h>
 

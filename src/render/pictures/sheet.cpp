@@ -1,5 +1,5 @@
 #include <render/drawlist/font.h>
-#include <render/pictures/render.h>
+#include <render/drawlist/picture_options.h>
 #include <render/pictures/sheet.h>
 
 #include <algorithm>
