@@ -201,9 +201,6 @@ void refuse_where_said(const std::filesystem::path& file, const std::string& key
     if (const auto said = view->find(key)) said->fail(message);
 }
 
-/// Whether the command line says it itself.
-bool is_option_given(const ViewArguments& view, const std::string& key) { return view.says(key); }
-
 Camera camera_over(Camera camera, const ViewArguments& arguments) {
     if (arguments.preset) {
         camera.preset = *arguments.preset;
@@ -293,7 +290,7 @@ ViewState view_over(ViewState view, const ViewArguments& arguments) {
 void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch) {
     const std::string scene = arguments.file.string();
     const std::filesystem::path& state = arguments.view.state;
-    if (!is_option_given(arguments.view, mismatch.key())) {
+    if (!arguments.view.says(mismatch.key())) {
         if (!state.empty()) refuse_where_said(state, mismatch.key(), scene + ": " + mismatch.what());
         if (lower_extension(scene) == ".json") refuse_where_said(scene, mismatch.key(), mismatch.what());
     }

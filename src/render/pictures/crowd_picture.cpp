@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <render/layout/annotations.h>
 #include <render/layout/block_layout.h>
 #include <render/layout/follow.h>
@@ -30,32 +31,8 @@ struct Seconds {
     double begin = 0, time = 0, end = 0;
 };
 
-/// The space above the floor, as points of a grid: what had better not be covered.
-std::vector<Rect> above_floor(const ViewProjection& projection, const std::vector<glm::vec3>& corners) {
-    constexpr int kCells = 6;
-    const glm::vec3 low = corners.front();
-    const glm::vec3 high = corners.back();
-    std::vector<Rect> out;
-    for (int i = 0; i <= kCells; ++i) {
-        for (int j = 0; j <= kCells; ++j) {
-            for (int k = 0; k <= kCells; ++k) {
-                const glm::vec3 share = glm::vec3(i, j, k) / static_cast<float>(kCells);
-                if (const auto at = projection.project(low + share * (high - low)))
-                    out.push_back(Rect{*at, *at}.grown(8));
-            }
-        }
-    }
-    return out;
-}
-
 std::string headline_of(std::size_t people, double time) {
-    char text[96];
-    if (people == 0) {
-        std::snprintf(text, sizeof text, "Nobody is on the floor at %.2f s", time);
-        return text;
-    }
-    std::snprintf(text, sizeof text, "%zu %s at %.2f s", people, people == 1 ? "agent" : "agents", time);
-    return text;
+    return (people == 0 ? "Nobody is on the floor" : counted(people, "agent", "agents")) + at_time(time);
 }
 
 /// Before a run some are there already, after it nobody is.
@@ -145,7 +122,8 @@ class CrowdPicture final : public Picture {
     }
 
     std::vector<Rect> busy() const override {
-        return above_floor(list_.projection, floor_corners(floor_extent_, list_.space));
+        const std::vector<glm::vec3> corners = floor_corners(floor_extent_, list_.space);
+        return seen_grid(list_.projection, corners.front(), corners.back(), {6, 6, 6});
     }
 
     std::vector<LabelRequest> content() override {

@@ -105,7 +105,7 @@ class FanPicture {
             fit_text(graph_.hubs[static_cast<std::size_t>(fan.hub)].name, FontFace::text, size, room);
         list_.texts.push_back(text_at(name, FontFace::text, size, style_.palette.text, corner));
         const float used = Font::of(FontFace::text).width(name, size) + 7 * scale;
-        const std::string count = counted(static_cast<long long>(fan.paths.size()), "move", "moves");
+        const std::string count = counted(fan.paths.size(), "move", "moves");
         if (Font::of(FontFace::text).width(count, size) > room - used) return;
         list_.texts.push_back(
             text_at(count, FontFace::text, size, style_.palette.quiet_text, corner + glm::vec2(used, 0)));

@@ -38,9 +38,8 @@ std::string duration_text(double seconds) {
 std::pair<std::string, std::string> titles(const MotionGraph& graph, const std::vector<FloorPath>& paths) {
     double seconds = 0;
     for (const FloorPath& path : paths) seconds += path.seconds;
-    return {"Motion graph: " + counted(static_cast<long long>(graph.hubs.size()), "hub", "hubs") + ", " +
-                counted(static_cast<long long>(paths.size()), "move", "moves") + ", " + duration_text(seconds) +
-                " of motion",
+    return {"Motion graph: " + counted(graph.hubs.size(), "hub", "hubs") + ", " +
+                counted(paths.size(), "move", "moves") + ", " + duration_text(seconds) + " of motion",
             "where moves join: " + bound_text("pose distance", graph.bounds.pose_distance, "m") + ", " +
                 bound_text("change of velocity", graph.bounds.root_speed, "m/s")};
 }

@@ -75,6 +75,10 @@ class Picture {
     Blocks blocks_;
 };
 
+/// Points of a grid with so many cells along each side of a box between two of its corners, where they are seen, as
+/// small rectangles.
+std::vector<Rect> seen_grid(const ViewProjection& projection, glm::vec3 low, glm::vec3 high, glm::ivec3 cells);
+
 /// The middle of those points.
 glm::dvec3 middle_of(const ShownPoints& points);
 
