@@ -34,7 +34,7 @@ std::string short_double(double value);
 /// A number for people: six significant digits.
 std::string brief(double value);
 
-/// As std::printf writes it; at most 127 bytes.
+/// As std::printf writes it.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
 /// "1 sample", "12 samples".

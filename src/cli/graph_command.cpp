@@ -11,7 +11,6 @@
 #include <render/gl/renderer.h>
 #include <render/image/png.h>
 #include <render/pictures/graph_picture.h>
-#include <render/pictures/render.h>
 #include <scene/motion_graph.h>
 
 #include <unistd.h>

@@ -9,7 +9,7 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
-#include <render/pictures/render.h>
+#include <render/drawlist/picture_options.h>
 #include <scene/load_files.h>
 
 #include <cstdlib>

@@ -3,7 +3,6 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <render/drawlist/picture_options.h>
-#include <render/pictures/render.h>
 #include <scene/scene_json.h>
 #include <scene/view_options.h>
 

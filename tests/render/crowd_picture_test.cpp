@@ -109,27 +109,6 @@ TEST_F(CrowdPicture, SpaceTimeShowsTheWindowAlone) {
     EXPECT_GT(build_draw_list(run, asked, kGoldenSize).disks.size(), list.disks.size());
 }
 
-TEST(FastCrowd, WhatPassesTheCameraIsDrawn) {
-    Scene scene;
-    scene.clips = {testing::walk("fast", 20, 0, 60, 1.0 / 30, 0.4)};
-    scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
-    CrowdRun run;
-    run.agents = {{"1", {{0, {{-20, 0}, 0, 0}, 0, PlayKind::chosen}}}};
-    run.area = {60, 20};
-    run.seconds = 2;
-    scene.crowd = std::make_shared<const CrowdRun>(run);
-    ViewState view;
-    view.time = 0.5;
-    view.camera.target = glm::dvec3(-10, 0, 0);
-    for (const double distance : {3.0, 9.0, 40.0}) {
-        view.camera.distance = distance;
-        EXPECT_FALSE(build_draw_list(FittedScene(scene, {}), view, kGoldenSize).disks.empty()) << distance;
-    }
-    view.camera.target = glm::dvec3(0, 300, 0);
-    view.camera.distance = 9;
-    EXPECT_TRUE(build_draw_list(FittedScene(scene, {}), view, kGoldenSize).disks.empty()) << "far beside the picture";
-}
-
 TEST_F(CrowdPicture, WhomTheCameraFollowsStaysInTheMiddle) {
     ViewState asked = view(Show::moment, 6);
     asked.follow = run.scene().crowd->agents[3].name;

@@ -106,6 +106,41 @@ TEST(DiskLevels, TubesFollowTheirDisks) {
     }
 }
 
+/// What tubes may be off is used nearly in full at whatever distance: fewer are drawn.
+TEST(DiskLevels, TheChosenLevelIsNearlyAsCoarseAsItMayBe) {
+    auto disks = path();
+    for (DiskInstance& disk : disks) {
+        disk.base.z *= 0.1f;
+        disk.height *= 0.1f;
+    }
+    const DiskLevels levels(disks);
+    for (float pixels = 6; pixels < 80; pixels *= 1.07f) {
+        const int level = DiskLevels::choose(levels.blocks()[0], pixels, lens_of(pixels, 0));
+        EXPECT_GT(DiskLevels::tolerance(level) * pixels, 0.79f) << pixels;
+        EXPECT_LE(DiskLevels::tolerance(level) * pixels, kTolerance) << pixels;
+    }
+}
+
+/// Somebody who nearly stands, and now and then takes a step that is a leap beside that, yet too small to be seen.
+TEST(DiskLevels, LeapsCutTubesOnlyWhereTheyAreSeen) {
+    std::vector<DiskInstance> disks = path();
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+        disks[i].base = {0.05f * static_cast<float>(i / 10), 0, 0.1f * static_cast<float>(i)};
+        disks[i].radius = 0.4f;
+    }
+    DiskLevels levels(disks);
+    EXPECT_EQ(drawn(levels, 0, DiskLevels::kLevels - 1).disks.size(), 1u) << "the last";
+    EXPECT_GT(drawn(levels, 0, 1).disks.size(), 5u) << "0.05 m are much beside 8 mm";
+}
+
+TEST(DiskLevels, TheUsualRadiusIsTheMeanUnlessOneIsFarWider) {
+    std::vector<DiskInstance> disks = path();
+    for (std::size_t i = 0; i < disks.size(); ++i) disks[i].radius = i % 2 == 0 ? 0.4f : 0.5f;
+    EXPECT_NEAR(DiskLevels(disks).blocks()[0].usual_radius, 0.45f, 1e-5f);
+    disks[7].radius = 3;
+    EXPECT_NEAR(DiskLevels(disks).blocks()[0].usual_radius, 2, 1e-5f);
+}
+
 TEST(DiskLevels, EveryLevelCoversThePath) {
     auto disks = path();
     for (int i = 0; i < 400; ++i) {

@@ -3,7 +3,9 @@
 #include <render/parts/highlights.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
+#include <scene/crowd_scene.h>
 
+#include "crowd/walker_moves.h"
 #include "render/backends.h"
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -11,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 
 namespace mobbscope {
 namespace {
@@ -19,6 +22,9 @@ using testing::kSmallSize;
 
 class KeptBuffersTest : public testing::OnEachBackend {
   protected:
+    explicit KeptBuffersTest(Scene scene = testing::scene_of({{}, {{1, -1}, 90, 0.25}}, 300))
+        : paths_(std::make_shared<const FittedScene>(std::move(scene), mobb::FitOptions{})) {}
+
     /// Draws the view twice, so that all that can be kept is.
     void settle(const ViewState& view, int samples) {
         for (int i = 0; i < 2; ++i) draw(view, samples);
@@ -28,8 +34,7 @@ class KeptBuffersTest : public testing::OnEachBackend {
         return renderer().statistics();
     }
 
-    KeptPaths paths_{
-        std::make_shared<const FittedScene>(testing::scene_of({{}, {{1, -1}, 90, 0.25}}, 300), mobb::FitOptions{})};
+    KeptPaths paths_;
 };
 
 TEST_P(KeptBuffersTest, OrbitingUploadsNothingOfTheWorld) {
@@ -145,6 +150,74 @@ TEST_P(KeptBuffersTest, PointingOutUploadsItsLinesAlone) {
     }
 }
 
+/// A run of twenty.
+class RunBuffersTest : public KeptBuffersTest {
+  protected:
+    RunBuffersTest() : KeptBuffersTest(testing::with_run(testing::walker_scene(), 20, {13, 13})) {
+        view_.time = 10;
+        view_.camera.preset = CameraPreset::free;
+    }
+    ViewState view_;
+};
+
+TEST_P(RunBuffersTest, AnotherCameraUploadsNothingOfTheWorld) {
+    for (const int samples : {1, 4}) {
+        settle(view_, samples);
+        for (int i = 0; i < 12; ++i) {
+            view_.camera.yaw_deg += 30;
+            view_.camera.pitch_deg = -80 + 13 * i;
+            EXPECT_EQ(draw(view_, samples).world_bytes, 0u) << i;
+        }
+        ViewState near = view_;
+        near.camera.pitch_deg = 20;
+        near.camera.target = glm::dvec3(2, 0, 0);
+        for (const double distance : {3.0, 9.0, 40.0, 900.0}) {
+            near.camera.distance = distance;
+            EXPECT_EQ(draw(near, samples).world_bytes, 0u) << distance;
+        }
+    }
+}
+
+TEST_P(RunBuffersTest, WhatLiesBesideThePictureIsNotDrawn) {
+    ViewState empty = view_;
+    empty.disks = false;
+    const auto of_disks = [&](int samples) {
+        empty.camera = view_.camera;
+        return draw(view_, samples).triangles - draw(empty, samples).triangles;
+    };
+    for (const int samples : {1, 4}) {
+        view_.camera.target = glm::dvec3(0);
+        for (const double distance : {3.0, 9.0, 40.0}) {
+            view_.camera.distance = distance;
+            EXPECT_GT(of_disks(samples), 0u) << "passes the camera at " << distance;
+        }
+        view_.camera.target = glm::dvec3(0, 300, 0);
+        view_.camera.distance = 9;
+        EXPECT_EQ(of_disks(samples), 0u);
+    }
+}
+
+TEST(KeptPaths, OfARunAreThoseOfItsTimeAndWindow) {
+    const auto run = std::make_shared<const FittedScene>(testing::with_run(testing::walker_scene(), 20, {13, 13}),
+                                                         mobb::FitOptions{});
+    KeptPaths of_run(run);
+    // As the window holds it: the plays around a time, from which a view shows fewer seconds.
+    ViewState view;
+    view.time = 10;
+    view.time_height = 1;
+    const auto plays = std::make_shared<const FittedScene>(fitted_at(*run, view));
+    KeptPaths of_plays(plays);
+    for (const auto& [time, window] : {std::pair(10.0, 2.0), {9.0, 1.0}, {9.0, 0.5}, {10.0, 0.5}}) {
+        view.time = time;
+        view.time_window = window;
+        EXPECT_EQ(testing::text_of(build_draw_list(of_run, view, {.size = kSmallSize})),
+                  testing::text_of(build_draw_list(*run, view, kSmallSize)));
+        EXPECT_EQ(testing::text_of(build_draw_list(of_plays, view, {.size = kSmallSize})),
+                  testing::text_of(build_draw_list(*plays, view, kSmallSize)));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RunBuffersTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
 INSTANTIATE_TEST_SUITE_P(All, KeptBuffersTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
+#include <render/drawlist/picture_options.h>
 #include <render/parts/node_boxes.h>
 #include <render/pictures/build_draw_list.h>
-#include <render/pictures/render.h>
 #include <scene/drawn_agent.h>
 
 #include "render/backends.h"

@@ -1,6 +1,6 @@
+#include <render/drawlist/picture_options.h>
 #include <render/image/image_diff.h>
 #include <render/pictures/build_draw_list.h>
-#include <render/pictures/render.h>
 
 #include "render/backends.h"
 #include "render/pictures.h"
@@ -16,6 +16,10 @@ namespace mobbscope {
 namespace {
 
 using testing::kSmallSize;
+
+Image render(const FittedScene& fitted, const ViewState& view, PictureSize size, Renderer& renderer) {
+    return renderer.draw(build_draw_list(fitted, view, size));
+}
 
 TEST(Picture, AbsurdSizesAreRefused) {
     EXPECT_NO_THROW(check(PictureSize{640, 360}));
@@ -137,9 +141,10 @@ TEST(Picture, BackendsAgree) {
     view.query = 0;
     view.step = {Step::Unit::percent, 60};
     const FittedScene fitted = testing::hit_scene(mobb::TreeKind::umobb);
-    const ImageDiff result = diff(render(fitted, view, kSmallSize, *osmesa), render(fitted, view, kSmallSize, *egl));
+    const DrawList list = build_draw_list(fitted, view, kSmallSize);
+    const ImageDiff result = diff(osmesa->draw(list), egl->draw(list));
     EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
-    EXPECT_EQ(render_ids(fitted, view, kSmallSize, *osmesa).rg, render_ids(fitted, view, kSmallSize, *egl).rg);
+    EXPECT_EQ(osmesa->draw_ids(list).rg, egl->draw_ids(list).rg);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <app/script/state_json.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <render/drawlist/picture_options.h>
 #include <render/image/png.h>
-#include <render/pictures/render.h>
 
 #include <nlohmann/json.hpp>
 

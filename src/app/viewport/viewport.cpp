@@ -8,7 +8,6 @@
 #include <render/drawlist/picture_options.h>
 #include <render/parts/highlights.h>
 #include <render/pictures/build_draw_list.h>
-#include <render/pictures/render.h>
 #include <scene/drawn_agent.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>

@@ -24,6 +24,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace mobbscope::cli {
 
@@ -59,7 +60,8 @@ std::string highlight_selected(const RenderJob& job, const ViewState& view, Draw
     const PictureOptions& options = job.arguments.picture;
     const NamedPart& selected = *job.arguments.select;
     try {
-        if (add_selection(list, *job.fitted, view, selected, metrics_of(options.size, options.scale).scale)) return "";
+        if (add_selection(list, *job.paths->fitted(), view, selected, metrics_of(options.size, options.scale).scale))
+            return "";
         return in_quotes(selected.agent) + " is not there at " + brief(*list.moment) + " s";
     } catch (const std::invalid_argument& error) {
         return error.what();
@@ -71,7 +73,7 @@ void check_selection(const RenderJob& job) {
     if (!job.arguments.select) return;
     std::string why_not;
     for (const RenderPicture& picture : job.pictures) {
-        DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+        DrawList list = picture.list ? *picture.list : build_draw_list(*job.paths, picture.view, job.arguments.picture);
         const std::string why_not_here = highlight_selected(job, picture.view, list);
         if (why_not_here.empty()) return;
         if (why_not.empty()) why_not = why_not_here;
@@ -80,9 +82,10 @@ void check_selection(const RenderJob& job) {
 }
 
 /// `renderer`: null where nothing of it needs OpenGL.
-void draw_scene(const RenderJob& job, const RenderPicture& picture, Renderer* renderer) {
+void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer) {
     const RenderOutputs& outputs = picture.outputs;
-    DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+    if (!picture.list) picture.list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
+    DrawList list = *std::exchange(picture.list, {});
     if (job.arguments.select) highlight_selected(job, picture.view, list);
     if (!outputs.image.empty()) write_png(outputs.image, renderer->draw(list, job.arguments.picture.samples));
     std::optional<IdImage> ids;
@@ -129,14 +132,14 @@ SceneStore::Loaded& SceneStore::loaded(const RenderArguments& arguments) {
     return *scenes_.back();
 }
 
-std::shared_ptr<const FittedScene> SceneStore::fitted(const RenderArguments& arguments) {
+std::shared_ptr<KeptPaths> SceneStore::paths(const RenderArguments& arguments) {
     Loaded& found = loaded(arguments);
     const mobb::FitOptions options = arguments.fit.over(found.scene.fit);
-    for (const auto& known : found.fitted) {
-        if (known->options() == options) return known;
+    for (const auto& known : found.paths) {
+        if (known->fitted()->options() == options) return known;
     }
-    found.fitted.push_back(std::make_shared<const FittedScene>(found.scene, options));
-    return found.fitted.back();
+    found.paths.push_back(std::make_shared<KeptPaths>(std::make_shared<const FittedScene>(found.scene, options)));
+    return found.paths.back();
 }
 
 void SceneStore::note_sources(OutputCheck& check) const {
@@ -148,10 +151,11 @@ void RenderPlan::add(RenderArguments arguments) {
     check_together(arguments);
     if (is_case(arguments.file)) throw InputError(arguments.file.string(), "", "a case is drawn alone, not in a batch");
     RenderJob job{std::move(arguments), nullptr, {}};
-    job.fitted = scenes_.fitted(job.arguments);
-    const ViewState view = view_over(job.fitted->scene().view, job.arguments.view);
+    job.paths = scenes_.paths(job.arguments);
+    const FittedScene& fitted = *job.paths->fitted();
+    const ViewState view = view_over(fitted.scene().view, job.arguments.view);
     try {
-        job.pictures = pictures_of(*job.fitted, view, job.arguments);
+        job.pictures = pictures_of(fitted, view, job.arguments);
         check_and_frame(job);
         check_selection(job);
     } catch (const ViewMismatch& mismatch) {
@@ -164,30 +168,40 @@ void RenderPlan::add(RenderArguments arguments) {
 
 void RenderPlan::check_and_frame(RenderJob& job) {
     const bool turns = job.arguments.sequence.turntable.has_value();
+    const Camera& asked = job.pictures.front().view.camera;
     const bool near = is_near_followed(job);
+    const bool framed = !near && job.arguments.sequence.any() && !asked.target;
     std::optional<Camera> camera;  // near whom it follows
     CommonFraming framing;
     bool legends = true;
-    for (const RenderPicture& picture : job.pictures) {
-        const DrawList list = build_draw_list(*job.fitted, picture.view, job.arguments.picture);
+    for (RenderPicture& picture : job.pictures) {
+        DrawList list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
         note_glyphs(list);
         if (near) {
-            const Camera seen = framing_followed(*job.fitted, picture.view, list);
+            const Camera seen = framing_followed(*job.paths->fitted(), picture.view, list);
             if (!camera) camera = seen;
             camera->distance = std::max(camera->distance, seen.distance);
-            continue;
+        } else if (framed) {
+            framing.add(list);
+            legends = legends && !list.legend.empty();
+        } else if (!job.arguments.ui) {
+            keep(picture, std::move(list));
         }
-        if (!job.arguments.sequence.any()) return;
-        framing.add(list);
-        legends = legends && !list.legend.empty();
     }
-    const Camera& asked = job.pictures.front().view.camera;
     if (camera) return see_from(job.pictures, *camera, turns);
-    if (asked.target) return;
+    if (!framed) return;
     see_from(job.pictures, turns ? framing.turning(asked) : framing.still(asked), turns);
     job.arguments.picture.framed = true;
     // A legend that one picture has no room for would come and go.
     for (RenderPicture& picture : job.pictures) picture.view.legend = picture.view.legend && legends;
+}
+
+/// Unless there are many already: a long batch would fill the memory.
+void RenderPlan::keep(RenderPicture& picture, DrawList list) {
+    constexpr std::size_t kMostKept = 1'000'000;
+    if (kept_ > kMostKept) return;
+    kept_ += list.disks.size() + list.boxes.size() + list.lines.size();
+    picture.list = std::move(list);
 }
 
 /// Names may hold characters that the fonts of pictures lack.
@@ -212,7 +226,7 @@ void RenderPlan::check_outputs(const RenderJob& job, OutputCheck& outputs) {
     for (const RenderPicture& picture : job.pictures) outputs.writes(picture.outputs);
 }
 
-void RenderPlan::draw(Backend backend) const {
+void RenderPlan::draw(Backend backend) {
     if (!missing_glyphs_.empty()) {
         warn("the fonts of pictures lack " + counted(missing_glyphs_.size(), "character", "characters") +
              " of this scene's names; boxes stand for them");
@@ -226,11 +240,11 @@ void RenderPlan::draw(Backend backend) const {
         renderer->check_samples(job.arguments.picture.samples);
     }
     Patience patience(all);
-    for (const RenderJob& job : jobs_) {
-        for (const RenderPicture& picture : job.pictures) {
+    for (RenderJob& job : jobs_) {
+        for (RenderPicture& picture : job.pictures) {
             if (job.arguments.ui) {
                 write_png(picture.outputs.image, picture_tests::window_picture(
-                                                     *job.fitted, picture.view, job.arguments.file, backend,
+                                                     *job.paths->fitted(), picture.view, job.arguments.file, backend,
                                                      job.arguments.picture.size, job.arguments.ui_scale.value_or(1)));
             } else {
                 draw_scene(job, picture, renderer ? &*renderer : nullptr);

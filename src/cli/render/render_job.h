@@ -4,8 +4,9 @@
 #include <cli/render/render_options.h>
 #include <cli/render/render_sequence.h>
 #include <render/drawlist/draw_list.h>
-#include <scene/fitted_scene.h>
+#include <render/pictures/kept_paths.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -18,8 +19,8 @@ namespace mobbscope::cli {
 /// Scenes read once, and their trees fitted once for each set of options.
 class SceneStore {
   public:
-    /// Warns of what loading warns of. Throws InputError.
-    std::shared_ptr<const FittedScene> fitted(const RenderArguments& arguments);
+    /// The paths of a fitted scene, for all of its pictures. Warns of what loading warns of. Throws InputError.
+    std::shared_ptr<KeptPaths> paths(const RenderArguments& arguments);
 
     /// Tells of the files that all of them came from.
     void note_sources(OutputCheck& check) const;
@@ -28,7 +29,7 @@ class SceneStore {
     struct Loaded {
         ImportOptions options;
         Scene scene;
-        std::vector<std::shared_ptr<const FittedScene>> fitted;
+        std::vector<std::shared_ptr<KeptPaths>> paths;
     };
     Loaded& loaded(const RenderArguments& arguments);
 
@@ -37,7 +38,7 @@ class SceneStore {
 
 struct RenderJob {
     RenderArguments arguments;
-    std::shared_ptr<const FittedScene> fitted;
+    std::shared_ptr<KeptPaths> paths;
     std::vector<RenderPicture> pictures;
 };
 
@@ -54,16 +55,18 @@ class RenderPlan {
     /// All files that are read, but for those that only the caller knows of.
     OutputCheck sources() const;
 
-    /// Draws and writes all pictures. Throws MachineError; pictures before that are whole.
-    void draw(Backend backend) const;
+    /// Draws and writes all pictures, once. Throws MachineError; pictures before that are whole.
+    void draw(Backend backend);
 
   private:
     void check_and_frame(RenderJob& job);
     void note_glyphs(const DrawList& list);
+    void keep(RenderPicture& picture, DrawList list);
 
     SceneStore scenes_;
     std::vector<RenderJob> jobs_;
     std::set<char32_t> missing_glyphs_;  ///< that the fonts of pictures lack
+    std::size_t kept_ = 0;               ///< disks, boxes and lines of the lists that are kept
 };
 
 /// Many pictures at once: draws all of a list of what `render` takes, one picture or sequence a line; "-" is standard

@@ -6,7 +6,6 @@
 #include <cli/program.h>
 #include <cli/render/render_options.h>
 #include <render/drawlist/view_projection.h>
-#include <render/pictures/render.h>
 #include <scene/load_files.h>
 #include <scene/view_options.h>
 

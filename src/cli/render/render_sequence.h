@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cli/render/render_options.h>
+#include <render/drawlist/draw_list.h>
 #include <scene/fitted_scene.h>
 
 #include <vector>
@@ -11,6 +12,7 @@ namespace mobbscope::cli {
 struct RenderPicture {
     ViewState view;
     RenderOutputs outputs;
+    std::optional<DrawList> list{};  ///< once it is made: of this view
 };
 
 /// The most pictures of one sequence.

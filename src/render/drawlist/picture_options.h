@@ -23,6 +23,17 @@ struct PictureOptions {
     bool framed = false;
 };
 
+/// The smallest and largest side of a picture, and the most pixels that it may have.
+inline constexpr int kMinSide = 64;
+inline constexpr int kMaxSide = 8192;
+inline constexpr int kMaxPixels = 7680 * 4320;
+
+/// Throws std::invalid_argument, saying what is allowed, unless a picture of this size can be made.
+void check(PictureSize size);
+
+/// "1280x720". Throws std::invalid_argument if it is no such text or check refuses it.
+PictureSize parse_size(const std::string& text);
+
 /// The theme's palette; an opaque background replaces its own.
 Palette palette_for(Theme theme, const PictureOptions& options);
 

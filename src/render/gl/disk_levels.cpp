@@ -12,14 +12,17 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kTolerance = 0.8f;      // pixels that a tube is off, or 0.95 as the nearest level is taken
-constexpr float kHighest = 1.8f;        // pixels of a disk's side: above it the edge that the shader draws is seen
-constexpr float kWidestStep = 0.5f;     // pixels of a disk's face that its successor leaves free
-constexpr float kColorStep = 0.04f;     // between neighbours; more is a hit, or an end of what is in focus
-constexpr std::size_t kLongest = 32;    // disks in a tube, so that the colour follows
-constexpr std::size_t kInBlock = 128;   // disks
-constexpr float kLeap = 1.6f;           // times the mean step of its block: no tube goes over one that is larger
-constexpr float kFinestLevel = 0.004f;  // metres that its tubes may be off
+constexpr float kTolerance = 0.95f;      // pixels that a tube may be off
+constexpr float kHighest = 1.8f;         // pixels of a disk's side: above it the edge that the shader draws is seen
+constexpr float kWidestStep = 0.8f;      // pixels of a disk's face that its successor leaves free
+constexpr float kColorStep = 0.04f;      // between neighbours; more is a hit, or an end of what is in focus
+constexpr std::size_t kLongest = 32;     // disks in a tube, so that the colour follows
+constexpr std::size_t kInBlock = 128;    // disks
+constexpr float kLeap = 1.6f;            // times the mean step of its block: tubes only go over a larger one ...
+constexpr float kSmallLeap = 1.25f;      // ... if it is smaller than so many times what they may be off
+constexpr float kMostTimesUsual = 1.5f;  // what the widest disk of a block is
+constexpr float kFinestLevel = 0.008f;   // metres that its tubes may be off
+constexpr float kLevelsPerDoubling = 4;  // of the tolerance: tubes are nearly as long as they may be
 
 glm::vec2 ground(glm::vec3 p) { return {p.x, p.y}; }
 
@@ -43,8 +46,10 @@ DiskBlock measured(const std::vector<DiskInstance>& disks, DiskBlock block) {
         min = glm::min(min, disk.base - around);
         max = glm::max(max, disk.base + around + glm::vec3(0, 0, disk.height));
         block.widest = std::max(block.widest, disk.radius);
+        block.usual_radius += disk.radius / static_cast<float>(block.count);
         block.tallest = std::max(block.tallest, disk.height);
     }
+    block.usual_radius = std::max(block.usual_radius, block.widest / kMostTimesUsual);
     const std::size_t steps = block.continues ? block.count : block.count - 1;
     float sum = 0;
     for (std::size_t i = block.first; i < block.first + steps; ++i) sum += step_between(disks[i], disks[i + 1]);
@@ -132,7 +137,7 @@ DiskPiece piece_of(const DiskInstance& disk) {
 }
 
 float DiskLevels::tolerance(int level) {
-    return level == 0 ? 0 : kFinestLevel * std::exp2(0.5f * static_cast<float>(level - 1));
+    return level == 0 ? 0 : kFinestLevel * std::exp2(static_cast<float>(level - 1) / kLevelsPerDoubling);
 }
 
 DiskLevels::DiskLevels(std::vector<DiskInstance> disks) : disks_(std::move(disks)), blocks_(blocks_of(disks_)) {
@@ -173,10 +178,11 @@ const DiskLevels::Level& DiskLevels::level(int index) {
         const std::size_t end = block.first + block.count;
         // A tube ends at the lower face of a disk: the last of a path is no part of one.
         const std::size_t limit = index == 0 ? block.first : block.continues ? end : end - 1;
+        const float longest_step = std::max(block.longest_step, kSmallLeap * most);
         for (std::size_t first = block.first; first < end;) {
             std::size_t last = first;
             while (last < limit && last - first < kLongest &&
-                   step_between(disks_[last], disks_[last + 1]) <= block.longest_step &&
+                   step_between(disks_[last], disks_[last + 1]) <= longest_step &&
                    is_straight(disks_, first, last + 1, most)) {
                 ++last;
             }
@@ -206,7 +212,7 @@ int DiskLevels::choose(const DiskBlock& block, float pixels, const ViewProjectio
         block.widest_step * pixels * std::abs(projection.back.z) >= kWidestStep) {
         return 0;
     }
-    const float levels = std::round(2 * std::log2(kTolerance / (pixels * kFinestLevel)));
+    const float levels = std::floor(kLevelsPerDoubling * std::log2(kTolerance / (pixels * kFinestLevel)));
     return levels < 0 ? 0 : 1 + static_cast<int>(std::min(levels, static_cast<float>(kLevels - 2)));
 }
 

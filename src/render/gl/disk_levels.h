@@ -49,15 +49,16 @@ struct DiskBlock {
     float lowest = 0;        ///< of the bases
     float highest = 0;       ///< ... and of the tops
     float widest = 0;        ///< radius
+    float usual_radius = 0;  ///< the mean, or more where one is far wider: what the number of sides is chosen for
     float tallest = 0;       ///< disk
-    float longest_step = 0;  ///< tubes do not go over steps that are longer
-    float widest_step = 0;   ///< of the others: what a disk's successor leaves free of its face, metres
+    float longest_step = 0;  ///< of the steps that are not leaps
+    float widest_step = 0;   ///< ... the widest: what a disk's successor leaves free of its face, metres
 };
 
 class DiskLevels {
   public:
     /// Level 0 has all disks. The others have tubes that are off by so many metres at most.
-    static constexpr int kLevels = 13;
+    static constexpr int kLevels = 20;
     static float tolerance(int level);
 
     struct Range {

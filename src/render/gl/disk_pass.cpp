@@ -179,13 +179,16 @@ const DiskPass::Stored& DiskPass::store_fine(DrawStatistics& statistics) {
     return fine_;
 }
 
-/// All in one. Enough sides for the largest disk: one shape for all, so that their edges fit.
+/// Enough sides for the largest disk: one shape for all, so that their edges fit.
 std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projection) const {
     const PixelScale scale(projection);
     float radius = 0;
     bool from_above = true;
     bool from_below = true;
+    std::vector<DiskLevels::Range> seen;
     for (const DiskBlock& block : levels_->blocks()) {
+        if (!block_may_be_seen(block, projection)) continue;
+        seen.push_back({block.first, block.count});
         from_above = from_above && !projection.below(block.highest);
         from_below = from_below && projection.below(block.lowest);
         if (block.widest * scale.at_depth(projection.depth(block.middle) - block.reach) <= radius) continue;
@@ -196,7 +199,15 @@ std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projec
     }
     const int sides = std::clamp(4 * static_cast<int>(std::ceil(sides_for(radius, 0.17f) / 4)), 12, 128);
     const Part part = from_above ? Part::side_and_upper_face : from_below ? Part::side_and_lower_face : Part::all;
-    return {{0, sides, part, {0, levels_->disks().size()}, 0}};
+    std::ranges::sort(seen, {}, &DiskLevels::Range::first);
+    std::vector<Batch> out;
+    for (const DiskLevels::Range& range : seen) {
+        if (out.empty() || out.back().range.first + out.back().range.count != range.first) {
+            out.push_back({0, sides, part, {range.first, 0}, 0});
+        }
+        out.back().range.count += range.count;
+    }
+    return out;
 }
 
 std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& projection) {
@@ -219,7 +230,7 @@ std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& proj
         // What is little nearer than the middle is little larger.
         const float pixels = scale.at_depth(block.reach < kFlatBlock * middle ? middle : depth);
         const int level = DiskLevels::choose(block, pixels, projection);
-        const int sides = coarse_sides(block.widest * pixels);
+        const int sides = coarse_sides(block.usual_radius * pixels);
         const Part part = !projection.below(block.highest) ? Part::side_and_upper_face
                           : projection.below(block.lowest) ? Part::side_and_lower_face
                                                            : Part::all;

@@ -15,11 +15,6 @@
 
 namespace mobbscope {
 
-/// The smallest and largest side of a picture, and the most pixels that it may have.
-inline constexpr int kMinSide = 64;
-inline constexpr int kMaxSide = 8192;
-inline constexpr int kMaxPixels = 7680 * 4320;
-
 /// Holds a context and what it keeps between pictures. Pictures depend on the draw list alone, and not on what others
 /// left switched on in the context; they leave it with a framebuffer of their own bound, and with state of their own.
 /// Not for several threads.

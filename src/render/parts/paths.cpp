@@ -23,13 +23,12 @@ Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus
 
 }  // namespace
 
-void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, int together) {
+void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus) {
     const mobb::PlacedClip& clip = agent.clip();
     const mobb::SampleRange shown = agent.samples();
     std::vector<DiskInstance>& disks = list.disks.edit();
-    for (int i = shown.first; i < shown.end(); i += together) {
-        const int count = std::min(together, shown.end() - i);
-        const float height = static_cast<float>(count * clip.clip().dt() * list.space.time_height);
+    const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
+    for (int i = shown.first; i < shown.end(); ++i) {
         const mobb::Disk disk = clip.disk(i);
         DiskInstance instance;
         instance.base = list.space.point(disk.x, disk.y, clip.time(i));

@@ -34,8 +34,8 @@ struct PathFocus {
     }
 };
 
-/// `together`: so many samples are drawn as one disk, which is as high as all of them.
-void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus, int together = 1);
+/// A disk for each sample.
+void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus);
 
 /// Gives the disks from `first` on, which add_disks made of this agent, the colours of another focus. Returns where the
 /// next agent's begin.

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <render/layout/annotations.h>
 #include <render/layout/block_layout.h>
 #include <render/layout/follow.h>
@@ -7,12 +8,10 @@
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/candidates.h>
+#include <render/pictures/kept_paths.h>
 #include <render/pictures/picture.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +23,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr float kFinestStep = 0.6f;  // pixels: disks nearer to one another are drawn as one
-constexpr int kMostTogether = 8;
 constexpr double kFlat = 0.4;
 constexpr double kMostHeight = 4;  // metres drawn per second: people walk about a third of it
 constexpr float kLeastRing = 3;    // pixels of radius
@@ -34,59 +31,8 @@ struct Seconds {
     double begin = 0, time = 0, end = 0;
 };
 
-/// The space above the floor, as points of a grid: what had better not be covered.
-std::vector<Rect> above_floor(const ViewProjection& projection, const std::vector<glm::vec3>& corners) {
-    constexpr int kCells = 6;
-    const glm::vec3 low = corners.front();
-    const glm::vec3 high = corners.back();
-    std::vector<Rect> out;
-    for (int i = 0; i <= kCells; ++i) {
-        for (int j = 0; j <= kCells; ++j) {
-            for (int k = 0; k <= kCells; ++k) {
-                const glm::vec3 share = glm::vec3(i, j, k) / static_cast<float>(kCells);
-                if (const auto at = projection.project(low + share * (high - low)))
-                    out.push_back(Rect{*at, *at}.grown(8));
-            }
-        }
-    }
-    return out;
-}
-
-/// Whether some of a path may be seen: a ball around its tree's root reaches into what the camera sees.
-bool may_be_seen(const DrawList& list, const DrawnAgent& agent) {
-    if (agent.samples().count == 0) return false;
-    const BoxInstance all = node_box(agent, 0, list.space);
-    const glm::vec4 middle(all.center, 1);
-    float reach = 0;
-    for (const glm::vec3& half : all.extents) reach += glm::length(half);
-    const glm::mat4 rows = glm::transpose(list.projection.clip_from_world);
-    for (const glm::vec4& across : {rows[0], -rows[0], rows[1], -rows[1]}) {
-        const glm::vec4 edge = rows[3] + across;
-        if (glm::dot(edge, middle) < -reach * glm::length(glm::vec3(edge))) return false;
-    }
-    return true;
-}
-
-/// So many samples cannot be told apart in the picture.
-int samples_together(const DrawList& list, const DrawnAgent& agent) {
-    const mobb::PlacedClip& clip = agent.clip();
-    const mobb::SampleRange shown = agent.samples();
-    const mobb::Disk disk = clip.disk(shown.first);
-    const float pixels = list.projection.pixels_per_metre(list.space.point(disk.x, disk.y, clip.time(shown.first)));
-    const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
-    const float step = height * pixels * std::sqrt(std::max(0.0f, 1 - list.projection.back.z * list.projection.back.z));
-    if (!(step > 0)) return 1;
-    return std::clamp(static_cast<int>(kFinestStep / step), 1, kMostTogether);
-}
-
 std::string headline_of(std::size_t people, double time) {
-    char text[96];
-    if (people == 0) {
-        std::snprintf(text, sizeof text, "Nobody is on the floor at %.2f s", time);
-        return text;
-    }
-    std::snprintf(text, sizeof text, "%zu %s at %.2f s", people, people == 1 ? "agent" : "agents", time);
-    return text;
+    return (people == 0 ? "Nobody is on the floor" : counted(people, "agent", "agents")) + at_time(time);
 }
 
 /// Before a run some are there already, after it nobody is.
@@ -128,9 +74,10 @@ std::vector<DrawnAgent> boxed(std::span<const DrawnAgent> paths, const ViewState
 
 class CrowdPicture final : public Picture {
   public:
-    CrowdPicture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
-                 const FollowedChoice* choice)
-        : Picture(fitted, view, options), crowd_(*fitted.scene().crowd), time_(run_time(fitted.scene(), view)) {
+    CrowdPicture(KeptPaths& kept, const ViewState& view, const PictureOptions& options, const FollowedChoice* choice)
+        : Picture(*kept.fitted(), view, options),
+          crowd_(*fitted_.scene().crowd),
+          time_(run_time(fitted_.scene(), view)) {
         outside_ = time_ < 0 || time_ >= crowd_.seconds;
         if (!outside_) choice_ = choice;
         seconds_ = {time_ - view.time_window, time_, time_ + view.time_window};
@@ -141,7 +88,8 @@ class CrowdPicture final : public Picture {
         list_.space = space_for(bounds, view);
         // As tall as wide it would be a forest of poles.
         if (view.time_height <= 0) list_.space.time_height = std::min(kFlat * list_.space.time_height, kMostHeight);
-        list_.space.anchor = camera_anchor(fitted, view, time_);
+        list_.space.anchor = camera_anchor(fitted_, view, time_);
+        if (view.disks) kept.add_disks_of(list_, agents_, view, std::vector<PathFocus>(agents_.size()));
         floor_extent_ = floor_stage(crowd_.area, seconds_.begin, seconds_.end);
         points_ = ShownPoints(floor_corners(floor_extent_, list_.space));
         list_.middle = middle_of(points_);
@@ -174,15 +122,11 @@ class CrowdPicture final : public Picture {
     }
 
     std::vector<Rect> busy() const override {
-        return above_floor(list_.projection, floor_corners(floor_extent_, list_.space));
+        const std::vector<glm::vec3> corners = floor_corners(floor_extent_, list_.space);
+        return seen_grid(list_.projection, corners.front(), corners.back(), {6, 6, 6});
     }
 
     std::vector<LabelRequest> content() override {
-        if (view_.disks) {
-            for (const DrawnAgent& agent : agents_) {
-                if (may_be_seen(list_, agent)) add_disks(list_, agent, {}, samples_together(list_, agent));
-            }
-        }
         if (view_.boxes) {
             add_level_boxes(list_, boxed(agents_, view_, followed_), view_.levels, view_.color_by, metrics_.scale);
             keep_within(list_, agents_, seconds_);
@@ -229,9 +173,9 @@ class CrowdPicture final : public Picture {
 
 }  // namespace
 
-std::unique_ptr<Picture> crowd_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+std::unique_ptr<Picture> crowd_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                        const FollowedChoice* choice) {
-    return std::make_unique<CrowdPicture>(fitted, view, options, choice);
+    return std::make_unique<CrowdPicture>(kept, view, options, choice);
 }
 
 }  // namespace mobbscope

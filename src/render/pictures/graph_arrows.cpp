@@ -107,10 +107,10 @@ float fit_rings(std::vector<Ring>& rings, const Rect& area, float most) {
 
 class ArrowPicture {
   public:
-    ArrowPicture(DrawList& list, const MotionGraph& graph, const GraphStyle& style, const Rect& area)
-        : list_(list), graph_(graph), style_(style), places_(graph.hubs.size()), outward_(graph.hubs.size()) {
+    ArrowPicture(const GraphCanvas& canvas, const MotionGraph& graph, const Rect& area)
+        : canvas_(canvas), graph_(graph), places_(graph.hubs.size()), outward_(graph.hubs.size()) {
         std::vector<Ring> rings = rings_of(graph);
-        pitch_ = fit_rings(rings, area, kMostPitch * style.metrics.scale);
+        pitch_ = fit_rings(rings, area, kMostPitch * canvas.metrics.scale);
         const double height = put_in_rows(rings, area.size().x / pitch_);
         const glm::vec2 corner(area.min.x, area.min.y + 0.5F * (area.size().y - static_cast<float>(height) * pitch_));
         for (const Ring& ring : rings) {
@@ -128,37 +128,33 @@ class ArrowPicture {
 
     /// Of line widths, pixels: crowded arrows are thinner.
     float unit() const {
-        return style_.metrics.scale * std::clamp(pitch_ / (kRoomyPitch * style_.metrics.scale), 0.4F, 1.0F);
+        return canvas_.metrics.scale * std::clamp(pitch_ / (kRoomyPitch * canvas_.metrics.scale), 0.4F, 1.0F);
     }
 
     void add_arrow(const Arrow& arrow, const ArrowScale& scale) {
         const auto from = static_cast<std::size_t>(arrow.from);
         const auto to = static_cast<std::size_t>(arrow.to);
         const float width = scale.width(arrow.count);
-        const Rgba color = style_.color_of(arrow.length / arrow.seconds);
+        const Rgba color = canvas_.color_of(arrow.length / arrow.seconds);
         add_curve(from == to ? loop(from) : bow(places_[from], places_[to]), places_[from], places_[to], width, color);
     }
 
     void add_hubs() {
         const float r = node();
         for (std::size_t h = 0; h < places_.size(); ++h) {
-            list_.marks.push_back({{places_[h] - r, places_[h] + r},
-                                   r,
-                                   mix_colors(style_.palette.background, style_.palette.panel_border, 0.6F),
-                                   style_.palette.text,
-                                   1.3F * style_.metrics.scale});
-            const float size = std::round(std::min(1.1F * r, 1.4F * style_.metrics.text));
+            canvas_.dot(places_[h], r, mix_colors(canvas_.palette().background, canvas_.palette().panel_border, 0.6F),
+                        canvas_.palette().text, 1.3F * canvas_.metrics.scale);
+            const float size = std::round(std::min(1.1F * r, 1.4F * canvas_.metrics.text));
             const std::string name = fit_text(graph_.hubs[h].name, FontFace::text, size, 1.7F * r);
             const glm::vec2 extent(Font::of(FontFace::text).width(name, size), line_height(FontFace::text, size));
-            list_.texts.push_back(
-                text_at(name, FontFace::text, size, style_.palette.text, glm::round(places_[h] - 0.5F * extent)));
+            canvas_.write(name, size, canvas_.palette().text, glm::round(places_[h] - 0.5F * extent));
         }
     }
 
   private:
     using Curve = std::vector<glm::vec2>;
 
-    float node() const { return std::max(static_cast<float>(kNode) * pitch_, 5 * style_.metrics.scale); }
+    float node() const { return std::max(static_cast<float>(kNode) * pitch_, 5 * canvas_.metrics.scale); }
 
     /// Bends to its left, so that the way there and the way back are two.
     static Curve bow(glm::vec2 from, glm::vec2 to) {
@@ -198,7 +194,7 @@ class ArrowPicture {
         for (std::size_t i = begin; i < neck; ++i) {
             // A little longer than the way, so that no notch is left at the bends.
             const glm::vec2 more = (0.5F + 0.1F * width) * glm::normalize(curve[i + 1] - curve[i]);
-            list_.overlay_lines.push_back({curve[i] - more, curve[i + 1] + more, color, width, kSolid});
+            canvas_.line(curve[i] - more, curve[i + 1] + more, color, width);
         }
         // A triangle of strips, each less wide than the one before.
         const glm::vec2 base = curve[neck];
@@ -208,14 +204,12 @@ class ArrowPicture {
         for (int i = 0; i < strips; ++i) {
             const float a = static_cast<float>(i) / static_cast<float>(strips);
             const float b = static_cast<float>(i + 1) / static_cast<float>(strips);
-            list_.overlay_lines.push_back(
-                {glm::mix(base, tip, a), glm::mix(base, tip, b), color, std::max(broad * (1 - a), 1.0F), kSolid});
+            canvas_.line(glm::mix(base, tip, a), glm::mix(base, tip, b), color, std::max(broad * (1 - a), 1.0F));
         }
     }
 
-    DrawList& list_;
+    const GraphCanvas& canvas_;
     const MotionGraph& graph_;
-    const GraphStyle& style_;
     float pitch_ = 0;
     std::vector<glm::vec2> places_;   ///< of the hubs, pixels
     std::vector<glm::vec2> outward_;  ///< away from the hubs that it shares a circle with
@@ -227,10 +221,10 @@ float ArrowScale::width(std::size_t count) const {
     return unit * (1 + 5 * std::sqrt(static_cast<float>(count) / static_cast<float>(most)));
 }
 
-ArrowScale add_graph_arrows(DrawList& list, const MotionGraph& graph, const std::vector<FloorPath>& paths,
-                            const GraphStyle& style, const Rect& area) {
+ArrowScale add_graph_arrows(const GraphCanvas& canvas, const MotionGraph& graph, const std::vector<FloorPath>& paths,
+                            const Rect& area) {
     const std::vector<Arrow> arrows = arrows_of(paths);
-    ArrowPicture picture(list, graph, style, area);
+    ArrowPicture picture(canvas, graph, area);
     // They are sorted: the first stands for the most moves.
     const ArrowScale scale{arrows.front().count, picture.unit()};
     for (const Arrow& arrow : arrows) picture.add_arrow(arrow, scale);

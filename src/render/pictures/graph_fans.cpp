@@ -65,12 +65,11 @@ Grid grid_for(std::size_t cards, glm::vec2 room) {
 
 class FanPicture {
   public:
-    FanPicture(DrawList& list, const MotionGraph& graph, const GraphStyle& style)
-        : list_(list), graph_(graph), style_(style) {}
+    FanPicture(const GraphCanvas& canvas, const MotionGraph& graph) : canvas_(canvas), graph_(graph) {}
 
     /// Pixels around the paths in a card: left, above, right and below.
-    float title() const { return line_height(FontFace::text, style_.metrics.small) + 8 * style_.metrics.scale; }
-    float margin() const { return 9 * style_.metrics.scale; }
+    float title() const { return line_height(FontFace::text, canvas_.metrics.small) + 8 * canvas_.metrics.scale; }
+    float margin() const { return 9 * canvas_.metrics.scale; }
 
     Rect room_in(const Rect& card) const {
         const glm::vec2 corner(card.min.x + margin(), card.min.y + title());
@@ -78,8 +77,8 @@ class FanPicture {
     }
 
     void add_card(const Fan& fan, const Rect& card, double pixels_per_metre, double ring_step) {
-        const float scale = style_.metrics.scale;
-        list_.panels.push_back({card, 5 * scale, style_.palette.panel, style_.palette.panel_border, 1});
+        const float scale = canvas_.metrics.scale;
+        canvas_.list.panels.push_back({card, 5 * scale, canvas_.palette().panel, canvas_.palette().panel_border, 1});
         add_title(fan, card);
         const Rect room = room_in(card);
         const glm::dvec2 center = 0.5 * (fan.least + fan.most);
@@ -92,23 +91,22 @@ class FanPicture {
         for (const FloorPath* path : fan.paths) add_path(*path, at);
         const float r = 2.6F * scale;
         const glm::vec2 hub = at({0, 0});
-        list_.marks.push_back({{hub - r, hub + r}, r, style_.palette.text, Rgba(0), 0});
+        canvas_.dot(hub, r, canvas_.palette().text);
     }
 
   private:
     void add_title(const Fan& fan, const Rect& card) {
-        const float scale = style_.metrics.scale;
-        const float size = style_.metrics.small;
+        const float scale = canvas_.metrics.scale;
+        const float size = canvas_.metrics.small;
         const glm::vec2 corner = card.min + glm::vec2(7, 4) * scale;
         const float room = card.size().x - 14 * scale;
         const std::string name =
             fit_text(graph_.hubs[static_cast<std::size_t>(fan.hub)].name, FontFace::text, size, room);
-        list_.texts.push_back(text_at(name, FontFace::text, size, style_.palette.text, corner));
+        canvas_.write(name, size, canvas_.palette().text, corner);
         const float used = Font::of(FontFace::text).width(name, size) + 7 * scale;
-        const std::string count = counted(static_cast<long long>(fan.paths.size()), "move", "moves");
+        const std::string count = counted(fan.paths.size(), "move", "moves");
         if (Font::of(FontFace::text).width(count, size) > room - used) return;
-        list_.texts.push_back(
-            text_at(count, FontFace::text, size, style_.palette.quiet_text, corner + glm::vec2(used, 0)));
+        canvas_.write(count, size, canvas_.palette().quiet_text, corner + glm::vec2(used, 0));
     }
 
     void add_rings(glm::vec2 center, double step, const Rect& room) {
@@ -123,7 +121,7 @@ class FanPicture {
                 const double turn = 2 * std::numbers::pi * i / kRingPoints;
                 const glm::vec2 to = center + glm::vec2(r * glm::dvec2(std::cos(turn), std::sin(turn)));
                 if (inside(from) && inside(to)) {
-                    list_.overlay_lines.push_back({from, to, style_.palette.grid, style_.metrics.scale, kSolid});
+                    canvas_.line(from, to, canvas_.palette().grid, canvas_.metrics.scale);
                 }
                 from = to;
             }
@@ -132,36 +130,35 @@ class FanPicture {
 
     template <class At>
     void add_path(const FloorPath& path, const At& at) {
-        const float scale = style_.metrics.scale;
-        const Rgba color = style_.color_of(path.speed());
+        const float scale = canvas_.metrics.scale;
+        const Rgba color = canvas_.color_of(path.speed());
         glm::vec2 from = at(path.points.front());
         for (std::size_t i = 1; i < path.points.size(); ++i) {
             const glm::vec2 to = at(path.points[i]);
             if (i + 1 < path.points.size() && glm::distance(from, to) < 1.5F) continue;
-            list_.overlay_lines.push_back({from, to, with_alpha(color, 0.8F), 1.2F * scale, kSolid});
+            canvas_.line(from, to, with_alpha(color, 0.8F), 1.2F * scale);
             from = to;
         }
         const float r = 1.9F * scale;
-        list_.marks.push_back({{from - r, from + r}, r, color, Rgba(0), 0});
+        canvas_.dot(from, r, color);
     }
 
-    DrawList& list_;
+    const GraphCanvas& canvas_;
     const MotionGraph& graph_;
-    const GraphStyle& style_;
 };
 
 }  // namespace
 
-FanScale add_graph_fans(DrawList& list, const MotionGraph& graph, const std::vector<FloorPath>& paths,
-                        const GraphStyle& style, const Rect& area) {
-    const float scale = style.metrics.scale;
+FanScale add_graph_fans(const GraphCanvas& canvas, const MotionGraph& graph, const std::vector<FloorPath>& paths,
+                        const Rect& area) {
+    const float scale = canvas.metrics.scale;
     std::vector<Fan> fans = fans_of(graph, paths);
     const std::size_t all = fans.size();
     std::stable_sort(fans.begin(), fans.end(),
                      [](const Fan& a, const Fan& b) { return a.paths.size() > b.paths.size(); });
     Grid grid = grid_for(fans.size(), area.size());
     float below = 0;
-    const float line = line_height(FontFace::text, style.metrics.small);
+    const float line = line_height(FontFace::text, canvas.metrics.small);
     while (fans.size() > 1 && std::min(grid.cell.x, grid.cell.y) < kLeastCard * scale) {
         fans.pop_back();
         below = 1.4F * line;
@@ -170,11 +167,10 @@ FanScale add_graph_fans(DrawList& list, const MotionGraph& graph, const std::vec
     std::sort(fans.begin(), fans.end(), [](const Fan& a, const Fan& b) { return a.hub < b.hub; });
     if (fans.size() < all) {
         const std::string text = "of " + std::to_string(all) + " hubs those with the most moves";
-        list.texts.push_back(text_at(text, FontFace::text, style.metrics.small, style.palette.quiet_text,
-                                     {area.min.x, area.max.y - line}));
+        canvas.write(text, canvas.metrics.small, canvas.palette().quiet_text, {area.min.x, area.max.y - line});
     }
 
-    FanPicture picture(list, graph, style);
+    FanPicture picture(canvas, graph);
     const glm::vec2 card = grid.cell - kCardGap * scale;
     const Rect room = picture.room_in({{0, 0}, card});
     double pixels = std::numeric_limits<double>::infinity();

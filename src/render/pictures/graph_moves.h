@@ -3,10 +3,12 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
+#include <render/text/labels.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -24,13 +26,25 @@ struct FloorPath {
 
 std::vector<FloorPath> floor_paths_of(const Scene& scene);
 
-/// What is drawn with: palette and sizes, and colours of speeds from 0 to `fastest` m/s.
-struct GraphStyle {
-    const Palette& palette;
+/// What the parts of the picture are drawn on and with; colours of speeds go from 0 to `fastest` m/s.
+struct GraphCanvas {
+    DrawList& list;
     Metrics metrics;
     double fastest = 1;
 
-    Rgba color_of(double speed) const { return quantity_color(static_cast<float>(speed / fastest), palette); }
+    const Palette& palette() const { return list.palette; }
+    Rgba color_of(double speed) const { return quantity_color(static_cast<float>(speed / fastest), palette()); }
+
+    void line(glm::vec2 from, glm::vec2 to, Rgba color, float width) const {
+        list.overlay_lines.push_back({from, to, color, width, kSolid});
+    }
+    void dot(glm::vec2 middle, float radius, Rgba fill, Rgba border = Rgba(0), float border_width = 0) const {
+        list.marks.push_back({{middle - radius, middle + radius}, radius, fill, border, border_width});
+    }
+    /// A line of text with its upper left corner at a point.
+    void write(const std::string& text, float size, Rgba color, glm::vec2 corner) const {
+        list.texts.push_back(text_at(text, FontFace::text, size, color, corner));
+    }
 };
 
 /// What the widths of arrows say.
@@ -43,8 +57,8 @@ struct ArrowScale {
 };
 
 /// Adds hubs and arrows within the area.
-ArrowScale add_graph_arrows(DrawList& list, const MotionGraph& graph, const std::vector<FloorPath>& paths,
-                            const GraphStyle& style, const Rect& area);
+ArrowScale add_graph_arrows(const GraphCanvas& canvas, const MotionGraph& graph, const std::vector<FloorPath>& paths,
+                            const Rect& area);
 
 /// The one scale of all floor paths.
 struct FanScale {
@@ -54,7 +68,7 @@ struct FanScale {
 
 /// Adds a card with the floor paths of each hub in which moves begin, within the area; of many hubs those with the most
 /// moves.
-FanScale add_graph_fans(DrawList& list, const MotionGraph& graph, const std::vector<FloorPath>& paths,
-                        const GraphStyle& style, const Rect& area);
+FanScale add_graph_fans(const GraphCanvas& canvas, const MotionGraph& graph, const std::vector<FloorPath>& paths,
+                        const Rect& area);
 
 }  // namespace mobbscope

@@ -1,6 +1,17 @@
 #include <render/pictures/kept_paths.h>
+#include <scene/crowd_scene.h>
 
 namespace mobbscope {
+
+KeptPaths& KeptPaths::shown_in(const ViewState& view) {
+    if (!is_run(fitted_->scene())) return *this;
+    const Moment moment{view.show, view.time, view.time_window};
+    if (!at_moment_ || moment_ != moment) {
+        at_moment_ = std::make_unique<KeptPaths>(std::make_shared<const FittedScene>(fitted_at(*fitted_, view)));
+        moment_ = moment;
+    }
+    return *at_moment_;
+}
 
 const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewState& view) {
     if (!bounds_ || bounds_->first != view.query) bounds_.emplace(view.query, bounds_of(agents));
@@ -9,7 +20,7 @@ const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewSt
 
 const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                            const std::vector<PathFocus>& foci) {
-    const Shapes shapes{view.query, list.space.origin, list.space.time_height};
+    const Shapes shapes{view.query, list.space.origin, list.space.time_height, view.time_window};
     const Colors colors{view.theme, foci};
     if (shapes_ != shapes) {
         for (std::size_t i = 0; i < agents.size(); ++i) add_disks(list, agents[i], foci[i]);

@@ -23,6 +23,10 @@ class KeptPaths {
 
     const std::shared_ptr<const FittedScene>& fitted() const { return fitted_; }
 
+    /// Those of the scene that a view of a run shows (fitted_at), kept as long as the views' time and window are the
+    /// same; of any other scene these themselves.
+    KeptPaths& shown_in(const ViewState& view);
+
     /// bounds_of the agents of a view.
     const Bounds& bounds(std::span<const DrawnAgent> agents, const ViewState& view);
 
@@ -36,6 +40,7 @@ class KeptPaths {
         std::optional<int> query;
         glm::dvec3 origin{0};
         double time_height = 0;
+        double time_window = 0;  ///< of a run, around the origin's time
         friend bool operator==(const Shapes&, const Shapes&) = default;
     };
     struct Colors {
@@ -44,7 +49,16 @@ class KeptPaths {
         friend bool operator==(const Colors&, const Colors&) = default;
     };
 
+    struct Moment {
+        Show show{};
+        std::optional<double> time;
+        double window = 0;
+        friend bool operator==(const Moment&, const Moment&) = default;
+    };
+
     std::shared_ptr<const FittedScene> fitted_;
+    Moment moment_;
+    std::unique_ptr<KeptPaths> at_moment_;                         ///< of a run
     std::optional<std::pair<std::optional<int>, Bounds>> bounds_;  ///< by the view's query
     std::optional<Shapes> shapes_;
     Colors colors_;

@@ -72,20 +72,6 @@ std::vector<Rect> seen_at(const ViewProjection& projection, std::span<const glm:
     return out;
 }
 
-/// Where the floor is seen, as small rectangles.
-std::vector<Rect> seen_floor(const ViewProjection& projection, std::span<const glm::vec3> corners) {
-    constexpr int kCells = 10;
-    std::vector<Rect> out;
-    for (int i = 0; i <= kCells; ++i) {
-        for (int j = 0; j <= kCells; ++j) {
-            const glm::vec3 along = glm::mix(corners[0], corners[2], static_cast<float>(i) / kCells);
-            const glm::vec3 across = glm::mix(corners[0], corners[1], static_cast<float>(j) / kCells) - corners[0];
-            if (const auto at = projection.project(along + across)) out.push_back(Rect{*at, *at}.grown(8));
-        }
-    }
-    return out;
-}
-
 /// The samples of a path within some seconds of the moment; count 0 if it has none then.
 mobb::SampleRange samples_around(const mobb::PlacedClip& clip, double time, double seconds) {
     const int first = mobb::first_ending_after(clip, 0, clip.count(), time - seconds);
@@ -185,7 +171,7 @@ class MomentPicture final : public Picture {
         const std::vector<Rect> bodies = seen_at(list_.projection, standing_);
         out.insert(out.end(), bodies.begin(), bodies.end());
         if (!crowd_) return out;
-        const std::vector<Rect> floor = seen_floor(list_.projection, corners_);
+        const std::vector<Rect> floor = seen_grid(list_.projection, corners_[0], corners_[3], {10, 10, 0});
         out.insert(out.end(), floor.begin(), floor.end());
         return out;
     }

@@ -3,6 +3,8 @@
 #include <render/layout/legend.h>
 #include <render/pictures/picture.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -66,6 +68,20 @@ DrawList Picture::draw() {
     for (const LabelRequest& label : floor_labels()) layout_.place(label, list_);
     add_names_to(layout_);
     return std::move(list_);
+}
+
+std::vector<Rect> seen_grid(const ViewProjection& projection, glm::vec3 low, glm::vec3 high, glm::ivec3 cells) {
+    std::vector<Rect> out;
+    for (int i = 0; i <= cells.x; ++i) {
+        for (int j = 0; j <= cells.y; ++j) {
+            for (int k = 0; k <= cells.z; ++k) {
+                const glm::vec3 share = glm::vec3(i, j, k) / glm::vec3(glm::max(cells, 1));
+                const auto at = projection.project(low + share * (high - low));
+                if (at) out.push_back(Rect{*at, *at}.grown(8));
+            }
+        }
+    }
+    return out;
 }
 
 glm::dvec3 middle_of(const ShownPoints& points) {

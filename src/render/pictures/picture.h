@@ -14,12 +14,13 @@
 
 #include <glm/vec2.hpp>
 
-#include <span>
+#include <memory>
 #include <vector>
 
 namespace mobbscope {
 
 struct FollowedChoice;  // crowd/simulation/choice.h
+class KeptPaths;        // render/pictures/kept_paths.h
 
 class Picture {
   public:
@@ -74,13 +75,20 @@ class Picture {
     Blocks blocks_;
 };
 
+/// Points of a grid with so many cells along each side of a box between two of its corners, where they are seen, as
+/// small rectangles.
+std::vector<Rect> seen_grid(const ViewProjection& projection, glm::vec3 low, glm::vec3 high, glm::ivec3 cells);
+
 /// The middle of those points.
 glm::dvec3 middle_of(const ShownPoints& points);
+
+/// Paths and boxes of a scene in space-time. `kept`: of the scene; outlives the picture.
+std::unique_ptr<Picture> space_time_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options);
 
 /// Of a run that scene_at made a scene, in space-time. The plane of the view's time stays where it is while time runs,
 /// and the stacks sink through it. `choice`: of the followed agent, or null. Both outlive the picture. Throws
 /// std::invalid_argument if the view follows nobody there is, or asks for a query.
-std::unique_ptr<Picture> crowd_picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options,
+std::unique_ptr<Picture> crowd_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options,
                                        const FollowedChoice* choice);
 
 /// Boxes of more people would bury everything: those of the followed one are shown alone.

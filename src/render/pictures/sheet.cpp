@@ -1,6 +1,7 @@
 #include <render/drawlist/font.h>
-#include <render/pictures/render.h>
+#include <render/drawlist/picture_options.h>
 #include <render/pictures/sheet.h>
+#include <render/text/labels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,15 +55,10 @@ Image title_picture(const std::string& title, PictureSize size, float text, cons
     list.size = size;
     list.palette = palette;
     list.background = background;
-    TextRun run;
-    run.text = fit_text(title, kFace, text, static_cast<float>(size.width));
-    run.face = kFace;
-    run.size = text;
-    const Font& font = Font::of(kFace);
-    const float spare = static_cast<float>(size.width) - font.width(run.text, text);
-    run.baseline = glm::vec2(std::round(0.5f * spare), std::round(font.ascent(text)));
-    run.color = palette.text;
-    list.texts.push_back(run);
+    const auto room = static_cast<float>(size.width);
+    const std::string line = fit_text(title, kFace, text, room);
+    const float left = std::round(0.5f * (room - Font::of(kFace).width(line, text)));
+    list.texts.push_back(text_at(line, kFace, text, palette.text, {left, 0}));
     return renderer.draw(list);
 }
 

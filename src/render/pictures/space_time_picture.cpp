@@ -1,0 +1,144 @@
+#include <explain/query_progress.h>
+#include <render/layout/annotations.h>
+#include <render/layout/block_layout.h>
+#include <render/layout/caption.h>
+#include <render/layout/follow.h>
+#include <render/layout/framing.h>
+#include <render/layout/legend.h>
+#include <render/parts/floor_inset.h>
+#include <render/parts/node_boxes.h>
+#include <render/parts/paths.h>
+#include <render/pictures/kept_paths.h>
+#include <render/pictures/picture.h>
+#include <render/query/query_boxes.h>
+#include <render/text/labels.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+namespace {
+
+/// The view's query at its step. The progress refers to the trace, so the two stay together where they were made.
+struct QueryAtStep {
+    RecordedQuery recorded;
+    QueryProgress progress;
+
+    QueryAtStep(const FittedScene& fitted, const ViewState& view)
+        : recorded(record(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)])),
+          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace))) {}
+    QueryAtStep(const QueryAtStep&) = delete;
+    QueryAtStep& operator=(const QueryAtStep&) = delete;
+};
+
+/// What matters of each path; `behind`: all step back.
+std::vector<PathFocus> foci_of(std::span<const DrawnAgent> agents, const Emphasis& emphasis,
+                               const QueryProgress* progress, bool behind) {
+    std::vector<PathFocus> out(agents.size());
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+        out[i].behind = behind;
+        if (!progress) continue;
+        const DrawnAgent& agent = agents[i];
+        const mobb::Node& tested = agent.placed.node(agent.index == 0 ? progress->event.a : progress->event.b);
+        out[i].range = mobb::SampleRange{tested.first, tested.count};
+        if (emphasis.hits) out[i].hit = (*emphasis.hits)[static_cast<std::size_t>(agent.index)];
+    }
+    return out;
+}
+
+void add_floor_and_axes(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& floor_extent,
+                        const ViewState& view, float scale) {
+    if (view.floor) {
+        add_floor_grid(list, floor_extent, scale);
+        if (!floor_on_edge(list.projection)) {
+            const float height = list.space.point(0, 0, floor_extent.t0).z;
+            for (const DrawnAgent& agent : agents) {
+                add_floor_trace(list, agent, {0, agent.clip().count()}, height, floor_trace_color(agent, list.palette),
+                                1.6f * scale);
+            }
+        }
+    }
+    if (view.time_axis) add_time_axis(list, floor_extent, scale);
+}
+
+/// Paths and boxes in space-time.
+class SpaceTimePicture final : public Picture {
+  public:
+    /// `kept`: of this scene.
+    SpaceTimePicture(KeptPaths& kept, const ViewState& view, const PictureOptions& options)
+        : Picture(*kept.fitted(), view, options) {
+        const Bounds& bounds = kept.bounds(agents_, view_);
+        list_.space = space_for(bounds, view_);
+        list_.space.anchor = camera_anchor(fitted_, view_, view_.time.value_or(bounds.min.z));
+        if (view_.query) query_.emplace(fitted_, view_);
+        emphasis_ = emphasis_of(view_, agents_, bounds.min.z, bounds.max.z, progress());
+        if (view_.boxes && progress()) {
+            add_query_boxes(list_, agents_, *progress(), pair_outline(view_), metrics_.scale);
+        }
+        const bool levels = view_.boxes && !progress();
+        if (levels) add_level_boxes(list_, agents_, view_.levels, view_.color_by, metrics_.scale);
+        if (view_.disks) {
+            const bool behind = levels && view_.color_by == ColorBy::level;
+            points_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, progress(), behind));
+        }
+        const Bounds all = with_boxes(bounds, list_);
+        floor_extent_ = floor_extent_of(all.min, all.max);
+        floor_extent_.t0 = bounds.min.z;
+        floor_extent_.t1 = bounds.max.z;
+        for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
+        list_.middle = middle_of(points_);
+        add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
+    }
+
+  private:
+    const QueryProgress* progress() const { return query_ ? &query_->progress : nullptr; }
+
+    Words words() override {
+        Words out;
+        out.caption = query_ ? query_caption(list_.palette, agents_, query_->recorded, progress()->step)
+                             : scene_caption(fitted_, agents_, view_);
+        if (view_.time && !emphasis_.cursor) {
+            mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
+        }
+        out.legend = legend_entries(list_, agents_, view_, emphasis_, progress());
+        if (emphasis_.cursor) out.map = inset_size(floor_extent_, metrics_.scale);
+        return out;
+    }
+
+    std::vector<Rect> busy() const override { return occupied(list_, floor_extent_, view_, metrics_); }
+
+    std::vector<LabelRequest> content() override {
+        refine_crowded_boxes(list_, metrics_.scale);
+        add_floor_and_axes(list_, agents_, floor_extent_, view_, metrics_.scale);
+        if (view_.disks) {
+            for (const DrawnAgent& agent : agents_) add_thin_path(list_, agent, 1.3f * metrics_.scale);
+        }
+        if (progress() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
+            add_time_intervals(list_, floor_extent_, agents_, progress()->event, metrics_.scale);
+        }
+        if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
+        add_rings(list_, agents_, emphasis_, metrics_.scale);
+        if (!query_) return {};
+        return add_findings(list_, agents_, query_->recorded, *progress(), metrics_);
+    }
+
+    void add_map(glm::vec2 corner) override {
+        add_floor_inset(list_, agents_, floor_extent_, *emphasis_.cursor, corner, metrics_.scale);
+    }
+
+    void add_names_to(LabelLayout& layout) override { add_names(list_, layout, agents_, metrics_); }
+
+    std::optional<QueryAtStep> query_;
+    Emphasis emphasis_;
+};
+
+}  // namespace
+
+std::unique_ptr<Picture> space_time_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options) {
+    return std::make_unique<SpaceTimePicture>(kept, view, options);
+}
+
+}  // namespace mobbscope
