@@ -37,7 +37,7 @@ std::vector<DiskInstance> path() {
         disk.height = 0.1f;
         disk.color = {0.2f, 0.4f, 0.6f, 1};
         disk.id = {0, ObjectId::Kind::disk, i};
-        disk.order = {0, 0, i};
+        disk.order = {DrawLayer::surroundings, 0, i};
     }
     return disks;
 }

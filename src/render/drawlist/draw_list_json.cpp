@@ -214,7 +214,7 @@ void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, 
 }
 
 void write_line(JsonWriter& out, const LineInstance& line, const ViewProjection& projection) {
-    out.member("layer", line.order.layer);
+    out.member("layer", static_cast<int>(line.order.layer));
     vector(out, "from", line.from);
     vector(out, "to", line.to);
     color(out, "color", line.color);

@@ -1,5 +1,5 @@
 #include <render/drawlist/camera.h>
-#include <render/drawlist/draw_list.h>
+#include <render/drawlist/shown_points.h>
 #include <render/layout/common_framing.h>
 
 #include <glm/common.hpp>
@@ -16,16 +16,6 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kFewPoints = 10'000;
-
-void add_disk(std::vector<glm::vec3>& points, const DiskInstance& disk) {
-    constexpr int kDirections = 8;
-    for (int i = 0; i < kDirections; ++i) {
-        const double angle = i * 2 * std::numbers::pi / kDirections;
-        const glm::vec3 rim = disk.base + disk.radius * glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
-        points.push_back(rim);
-        points.push_back(rim + glm::vec3(0, 0, disk.height));
-    }
-}
 
 struct PointExtent {
     glm::dvec3 min{std::numeric_limits<double>::max()};
@@ -48,7 +38,12 @@ void CommonFraming::add(const DrawList& list) {
     space_ = list.space;
     size_ = list.size;
     frame_ = frame_ ? Frame{glm::max(frame_->min, list.frame.min), glm::min(frame_->max, list.frame.max)} : list.frame;
-    for (const DiskInstance& disk : list.disks) add_disk(points_, disk);
+    for (const DiskInstance& disk : list.disks) {
+        for (const glm::vec3& direction : rim_directions()) {
+            const glm::vec3 rim = disk.base + disk.radius * direction;
+            points_.insert(points_.end(), {rim, rim + glm::vec3(0, 0, disk.height)});
+        }
+    }
     for (const BoxInstance& box : list.boxes) {
         for (const glm::vec3& corner : box_corners(box)) points_.push_back(corner);
     }
