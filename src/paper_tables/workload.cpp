@@ -1,5 +1,5 @@
 #include <base/random.h>
-#include <crowd/graph/graph_walk.h>
+#include <crowd/graph/build_graph.h>
 #include <paper_tables/workload.h>
 
 #include <algorithm>

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <mobb/clip.h>
-
-#include <array>
+#include <mobb/kdop.h>
 
 namespace mobbscope {
 
@@ -17,19 +16,19 @@ struct FloorRect {
     }
 };
 
-/// A polygon around all disks of a clip: the tight one whose sides face 16 directions. It reaches past them by
-/// a tenth of the clip's extent at most. mobb::KDop is tighter, but where a run's agents first stand is drawn by these
-/// bounds: with others the same seed would give another run.
+/// A polygon around all disks of a clip. Where a run's agents first stand is drawn by these bounds: with others the
+/// same seed would give another run.
 class ClipBounds {
   public:
-    explicit ClipBounds(const mobb::Clip& clip);
+    explicit ClipBounds(const mobb::Clip& clip)
+        : corners_(mobb::KDop(clip.samples()).coarse_corners()), reach_(clip.reach()) {}
 
     /// Holds every disk of the clip where it is placed, rounding included.
     FloorRect bounds(const mobb::Placement& placement) const;
 
   private:
-    std::array<glm::dvec2, 16> corners_;  ///< in the clip's frame
-    double reach_;                        ///< of the clip: what rounding is measured by
+    std::array<glm::dvec2, mobb::KDop::kDirections / 2> corners_;  ///< in the clip's frame
+    double reach_;                                                 ///< of the clip: what rounding is measured by
 };
 
 /// Whether some disk reaches over a wall of the floor, which goes from -area/2 to area/2. Touching a wall is allowed.
