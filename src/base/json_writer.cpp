@@ -33,11 +33,6 @@ void JsonWriter::value(double number) {
     out_ << (digits_ == Digits::all ? format_double(number) : few_digits(number));
 }
 
-void JsonWriter::value(std::int64_t number) {
-    separate();
-    out_ << std::to_string(number);
-}
-
 void JsonWriter::value(bool boolean) {
     separate();
     out_ << (boolean ? "true" : "false");

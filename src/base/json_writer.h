@@ -1,9 +1,11 @@
 /// JSON text, written as it goes: whatever the size, nothing is kept.
 #pragma once
 
-#include <cstdint>
+#include <concepts>
 #include <initializer_list>
+#include <optional>
 #include <ostream>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,23 +26,56 @@ class JsonWriter {
     explicit JsonWriter(std::ostream& out, Digits digits = Digits::all) : out_(out), digits_(digits) {}
 
     void begin_object(Layout layout = Layout::lines) { begin('{', layout); }
+    void begin_object(std::string_view name, Layout layout = Layout::lines) {
+        key(name);
+        begin_object(layout);
+    }
     void end_object() { end('}'); }
     void begin_array(Layout layout = Layout::lines) { begin('[', layout); }
+    void begin_array(std::string_view name, Layout layout = Layout::lines) {
+        key(name);
+        begin_array(layout);
+    }
     void end_array() { end(']'); }
 
     void key(std::string_view key);
     void value(double number);
-    void value(std::int64_t number);
-    void value(int number) { value(static_cast<std::int64_t>(number)); }
+    template <std::integral Number>
+    void value(Number number) {
+        separate();
+        out_ << std::to_string(number);
+    }
     void value(bool boolean);
     void value(std::string_view string);
     void value(const char* string) { value(std::string_view(string)); }
+    /// Null where there is none.
+    template <class T>
+    void value(const std::optional<T>& of) {
+        of ? value(*of) : null();
+    }
     void null();
 
     template <class T>
     void member(std::string_view name, const T& of) {
         key(name);
         value(of);
+    }
+    void member(std::string_view name, std::initializer_list<double> list) {
+        key(name);
+        numbers(list);
+    }
+    /// An array of which `write` writes each element.
+    template <class Items, class Write>
+    void list(std::string_view name, const Items& items, Write write, Layout layout = Layout::lines) {
+        begin_array(name, layout);
+        for (const auto& item : items) write(item);
+        end_array();
+    }
+    /// Values on one line.
+    template <class Items>
+    void values(std::string_view name, const Items& items) {
+        list(
+            name, items, [this](const auto& item) { value(item); }, Layout::row);
     }
     /// Numbers on one line.
     void numbers(std::initializer_list<double> list) {

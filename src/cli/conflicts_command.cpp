@@ -121,33 +121,26 @@ void write_json(const Findings& findings) {
     JsonWriter out(std::cout);
     out.begin_object();
     out.member("file", scene.file.string());
-    out.member("agents", static_cast<std::int64_t>(findings.agents()));
-    out.key("radius");
-    const std::optional<double> radius = common_radius(scene);
-    radius ? out.value(*radius) : out.null();
-    out.member("pairs", static_cast<std::int64_t>(findings.pairs()));
+    out.member("agents", findings.agents());
+    out.member("radius", common_radius(scene));
+    out.member("pairs", findings.pairs());
     out.member("pairs_tested", findings.conflicts.pairs_tested);
     out.member("seconds", findings.seconds());
-    out.key("conflicts");
-    out.begin_array();
-    for (const Conflict& conflict : findings.conflicts.found) {
+    out.list("conflicts", findings.conflicts.found, [&](const Conflict& conflict) {
+        const glm::dvec2 position = findings.position(conflict);
         out.begin_object(Layout::row);
         out.member("a", findings.name(conflict.a));
         out.member("b", findings.name(conflict.b));
-        out.key("intervals");
-        out.begin_array(Layout::row);
-        for (const mobb::Interval& interval : conflict.intervals) out.numbers({interval.t0, interval.t1});
-        out.end_array();
+        out.list("intervals", conflict.intervals, [&](const mobb::Interval& interval) {
+            out.numbers({interval.t0, interval.t1});
+        });
         out.member("least_clearance", conflict.least_clearance);
         out.member("time", conflict.time);
         out.member("a_sample", conflict.a_sample);
         out.member("b_sample", conflict.b_sample);
-        out.key("position");
-        const glm::dvec2 position = findings.position(conflict);
-        out.numbers({position.x, position.y});
+        out.member("position", {position.x, position.y});
         out.end_object();
-    }
-    out.end_array();
+    });
     out.end_object();
 }
 
@@ -169,11 +162,9 @@ void print_text(const Findings& findings) {
                   << to_millimetres(position.y) << "), samples " << conflict.a_sample << " and " << conflict.b_sample
                   << '\n';
     }
-    const auto count = [](std::size_t number) { return static_cast<long long>(number); };
-    std::cout << counted(count(findings.conflicts.found.size()), "conflict", "conflicts") << " among "
-              << counted(count(findings.agents()), "agent", "agents") << ", " << brief(findings.seconds())
-              << " s in all; " << findings.conflicts.pairs_tested << " of "
-              << counted(count(findings.pairs()), "pair", "pairs") << " tested\n";
+    std::cout << counted(findings.conflicts.found.size(), "conflict", "conflicts") << " among "
+              << counted(findings.agents(), "agent", "agents") << ", " << brief(findings.seconds()) << " s in all; "
+              << findings.conflicts.pairs_tested << " of " << counted(findings.pairs(), "pair", "pairs") << " tested\n";
 }
 
 void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {

@@ -28,8 +28,7 @@ struct FitCommandArguments {
 void print_json(const FittedScene& fitted) {
     JsonWriter out(std::cout);
     out.begin_object();
-    out.key("trees");
-    out.begin_array();
+    out.begin_array("trees");
     for (int i = 0; i < static_cast<int>(fitted.scene().clips.size()); ++i) {
         write_tree(out, fitted.scene().clips[static_cast<std::size_t>(i)].name, fitted.tree(i));
     }

@@ -41,18 +41,16 @@ void print_more(std::ostream& out, std::size_t all) {
 }
 
 void write_spread(JsonWriter& out, const char* key, const Scene& scene, const TransitionSpread& spread) {
-    out.key(key);
-    out.begin_object(Layout::row);
-    out.member("count", static_cast<std::int64_t>(spread.count));
-    const bool any = spread.count > 0;
-    out.key("median");
-    any ? out.value(spread.median) : out.null();
-    out.key("largest");
-    any ? out.value(spread.largest) : out.null();
-    out.key("before");
-    any ? out.value(clip_of_move(scene, spread.before)) : out.null();
-    out.key("after");
-    any ? out.value(clip_of_move(scene, spread.after)) : out.null();
+    const auto if_any = [&spread](const auto& value) { return spread.count > 0 ? std::optional(value) : std::nullopt; };
+    const auto clip = [&](int move) {
+        return spread.count > 0 ? std::optional(clip_of_move(scene, move)) : std::nullopt;
+    };
+    out.begin_object(key, Layout::row);
+    out.member("count", spread.count);
+    out.member("median", if_any(spread.median));
+    out.member("largest", if_any(spread.largest));
+    out.member("before", clip(spread.before));
+    out.member("after", clip(spread.after));
     out.end_object();
 }
 
@@ -97,64 +95,43 @@ void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures&
 
 void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& figures,
                       const TransitionMeasures& transitions) {
-    const MotionGraph& graph = *scene.graph;
     JsonWriter out(to);
     out.begin_object();
     out.member("file", scene.file.string());
-    out.key("hubs");
-    out.begin_array();
-    for (const HubFigures& hub : figures.hubs) {
+    out.list("hubs", figures.hubs, [&](const HubFigures& hub) {
         out.begin_object(Layout::row);
         out.member("name", hub.name);
-        out.member("begin", static_cast<std::int64_t>(hub.begin));
-        out.member("end", static_cast<std::int64_t>(hub.end));
+        out.member("begin", hub.begin);
+        out.member("end", hub.end);
         out.member("speed", hub.speed);
         out.end_object();
-    }
-    out.end_array();
-    out.member("moves", static_cast<std::int64_t>(figures.moves));
+    });
+    out.member("moves", figures.moves);
     out.member("seconds", figures.seconds);
-    out.key("bounds");
-    out.begin_object(Layout::row);
-    out.member("pose_distance", graph.bounds.pose_distance);
-    out.member("root_speed", graph.bounds.root_speed);
-    out.end_object();
-    out.key("joints");
-    out.begin_object();
-    out.member("count", static_cast<std::int64_t>(transitions.count));
+    write_bounds(out, scene.graph->bounds);
+    out.begin_object("joints");
+    out.member("count", transitions.count);
     write_spread(out, "pose_distance", scene, transitions.pose_distance);
     write_spread(out, "root_speed", scene, transitions.root_speed);
     out.end_object();
     out.member("choices", figures.choices);
     out.member("seconds_between_choices", figures.seconds_between_choices);
-    out.key("components");
-    out.begin_array();
-    for (const ComponentFigures& part : figures.components) {
+    out.list("components", figures.components, [&](const ComponentFigures& part) {
         out.begin_object(Layout::row);
-        out.key("hubs");
-        out.begin_array(Layout::row);
-        for (const int hub : part.hubs) out.value(hub);
-        out.end_array();
-        out.member("moves", static_cast<std::int64_t>(part.moves));
+        out.values("hubs", part.hubs);
+        out.member("moves", part.moves);
         out.member("seconds", part.seconds);
         out.end_object();
-    }
-    out.end_array();
-    out.key("dead_ends");
-    out.begin_array(Layout::row);
-    for (const int hub : figures.dead_ends) out.value(hub);
-    out.end_array();
-    out.key("sources");
-    out.begin_array();
-    for (const SourceFigures& source : figures.sources) {
+    });
+    out.values("dead_ends", figures.dead_ends);
+    out.list("sources", figures.sources, [&](const SourceFigures& source) {
         out.begin_object(Layout::row);
         out.key("file");
         source.file.empty() ? out.null() : out.value(source.file);
-        out.member("moves", static_cast<std::int64_t>(source.moves));
+        out.member("moves", source.moves);
         out.member("seconds", source.seconds);
         out.end_object();
-    }
-    out.end_array();
+    });
     out.member("holds", broken_bounds(scene, transitions).empty());
     out.end_object();
 }

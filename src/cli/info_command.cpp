@@ -17,8 +17,6 @@ namespace mobbscope::cli {
 
 namespace {
 
-using Layout = JsonWriter::Layout;
-
 struct InfoCommandArguments {
     std::vector<std::filesystem::path> files;
     bool json = false;
@@ -85,8 +83,7 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     write_skeleton(out, facts);
     out.member("unit", facts.unit);
     out.member("file_frames", facts.frames);
-    out.key("file_dt");
-    facts.dt ? out.value(*facts.dt) : out.null();
+    out.member("file_dt", facts.dt);
     out.member("file_duration", facts.duration);
     out.member("samples", clip.clip->count());
     out.member("dt", clip.clip->dt());
@@ -96,10 +93,7 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("min_radius", figures.min_radius);
     out.member("mean_radius", figures.mean_radius);
     out.member("max_radius", figures.max_radius);
-    out.key("warnings");
-    out.begin_array(Layout::row);
-    for (const std::string& warning : facts.warnings) out.value(warning);
-    out.end_array();
+    out.values("warnings", facts.warnings);
     out.end_object();
 }
 
@@ -166,8 +160,7 @@ void run_info(const InfoCommandArguments& arguments) {
     JsonWriter json(std::cout);
     if (arguments.json) {
         json.begin_object();
-        json.key("clips");
-        json.begin_array();
+        json.begin_array("clips");
     }
     for (const Scene& scene : scenes) {
         if (!arguments.json) {

@@ -92,8 +92,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
     JsonWriter json(std::cout);
     if (arguments.json) {
         json.begin_object();
-        json.key("results");
-        json.begin_array();
+        json.begin_array("results");
     }
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];

@@ -132,25 +132,24 @@ double queries_per_second(const Summary& summary) {
 void print_run_json(const Summary& summary) {
     const SimulationCounts& c = summary.counts;
     JsonWriter out(std::cout);
-    const auto count = [&out](const char* key, auto value) { out.member(key, static_cast<std::int64_t>(value)); };
     out.begin_object();
-    count("agents", c.agents);
+    out.member("agents", c.agents);
     out.member("simulated_seconds", c.simulated);
-    count("plays", c.plays);
-    count("choices", c.choices);
-    count("candidates", c.candidates);
-    count("off_floor", c.off_floor);
-    count("colliding", c.colliding);
-    count("in_the_way", c.in_the_way);
-    count("pivots", c.pivots);
-    count("forced", c.forced);
-    count("queries", c.queries);
-    count("most_held", c.most_held);
+    out.member("plays", c.plays);
+    out.member("choices", c.choices);
+    out.member("candidates", c.candidates);
+    out.member("off_floor", c.off_floor);
+    out.member("colliding", c.colliding);
+    out.member("in_the_way", c.in_the_way);
+    out.member("pivots", c.pivots);
+    out.member("forced", c.forced);
+    out.member("queries", c.queries);
+    out.member("most_held", c.most_held);
     out.member("wall_seconds", summary.seconds);
     out.member("queries_per_second", queries_per_second(summary));
     if (summary.recorded) {
-        count("recorded", summary.recorded->first);
-        count("recorded_of", summary.recorded->second);
+        out.member("recorded", summary.recorded->first);
+        out.member("recorded_of", summary.recorded->second);
     }
     out.end_object();
 }

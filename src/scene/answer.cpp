@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace mobbscope {
 
 namespace {
-
-using Layout = JsonWriter::Layout;
 
 // A capture may come from a program that computes in another order; this is far above rounding, far below meaning.
 constexpr double kAgreement = 1e-9;
@@ -52,21 +49,19 @@ Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details&
 
 void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, const Answer& answer) {
     out.begin_object();
-    out.member("query", static_cast<std::int64_t>(index));
+    out.member("query", index);
     out.member("a", query.a.name);
     out.member("b", query.b.name);
     out.member("collides", answer.contact.has_value());
     out.key("contact");
     write_contact(out, answer.contact);
-    out.key("tests");
-    out.begin_object(Layout::row);
+    out.begin_object("tests", JsonWriter::Layout::row);
     for (const mobb::TestKind test : mobb::kTestKinds) out.member(mobb::name(test), answer.tests[test]);
     out.end_object();
     if (answer.contacts) {
-        out.key("contacts");
-        out.begin_array();
-        for (const mobb::Interval& interval : *answer.contacts) out.numbers({interval.t0, interval.t1});
-        out.end_array();
+        out.list("contacts", *answer.contacts, [&](const mobb::Interval& interval) {
+            out.numbers({interval.t0, interval.t1});
+        });
     }
     if (answer.trace) {
         out.key("trace");

@@ -147,8 +147,7 @@ class CrowdReader {
 void write_play(JsonWriter& out, const Play& play) {
     out.begin_object(JsonWriter::Layout::row);
     out.member("move", play.move);
-    out.key("translate");
-    out.numbers({play.placement.translate.x, play.placement.translate.y});
+    out.member("translate", {play.placement.translate.x, play.placement.translate.y});
     out.member("rotate_deg", play.placement.rotate_deg);
     out.member("start", play.placement.start);
     if (play.chosen_at != play.placement.start) out.member("chosen_at", play.chosen_at);
@@ -164,24 +163,17 @@ std::shared_ptr<const CrowdRun> read_crowd(const JsonPlace& place, const Scene& 
 
 void write_crowd(JsonWriter& out, const CrowdRun& crowd) {
     out.begin_object();
-    out.key("area");
-    out.numbers({crowd.area.x, crowd.area.y});
+    out.member("area", {crowd.area.x, crowd.area.y});
     out.member("seconds", crowd.seconds);
-    out.member("seed", static_cast<std::int64_t>(crowd.seed));
+    out.member("seed", crowd.seed);
     out.member("ahead", crowd.ahead);
     out.member("grace", crowd.grace);
-    out.key("agents");
-    out.begin_array();
-    for (const CrowdAgent& agent : crowd.agents) {
+    out.list("agents", crowd.agents, [&](const CrowdAgent& agent) {
         out.begin_object();
         out.member("name", agent.name);
-        out.key("plays");
-        out.begin_array();
-        for (const Play& play : agent.plays) write_play(out, play);
-        out.end_array();
+        out.list("plays", agent.plays, [&](const Play& play) { write_play(out, play); });
         out.end_object();
-    }
-    out.end_array();
+    });
     out.end_object();
 }
 

@@ -29,11 +29,9 @@ mobb::Axes read_axes(const JsonPlace& place) {
 
 using Layout = JsonWriter::Layout;
 
-/// The first `count` coordinates of a vector.
+/// The first 2 or 3 coordinates of a vector.
 void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
-    out.begin_array(Layout::row);
-    for (int i = 0; i < count; ++i) out.value(v[i]);
-    out.end_array();
+    count == 2 ? out.numbers({v.x, v.y}) : out.numbers({v.x, v.y, v.z});
 }
 
 void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
@@ -51,15 +49,14 @@ void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     out.key("center");
     // A moving box has its centre in the middle of its time; files give it at t0.
     write_vector(out, box.center - glm::dvec3(box.drift, 0), dimensions);
-    out.key("axes");
-    out.begin_array();
+    out.begin_array("axes");
     for (int i = 0; i < dimensions; ++i) write_vector(out, box.axes[static_cast<std::size_t>(i)], dimensions);
     out.end_array();
     out.key("half");
     write_vector(out, box.half, dimensions);
     if (box.kind == mobb::BoxKind::moving) {
-        out.key("velocity");
-        write_vector(out, glm::dvec3(2.0 * box.drift / (tree.t1(node) - tree.t0(node)), 0), 2);
+        const glm::dvec2 velocity = 2.0 * box.drift / (tree.t1(node) - tree.t0(node));
+        out.member("velocity", {velocity.x, velocity.y});
     }
     out.member("t0", tree.t0(node));
     out.member("t1", tree.t1(node));
@@ -104,12 +101,9 @@ void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree
     out.member("axes", mobb::name(tree.options().axes));
     out.member("leaf", tree.options().leaf);
     out.member("time_scale", tree.options().time_scale);
-    out.key("levels");
-    out.begin_array();
-    for (const mobb::LevelFigures& figures : mobb::level_figures(tree)) write_level(out, figures);
-    out.end_array();
-    out.key("nodes");
-    out.begin_array();
+    out.list("levels", mobb::level_figures(tree),
+             [&](const mobb::LevelFigures& figures) { write_level(out, figures); });
+    out.begin_array("nodes");
     for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) write_node(out, tree, i);
     out.end_array();
     out.end_object();

@@ -51,8 +51,7 @@ Stance read_stance(const JsonPlace& place) {
 }
 
 void write_stance(JsonWriter& out, const char* key, const Stance& stance) {
-    out.key(key);
-    out.numbers({stance.position.x, stance.position.y, stance.heading_deg});
+    out.member(key, {stance.position.x, stance.position.y, stance.heading_deg});
 }
 
 }  // namespace
@@ -103,25 +102,23 @@ MotionGraph read_graph(const JsonPlace& place, const std::function<int(const Jso
     return graph;
 }
 
+void write_bounds(JsonWriter& out, const GraphBounds& bounds) {
+    out.begin_object("bounds", Layout::row);
+    // An infinite number is written as null, which reads as no bound.
+    out.member("pose_distance", bounds.pose_distance);
+    out.member("root_speed", bounds.root_speed);
+    out.end_object();
+}
+
 void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name) {
     out.begin_object();
-    out.key("hubs");
-    out.begin_array();
-    for (const GraphHub& hub : graph.hubs) {
+    out.list("hubs", graph.hubs, [&](const GraphHub& hub) {
         out.begin_object(Layout::row);
         out.member("name", hub.name);
         out.end_object();
-    }
-    out.end_array();
-    out.key("bounds");
-    out.begin_object(Layout::row);
-    // An infinite number is written as null, which reads as no bound.
-    out.member("pose_distance", graph.bounds.pose_distance);
-    out.member("root_speed", graph.bounds.root_speed);
-    out.end_object();
-    out.key("moves");
-    out.begin_array();
-    for (const GraphMove& move : graph.moves) {
+    });
+    write_bounds(out, graph.bounds);
+    out.list("moves", graph.moves, [&](const GraphMove& move) {
         out.begin_object(Layout::row);
         out.member("clip", clip_name(move.clip));
         out.member("from", move.from);
@@ -129,8 +126,7 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
         write_stance(out, "entry", move.entry);
         write_stance(out, "exit", move.exit);
         out.end_object();
-    }
-    out.end_array();
+    });
     out.end_object();
 }
 

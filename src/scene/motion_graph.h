@@ -74,6 +74,9 @@ std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph);
 /// A hub that no move leaves is allowed. Throws InputError.
 MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at);
 
+/// The member `bounds` of an object.
+void write_bounds(JsonWriter& out, const GraphBounds& bounds);
+
 /// `clip_name` gives the name of the clip with an index.
 void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<std::string(int)>& clip_name);
 

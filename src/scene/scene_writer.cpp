@@ -21,10 +21,7 @@ void write_options(JsonWriter& out, const ImportOptions& options) {
     if (options.fps) out.member("fps", *options.fps);
     if (options.unit) out.member("unit", *options.unit);
     if (options.up) out.member("up", *options.up);
-    if (options.trim) {
-        out.key("trim");
-        out.numbers({options.trim->first, options.trim->second});
-    }
+    if (options.trim) out.member("trim", {options.trim->first, options.trim->second});
     if (options.origin) out.member("origin", name(*options.origin));
     if (options.id) out.member("id", *options.id);
     if (options.radius) out.member("radius", *options.radius);
@@ -42,16 +39,12 @@ void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
     }
     out.begin_object();
     out.member("dt", clip.clip->dt());
-    out.key("samples");
-    out.begin_array();
-    for (const mobb::Disk& disk : clip.clip->samples()) out.numbers({disk.x, disk.y, disk.r});
-    out.end_array();
+    out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.numbers({disk.x, disk.y, disk.r}); });
     out.end_object();
 }
 
 void write_placement(JsonWriter& out, const mobb::Placement& placement) {
-    out.key("translate");
-    out.numbers({placement.translate.x, placement.translate.y});
+    out.member("translate", {placement.translate.x, placement.translate.y});
     out.member("rotate_deg", placement.rotate_deg);
     out.member("start", placement.start);
 }
@@ -90,8 +83,7 @@ void write_query(JsonWriter& out, const Scene& scene, const SceneQuery& query) {
     out.key("b");
     write_participant(out, scene, query.b);
     if (query.expect) {
-        out.key("expect");
-        out.begin_object(Layout::row);
+        out.begin_object("expect", Layout::row);
         out.member("collides", query.expect->collides);
         out.key("contact");
         write_contact(out, query.expect->contact);
@@ -111,8 +103,7 @@ std::string to_json(const Scene& scene, bool inline_samples) {
     JsonWriter out(text);
     out.begin_object();
     out.member("mobbscope", 1);
-    out.key("clips");
-    out.begin_object();
+    out.begin_object("clips");
     for (const SceneClip& clip : scene.clips) write_clip(out, clip, inline_samples);
     out.end_object();
     if (scene.graph) {
@@ -120,18 +111,12 @@ std::string to_json(const Scene& scene, bool inline_samples) {
         write_graph(out, *scene.graph, [&scene](int clip) { return scene.clips[static_cast<std::size_t>(clip)].name; });
     }
     if (!scene.agents.empty()) {
-        out.key("agents");
-        out.begin_array();
-        for (const Agent& agent : scene.agents) write_agent(out, scene, agent);
-        out.end_array();
+        out.list("agents", scene.agents, [&](const Agent& agent) { write_agent(out, scene, agent); });
     }
     out.key("fit");
     write_fit(out, scene.fit);
     if (!scene.queries.empty()) {
-        out.key("queries");
-        out.begin_array();
-        for (const SceneQuery& query : scene.queries) write_query(out, scene, query);
-        out.end_array();
+        out.list("queries", scene.queries, [&](const SceneQuery& query) { write_query(out, scene, query); });
     }
     if (scene.crowd) {
         out.key("crowd");

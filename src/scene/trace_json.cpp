@@ -82,16 +82,13 @@ void write_event(JsonWriter& out, int step, const mobb::Trace::Event& event) {
     separated ? out.value(event.axis) : out.null();
     out.key("gap");
     separated ? out.value(event.gap) : out.null();
-    out.key("pairs");
-    out.begin_array();
-    for (const mobb::MeasuredPair& pair : event.pairs) {
+    out.list("pairs", event.pairs, [&](const mobb::MeasuredPair& pair) {
         out.begin_array();
         out.value(pair.i);
         out.value(pair.j);
         out.value(pair.distance);
         out.end_array();
-    }
-    out.end_array();
+    });
     out.end_object();
 }
 

@@ -72,13 +72,9 @@ void write_camera(JsonWriter& out, const Camera& camera) {
     if (camera.perspective != standard.perspective) out.member("perspective", camera.perspective);
     if (camera.fov_deg != standard.fov_deg) out.member("fov_deg", camera.fov_deg);
     if (camera.target) {
-        out.key("target");
-        out.numbers({camera.target->x, camera.target->y, camera.target->z});
+        out.member("target", {camera.target->x, camera.target->y, camera.target->z});
         out.member("distance", camera.distance);
-        if (camera.shift != standard.shift) {
-            out.key("shift");
-            out.numbers({camera.shift.x, camera.shift.y});
-        }
+        if (camera.shift != standard.shift) out.member("shift", {camera.shift.x, camera.shift.y});
     }
     out.end_object();
 }

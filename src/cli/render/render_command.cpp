@@ -37,9 +37,7 @@ void print_words(const std::vector<BackendReport>& backends) {
 void print_backends_json(const std::vector<BackendReport>& backends) {
     JsonWriter json(std::cout);
     json.begin_object();
-    json.key("backends");
-    json.begin_array();
-    for (const BackendReport& backend : backends) {
+    json.list("backends", backends, [&](const BackendReport& backend) {
         json.begin_object();
         json.member("name", backend.name);
         json.member("works", backend.works);
@@ -50,8 +48,7 @@ void print_backends_json(const std::vector<BackendReport>& backends) {
             json.member("why_not", backend.why_not);
         }
         json.end_object();
-    }
-    json.end_array();
+    });
     json.end_object();
 }
 
