@@ -82,41 +82,14 @@ bool on_screen(const ViewProjection& projection, const DiskInstance& disk) {
 }
 
 std::string_view name(BoxState state) {
-    switch (state) {
-        case BoxState::level:
-            return "level";
-        case BoxState::under_test:
-            return "under_test";
-        case BoxState::apart_in_time:
-            return "apart_in_time";
-        case BoxState::separated:
-            return "separated";
-        case BoxState::overlap:
-            return "overlap";
-        case BoxState::hit:
-            return "hit";
-        case BoxState::annotation:
-            break;
-    }
-    return "annotation";
+    constexpr std::array<std::string_view, 7> kNames{"level",   "under_test", "apart_in_time", "separated",
+                                                     "overlap", "hit",        "annotation"};
+    return kNames[static_cast<std::size_t>(state)];
 }
 
 std::string_view name(LegendEntry::Mark mark) {
-    switch (mark) {
-        case LegendEntry::Mark::disk:
-            return "disk";
-        case LegendEntry::Mark::ring:
-            return "ring";
-        case LegendEntry::Mark::double_ring:
-            return "double_ring";
-        case LegendEntry::Mark::box:
-            return "box";
-        case LegendEntry::Mark::line:
-            return "line";
-        case LegendEntry::Mark::remark:
-            break;
-    }
-    return "remark";
+    constexpr std::array<std::string_view, 6> kNames{"disk", "ring", "double_ring", "box", "line", "remark"};
+    return kNames[static_cast<std::size_t>(mark)];
 }
 
 std::string color_text(Rgba color) {
@@ -131,8 +104,7 @@ std::string color_text(Rgba color) {
 
 template <class Vector>
 void vector(JsonWriter& out, const char* key, const Vector& v) {
-    out.key(key);
-    out.begin_array(Layout::row);
+    out.begin_array(key, Layout::row);
     for (int i = 0; i < v.length(); ++i) out.value(static_cast<double>(v[i]));
     out.end_array();
 }
@@ -144,42 +116,33 @@ void color(JsonWriter& out, const char* key, Rgba value) { out.member(key, color
 /// Rows of an array.
 template <class Items, class Write>
 void rows(JsonWriter& out, const char* key, const Items& items, const Write& write) {
-    out.key(key);
-    out.begin_array();
-    for (const auto& item : items) {
+    out.list(key, items, [&](const auto& item) {
         out.begin_object(Layout::row);
         write(item);
         out.end_object();
-    }
-    out.end_array();
+    });
 }
 
 void write_object(JsonWriter& out, const Objects& objects, const std::optional<ObjectId>& id, const char* kind) {
-    const std::size_t number = objects.number(id);
-    out.member("id", static_cast<std::int64_t>(number));
-    out.key("participant");
-    id ? out.value(id->agent) : out.null();
-    out.key(kind);
-    id ? out.value(id->index) : out.null();
+    out.member("id", objects.number(id));
+    out.member("participant", id ? std::optional(id->agent) : std::nullopt);
+    out.member(kind, id ? std::optional(id->index) : std::nullopt);
 }
 
 void write_seen(JsonWriter& out, const Objects& objects, const std::optional<ObjectId>& id, bool on_screen) {
     out.member("on_screen", on_screen);
     if (!objects.counted()) return;
-    out.key("pixels");
-    id ? out.value(objects.pixels(objects.number(id))) : out.null();
+    out.member("pixels", id ? std::optional(objects.pixels(objects.number(id))) : std::nullopt);
 }
 
 void write_camera(JsonWriter& out, const ViewProjection& projection) {
-    out.key("camera");
-    out.begin_object();
+    out.begin_object("camera");
     vector(out, "eye", projection.eye);
     vector(out, "right", projection.right);
     vector(out, "up", projection.up);
     vector(out, "back", projection.back);
     out.member("perspective", projection.perspective);
-    out.key("clip_from_world");
-    out.begin_array(Layout::row);
+    out.begin_array("clip_from_world", Layout::row);
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) out.value(double{projection.clip_from_world[column][row]});
     }
@@ -202,10 +165,7 @@ void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, 
     out.member("level", box.order.level);
     out.member("state", name(box.state));
     vector(out, "center", box.center);
-    out.key("extents");
-    out.begin_array();
-    for (const glm::vec3& extent : box.extents) out.numbers({extent.x, extent.y, extent.z});
-    out.end_array();
+    out.list("extents", box.extents, [&](const glm::vec3& e) { out.numbers({e.x, e.y, e.z}); });
     color(out, "fill", box.fill);
     color(out, "edge", box.edge);
     number(out, "width", box.width);
@@ -286,10 +246,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     out.begin_object();
     vector(out, "size", glm::ivec2(list.size.width, list.size.height));
     color(out, "background", list.background.value_or(list.palette.background));
-    out.key("participants");
-    out.begin_array(Layout::row);
-    for (const std::string& agent : list.agents) out.value(agent);
-    out.end_array();
+    out.values("participants", list.agents);
     write_camera(out, list.projection);
     rows(out, "disks", sorted(list.disks),
          [&](const DiskInstance& disk) { write_disk(out, disk, objects, list.projection); });
