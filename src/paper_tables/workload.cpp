@@ -2,6 +2,8 @@
 #include <crowd/graph/build_graph.h>
 #include <paper_tables/workload.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -16,8 +18,8 @@ glm::dvec2 middle(const mobb::Clip& clip) {
     glm::dvec2 low{std::numeric_limits<double>::infinity()};
     glm::dvec2 high = -low;
     for (const mobb::Disk& disk : clip.samples()) {
-        low = glm::dvec2{std::min(low.x, disk.x), std::min(low.y, disk.y)};
-        high = glm::dvec2{std::max(high.x, disk.x), std::max(high.y, disk.y)};
+        low = glm::min(low, {disk.x, disk.y});
+        high = glm::max(high, {disk.x, disk.y});
     }
     return (low + high) / 2.0;
 }

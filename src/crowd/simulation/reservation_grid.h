@@ -93,7 +93,6 @@ class ReservationGrid {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
     Held held(const PlayedMove& motion) const;
-    void take_from_cells(std::uint32_t slot);
     /// Calls visit(slot) once for each motion that reaches into a cell of the range.
     template <class Visit>
     void visit_cells(const CellRange& range, const Visit& visit) const;

@@ -63,7 +63,7 @@ Camera CommonFraming::still(const Camera& camera) const {
     PictureFrame picture;
     picture.size = size_;
     picture.space = space_;
-    picture.projection = make_projection(camera, points_, nullptr, *frame_, size_);
+    picture.projection = make_projection(camera, ShownPoints(points_), nullptr, *frame_, size_);
     picture.middle = extent_of(points_).middle();
     return resolved_camera(camera, picture);
 }

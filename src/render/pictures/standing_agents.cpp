@@ -337,18 +337,7 @@ void add_body_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
     for (const Body& body : moment.bodies) {
         const DrawnAgent& agent = agents[static_cast<std::size_t>(body.agent)];
         const glm::vec3 top = list.space.point(body.disk.x, body.disk.y, body.height);
-        const auto anchor = list.projection.project(top);
-        if (!anchor) continue;
-        LabelRequest label;
-        label.text = fit_text(agent.label, FontFace::text, metrics.text, 0.3f * static_cast<float>(list.size.width));
-        label.size = metrics.text;
-        label.color = readable(agent.color, list.palette);
-        label.anchor = *anchor;
-        label.directions = {{0, -1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}};
-        const float radius = static_cast<float>(body.disk.r) * list.projection.pixels_per_metre(top);
-        label.pill = true;
-        label.distance = radius * std::max(std::abs(list.projection.back.z), 0.1f) + 0.4f * metrics.text;
-        layout.place(label, list);
+        if (const auto label = name_label(list, agent, top, body.disk.r, metrics.text)) layout.place(*label, list);
     }
 }
 
