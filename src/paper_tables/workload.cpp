@@ -39,6 +39,23 @@ Workload workload_of_scene(const Scene& scene) {
     return workload;
 }
 
+std::vector<mobb::Tree> trees_of(const Workload& workload, const mobb::FitOptions& options) {
+    std::vector<mobb::Tree> trees;
+    trees.reserve(workload.clips.size());
+    for (const mobb::ClipPtr& clip : workload.clips) trees.emplace_back(clip, options);
+    return trees;
+}
+
+PlacedPair<mobb::PlacedClip> placed(const Workload& workload, const WorkloadQuery& query) {
+    return {{*workload.clips[static_cast<std::size_t>(query.clip_a)], query.a},
+            {*workload.clips[static_cast<std::size_t>(query.clip_b)], query.b}};
+}
+
+PlacedPair<mobb::PlacedTree> placed(const std::vector<mobb::Tree>& trees, const WorkloadQuery& query) {
+    return {{trees[static_cast<std::size_t>(query.clip_a)], query.a},
+            {trees[static_cast<std::size_t>(query.clip_b)], query.b}};
+}
+
 double mean_duration(const Workload& workload) {
     if (workload.clips.empty()) return 0;
     double sum = 0;

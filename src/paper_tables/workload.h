@@ -3,6 +3,7 @@
 
 #include <crowd/simulation/simulate.h>
 #include <mobb/clip.h>
+#include <mobb/placed_tree.h>
 #include <scene/scene.h>
 
 #include <cstdint>
@@ -24,6 +25,18 @@ struct Workload {
     std::vector<WorkloadQuery> queries;
     mobb::FitOptions fit{};  ///< the scene's, for what is not asked for otherwise
 };
+
+/// Trees of its clips, in their order.
+std::vector<mobb::Tree> trees_of(const Workload& workload, const mobb::FitOptions& options);
+
+/// Both sides of a query where they are placed.
+template <class Placed>
+struct PlacedPair {
+    Placed a, b;
+};
+PlacedPair<mobb::PlacedClip> placed(const Workload& workload, const WorkloadQuery& query);
+/// The trees must outlive it.
+PlacedPair<mobb::PlacedTree> placed(const std::vector<mobb::Tree>& trees, const WorkloadQuery& query);
 
 /// The queries of a scene, such as those that a simulation recorded. At most kMaxQueries of them are taken.
 Workload workload_of_scene(const Scene& scene);

@@ -1,6 +1,7 @@
 #include <render/drawlist/camera.h>
 #include <render/drawlist/shown_points.h>
 #include <render/layout/common_framing.h>
+#include <render/layout/framing.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,18 +18,9 @@ namespace {
 
 constexpr std::size_t kFewPoints = 10'000;
 
-struct PointExtent {
-    glm::dvec3 min{std::numeric_limits<double>::max()};
-    glm::dvec3 max{std::numeric_limits<double>::lowest()};
-    glm::dvec3 middle() const { return 0.5 * (min + max); }
-};
-
-PointExtent extent_of(const std::vector<glm::vec3>& points) {
-    PointExtent extent;
-    for (const glm::vec3& point : points) {
-        extent.min = glm::min(extent.min, glm::dvec3(point));
-        extent.max = glm::max(extent.max, glm::dvec3(point));
-    }
+Bounds extent_of(const std::vector<glm::vec3>& points) {
+    Bounds extent;
+    for (const glm::vec3& point : points) extent.add(point);
     return extent;
 }
 
@@ -80,7 +72,7 @@ Camera CommonFraming::turning(const Camera& camera) const {
 
     // Turned once around, a point at a distance from the axis and a height needs the eye this far from the axis' foot,
     // for the frame's upper and lower edge and its sides.
-    const PointExtent extent = extent_of(points_);
+    const Bounds extent = extent_of(points_);
     const glm::dvec3 middle = extent.middle();
     double top = 0;
     double bottom = 0;

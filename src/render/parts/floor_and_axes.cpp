@@ -23,6 +23,13 @@ constexpr float kTick = 4;
 struct Edge {
     glm::dvec2 from, to;
     glm::dvec2 outward;
+
+    bool along_x() const { return from.y == to.y; }
+    std::vector<double> ticks_on(const FloorExtent& s) const {
+        return along_x() ? ticks(s.x0, s.x1, s.step) : ticks(s.y0, s.y1, s.step);
+    }
+    /// Where x or y is `v`.
+    glm::dvec2 at(double v) const { return along_x() ? glm::dvec2(v, from.y) : glm::dvec2(from.x, v); }
 };
 
 std::array<Edge, 4> edges(const FloorExtent& s) {
@@ -208,7 +215,6 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
     std::vector<Side> sides;
     double shown = s.step;
     for (const Edge& edge : edges(s)) {
-        const bool along_x = edge.from.y == edge.to.y;
         const glm::dvec2 middle = 0.5 * (edge.from + edge.to);
         const glm::vec3 here = space.point(middle.x, middle.y, s.t0);
         const glm::vec3 outward(static_cast<float>(edge.outward.x), static_cast<float>(edge.outward.y), 0);
@@ -216,9 +222,9 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
         // left.
         const bool faces = time_on_end(projection) ? glm::dot(outward, projection.right + projection.up) < -0.3f
                                                    : glm::dot(outward, projection.back) > 0.05f;
-        std::vector<double> values = ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step);
+        std::vector<double> values = edge.ticks_on(s);
         const auto seen_at = [&](double v) {
-            return projection.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, s.t0));
+            return projection.project(space.point(edge.at(v).x, edge.at(v).y, s.t0));
         };
         std::erase_if(values, [&](double v) { return !seen_at(v); });
         if (!faces || values.size() < 2) continue;
@@ -234,16 +240,15 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
         sides.push_back({edge, direction, std::move(values)});
     }
     for (auto& [edge, direction, values] : sides) {
-        const bool along_x = edge.from.y == edge.to.y;
         std::erase_if(values, [&](double v) { return std::abs(std::remainder(v, shown)) > 0.01 * s.step; });
         for (const double v : values) {
             // One label tells which way it is; the others are bare.
             const bool last = v == values.back();
-            label.text = last ? std::string(along_x ? "x " : "y ") + tick_text(v, shown) + " m" : tick_text(v, shown);
+            label.text =
+                last ? std::string(edge.along_x() ? "x " : "y ") + tick_text(v, shown) + " m" : tick_text(v, shown);
             // Boxes may reach below a floor that is seen edge-on; its labels stand below them.
             const double height = floor_on_edge(projection) ? s.lowest : s.t0;
-            const auto anchor =
-                projection.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, height));
+            const auto anchor = projection.project(space.point(edge.at(v).x, edge.at(v).y, height));
             if (!anchor) continue;
             label.anchor = *anchor;
             label.directions = {direction};

@@ -150,7 +150,7 @@ class MomentPicture final : public Picture {
         bounds_ = moment_bounds(fitted, agents_);
         outside_ = moment_.time < bounds_.min.z || moment_.time >= bounds_.max.z;
         if (!outside_) choice_ = choice;
-        const glm::dvec3 middle = 0.5 * (bounds_.min + bounds_.max);
+        const glm::dvec3 middle = bounds_.middle();
         list_.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view_, moment_.time)};
         const double highest = *std::max_element(heights_.begin(), heights_.end());
         floor_extent_ =
