@@ -1,11 +1,14 @@
 #include <crowd/simulation/reservation_grid.h>
 
+#include <glm/common.hpp>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace mobbscope {
@@ -32,6 +35,33 @@ bool other_and_overlapping(const auto& a, const auto& b) {
 }
 
 }  // namespace
+
+FloorRect ClipBounds::bounds(const mobb::Placement& placement) const {
+    const mobb::Rotation rotation = mobb::Rotation::from_degrees(placement.rotate_deg);
+    FloorRect rect{glm::dvec2(std::numeric_limits<double>::infinity()),
+                   glm::dvec2(-std::numeric_limits<double>::infinity())};
+    for (const glm::dvec2 corner : corners_) {
+        const glm::dvec2 at = rotation(corner) + placement.translate;
+        rect.low = glm::min(rect.low, at);
+        rect.high = glm::max(rect.high, at);
+    }
+    // Far more than all rounding made here and where disks are placed.
+    const double margin = 1e-12 * (reach_ + std::abs(placement.translate.x) + std::abs(placement.translate.y));
+    rect.low -= margin;
+    rect.high += margin;
+    return rect;
+}
+
+bool leaves_floor(const mobb::PlacedClip& clip, const ClipBounds& clip_bounds, glm::dvec2 area) {
+    const glm::dvec2 wall = area / 2.0;
+    const FloorRect rect = clip_bounds.bounds(clip.placement());
+    if (rect.low.x >= -wall.x && rect.low.y >= -wall.y && rect.high.x <= wall.x && rect.high.y <= wall.y) return false;
+    for (int i = 0; i < clip.count(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        if (std::abs(disk.x) + disk.r > wall.x || std::abs(disk.y) + disk.r > wall.y) return true;
+    }
+    return false;
+}
 
 ReservationGrid::ReservationGrid(glm::dvec2 area)
     : low_(-area / 2.0),
