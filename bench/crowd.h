@@ -3,7 +3,7 @@
 
 #include "walks.h"
 
-#include <crowd/graph/graph_walk.h>
+#include <crowd/graph/build_graph.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>

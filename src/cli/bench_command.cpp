@@ -2,7 +2,6 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <paper_tables/built_in_clips.h>
 #include <paper_tables/measure.h>
 #include <paper_tables/table_report.h>
 #include <paper_tables/workload.h>

@@ -6,7 +6,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <conflicts/conflicts.h>
-#include <crowd/simulation/people.h>
+#include <crowd/simulation/simulate.h>
 #include <scene/scene_edits.h>
 
 #include <glm/vec2.hpp>

@@ -5,8 +5,6 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
-#include <crowd/graph/graph_walk.h>
-#include <crowd/graph/recordings.h>
 #include <render/drawlist/picture_options.h>
 #include <render/gl/renderer.h>
 #include <render/image/png.h>

@@ -5,7 +5,7 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <crowd/graph/graph_walk.h>
+#include <crowd/graph/build_graph.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>

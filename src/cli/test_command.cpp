@@ -225,7 +225,7 @@ void check_references(const std::vector<CaseFile>& cases, const picture_tests::R
 void take_as_reference(std::vector<CaseResult>& results, const std::vector<CaseFile>& cases,
                        const picture_tests::Reference& here, std::ostream& say) {
     const picture_tests::Summary sum = picture_tests::summary(results);
-    if (sum.failed > 0 || sum.skipped > 0) {
+    if (sum[picture_tests::CaseOutcome::failed] > 0 || sum[picture_tests::CaseOutcome::skipped] > 0) {
         warn(
             "nothing is taken, as some of the cases cannot be drawn or are skipped: all goldens of a reference are "
             "from one place");

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
 
@@ -85,8 +86,8 @@ std::int64_t direct_pairs(const Clearance& clearance) {
 std::string gain_words(const mobb::TestCounts& tests, const Clearance& clearance) {
     const std::int64_t pairs = direct_pairs(clearance);
     const std::int64_t all = tests.all();
-    std::string out = "The direct search would measure " + std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
-                      " of samples; this took " + std::to_string(all) + (all == 1 ? " test" : " tests");
+    std::string out = "The direct search would measure " + counted(pairs, "pair", "pairs") + " of samples; this took " +
+                      counted(all, "test", "tests");
     if (all > 0 && pairs > all) {
         char times[32];
         std::snprintf(times, sizeof times, "%.3g", static_cast<double>(pairs) / static_cast<double>(all));

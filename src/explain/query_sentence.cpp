@@ -48,13 +48,12 @@ std::string sample_outcome(std::span<const DrawnAgent> sides, const mobb::Trace:
         return "samples " + std::to_string(contact.a_sample) + " and " + std::to_string(contact.b_sample) + " hit at " +
                with_unit(contact.time, "s") + ", " + with_unit(contact.radii - contact.distance, "m") + " deep";
     }
-    const std::string count = std::to_string(event.pairs.size());
     if (event.pairs.empty()) return "no pair of samples overlaps in time";
     double clearance = std::numeric_limits<double>::max();
     for (const mobb::MeasuredPair& pair : event.pairs) {
         clearance = std::min(clearance, pair.distance - a.disk(pair.i).r - b.disk(pair.j).r);
     }
-    return "no hit in " + count + (event.pairs.size() == 1 ? " pair" : " pairs") + " of samples, the nearest " +
+    return "no hit in " + counted(event.pairs.size(), "pair", "pairs") + " of samples, the nearest " +
            with_unit(clearance, "m") + " apart";
 }
 

@@ -20,15 +20,13 @@ Recursion recursion_of(const mobb::Trace& trace, const mobb::PlacedTree& a, cons
         if (!same) {
             const mobb::Node& node_a = a.node(event.a);
             const mobb::Node& node_b = b.node(event.b);
-            RecursionPair pair;
-            pair.a = event.a;
-            pair.b = event.b;
-            pair.parent = parent;
-            pair.depth = event.depth;
-            pair.first = step;
-            pair.time_a = {a.begin(node_a), a.end(node_a)};
-            pair.time_b = {b.begin(node_b), b.end(node_b)};
-            out.pairs.push_back(pair);
+            out.pairs.push_back({.a = event.a,
+                                 .b = event.b,
+                                 .parent = parent,
+                                 .depth = event.depth,
+                                 .first = step,
+                                 .time_a = {a.begin(node_a), a.end(node_a)},
+                                 .time_b = {b.begin(node_b), b.end(node_b)}});
             out.depth = std::max(out.depth, event.depth + 1);
         }
         RecursionPair& pair = out.pairs.back();

@@ -22,8 +22,8 @@ struct RecursionPair {
     int end = 0;                                     ///< it and all below it are the events first .. end - 1
     mobb::Outcome outcome = mobb::Outcome::overlap;  ///< of its last test
     bool hit = false;                                ///< a hit was found in it or below it
-    mobb::Interval time_a;                           ///< of the nodes, global seconds
-    mobb::Interval time_b;
+    mobb::Interval time_a{};                         ///< of the nodes, global seconds
+    mobb::Interval time_b{};
 
     bool has_children() const { return end > last + 1; }
 };

@@ -96,6 +96,27 @@ KDop::KDop(std::span<const Disk> disks, glm::dvec2 axis) : KDop({disks[0].x, dis
     }
 }
 
+KDop::KDop(std::span<const Disk> disks) : KDop(glm::dvec2(0), {1, 0}) {
+    const Circle& circle = Circle::get();
+    for (const Disk& d : disks) {
+        for (std::size_t k = 0; k < kDirections; ++k) {
+            reach_[k] = std::max(reach_[k], glm::dot(circle[k], glm::dvec2(d.x, d.y)) + d.r);
+        }
+    }
+}
+
+std::array<glm::dvec2, KDop::kDirections / 2> KDop::coarse_corners() const {
+    const Circle& circle = Circle::get();
+    const double sine = std::sin(2 * Circle::kStep);
+    std::array<glm::dvec2, kDirections / 2> out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const std::size_t k = 2 * i, next = (k + 2) % kDirections;
+        const glm::dvec2 a = circle[k], b = circle[next];
+        out[i] = glm::dvec2(reach_[k] * b.y - reach_[next] * a.y, reach_[next] * a.x - reach_[k] * b.x) / sine;
+    }
+    return out;
+}
+
 KDop::KDop(const KDop& a, const KDop& b, glm::dvec2 axis) : KDop(a.origin_, axis) {
     glm::dvec2 low{kInfinity}, high{-kInfinity};
     measure(a, low, high);

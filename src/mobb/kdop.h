@@ -18,6 +18,9 @@ class KDop {
     /// Around disks, at least one; `axis` is a unit vector.
     KDop(std::span<const Disk> disks, glm::dvec2 axis);
 
+    /// The same without a stretch: the directions are those of a circle, from +x on.
+    explicit KDop(std::span<const Disk> disks);
+
     /// Around two others. Each adds less than 0.5 % to their extents.
     KDop(const KDop& a, const KDop& b, glm::dvec2 axis);
 
@@ -34,8 +37,13 @@ class KDop {
                frame_(size_ * glm::dvec2{reach_[0] - reach_[kHalf], reach_[kQuarter] - reach_[kHalf + kQuarter]} / 2.0);
     }
 
-  private:
     static constexpr std::size_t kDirections = 32;  ///< a power of 2
+
+    /// Of one without a stretch: where the sides of every second direction meet. This larger polygon reaches past the
+    /// disks by a tenth of their extent at most.
+    std::array<glm::dvec2, kDirections / 2> coarse_corners() const;
+
+  private:
     static constexpr std::size_t kHalf = kDirections / 2, kQuarter = kDirections / 4;
     struct Circle;
     struct Corner;

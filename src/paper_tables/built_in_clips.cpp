@@ -1,5 +1,5 @@
 #include <base/random.h>
-#include <paper_tables/built_in_clips.h>
+#include <paper_tables/workload.h>
 
 #include <algorithm>
 #include <cmath>
@@ -83,22 +83,22 @@ mobb::ClipPtr short_move(Uniform& uniform, double seconds) {
     return clip_of(std::move(samples));
 }
 
-double about(Uniform& uniform, double mean) { return mean * uniform.within(2.0 / 3, 4.0 / 3); }
+std::vector<mobb::ClipPtr> made(int count, double mean_seconds, std::uint64_t seed,
+                                mobb::ClipPtr (*make)(Uniform&, double seconds)) {
+    Uniform uniform(seed);
+    std::vector<mobb::ClipPtr> clips;
+    for (int i = 0; i < count; ++i) clips.push_back(make(uniform, mean_seconds * uniform.within(2.0 / 3, 4.0 / 3)));
+    return clips;
+}
 
 }  // namespace
 
 std::vector<mobb::ClipPtr> walks_in_a_volume(int count, double mean_seconds, std::uint64_t seed) {
-    Uniform uniform(seed);
-    std::vector<mobb::ClipPtr> clips;
-    for (int i = 0; i < count; ++i) clips.push_back(walk_in_a_volume(uniform, about(uniform, mean_seconds)));
-    return clips;
+    return made(count, mean_seconds, seed, walk_in_a_volume);
 }
 
 std::vector<mobb::ClipPtr> short_moves(int count, double mean_seconds, std::uint64_t seed) {
-    Uniform uniform(seed);
-    std::vector<mobb::ClipPtr> clips;
-    for (int i = 0; i < count; ++i) clips.push_back(short_move(uniform, about(uniform, mean_seconds)));
-    return clips;
+    return made(count, mean_seconds, seed, short_move);
 }
 
 }  // namespace mobbscope

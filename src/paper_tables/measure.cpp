@@ -43,32 +43,6 @@ struct FittedMethod {
     std::vector<mobb::Tree> trees;
 };
 
-FittedMethod fit(const Method& method, const Workload& workload) {
-    FittedMethod fitted{&method, {}};
-    if (!method.options) return fitted;
-    fitted.trees.reserve(workload.clips.size());
-    for (const mobb::ClipPtr& clip : workload.clips) fitted.trees.emplace_back(clip, *method.options);
-    return fitted;
-}
-
-struct PlacedPair {
-    mobb::PlacedTree a, b;
-};
-
-PlacedPair place(const FittedMethod& fitted, const WorkloadQuery& query) {
-    return {{fitted.trees[static_cast<std::size_t>(query.clip_a)], query.a},
-            {fitted.trees[static_cast<std::size_t>(query.clip_b)], query.b}};
-}
-
-struct PlacedClips {
-    mobb::PlacedClip a, b;
-};
-
-PlacedClips place(const Workload& workload, const WorkloadQuery& query) {
-    return {{*workload.clips[static_cast<std::size_t>(query.clip_a)], query.a},
-            {*workload.clips[static_cast<std::size_t>(query.clip_b)], query.b}};
-}
-
 TableRow count(const FittedMethod& fitted, const Workload& workload,
                const std::vector<std::optional<mobb::Contact>>& truth) {
     mobb::TestCounts sum;
@@ -78,13 +52,12 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
         TableCounts counts;
         std::optional<mobb::Contact> contact;
         if (fitted.trees.empty()) {
-            const PlacedClips placed = place(workload, query);
-            contact = mobb::direct_search(placed.a, placed.b, counts);
+            const auto [a, b] = placed(workload, query);
+            contact = mobb::direct_search(a, b, counts);
         } else {
-            const PlacedPair placed = place(fitted, query);
-            contact = mobb::query(placed.a, placed.b, counts);
-            if (mobb::overlap_in_time(placed.a.begin(placed.a.node(0)), placed.a.end(placed.a.node(0)),
-                                      placed.b.begin(placed.b.node(0)), placed.b.end(placed.b.node(0)))) {
+            const auto [a, b] = placed(fitted.trees, query);
+            contact = mobb::query(a, b, counts);
+            if (mobb::overlap_in_time(a.begin(a.node(0)), a.end(a.node(0)), b.begin(b.node(0)), b.end(b.node(0)))) {
                 ++root_boxes;
             }
             if (counts.rejected_by_roots()) ++rejected;
@@ -110,24 +83,21 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
 /// Nanoseconds for the queries [first, end), their placing left out. `hits` is what they answer.
 double time_block(const FittedMethod& fitted, const Workload& workload, std::size_t first, std::size_t end, int hits) {
     using Clock = std::chrono::steady_clock;
-    const auto run = [&](const auto& placed, const auto& ask) {
+    const auto run = [&](const auto& placed_in, const auto& ask) {
+        std::vector<decltype(placed(placed_in, workload.queries.front()))> pairs;
+        pairs.reserve(end - first);
+        for (std::size_t i = first; i < end; ++i) pairs.push_back(placed(placed_in, workload.queries[i]));
         int found = 0;
         const auto begin = Clock::now();
-        for (const auto& pair : placed) found += ask(pair) ? 1 : 0;
+        for (const auto& pair : pairs) found += ask(pair) ? 1 : 0;
         const auto finish = Clock::now();
         if (found != hits) throw DisagreementError(fitted.method->name + " and the direct search disagree");
         return std::chrono::duration<double, std::nano>(finish - begin).count();
     };
     if (fitted.trees.empty()) {
-        std::vector<PlacedClips> placed;
-        placed.reserve(end - first);
-        for (std::size_t i = first; i < end; ++i) placed.push_back(place(workload, workload.queries[i]));
-        return run(placed, [](const PlacedClips& pair) { return mobb::direct_search(pair.a, pair.b).has_value(); });
+        return run(workload, [](const auto& pair) { return mobb::direct_search(pair.a, pair.b).has_value(); });
     }
-    std::vector<PlacedPair> placed;
-    placed.reserve(end - first);
-    for (std::size_t i = first; i < end; ++i) placed.push_back(place(fitted, workload.queries[i]));
-    return run(placed, [](const PlacedPair& pair) { return mobb::query(pair.a, pair.b).has_value(); });
+    return run(fitted.trees, [](const auto& pair) { return mobb::query(pair.a, pair.b).has_value(); });
 }
 
 double quantile(const std::vector<double>& sorted, double share) {
@@ -135,6 +105,12 @@ double quantile(const std::vector<double>& sorted, double share) {
     const auto below = static_cast<std::size_t>(at);
     const std::size_t above = std::min(below + 1, sorted.size() - 1);
     return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+Method method_of(mobb::TreeKind kind, int levels, const char* suffix, mobb::FitOptions options) {
+    options.tree = kind;
+    options.levels = levels;
+    return {std::string(mobb::name(kind)) + suffix, options};
 }
 
 /// Linux says it in /proc/cpuinfo; elsewhere it stays unknown.
@@ -166,7 +142,9 @@ TableRows measure(const Workload& workload, const std::vector<Method>& methods, 
     std::vector<FittedMethod> fitted;
     for (int m = 0; m < method_count; ++m) {
         tell("fitting", m, method_count);
-        fitted.push_back(fit(methods[static_cast<std::size_t>(m)], workload));
+        const Method& method = methods[static_cast<std::size_t>(m)];
+        fitted.push_back({&method, {}});
+        if (method.options) fitted.back().trees = trees_of(workload, *method.options);
     }
 
     TableRows table;
@@ -175,8 +153,8 @@ TableRows measure(const Workload& workload, const std::vector<Method>& methods, 
     truth.reserve(workload.queries.size());
     for (const WorkloadQuery& query : workload.queries) {
         if (truth.size() % kBlock == 0) hits.push_back(0);
-        const PlacedClips placed = place(workload, query);
-        truth.push_back(mobb::direct_search(placed.a, placed.b));
+        const auto [a, b] = placed(workload, query);
+        truth.push_back(mobb::direct_search(a, b));
         if (!truth.back()) continue;
         ++hits.back();
         ++table.positive;
@@ -225,22 +203,14 @@ std::vector<TableRow> sweep_leaf(const Workload& workload, mobb::FitOptions base
 
 std::vector<Method> hierarchical_methods(const mobb::FitOptions& base) {
     std::vector<Method> methods;
-    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
-        mobb::FitOptions options = base;
-        options.tree = kind;
-        options.levels = 0;
-        methods.push_back({std::string(mobb::name(kind)), options});
-    }
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) methods.push_back(method_of(kind, 0, "", base));
     return methods;
 }
 
 std::vector<Method> table_methods(const mobb::FitOptions& base) {
     std::vector<Method> methods{{"brute", std::nullopt}};
     for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
-        mobb::FitOptions options = base;
-        options.tree = kind;
-        options.levels = 1;
-        methods.push_back({std::string(mobb::name(kind)) + "_1level", options});
+        methods.push_back(method_of(kind, 1, "_1level", base));
     }
     for (Method& method : hierarchical_methods(base)) methods.push_back(std::move(method));
     return methods;

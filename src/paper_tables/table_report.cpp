@@ -30,16 +30,10 @@ std::optional<PaperRow> find(const NamedRow (&rows)[N], std::string_view method)
     return std::nullopt;
 }
 
-void write_optional(JsonWriter& out, std::string_view key, const std::optional<double>& value) {
-    out.key(key);
-    value ? out.value(*value) : out.null();
-}
-
 void write_paper(JsonWriter& out, const std::string& table, const std::string& method) {
-    out.key("paper");
     const std::optional<PaperRow> row = paper_row(table, method);
-    if (!row) return out.null();
-    out.begin_object(JsonWriter::Layout::row);
+    if (!row) return out.member("paper", std::optional<double>());
+    out.begin_object("paper", JsonWriter::Layout::row);
     out.member("time_ns", row->time_us * 1000);
     out.member("obb2d", row->obb2d);
     out.member("obb3d", row->obb3d);
@@ -51,8 +45,7 @@ void write_figures(JsonWriter& out, const TableRow& row) {
     out.member("method", row.method);
     out.member("leaf", row.leaf);
     out.member("time_ns", row.time_ns);
-    out.key("time_ns_quartiles");
-    out.numbers({row.time_ns_q1, row.time_ns_q3});
+    out.member("time_ns_quartiles", {row.time_ns_q1, row.time_ns_q3});
     for (const mobb::TestKind test : mobb::kTestKinds) out.member(mobb::name(test), row[test]);
     out.member("sample_steps", row.sample_steps);
     out.member("root_box_tests", row.root_box_tests);
@@ -179,39 +172,30 @@ void write_json(std::ostream& stream, const TableReport& report) {
     out.member("description", report.description);
     out.member("machine", report.machine);
     out.member("queries", report.queries);
-    out.key("seed");
-    out.value(static_cast<std::int64_t>(report.seed));
+    out.member("seed", report.seed);
     out.member("rounds", report.rounds);
-    out.key("clips");
-    out.begin_object(JsonWriter::Layout::row);
+    out.begin_object("clips", JsonWriter::Layout::row);
     out.member("count", report.clips);
     out.member("mean_duration", report.mean_duration);
     out.end_object();
     out.member("positive", report.table.positive);
     out.member("root_rejected", root_rejected(report));
-    out.key("rows");
-    out.begin_array();
-    for (const TableRow& row : report.table.rows) {
+    out.list("rows", report.table.rows, [&](const TableRow& row) {
         out.begin_object();
         write_figures(out, row);
         write_paper(out, report.workload, row.method);
         out.end_object();
-    }
-    out.end_array();
-    out.key("test_ns");
-    out.begin_object(JsonWriter::Layout::row);
-    for (const mobb::BoxKind kind : mobb::kBoxKinds) write_optional(out, mobb::name(kind), report.costs[kind]);
-    write_optional(out, "sample_pair", report.costs.sample_pair);
+    });
+    out.begin_object("test_ns", JsonWriter::Layout::row);
+    for (const mobb::BoxKind kind : mobb::kBoxKinds) out.member(mobb::name(kind), report.costs[kind]);
+    out.member("sample_pair", report.costs.sample_pair);
     out.end_object();
     if (!report.sweep.empty()) {
-        out.key("leaf_sweep");
-        out.begin_array();
-        for (const TableRow& row : report.sweep) {
+        out.list("leaf_sweep", report.sweep, [&](const TableRow& row) {
             out.begin_object(JsonWriter::Layout::row);
             write_figures(out, row);
             out.end_object();
-        }
-        out.end_array();
+        });
     }
     out.end_object();
 }

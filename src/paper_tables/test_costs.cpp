@@ -49,8 +49,7 @@ BoxPairs collect(const std::vector<mobb::Tree>& trees, const Workload& workload,
     BoxPairs out;
     for (const WorkloadQuery& query : workload.queries) {
         if (out.pairs.size() >= kMostPairs) break;
-        const mobb::PlacedTree a(trees[static_cast<std::size_t>(query.clip_a)], query.a);
-        const mobb::PlacedTree b(trees[static_cast<std::size_t>(query.clip_b)], query.b);
+        const auto [a, b] = placed(trees, query);
         Collector collector;
         collector.kind = kind;
         mobb::query(a, b, collector);
@@ -63,29 +62,35 @@ BoxPairs collect(const std::vector<mobb::Tree>& trees, const Workload& workload,
     return out;
 }
 
-/// Nanoseconds of one call of the test on a pair, over all pairs again and again.
-std::optional<double> time_pairs(const BoxPairs& pairs, const mobb::PairTest& test) {
-    if (pairs.pairs.empty()) return std::nullopt;
-    std::int64_t calls = 0, separated = 0;
+/// Nanoseconds of one of the `calls` that a round makes, in round after round. It says how many of them found
+/// something: used here, so that the tests are not thought needless.
+double time_rounds(std::int64_t calls, const auto& round) {
+    std::int64_t rounds = 0, found = 0;
     const auto begin = Clock::now();
     do {
+        found += round();
+        ++rounds;
+    } while (nanoseconds(Clock::now() - begin) < kLeastSeconds * 1e9);
+    const double spent = nanoseconds(Clock::now() - begin);
+    return found <= calls * rounds ? spent / static_cast<double>(calls * rounds) : 0;
+}
+
+std::optional<double> time_pairs(const BoxPairs& pairs, const mobb::PairTest& test) {
+    if (pairs.pairs.empty()) return std::nullopt;
+    return time_rounds(static_cast<std::int64_t>(pairs.pairs.size()), [&] {
+        std::int64_t separated = 0;
         for (const BoxPair& pair : pairs.pairs) {
             separated += test.separate(*pair.a, *pair.b, pairs.frames[pair.frame]).separated() ? 1 : 0;
         }
-        calls += static_cast<std::int64_t>(pairs.pairs.size());
-    } while (nanoseconds(Clock::now() - begin) < kLeastSeconds * 1e9);
-    const double spent = nanoseconds(Clock::now() - begin);
-    // The answers are used, so that the tests are not thought needless.
-    return separated <= calls ? spent / static_cast<double>(calls) : 0;
+        return separated;
+    });
 }
 
 std::optional<double> time_box_tests(const Workload& workload, mobb::FitOptions options, mobb::BoxKind box) {
     const auto below = [](mobb::TreeKind kind) { return mobb::info(kind).below; };
     options.tree = *std::ranges::find(mobb::kTreeKinds, box, below);
     options.levels = 0;
-    std::vector<mobb::Tree> trees;
-    trees.reserve(workload.clips.size());
-    for (const mobb::ClipPtr& clip : workload.clips) trees.emplace_back(clip, options);
+    const std::vector<mobb::Tree> trees = trees_of(workload, options);
     return time_pairs(collect(trees, workload, box), *std::ranges::find(mobb::kPairTests, box, &mobb::PairTest::test));
 }
 
@@ -95,8 +100,7 @@ std::optional<double> time_sample_pairs(const Workload& workload) {
     std::int64_t pairs = 0;
     for (const WorkloadQuery& query : workload.queries) {
         if (searched.size() == kMostSearched) break;
-        const mobb::PlacedClip a(*workload.clips[static_cast<std::size_t>(query.clip_a)], query.a);
-        const mobb::PlacedClip b(*workload.clips[static_cast<std::size_t>(query.clip_b)], query.b);
+        const auto [a, b] = placed(workload, query);
         mobb::Statistics counts;
         mobb::direct_search(a, b, counts);
         if (counts.tests[mobb::TestKind::samples] == 0) continue;
@@ -104,14 +108,11 @@ std::optional<double> time_sample_pairs(const Workload& workload) {
         searched.emplace_back(a, b);
     }
     if (searched.empty()) return std::nullopt;
-    std::int64_t measured = 0, hits = 0;
-    const auto begin = Clock::now();
-    do {
+    return time_rounds(pairs, [&] {
+        std::int64_t hits = 0;
         for (const auto& [a, b] : searched) hits += mobb::direct_search(a, b) ? 1 : 0;
-        measured += pairs;
-    } while (nanoseconds(Clock::now() - begin) < kLeastSeconds * 1e9);
-    const double spent = nanoseconds(Clock::now() - begin);
-    return hits <= measured ? spent / static_cast<double>(measured) : 0;
+        return hits;
+    });
 }
 
 }  // namespace

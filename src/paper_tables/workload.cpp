@@ -1,6 +1,8 @@
 #include <base/random.h>
-#include <crowd/graph/graph_walk.h>
+#include <crowd/graph/build_graph.h>
 #include <paper_tables/workload.h>
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -16,8 +18,8 @@ glm::dvec2 middle(const mobb::Clip& clip) {
     glm::dvec2 low{std::numeric_limits<double>::infinity()};
     glm::dvec2 high = -low;
     for (const mobb::Disk& disk : clip.samples()) {
-        low = glm::dvec2{std::min(low.x, disk.x), std::min(low.y, disk.y)};
-        high = glm::dvec2{std::max(high.x, disk.x), std::max(high.y, disk.y)};
+        low = glm::min(low, {disk.x, disk.y});
+        high = glm::max(high, {disk.x, disk.y});
     }
     return (low + high) / 2.0;
 }
@@ -35,6 +37,23 @@ Workload workload_of_scene(const Scene& scene) {
         workload.queries.push_back({query.a.clip, query.b.clip, query.a.placement, query.b.placement});
     }
     return workload;
+}
+
+std::vector<mobb::Tree> trees_of(const Workload& workload, const mobb::FitOptions& options) {
+    std::vector<mobb::Tree> trees;
+    trees.reserve(workload.clips.size());
+    for (const mobb::ClipPtr& clip : workload.clips) trees.emplace_back(clip, options);
+    return trees;
+}
+
+PlacedPair<mobb::PlacedClip> placed(const Workload& workload, const WorkloadQuery& query) {
+    return {{*workload.clips[static_cast<std::size_t>(query.clip_a)], query.a},
+            {*workload.clips[static_cast<std::size_t>(query.clip_b)], query.b}};
+}
+
+PlacedPair<mobb::PlacedTree> placed(const std::vector<mobb::Tree>& trees, const WorkloadQuery& query) {
+    return {{trees[static_cast<std::size_t>(query.clip_a)], query.a},
+            {trees[static_cast<std::size_t>(query.clip_b)], query.b}};
 }
 
 double mean_duration(const Workload& workload) {

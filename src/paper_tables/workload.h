@@ -3,6 +3,7 @@
 
 #include <crowd/simulation/simulate.h>
 #include <mobb/clip.h>
+#include <mobb/placed_tree.h>
 #include <scene/scene.h>
 
 #include <cstdint>
@@ -25,6 +26,18 @@ struct Workload {
     mobb::FitOptions fit{};  ///< the scene's, for what is not asked for otherwise
 };
 
+/// Trees of its clips, in their order.
+std::vector<mobb::Tree> trees_of(const Workload& workload, const mobb::FitOptions& options);
+
+/// Both sides of a query where they are placed.
+template <class Placed>
+struct PlacedPair {
+    Placed a, b;
+};
+PlacedPair<mobb::PlacedClip> placed(const Workload& workload, const WorkloadQuery& query);
+/// The trees must outlive it.
+PlacedPair<mobb::PlacedTree> placed(const std::vector<mobb::Tree>& trees, const WorkloadQuery& query);
+
 /// The queries of a scene, such as those that a simulation recorded. At most kMaxQueries of them are taken.
 Workload workload_of_scene(const Scene& scene);
 
@@ -43,6 +56,15 @@ inline constexpr double kChosenAhead = 2.5;  ///< seconds before its begin at wh
 /// `queries` of the pairs of a candidate and another agent's reserved motion within kAskedWithin (0: all of them).
 /// `options.ahead` becomes kChosenAhead. Throws InputError as simulate does.
 Workload crowd_queries(Scene scene, SimulateOptions options, int queries, const SimulationProgress& progress = {});
+
+/// Made-up walks for those who have no motion capture at hand, about as fast, as wide and as winding as people's:
+/// `count` of them at 30 samples a second that last `mean_seconds` on average, each within a third of it more or less.
+/// They stay within about 3 m of the middle of a capture volume.
+std::vector<mobb::ClipPtr> walks_in_a_volume(int count, double mean_seconds, std::uint64_t seed);
+
+/// Likewise short clips: straight and curved walks, runs, quarter turns, steps to the side and back, as sets for motion
+/// graphs have them.
+std::vector<mobb::ClipPtr> short_moves(int count, double mean_seconds, std::uint64_t seed);
 
 /// How far apart the two clips of a query may be. The defaults give the paper's 0.83 box tests of the roots a query:
 /// with offsets of up to `offset` clip lengths, 1 / offset of the queries overlap in time.

@@ -80,8 +80,7 @@ void write_reference(const std::filesystem::path& folder, const Reference& refer
     JsonWriter json(text);
     json.begin_object();
     json.member("mobbscope_reference", kReferenceVersion);
-    json.key("fonts");
-    json.begin_object();
+    json.begin_object("fonts");
     for (const auto& [name, hash] : reference.fonts) json.member(name, hash);
     json.end_object();
     json.member("imgui", reference.imgui);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 namespace report_assets {
@@ -26,26 +27,19 @@ Results of(std::span<const CaseResult> results, CaseOutcome outcome) {
 }
 
 std::string headline(const Summary& sum, std::size_t cases) {
-    const int bad = sum.different + sum.missing + sum.failed;
     const std::string all = counted(static_cast<long long>(cases), "picture test", "picture tests");
-    if (bad > 0) return std::to_string(bad) + " of " + all + " did not pass";
-    if (sum.passed == 0) return "No picture was compared";
-    return counted(sum.passed, "picture test", "picture tests") + " passed" +
-           (sum.skipped > 0 ? ", " + std::to_string(sum.skipped) + " skipped" : "");
+    if (!sum.ok()) return std::to_string(sum.bad()) + " of " + all + " did not pass";
+    const int passed = sum[CaseOutcome::passed], skipped = sum[CaseOutcome::skipped];
+    if (passed == 0) return "No picture was compared";
+    return counted(passed, "picture test", "picture tests") + " passed" +
+           (skipped > 0 ? ", " + std::to_string(skipped) + " skipped" : "");
 }
 
-/// What an outcome is called, with a mark that needs no colour.
 std::string badge(CaseOutcome outcome) {
-    struct TextBudget {
-        const char *mark, *kind, *text;
-    };
-    constexpr std::array<TextBudget, 5> kWords{{{"✓", "good", "passed"},
-                                                {"≠", "bad", "different"},
-                                                {"∅", "bad", "no golden"},
-                                                {"✕", "bad", "failed"},
-                                                {"–", "quiet", "skipped"}}};
-    const TextBudget& words = kWords[static_cast<std::size_t>(outcome)];
-    return std::string("<span class=\"badge ") + words.kind + "\">" + words.mark + ' ' + words.text + "</span>";
+    const OutcomeWords& words = words_of(outcome);
+    std::ostringstream out;
+    out << "<span class=\"badge " << words.kind << "\">" << words.mark << ' ' << words.badge << "</span>";
+    return out.str();
 }
 
 /// A line for a shell, with a button that copies it.

@@ -4,6 +4,7 @@
 #include <render/image/image_diff.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -20,10 +21,9 @@ std::string decimal(double seconds) { return brief(std::round(1000 * seconds) / 
 
 /// The counts that a suite has, and the whole run.
 std::string counts(const Summary& sum, std::size_t cases, double seconds) {
-    return attribute("tests", std::to_string(cases)) +
-           attribute("failures", std::to_string(sum.different + sum.missing)) +
-           attribute("errors", std::to_string(sum.failed)) + attribute("skipped", std::to_string(sum.skipped)) +
-           attribute("time", decimal(seconds));
+    return attribute("tests", std::to_string(cases)) + attribute("failures", std::to_string(sum.not_golden())) +
+           attribute("errors", std::to_string(sum[CaseOutcome::failed])) +
+           attribute("skipped", std::to_string(sum[CaseOutcome::skipped])) + attribute("time", decimal(seconds));
 }
 
 void write_problem(std::ostream& out, const char* element, const RunFacts& facts, const CaseResult& result) {
@@ -46,14 +46,11 @@ std::string drawn_by(const RunFacts& facts) {
 
 std::string sum_of(const Summary& summary) {
     std::string out;
-    const auto add = [&out](int count, const char* what) {
-        if (count > 0) out += (out.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
-    };
-    add(summary.passed, "passed");
-    add(summary.different, "different");
-    add(summary.missing, "without a golden");
-    add(summary.failed, "failed");
-    add(summary.skipped, "skipped");
+    for (std::size_t i = 0; i < summary.counts.size(); ++i) {
+        if (summary.counts[i] == 0) continue;
+        out +=
+            (out.empty() ? "" : ", ") + std::to_string(summary.counts[i]) + ' ' + std::string(kOutcomeWords[i].in_sum);
+    }
     return out.empty() ? "no cases" : out;
 }
 
@@ -98,23 +95,13 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
     json.member("backend", facts.backend);
     json.member("renderer", facts.renderer);
     const Summary sum = summary(results);
-    json.key("summary");
-    json.begin_object(JsonWriter::Layout::row);
-    json.member("passed", sum.passed);
-    json.member("different", sum.different);
-    json.member("missing", sum.missing);
-    json.member("failed", sum.failed);
-    json.member("skipped", sum.skipped);
+    json.begin_object("summary", JsonWriter::Layout::row);
+    for (std::size_t i = 0; i < sum.counts.size(); ++i) json.member(kOutcomeWords[i].key, sum.counts[i]);
     json.end_object();
     if (const std::vector<std::string> sentences = not_compared(results); !sentences.empty()) {
-        json.key("not_compared");
-        json.begin_array();
-        for (const std::string& sentence : sentences) json.value(sentence);
-        json.end_array();
+        json.list("not_compared", sentences, [&](const std::string& sentence) { json.value(sentence); });
     }
-    json.key("cases");
-    json.begin_array();
-    for (const CaseResult& result : results) {
+    json.list("cases", results, [&](const CaseResult& result) {
         json.begin_object();
         json.member("name", result.file.name);
         json.member("outcome", name(result.outcome));
@@ -128,8 +115,7 @@ void write_json(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
             json.null();
         }
         json.end_object();
-    }
-    json.end_array();
+    });
     json.end_object();
 }
 
@@ -148,19 +134,10 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
     for (const CaseResult& result : results) {
         out << "    <testcase" << attribute("classname", facts.folder) << attribute("name", result.file.name)
             << attribute("file", result.file.file.string()) << attribute("time", decimal(result.seconds)) << ">\n";
-        switch (result.outcome) {
-            case CaseOutcome::passed:
-                break;
-            case CaseOutcome::different:
-            case CaseOutcome::missing_golden:
-                write_problem(out, "failure", facts, result);
-                break;
-            case CaseOutcome::failed:
-                write_problem(out, "error", facts, result);
-                break;
-            case CaseOutcome::skipped:
-                out << "      <skipped" << attribute("message", result.message) << "/>\n";
-                break;
+        if (result.outcome == CaseOutcome::skipped) {
+            out << "      <skipped" << attribute("message", result.message) << "/>\n";
+        } else if (result.outcome != CaseOutcome::passed) {
+            write_problem(out, result.outcome == CaseOutcome::failed ? "error" : "failure", facts, result);
         }
         out << "    </testcase>\n";
     }
@@ -168,6 +145,8 @@ void write_junit(std::ostream& out, const RunFacts& facts, std::span<const CaseR
 }
 
 std::string escaped(std::string_view text) {
+    constexpr std::string_view kSpecial = "&<>\"'";
+    constexpr std::array kEntities{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     const std::string clean = cleaned(text);
     std::string out;
     for (std::size_t i = 0; i < clean.size(); ++i) {
@@ -178,25 +157,8 @@ std::string escaped(std::string_view text) {
             i += 2;
             continue;
         }
-        switch (clean[i]) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default:
-                out += clean[i];
-        }
+        const std::size_t special = kSpecial.find(clean[i]);
+        special == kSpecial.npos ? out += clean[i] : out += kEntities[special];
     }
     return out;
 }

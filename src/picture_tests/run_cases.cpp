@@ -144,22 +144,6 @@ void run(CaseResult& result, PictureMaker& maker, GoldenSource source) {
 
 }  // namespace
 
-std::string_view name(CaseOutcome outcome) {
-    switch (outcome) {
-        case CaseOutcome::passed:
-            return "passed";
-        case CaseOutcome::different:
-            return "different";
-        case CaseOutcome::missing_golden:
-            return "missing golden";
-        case CaseOutcome::failed:
-            return "failed";
-        case CaseOutcome::skipped:
-            return "skipped";
-    }
-    return "";
-}
-
 CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view no_opengl, GoldenSource source) {
     CaseResult result;
     result.file = file;
@@ -190,25 +174,7 @@ bool can_be_taken(const CaseResult& result) {
 
 Summary summary(std::span<const CaseResult> results) {
     Summary sum;
-    for (const CaseResult& result : results) {
-        switch (result.outcome) {
-            case CaseOutcome::passed:
-                ++sum.passed;
-                break;
-            case CaseOutcome::different:
-                ++sum.different;
-                break;
-            case CaseOutcome::missing_golden:
-                ++sum.missing;
-                break;
-            case CaseOutcome::failed:
-                ++sum.failed;
-                break;
-            case CaseOutcome::skipped:
-                ++sum.skipped;
-                break;
-        }
-    }
+    for (const CaseResult& result : results) ++sum[result.outcome];
     return sum;
 }
 

@@ -4,6 +4,8 @@
 #include <picture_tests/case_file.h>
 #include <picture_tests/picture_maker.h>
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -21,7 +23,23 @@ enum class CaseOutcome {
     failed,          ///< no picture: the case cannot be read or drawn
     skipped,         ///< by the case, or as there is no OpenGL
 };
-std::string_view name(CaseOutcome outcome);
+
+/// What reports call an outcome.
+struct OutcomeWords {
+    std::string_view name;
+    std::string_view key;          ///< of the summary in JSON
+    std::string_view in_sum;       ///< "3 without a golden"
+    std::string_view mark, badge;  ///< on the page: a sign that needs no colour, and words
+    std::string_view kind;         ///< ... and which colour: good, bad or quiet
+};
+inline constexpr std::array<OutcomeWords, 5> kOutcomeWords{
+    {{"passed", "passed", "passed", "✓", "passed", "good"},
+     {"different", "different", "different", "≠", "different", "bad"},
+     {"missing golden", "missing", "without a golden", "∅", "no golden", "bad"},
+     {"failed", "failed", "failed", "✕", "failed", "bad"},
+     {"skipped", "skipped", "skipped", "–", "skipped", "quiet"}}};
+inline const OutcomeWords& words_of(CaseOutcome outcome) { return kOutcomeWords[static_cast<std::size_t>(outcome)]; }
+inline std::string_view name(CaseOutcome outcome) { return words_of(outcome).name; }
 
 /// A golden as it would be if what is drawn now is right.
 struct FreshGolden {
@@ -59,9 +77,16 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
 /// Whether there is a picture that is not the golden's, and goldens are taken here.
 bool can_be_taken(const CaseResult& result);
 
+/// How many cases had each outcome.
 struct Summary {
-    int passed = 0, different = 0, missing = 0, failed = 0, skipped = 0;
-    bool ok() const { return different + missing + failed == 0; }
+    std::array<int, kOutcomeWords.size()> counts{};  ///< in the order of the outcomes
+
+    int& operator[](CaseOutcome outcome) { return counts[static_cast<std::size_t>(outcome)]; }
+    int operator[](CaseOutcome outcome) const { return counts[static_cast<std::size_t>(outcome)]; }
+    /// Those with a picture that is not the golden's, or nothing to hold it against.
+    int not_golden() const { return (*this)[CaseOutcome::different] + (*this)[CaseOutcome::missing_golden]; }
+    int bad() const { return not_golden() + (*this)[CaseOutcome::failed]; }
+    bool ok() const { return bad() == 0; }
 };
 Summary summary(std::span<const CaseResult> results);
 

@@ -16,25 +16,23 @@ namespace {
 
 constexpr int kMostColumns = 64;
 
-/// A file that a case names. Throws InputError if it is none that could be.
-std::filesystem::path read_path(const JsonPlace& place, const std::filesystem::path& folder) {
-    const std::string& name = place.string();
-    try {
-        check_file_name(name);
-    } catch (const InputError& error) {
-        place.fail(error.what());
-    }
-    return folder / name;
-}
-
-/// What a named file says, or what is wrong with it, at the place that names it.
+/// What is read because of a place, or what is wrong with it, at that place.
 template <class Read>
-auto read_named(const JsonPlace& place, const Read& read) {
+auto read_at(const JsonPlace& place, const Read& read) {
     try {
         return read();
     } catch (const InputError& error) {
         place.fail(error.what());
+    } catch (const std::invalid_argument& error) {
+        place.fail(error.what());
     }
+}
+
+/// A file that a case names. Throws InputError if it is none that could be.
+std::filesystem::path read_path(const JsonPlace& place, const std::filesystem::path& folder) {
+    const std::string& name = place.string();
+    read_at(place, [&] { check_file_name(name); });
+    return folder / name;
 }
 
 /// A scene under several fits; equal ones are shared.
@@ -87,7 +85,7 @@ WindowShot read_window(const JsonPlace& place, const std::filesystem::path& fold
     WindowShot window;
     if (const auto script = place.find("script")) {
         const std::filesystem::path file = read_path(*script, folder);
-        window.script = read_named(
+        window.script = read_at(
             *script, [&] { return app::Script::parse(read_file(file), file.string(), app::ScriptOutput::refused); });
     }
     if (const auto scale = place.find("scale")) window.scale = scale->number(app::kLeastUiScale, app::kMostUiScale);
@@ -97,11 +95,7 @@ WindowShot read_window(const JsonPlace& place, const std::filesystem::path& fold
 /// As the option of `render` reads it.
 template <class Parse>
 auto read_option(const JsonPlace& place, const Parse& parse, const std::string& text) {
-    try {
-        return parse(text);
-    } catch (const std::invalid_argument& error) {
-        place.fail(error.what());
-    }
+    return read_at(place, [&] { return parse(text); });
 }
 
 PictureOptions read_picture_options(const JsonPlace& place) {
@@ -137,7 +131,7 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
         shot.window = read_window(*window, folder);
     }
 
-    Fits fits(read_named(scene, [&] { return load_scene(shot.scene_file); }));
+    Fits fits(read_at(scene, [&] { return load_scene(shot.scene_file); }));
     const FitAndView common = FitAndView{fits.scene().fit, fits.scene().view}.over(place);
     if (const auto panels = place.find("panels")) {
         shot.panels = read_panels(*panels, common, fits);

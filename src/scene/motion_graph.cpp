@@ -130,6 +130,14 @@ std::vector<int> hub_components(const MotionGraph& graph) {
     return strong_components(static_cast<int>(graph.hubs.size()), edges);
 }
 
+std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph) {
+    std::vector<std::vector<int>> by_hub(graph.hubs.size());
+    for (std::size_t i = 0; i < graph.moves.size(); ++i) {
+        by_hub[static_cast<std::size_t>(graph.moves[i].from)].push_back(static_cast<int>(i));
+    }
+    return by_hub;
+}
+
 MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at) {
     place.allow_only({"hubs", "bounds", "moves"});
     MotionGraph graph;

@@ -71,6 +71,9 @@ std::vector<int> strong_components(int nodes, const std::vector<std::pair<int, i
 /// others of it. Counted from 0 in the order of their first hubs.
 std::vector<int> hub_components(const MotionGraph& graph);
 
+/// The moves that begin in each hub: indices into graph.moves in their order, by hub.
+std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph);
+
 /// `clip_at` gives the index of the clip that a place names, or throws InputError. Checks that there is a hub and a
 /// move, that hubs have names of their own, that moves join hubs that exist, and that stances and bounds are in range.
 /// A hub that no move leaves is allowed. Throws InputError.

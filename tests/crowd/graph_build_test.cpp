@@ -1,9 +1,9 @@
 // Graphs cut out of recordings: what they promise holds at every transition.
+#include "walker_moves.h"
+
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/graph_figures.h>
-#include <crowd/graph/graph_walk.h>
 #include <crowd/graph/pose_distance.h>
-#include <crowd/graph/recordings.h>
 #include <scene/motion_graph.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
@@ -104,7 +104,7 @@ TEST_F(OwnGraph, RandomWalksAreContinuous) {
     for (int i = 0; i < 2000; ++i) {
         const auto& choices = by_hub[static_cast<std::size_t>(graph().moves[static_cast<std::size_t>(move)].to)];
         const int next = choices[random() % choices.size()];
-        const mobb::Placement after = following(scene(), move, placed, next);
+        const mobb::Placement after = testing::following(scene(), move, placed, next);
         const mobb::PlacedClip before_clip(clip_of(move), placed);
         const mobb::PlacedClip after_clip(clip_of(next), after);
         ASSERT_NEAR(after.start, before_clip.time(before_clip.count()), 1e-9);

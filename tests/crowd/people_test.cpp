@@ -3,7 +3,6 @@
 
 #include <base/error.h>
 #include <conflicts/conflicts.h>
-#include <crowd/simulation/people.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 

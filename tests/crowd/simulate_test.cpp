@@ -110,7 +110,8 @@ TEST_F(Simulate, MovesAreBackToBackFromBeforeTheBeginToTheEnd) {
             pivots += play.kind == PlayKind::pivoted;
             forced += play.kind == PlayKind::forced;
             if (play.kind != PlayKind::chosen) continue;
-            const mobb::Placement expected = following(fitted.scene(), before.move, before.placement, play.move);
+            const mobb::Placement expected =
+                testing::following(fitted.scene(), before.move, before.placement, play.move);
             EXPECT_EQ(play.placement, expected);
         }
     }

@@ -1,7 +1,7 @@
 /// A small graph of walks that tests play.
 #pragma once
 
-#include <crowd/graph/graph_walk.h>
+#include <crowd/graph/build_graph.h>
 #include <crowd/simulation/reservation_table.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
@@ -35,6 +35,14 @@ inline Scene walker_scene() {
                    walk("step", 0.8, 30, 18, 1.0 / 30, 0.38)};
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     return scene;
+}
+
+/// Where `next` lies if it follows `before`, which is placed. Indices into the moves of the scene's graph.
+inline mobb::Placement following(const Scene& scene, int before, const mobb::Placement& placed, int next) {
+    const GraphMove& from = scene.graph->moves[static_cast<std::size_t>(before)];
+    const GraphMove& to = scene.graph->moves[static_cast<std::size_t>(next)];
+    const double duration = scene.clips[static_cast<std::size_t>(from.clip)].clip->duration();
+    return mobbscope::following(placed, from.exit, duration, to.entry);
 }
 
 /// What `agents` do with the scene's graph in 20 s on a floor of `area` metres, as its crowd.

@@ -1,5 +1,4 @@
 #include <mobb/query.h>
-#include <paper_tables/built_in_clips.h>
 #include <paper_tables/measure.h>
 #include <paper_tables/test_costs.h>
 #include <paper_tables/workload.h>

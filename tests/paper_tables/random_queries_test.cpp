@@ -1,5 +1,4 @@
 #include <mobb/predicate.h>
-#include <paper_tables/built_in_clips.h>
 #include <paper_tables/workload.h>
 
 #include <gtest/gtest.h>

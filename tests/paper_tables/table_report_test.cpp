@@ -1,4 +1,3 @@
-#include <paper_tables/built_in_clips.h>
 #include <paper_tables/table_report.h>
 #include <paper_tables/workload.h>
 

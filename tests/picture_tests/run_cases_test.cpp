@@ -361,11 +361,11 @@ TEST(Summary, CountsEveryOutcome) {
     results[3].outcome = CaseOutcome::missing_golden;
     results[4].outcome = CaseOutcome::failed;
     const Summary sum = summary(results);
-    EXPECT_EQ(sum.passed, 2);
-    EXPECT_EQ(sum.different, 1);
-    EXPECT_EQ(sum.missing, 1);
-    EXPECT_EQ(sum.failed, 1);
-    EXPECT_EQ(sum.skipped, 1);
+    EXPECT_EQ(sum[CaseOutcome::passed], 2);
+    EXPECT_EQ(sum[CaseOutcome::different], 1);
+    EXPECT_EQ(sum[CaseOutcome::missing_golden], 1);
+    EXPECT_EQ(sum[CaseOutcome::failed], 1);
+    EXPECT_EQ(sum[CaseOutcome::skipped], 1);
     EXPECT_FALSE(sum.ok());
 }
 

@@ -1,6 +1,7 @@
 // Explicit cameras: settled from one that frames the scene, and moved.
 #include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list.h>
+#include <render/drawlist/shown_points.h>
 #include <render/layout/framing.h>
 #include <render/pictures/build_draw_list.h>
 
@@ -104,7 +105,7 @@ TEST(Settled, SteppingDoesNotMoveThePicture) {
 ViewProjection camera_lens(const Camera& camera, PictureSize size = kGoldenSize) {
     const glm::vec3 target(*camera.target);
     const std::vector<glm::vec3> points{target - 5.0f, target + 5.0f};
-    return make_projection(camera, points, &target, {}, size);
+    return make_projection(camera, ShownPoints(points), &target, {}, size);
 }
 
 Camera explicit_camera(bool perspective) {

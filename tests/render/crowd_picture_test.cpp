@@ -177,7 +177,7 @@ TEST_F(CrowdPicture, CandidatesAreDrawnWithWhoRulesThemOut) {
         ViewState asked = view(show, time + 1e-3);
         asked.follow = name;
         const DrawList with = build_draw_list(run, asked, kGoldenSize);
-        const CandidateStyle style = outcome_style_of(CandidateOutcome::ruled_out, with.palette);
+        const LineStyle style = outcome_style_of(CandidateOutcome::ruled_out, with.palette);
         const auto is_discarded = [&](const LineInstance& line) {
             return glm::vec3(line.color) == glm::vec3(style.color) && line.dash != kSolid;
         };
@@ -299,8 +299,8 @@ TEST(Candidates, EveryFateHasAColourAndALineOfItsOwn) {
     for (const CandidateOutcome a : all) {
         for (const CandidateOutcome b : all) {
             if (a == b) continue;
-            const CandidateStyle one = outcome_style_of(a, colors);
-            const CandidateStyle other = outcome_style_of(b, colors);
+            const LineStyle one = outcome_style_of(a, colors);
+            const LineStyle other = outcome_style_of(b, colors);
             EXPECT_NE(one.color, other.color);
             EXPECT_TRUE(one.dash != other.dash || one.width != other.width);
         }

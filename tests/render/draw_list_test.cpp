@@ -181,8 +181,8 @@ TEST(DrawList, ATimeCursorMarksTheDisksThatHold) {
     ViewState view;
     view.time = 1.0;
     const DrawList list = build_draw_list(testing::hit_scene(), view, kGoldenSize);
-    const auto rings =
-        std::count_if(list.lines.begin(), list.lines.end(), [](const LineInstance& l) { return l.order.layer == 10; });
+    const auto rings = std::count_if(list.lines.begin(), list.lines.end(),
+                                     [](const LineInstance& l) { return l.order.layer == DrawLayer::rings; });
     EXPECT_EQ(rings % 2, 0);
     EXPECT_GT(rings, 0);
     view.time = 17;

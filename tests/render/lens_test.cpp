@@ -1,3 +1,4 @@
+#include <render/drawlist/shown_points.h>
 #include <render/drawlist/view_projection.h>
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ TEST(ViewProjection, EverythingFitsIntoTheFrame) {
                 camera.preset = preset;
                 camera.pitch_deg = -35;
                 const std::vector<glm::vec3> points = block(half);
-                const ViewProjection projection = make_projection(camera, points, nullptr, frame, size);
+                const ViewProjection projection = make_projection(camera, ShownPoints(points), nullptr, frame, size);
                 float tightest = 1e9f;
                 for (const glm::vec3& point : points) {
                     const glm::vec2 at = projection.project(point).value();
@@ -51,7 +52,7 @@ TEST(ViewProjection, PresetsLookTheRightWay) {
     const auto at = [&](CameraPreset preset, glm::vec3 p) {
         Camera camera;
         camera.preset = preset;
-        return make_projection(camera, points, nullptr, frame, {200, 200}).project(p).value();
+        return make_projection(camera, ShownPoints(points), nullptr, frame, {200, 200}).project(p).value();
     };
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).x, 200, 0.1);
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).y, 0, 0.1);
@@ -67,7 +68,7 @@ TEST(ViewProjection, ATargetGoesToTheMiddle) {
     camera.distance = 7;
     const glm::vec3 target(0.3f, 0.2f, 0.5f);
     const ViewProjection projection =
-        make_projection(camera, block(glm::vec3(1)), &target, {{0, 0}, {300, 200}}, {300, 200});
+        make_projection(camera, ShownPoints(block(glm::vec3(1))), &target, {{0, 0}, {300, 200}}, {300, 200});
     EXPECT_NEAR(projection.project(target)->x, 150, 0.01);
     EXPECT_NEAR(projection.project(target)->y, 100, 0.01);
     EXPECT_NEAR(projection.depth(target), 7, 1e-4);
@@ -82,7 +83,7 @@ TEST(ViewProjection, WhatIsBehindTheEyeIsNotSeen) {
     camera.distance = 2;
     const glm::vec3 target(0);
     const ViewProjection projection =
-        make_projection(camera, block(glm::vec3(5)), &target, {{0, 0}, {300, 200}}, {300, 200});
+        make_projection(camera, ShownPoints(block(glm::vec3(5))), &target, {{0, 0}, {300, 200}}, {300, 200});
     EXPECT_TRUE(projection.project({1, 0, 0}).has_value());
     EXPECT_FALSE(projection.project({2, 0, 0}).has_value());
     EXPECT_FALSE(projection.project({4, 0.1f, 0.1f}).has_value());
@@ -91,7 +92,8 @@ TEST(ViewProjection, WhatIsBehindTheEyeIsNotSeen) {
 
 TEST(ViewProjection, APointHasNoExtentAndStillIsSeen) {
     const std::vector<glm::vec3> point{glm::vec3(0)};
-    const ViewProjection projection = make_projection({}, point, nullptr, {{0, 0}, {100, 100}}, {100, 100});
+    const ViewProjection projection =
+        make_projection({}, ShownPoints(point), nullptr, {{0, 0}, {100, 100}}, {100, 100});
     EXPECT_NEAR(projection.project(point[0])->x, 50, 0.5);
     EXPECT_NEAR(projection.project(point[0])->y, 50, 0.5);
 }

@@ -95,7 +95,7 @@ TEST(QueryPicture, ThePairAloneSaysHowItsTestEnded) {
     for (int step = 0; step < query.recorded.trace.size(); ++step) {
         const DrawList list = query.at(step, {1280, 720});
         const mobb::Trace::Event event = query.recorded.trace[step];
-        const OutcomeStyle style = outcome_style(box_state(event.outcome), list.palette);
+        const LineStyle style = outcome_style(box_state(event.outcome), list.palette);
         int boxes = 0;
         for (const BoxInstance& box : list.boxes) {
             if (box.state == BoxState::annotation) continue;
@@ -115,7 +115,7 @@ TEST(QueryPicture, ThePairAloneHasItsTimesMarkedOnTheAxis) {
     const auto bars = [&](int step) {
         std::vector<LineInstance> out;
         for (const LineInstance& line : query.at(step).lines) {
-            if (line.order.layer == 9 && line.order.level == 1) out.push_back(line);
+            if (line.order.layer == DrawLayer::findings && line.order.level == 1) out.push_back(line);
         }
         return out;
     };
@@ -140,10 +140,10 @@ TEST(QueryPicture, ThePairAloneHasItsTimesMarkedOnTheAxis) {
 
 TEST(QueryPicture, OutcomesDifferInMoreThanColour) {
     const Palette& colors = palette(Theme::dark);
-    const OutcomeStyle apart = outcome_style(BoxState::apart_in_time, colors);
-    const OutcomeStyle separated = outcome_style(BoxState::separated, colors);
-    const OutcomeStyle overlap = outcome_style(BoxState::overlap, colors);
-    const OutcomeStyle hit = outcome_style(BoxState::hit, colors);
+    const LineStyle apart = outcome_style(BoxState::apart_in_time, colors);
+    const LineStyle separated = outcome_style(BoxState::separated, colors);
+    const LineStyle overlap = outcome_style(BoxState::overlap, colors);
+    const LineStyle hit = outcome_style(BoxState::hit, colors);
     EXPECT_NE(apart.dash, separated.dash);
     EXPECT_NE(apart.dash, overlap.dash);
     EXPECT_NE(overlap.dash, separated.dash);
@@ -170,7 +170,7 @@ TEST(QueryPicture, HitAndCursorRingsDifferAndAreExplained) {
     std::size_t hit_lines = 0;
     std::size_t cursor_lines = 0;
     for (const LineInstance& line : list.lines) {
-        if (line.order.layer != 10) continue;
+        if (line.order.layer != DrawLayer::rings) continue;
         hit_lines += line.color == list.palette.hit ? 1u : 0u;
         cursor_lines += line.color == list.palette.text ? 1u : 0u;
         EXPECT_EQ(line.hidden, 1) << "disks must not hide rings";

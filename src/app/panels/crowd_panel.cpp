@@ -39,7 +39,7 @@ void following(Ui& ui) {
 
 /// The line that the picture draws it with.
 void fate_line(Ui& ui, ImVec2 corner, CandidateOutcome outcome) {
-    const CandidateStyle style = outcome_style_of(outcome, ui.style.palette);
+    const LineStyle style = outcome_style_of(outcome, ui.style.palette);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float y = corner.y + 0.5f * ImGui::GetFrameHeight();
     const float end = corner.x + ui.px(26);

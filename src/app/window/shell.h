@@ -6,12 +6,15 @@
 #include <app/input/input.h>
 #include <app/ui/ui.h>
 #include <render/drawlist/draw_list.h>
-#include <render/gl/draw_statistics.h>
 #include <render/gl/gl_context.h>
 #include <render/image/image.h>
 
 #include <memory>
 #include <string>
+
+namespace mobbscope {
+struct DrawStatistics;  // render/gl/gl_objects.h
+}
 
 namespace mobbscope::app {
 

@@ -1,8 +1,11 @@
+#include <base/error.h>
+#include <base/file.h>
 #include <base/random.h>
 #include <base/text.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/cut_search.h>
 #include <crowd/graph/hub_choice.h>
+#include <scene/load_files.h>
 #include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
 
@@ -18,6 +21,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace mobbscope {
@@ -268,7 +272,67 @@ double difference(const Course& a, const Course& b) {
     return most;
 }
 
+constexpr double kLeastStep = 0.1;  // metres: shorter steps are sway, not a direction
+
+glm::dvec2 center(const mobb::Disk& disk) { return {disk.x, disk.y}; }
+
+double distance(glm::dvec2 a, glm::dvec2 b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+Stance stance_at_begin(const mobb::Clip& clip) {
+    const auto samples = clip.samples();
+    const glm::dvec2 first = center(samples.front());
+    for (const mobb::Disk& disk : samples) {
+        if (distance(first, center(disk)) >= kLeastStep) return {first, heading_of(center(disk) - first)};
+    }
+    return {first, 0};
+}
+
+Stance stance_at_end(const mobb::Clip& clip) {
+    const auto samples = clip.samples();
+    const glm::dvec2 last = center(samples.back());
+    // The pose after the last sample: one more step like the last one.
+    const glm::dvec2 step = samples.size() > 1 ? last - center(samples[samples.size() - 2]) : glm::dvec2{0};
+    for (std::size_t i = samples.size(); i-- > 0;) {
+        if (distance(center(samples[i]), last) >= kLeastStep)
+            return {last + step, heading_of(last - center(samples[i]))};
+    }
+    return {last + step, stance_at_begin(clip).heading_deg};
+}
+
+bool is_near(const Stance& stance) {
+    return std::abs(stance.position.x) <= kMostStance && std::abs(stance.position.y) <= kMostStance;
+}
+
+void check_move(const Scene& scene, const GraphMove& move) {
+    const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
+    if (is_near(move.entry) && is_near(move.exit)) return;
+    throw InputError(clip.source.value_or(scene.file.string()), "clip " + in_quotes(clip.name),
+                     "begins or ends more than " + short_double(kMostStance) + " m from the origin; move it there");
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> clip_files(const std::vector<std::filesystem::path>& places) {
+    std::vector<std::filesystem::path> out;
+    for (const std::filesystem::path& place : places) {
+        std::error_code ignored;
+        if (std::filesystem::is_directory(place, ignored)) {
+            for (std::filesystem::path& file : clips_in(place, true)) out.push_back(std::move(file));
+        } else if (lower_extension(place) == ".json") {
+            throw InputError(place.string(), "", "a graph is built from clip files; name those of the scene");
+        } else {
+            out.push_back(place);
+        }
+    }
+    return out;
+}
+
+Scene load_recordings(const std::vector<std::filesystem::path>& files, const std::filesystem::path& scene_file,
+                      const ImportOptions& options, const Progress& progress) {
+    Scene scene = load_files(files, options, progress);
+    move_to_file(scene, scene_file);
+    return scene;
+}
 
 BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, const std::string& place,
                        const Progress& progress) {
@@ -306,6 +370,19 @@ std::vector<std::size_t> different_pieces(const std::vector<Recording>& recordin
     }
     std::sort(out.begin(), out.end());
     return out;
+}
+
+MotionGraph graph_of_whole_clips(const Scene& scene) {
+    MotionGraph graph;
+    graph.hubs = {{"any"}};
+    graph.bounds = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) {
+        const mobb::Clip& clip = *scene.clips[i].clip;
+        const GraphMove move{static_cast<int>(i), 0, 0, stance_at_begin(clip), stance_at_end(clip)};
+        check_move(scene, move);
+        graph.moves.push_back(move);
+    }
+    return graph;
 }
 
 }  // namespace mobbscope

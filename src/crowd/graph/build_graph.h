@@ -4,9 +4,12 @@
 
 #include <crowd/graph/cut_search.h>
 #include <crowd/graph/hub_choice.h>
+#include <scene/motion_graph.h>
 #include <scene/scene.h>
 
 #include <cstddef>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -29,6 +32,15 @@ struct BuiltGraph {
     BuildReport report;
 };
 
+/// The clip files (no trajectories) among files and in folders and their subfolders; those of a folder by name. Throws
+/// InputError for a folder that cannot be read or holds none, and for a scene file.
+std::vector<std::filesystem::path> clip_files(const std::vector<std::filesystem::path>& places);
+
+/// All clips of the files, whole and with their skeletons, as one scene, with sources relative to `scene_file`, which
+/// need not exist. `progress` is told before each file. Throws InputError.
+Scene load_recordings(const std::vector<std::filesystem::path>& files, const std::filesystem::path& scene_file,
+                      const ImportOptions& options, const Progress& progress = {});
+
 /// Cuts a graph out of the scene's clips, which are whole recordings (load_recordings). Every joint of the graph is
 /// within options.bounds: each cut is within half of them of its hub, and distances obey the triangle inequality. The
 /// same for the same scene and options, whatever the number of threads. `progress` is told while moments are compared;
@@ -43,5 +55,10 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
 /// degrees and their durations are within 0.15 s. Gives indices into `pieces`, ascending.
 std::vector<std::size_t> different_pieces(const std::vector<Recording>& recordings, const std::vector<Piece>& pieces,
                                           std::size_t most);
+
+/// A graph without bounds: every clip of the scene whole, from one hub to itself, its stances read from its path
+/// (facing the way it goes at either end, over at least 0.1 m). Throws InputError, naming the clip, if one begins or
+/// ends beyond kMostStance.
+MotionGraph graph_of_whole_clips(const Scene& scene);
 
 }  // namespace mobbscope

@@ -1,6 +1,5 @@
 #include <base/error.h>
 #include <crowd/graph/graph_figures.h>
-#include <crowd/graph/graph_walk.h>
 #include <crowd/graph/pose_distance.h>
 #include <import/import.h>
 #include <scene/motion_graph.h>

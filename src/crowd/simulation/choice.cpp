@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -54,6 +55,20 @@ class Chooser {
         }
     }
 
+    PlayedMove motion_of(const Candidate& candidate) const {
+        return moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
+    }
+
+    /// Indices of the candidates from `first` on that meet a condition.
+    template <class Condition>
+    std::vector<std::size_t> those(std::size_t first, const Condition& condition) const {
+        std::vector<std::size_t> out;
+        for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
+            if (std::invoke(condition, choice_.candidates[i])) out.push_back(i);
+        }
+        return out;
+    }
+
     Choice done(PlayKind kind) {
         choice_.kind = kind;
         return std::move(choice_);
@@ -62,13 +77,11 @@ class Chooser {
     /// Those from `first` on.
     void check_candidates(std::size_t first) {
         find_blockers(first, false);
+        const std::vector<std::size_t> of = those(first, &Candidate::is_free);
         std::vector<Play> plays;
-        std::vector<std::size_t> of;
-        for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
+        for (const std::size_t i : of) {
             const Candidate& candidate = choice_.candidates[i];
-            if (!candidate.is_free()) continue;
             plays.push_back({candidate.move, candidate.placement, point_.time, PlayKind::chosen});
-            of.push_back(i);
         }
         const std::vector<bool> in_the_way = reservations_.in_the_way(point_.agent, point_.play, plays);
         for (std::size_t i = 0; i < of.size(); ++i) choice_.candidates[of[i]].in_the_way = in_the_way[i];
@@ -76,14 +89,10 @@ class Chooser {
 
     /// Of the candidates from `first` on that leave the floor, or of those that do not.
     void find_blockers(std::size_t first, bool off_floor) {
+        const std::vector<std::size_t> of =
+            those(first, [&](const Candidate& candidate) { return candidate.leaves_floor == off_floor; });
         std::vector<PlayedMove> motions;
-        std::vector<std::size_t> of;
-        for (std::size_t i = first; i < choice_.candidates.size(); ++i) {
-            const Candidate& candidate = choice_.candidates[i];
-            if (candidate.leaves_floor != off_floor) continue;
-            motions.push_back(moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement));
-            of.push_back(i);
-        }
+        for (const std::size_t i : of) motions.push_back(motion_of(choice_.candidates[i]));
         const std::vector<CandidateCheck> checks = reservations_.motions().check_all(motions, asked_);
         for (std::size_t i = 0; i < of.size(); ++i) {
             choice_.candidates[of[i]].blocker = checks[i].blocker;
@@ -137,16 +146,12 @@ class Chooser {
     /// With the motion that rules it out.
     double seconds_of_contact(const Candidate& candidate) const {
         if (!candidate.blocker) return 0;
-        const PlayedMove motion = moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
-        return reservations_.motions().seconds_of_contact(motion, *candidate.blocker);
+        return reservations_.motions().seconds_of_contact(motion_of(candidate), *candidate.blocker);
     }
 
     template <class Allowed>
     bool take_one_of(const Allowed& allowed) {
-        std::vector<std::size_t> indices;
-        for (std::size_t i = 0; i < choice_.candidates.size(); ++i) {
-            if (allowed(choice_.candidates[i])) indices.push_back(i);
-        }
+        const std::vector<std::size_t> indices = those(0, allowed);
         if (indices.empty()) return false;
         CounterRandom random(run_.seed, static_cast<std::uint64_t>(point_.agent),
                              static_cast<std::uint64_t>(point_.play));

@@ -1,6 +1,6 @@
 #include <base/error.h>
 #include <base/text.h>
-#include <crowd/simulation/people.h>
+#include <crowd/simulation/simulate.h>
 #include <mobb/chain.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>

@@ -1,11 +1,14 @@
 #include <crowd/simulation/reservation_grid.h>
 
+#include <glm/common.hpp>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace mobbscope {
@@ -20,11 +23,45 @@ int cells_along(double length) {
     return static_cast<int>(std::clamp(std::ceil(length / kCell), 1.0, static_cast<double>(kMostCells)));
 }
 
+/// Row by row: visit(x, y).
+void for_each_cell(const auto& range, const auto& visit) {
+    for (int y = range.y0; y <= range.y1; ++y) {
+        for (int x = range.x0; x <= range.x1; ++x) visit(x, y);
+    }
+}
+
 bool other_and_overlapping(const auto& a, const auto& b) {
     return a.motion.agent != b.motion.agent && mobb::overlap_in_time(a.begin, a.end, b.begin, b.end);
 }
 
 }  // namespace
+
+FloorRect ClipBounds::bounds(const mobb::Placement& placement) const {
+    const mobb::Rotation rotation = mobb::Rotation::from_degrees(placement.rotate_deg);
+    FloorRect rect{glm::dvec2(std::numeric_limits<double>::infinity()),
+                   glm::dvec2(-std::numeric_limits<double>::infinity())};
+    for (const glm::dvec2 corner : corners_) {
+        const glm::dvec2 at = rotation(corner) + placement.translate;
+        rect.low = glm::min(rect.low, at);
+        rect.high = glm::max(rect.high, at);
+    }
+    // Far more than all rounding made here and where disks are placed.
+    const double margin = 1e-12 * (reach_ + std::abs(placement.translate.x) + std::abs(placement.translate.y));
+    rect.low -= margin;
+    rect.high += margin;
+    return rect;
+}
+
+bool leaves_floor(const mobb::PlacedClip& clip, const ClipBounds& clip_bounds, glm::dvec2 area) {
+    const glm::dvec2 wall = area / 2.0;
+    const FloorRect rect = clip_bounds.bounds(clip.placement());
+    if (rect.low.x >= -wall.x && rect.low.y >= -wall.y && rect.high.x <= wall.x && rect.high.y <= wall.y) return false;
+    for (int i = 0; i < clip.count(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        if (std::abs(disk.x) + disk.r > wall.x || std::abs(disk.y) + disk.r > wall.y) return true;
+    }
+    return false;
+}
 
 ReservationGrid::ReservationGrid(glm::dvec2 area)
     : low_(-area / 2.0),
@@ -57,25 +94,16 @@ std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
         free_.pop_back();
         motions_[slot] = held(motion);
     }
-    const CellRange& range = motions_[slot].cells;
-    for (int y = range.y0; y <= range.y1; ++y) {
-        for (int x = range.x0; x <= range.x1; ++x) cells_[index(x, y)].push_back(slot);
-    }
+    for_each_cell(motions_[slot].cells, [&](int x, int y) { cells_[index(x, y)].push_back(slot); });
     endings_.push({motions_[slot].end, slot});
     return slot;
 }
 
 void ReservationGrid::withdraw(std::size_t reservation) {
     // Its slot is used again when it would have ended.
-    take_from_cells(static_cast<std::uint32_t>(reservation));
-    motions_[reservation].motion.tree = nullptr;
-}
-
-void ReservationGrid::take_from_cells(std::uint32_t slot) {
-    const CellRange& range = motions_[slot].cells;
-    for (int y = range.y0; y <= range.y1; ++y) {
-        for (int x = range.x0; x <= range.x1; ++x) std::erase(cells_[index(x, y)], slot);
-    }
+    const auto slot = static_cast<std::uint32_t>(reservation);
+    for_each_cell(motions_[slot].cells, [&](int x, int y) { std::erase(cells_[index(x, y)], slot); });
+    motions_[slot].motion.tree = nullptr;
 }
 
 void ReservationGrid::forget_before(double now) {
@@ -89,15 +117,13 @@ void ReservationGrid::forget_before(double now) {
 
 template <class Visit>
 void ReservationGrid::visit_cells(const CellRange& range, const Visit& visit) const {
-    for (int y = range.y0; y <= range.y1; ++y) {
-        for (int x = range.x0; x <= range.x1; ++x) {
-            for (const std::uint32_t slot : cells_[index(x, y)]) {
-                // Of the cells of the range that a motion reaches into, the first one reports it.
-                const CellRange& cells = motions_[slot].cells;
-                if (x == std::max(range.x0, cells.x0) && y == std::max(range.y0, cells.y0)) visit(slot);
-            }
+    for_each_cell(range, [&](int x, int y) {
+        for (const std::uint32_t slot : cells_[index(x, y)]) {
+            // Of the cells of the range that a motion reaches into, the first one reports it.
+            const CellRange& cells = motions_[slot].cells;
+            if (x == std::max(range.x0, cells.x0) && y == std::max(range.y0, cells.y0)) visit(slot);
         }
-    }
+    });
 }
 
 void ReservationGrid::find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const {

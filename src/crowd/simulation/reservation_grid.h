@@ -1,10 +1,12 @@
 /// The motions that agents have chosen, by place and time, and which candidates collide with them.
 #pragma once
 
-#include <crowd/simulation/clip_bounds.h>
+#include <mobb/clip.h>
+#include <mobb/kdop.h>
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <queue>
@@ -12,6 +14,35 @@
 #include <vector>
 
 namespace mobbscope {
+
+/// A rectangle along the axes of the floor, in metres.
+struct FloorRect {
+    glm::dvec2 low{0};
+    glm::dvec2 high{0};
+
+    bool meets(const FloorRect& other) const {
+        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
+    }
+};
+
+/// A polygon around all disks of a clip. Where a run's agents first stand is drawn by these bounds: with others the
+/// same seed would give another run.
+class ClipBounds {
+  public:
+    explicit ClipBounds(const mobb::Clip& clip)
+        : corners_(mobb::KDop(clip.samples()).coarse_corners()), reach_(clip.reach()) {}
+
+    /// Holds every disk of the clip where it is placed, rounding included.
+    FloorRect bounds(const mobb::Placement& placement) const;
+
+  private:
+    std::array<glm::dvec2, mobb::KDop::kDirections / 2> corners_;  ///< in the clip's frame
+    double reach_;                                                 ///< of the clip: what rounding is measured by
+};
+
+/// Whether some disk reaches over a wall of the floor, which goes from -area/2 to area/2. Touching a wall is allowed.
+/// The bounds must be the clip's; it only saves time.
+bool leaves_floor(const mobb::PlacedClip& clip, const ClipBounds& clip_bounds, glm::dvec2 area);
 
 /// A clip that an agent plays, or may play. The tree and the bounds are of that clip and must outlive the grid.
 struct PlayedMove {
@@ -93,7 +124,6 @@ class ReservationGrid {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
     Held held(const PlayedMove& motion) const;
-    void take_from_cells(std::uint32_t slot);
     /// Calls visit(slot) once for each motion that reaches into a cell of the range.
     template <class Visit>
     void visit_cells(const CellRange& range, const Visit& visit) const;

@@ -1,4 +1,3 @@
-#include <crowd/graph/graph_walk.h>
 #include <crowd/simulation/reservation_table.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>

@@ -1,7 +1,6 @@
 /// The moves that the agents of a crowd have reserved, and the room kept free where they end.
 #pragma once
 
-#include <crowd/simulation/clip_bounds.h>
 #include <crowd/simulation/reservation_grid.h>
 #include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>

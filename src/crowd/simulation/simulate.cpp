@@ -37,12 +37,7 @@ class Simulator {
           sample_(sample),
           progress_(progress),
           reservations_(moves, options.area, options.grace) {
-        CrowdRun& run = simulation_.run;
-        run.area = options.area;
-        run.seconds = options.seconds;
-        run.seed = options.seed;
-        run.ahead = options.ahead;
-        run.grace = options.grace;
+        simulation_.run = {options.area, options.seconds, options.seed, options.ahead, options.grace, {}};
     }
 
     Simulation run() {

@@ -90,10 +90,21 @@ struct DrawnSpace {
 using Dash = glm::vec4;
 inline constexpr Dash kSolid{0, 0, 0, 0};
 
+/// What lies above what, from the lowest layer on. JSON has the numbers.
+enum class DrawLayer {
+    surroundings = 0,  ///< disks, floor, time axis, walls
+    nodes = 1,         ///< boxes of levels, and of pairs tested before
+    subject = 2,       ///< the pair under test; of a moment the people
+    candidates = 6,
+    time_cursor = 8,
+    findings = 9,  ///< gaps between boxes, and how far a disk reaches
+    rings = 10,    ///< around disks that matter
+};
+
 /// Where an instance stands among its like: what is drawn first where two are equally deep. Made from level and index,
 /// so the picture does not depend on the order of the lists.
 struct DrawOrder {
-    int layer = 0;  ///< 0 the surroundings, then levels or states, last the annotations
+    DrawLayer layer = DrawLayer::surroundings;
     int level = 0;  ///< of the node; the sample's is 0
     std::int64_t index = 0;
     friend auto operator<=>(const DrawOrder&, const DrawOrder&) = default;
@@ -126,15 +137,32 @@ struct BoxInstance {
     DrawOrder order;
 };
 
-/// A straight line with a constant width on the screen.
-struct LineInstance {
-    glm::vec3 from{0};
-    glm::vec3 to{0};
+/// A sheet between boxes and paths, without edges, that nobody can point at. `u`, `v`: half edges.
+inline BoxInstance annotation_sheet(glm::vec3 center, glm::vec3 u, glm::vec3 v, Rgba fill, DrawOrder order) {
+    BoxInstance out;
+    out.center = center;
+    out.extents = {u, v, glm::vec3(0)};
+    out.state = BoxState::annotation;
+    out.fill = fill;
+    out.edge = Rgba(0);
+    out.pickable = false;
+    out.order = order;
+    return out;
+}
+
+/// How a line in the scene looks.
+struct LineStyle {
     Rgba color{1};
     float width = 1;  ///< pixels
     Dash dash = kSolid;
     float hidden = 0;  ///< opacity kept behind disks, 0..1
     float cap = 0;     ///< pixels drawn beyond both ends
+};
+
+/// A straight line with a constant width on the screen.
+struct LineInstance : LineStyle {
+    glm::vec3 from{0};
+    glm::vec3 to{0};
     DrawOrder order;
 };
 

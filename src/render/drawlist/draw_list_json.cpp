@@ -1,6 +1,8 @@
 #include <render/drawlist/draw_list_json.h>
 
+#include <base/json.h>
 #include <base/json_writer.h>
+#include <base/text.h>
 #include <render/drawlist/draw_list.h>
 
 #include <glm/vec2.hpp>
@@ -11,6 +13,7 @@
 #include <span>
 #include <stdexcept>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 namespace mobbscope {
@@ -82,41 +85,14 @@ bool on_screen(const ViewProjection& projection, const DiskInstance& disk) {
 }
 
 std::string_view name(BoxState state) {
-    switch (state) {
-        case BoxState::level:
-            return "level";
-        case BoxState::under_test:
-            return "under_test";
-        case BoxState::apart_in_time:
-            return "apart_in_time";
-        case BoxState::separated:
-            return "separated";
-        case BoxState::overlap:
-            return "overlap";
-        case BoxState::hit:
-            return "hit";
-        case BoxState::annotation:
-            break;
-    }
-    return "annotation";
+    constexpr std::array<std::string_view, 7> kNames{"level",   "under_test", "apart_in_time", "separated",
+                                                     "overlap", "hit",        "annotation"};
+    return kNames[static_cast<std::size_t>(state)];
 }
 
 std::string_view name(LegendEntry::Mark mark) {
-    switch (mark) {
-        case LegendEntry::Mark::disk:
-            return "disk";
-        case LegendEntry::Mark::ring:
-            return "ring";
-        case LegendEntry::Mark::double_ring:
-            return "double_ring";
-        case LegendEntry::Mark::box:
-            return "box";
-        case LegendEntry::Mark::line:
-            return "line";
-        case LegendEntry::Mark::remark:
-            break;
-    }
-    return "remark";
+    constexpr std::array<std::string_view, 6> kNames{"disk", "ring", "double_ring", "box", "line", "remark"};
+    return kNames[static_cast<std::size_t>(mark)];
 }
 
 std::string_view name(HighlightLine::Role role) {
@@ -136,8 +112,7 @@ std::string color_text(Rgba color) {
 
 template <class Vector>
 void vector(JsonWriter& out, const char* key, const Vector& v) {
-    out.key(key);
-    out.begin_array(Layout::row);
+    out.begin_array(key, Layout::row);
     for (int i = 0; i < v.length(); ++i) out.value(static_cast<double>(v[i]));
     out.end_array();
 }
@@ -149,42 +124,33 @@ void color(JsonWriter& out, const char* key, Rgba value) { out.member(key, color
 /// Rows of an array.
 template <class Items, class Write>
 void rows(JsonWriter& out, const char* key, const Items& items, const Write& write) {
-    out.key(key);
-    out.begin_array();
-    for (const auto& item : items) {
+    out.list(key, items, [&](const auto& item) {
         out.begin_object(Layout::row);
         write(item);
         out.end_object();
-    }
-    out.end_array();
+    });
 }
 
 void write_object(JsonWriter& out, const Objects& objects, const std::optional<ObjectId>& id, const char* kind) {
-    const std::size_t number = objects.number(id);
-    out.member("id", static_cast<std::int64_t>(number));
-    out.key("participant");
-    id ? out.value(id->agent) : out.null();
-    out.key(kind);
-    id ? out.value(id->index) : out.null();
+    out.member("id", objects.number(id));
+    out.member("participant", id ? std::optional(id->agent) : std::nullopt);
+    out.member(kind, id ? std::optional(id->index) : std::nullopt);
 }
 
 void write_seen(JsonWriter& out, const Objects& objects, const std::optional<ObjectId>& id, bool on_screen) {
     out.member("on_screen", on_screen);
     if (!objects.counted()) return;
-    out.key("pixels");
-    id ? out.value(objects.pixels(objects.number(id))) : out.null();
+    out.member("pixels", id ? std::optional(objects.pixels(objects.number(id))) : std::nullopt);
 }
 
 void write_camera(JsonWriter& out, const ViewProjection& projection) {
-    out.key("camera");
-    out.begin_object();
+    out.begin_object("camera");
     vector(out, "eye", projection.eye);
     vector(out, "right", projection.right);
     vector(out, "up", projection.up);
     vector(out, "back", projection.back);
     out.member("perspective", projection.perspective);
-    out.key("clip_from_world");
-    out.begin_array(Layout::row);
+    out.begin_array("clip_from_world", Layout::row);
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) out.value(double{projection.clip_from_world[column][row]});
     }
@@ -207,10 +173,7 @@ void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, 
     out.member("level", box.order.level);
     out.member("state", name(box.state));
     vector(out, "center", box.center);
-    out.key("extents");
-    out.begin_array();
-    for (const glm::vec3& extent : box.extents) out.numbers({extent.x, extent.y, extent.z});
-    out.end_array();
+    out.list("extents", box.extents, [&](const glm::vec3& e) { out.numbers({e.x, e.y, e.z}); });
     color(out, "fill", box.fill);
     color(out, "edge", box.edge);
     number(out, "width", box.width);
@@ -219,7 +182,7 @@ void write_box(JsonWriter& out, const BoxInstance& box, const Objects& objects, 
 }
 
 void write_line(JsonWriter& out, const LineInstance& line, const ViewProjection& projection) {
-    out.member("layer", line.order.layer);
+    out.member("layer", static_cast<int>(line.order.layer));
     vector(out, "from", line.from);
     vector(out, "to", line.to);
     color(out, "color", line.color);
@@ -292,6 +255,97 @@ std::vector<LineInstance> sorted(std::vector<LineInstance> lines) {
     return lines;
 }
 
+using Difference = std::optional<std::string>;
+
+constexpr double kNear = 1e-4;
+constexpr double kNearPixels = 0.01;
+constexpr double kFewPixels = 16;
+
+bool agree(double a, double b, bool pixels) {
+    const double size = std::max(std::abs(a), std::abs(b));
+    return std::abs(a - b) <= (pixels ? std::max(kFewPixels, kNearPixels * size) : std::max(kNear, kNear * size));
+}
+
+/// Two values of one type that hold no others.
+bool agree(const JsonValue& a, const JsonValue& b, bool pixels) {
+    if (const auto* number = std::get_if<double>(&a.data)) return agree(*number, std::get<double>(b.data), pixels);
+    if (const auto* text = std::get_if<std::string>(&a.data)) return *text == std::get<std::string>(b.data);
+    if (const auto* boolean = std::get_if<bool>(&a.data)) return *boolean == std::get<bool>(b.data);
+    return true;
+}
+
+/// A place for a message.
+std::string named(const std::string& place) { return place.empty() ? "the whole" : place; }
+
+/// A value for a message.
+std::string shown(const JsonValue& value) {
+    struct Show {
+        std::string operator()(std::nullptr_t) const { return "null"; }
+        std::string operator()(bool boolean) const { return boolean ? "true" : "false"; }
+        std::string operator()(double number) const { return brief(number); }
+        std::string operator()(const std::string& text) const { return in_quotes(text); }
+        std::string operator()(const JsonValue::Array&) const { return "an array"; }
+        std::string operator()(const JsonValue::Object&) const { return "an object"; }
+    };
+    return std::visit(Show{}, value.data);
+}
+
+const JsonValue* find(const JsonValue::Object& object, const std::string& key) {
+    const auto found =
+        std::find_if(object.begin(), object.end(), [&](const JsonMember& member) { return member.key == key; });
+    return found == object.end() ? nullptr : &found->value;
+}
+
+/// Where two values have another number of elements: those that are missing shift all that come after.
+Difference length_difference(const std::string& place, const JsonValue& actual, const JsonValue& golden) {
+    const auto* here = std::get_if<JsonValue::Array>(&actual.data);
+    const auto* there = std::get_if<JsonValue::Array>(&golden.data);
+    if (!here || !there || here->size() == there->size()) return std::nullopt;
+    return named(place) + ": " + counted(static_cast<long long>(here->size()), "element", "elements") + " instead of " +
+           std::to_string(there->size());
+}
+
+Difference value_difference(const std::string& place, const JsonValue& actual, const JsonValue& golden, bool pixels);
+
+Difference value_difference(const std::string& place, const JsonValue::Array& actual, const JsonValue::Array& golden) {
+    for (std::size_t i = 0; i < golden.size(); ++i) {
+        if (auto found = value_difference(place + '/' + std::to_string(i), actual[i], golden[i], false)) return found;
+    }
+    return std::nullopt;
+}
+
+Difference value_difference(const std::string& place, const JsonValue::Object& actual,
+                            const JsonValue::Object& golden) {
+    for (const JsonMember& member : golden) {
+        const JsonValue* found = find(actual, member.key);
+        if (!found) return place + pointer_token(member.key) + ": missing";
+        if (auto length = length_difference(place + pointer_token(member.key), *found, member.value)) return length;
+    }
+    for (const JsonMember& member : actual) {
+        if (!find(golden, member.key)) return place + pointer_token(member.key) + ": not expected";
+    }
+    for (const JsonMember& member : golden) {
+        auto found = value_difference(place + pointer_token(member.key), *find(actual, member.key), member.value,
+                                      member.key == "pixels");
+        if (found) return found;
+    }
+    return std::nullopt;
+}
+
+/// `pixels`: whether they are numbers of pixels.
+Difference value_difference(const std::string& place, const JsonValue& actual, const JsonValue& golden, bool pixels) {
+    if (actual.data.index() == golden.data.index()) {
+        if (const auto* object = std::get_if<JsonValue::Object>(&golden.data))
+            return value_difference(place, std::get<JsonValue::Object>(actual.data), *object);
+        if (const auto* array = std::get_if<JsonValue::Array>(&golden.data)) {
+            if (auto length = length_difference(place, actual, golden)) return length;
+            return value_difference(place, std::get<JsonValue::Array>(actual.data), *array);
+        }
+        if (agree(actual, golden, pixels)) return std::nullopt;
+    }
+    return named(place) + ": " + shown(actual) + " instead of " + shown(golden);
+}
+
 }  // namespace
 
 void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* ids) {
@@ -300,10 +354,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
     out.begin_object();
     vector(out, "size", glm::ivec2(list.size.width, list.size.height));
     color(out, "background", list.background.value_or(list.palette.background));
-    out.key("participants");
-    out.begin_array(Layout::row);
-    for (const std::string& agent : list.agents) out.value(agent);
-    out.end_array();
+    out.values("participants", list.agents);
     write_camera(out, list.projection);
     rows(out, "disks", sorted(list.disks),
          [&](const DiskInstance& disk) { write_disk(out, disk, objects, list.projection); });
@@ -343,6 +394,11 @@ Image id_picture(const DrawList& list, const IdImage& ids) {
         }
     }
     return image;
+}
+
+std::optional<std::string> first_difference(std::string_view actual, const std::string& actual_name,
+                                            std::string_view golden, const std::string& golden_name) {
+    return value_difference("", parse_json(actual, actual_name), parse_json(golden, golden_name), false);
 }
 
 }  // namespace mobbscope

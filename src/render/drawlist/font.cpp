@@ -84,9 +84,8 @@ bool Font::has(char32_t code) const { return glyph(code) != kMissing; }
 
 float Font::advance(char32_t code, char32_t next, float size) const {
     int advance = 0;
-    int bearing = 0;
     const int here = glyph(code);
-    stbtt_GetGlyphHMetrics(info_.get(), here, &advance, &bearing);
+    stbtt_GetGlyphHMetrics(info_.get(), here, &advance, nullptr);
     if (next != 0) advance += stbtt_GetGlyphKernAdvance(info_.get(), here, glyph(next));
     return static_cast<float>(advance) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
 }
@@ -102,17 +101,13 @@ float Font::width(std::string_view utf8, float size) const {
 
 float Font::ascent(float size) const {
     int ascent = 0;
-    int descent = 0;
-    int gap = 0;
-    stbtt_GetFontVMetrics(info_.get(), &ascent, &descent, &gap);
+    stbtt_GetFontVMetrics(info_.get(), &ascent, nullptr, nullptr);
     return static_cast<float>(ascent) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
 }
 
 float Font::descent(float size) const {
-    int ascent = 0;
     int descent = 0;
-    int gap = 0;
-    stbtt_GetFontVMetrics(info_.get(), &ascent, &descent, &gap);
+    stbtt_GetFontVMetrics(info_.get(), nullptr, &descent, nullptr);
     return static_cast<float>(-descent) * stbtt_ScaleForMappingEmToPixels(info_.get(), size);
 }
 
@@ -120,10 +115,7 @@ GlyphBitmap Font::rasterise(char32_t code, float size, float shift) const {
     const float scale = stbtt_ScaleForMappingEmToPixels(info_.get(), size);
     const int index = glyph(code);
     if (index == kMissing) return hollow_box(advance(code, 0, size), size);
-    int x0 = 0;
-    int y0 = 0;
-    int x1 = 0;
-    int y1 = 0;
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     stbtt_GetGlyphBitmapBoxSubpixel(info_.get(), index, scale, scale, shift, 0, &x0, &y0, &x1, &y1);
     GlyphBitmap bitmap{x1 - x0, y1 - y0, x0, y0, {}};
     bitmap.coverage.resize(static_cast<std::size_t>(bitmap.width) * static_cast<std::size_t>(bitmap.height));
@@ -166,16 +158,12 @@ std::vector<std::string> wrap_text(const std::string& text, FontFace face, float
     std::vector<std::string> lines;
     std::string line;
     float line_width = 0;
-    std::size_t begin = 0;
-    while (begin < text.size()) {
+    for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find(' ', begin), text.size());
         const std::string word = text.substr(begin, end - begin);
         const float word_width = font.width(word, size);
-        if (line.empty()) {
-            line = word;
-            line_width = word_width;
-        } else if (line_width + space + word_width > width) {
-            lines.push_back(line);
+        if (line.empty() || line_width + space + word_width > width) {
+            if (!line.empty()) lines.push_back(line);
             line = word;
             line_width = word_width;
         } else {

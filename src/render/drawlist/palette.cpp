@@ -21,46 +21,35 @@ constexpr std::uint32_t kVermillion = 0xD55E00;
 constexpr std::array<std::uint32_t, 10> kViridis{0x440154, 0x482878, 0x3E4A89, 0x31688E, 0x26828E,
                                                  0x1F9E89, 0x35B779, 0x6DCD59, 0xB4DE2C, 0xFDE725};
 
-Palette dark_palette() {
-    Palette p;
-    p.background = hex(0x14181D);
-    p.grid = hex(0x2B333C);
-    p.axis = hex(0x7F8994);
-    p.text = hex(0xE7EAEE);
-    p.quiet_text = hex(0x98A2AD);
-    p.panel = hex(0x1A2027, 0.92f);
-    p.panel_border = hex(0x2C343D);
-    p.accent = hex(kSkyBlue);
-    p.apart_in_time = hex(0x9AA3AD);
-    p.separated = hex(0x12B587);  // bluish green, lifted off the dark ground
-    p.overlap = hex(kYellow);
-    p.hit = hex(0xF0701A);  // vermillion, lifted likewise
-    return p;
-}
-
-Palette light_palette() {
-    Palette p;
-    p.background = hex(0xF7F8F9);
-    p.grid = hex(0xD6DBE0);
-    p.axis = hex(0x68727C);
-    p.text = hex(0x1D2329);
-    p.quiet_text = hex(0x5A646E);
-    p.panel = hex(0xFFFFFF, 0.94f);
-    p.panel_border = hex(0xD2D7DC);
-    p.accent = hex(0x0072B2);
-    p.apart_in_time = hex(0x7A838C);
-    p.separated = hex(kBluishGreen);
-    p.overlap = hex(0xB9A900);  // yellow, darkened to be seen on white
-    p.hit = hex(kVermillion);
-    p.dark = false;
-    return p;
-}
-
 }  // namespace
 
 const Palette& palette(Theme theme) {
-    static const Palette dark = dark_palette();
-    static const Palette light = light_palette();
+    static const Palette dark{.background = hex(0x14181D),
+                              .grid = hex(0x2B333C),
+                              .axis = hex(0x7F8994),
+                              .text = hex(0xE7EAEE),
+                              .quiet_text = hex(0x98A2AD),
+                              .panel = hex(0x1A2027, 0.92f),
+                              .panel_border = hex(0x2C343D),
+                              .accent = hex(kSkyBlue),
+                              .apart_in_time = hex(0x9AA3AD),
+                              .separated = hex(0x12B587),  // bluish green, lifted off the dark ground
+                              .overlap = hex(kYellow),
+                              .hit = hex(0xF0701A),  // vermillion, lifted likewise
+                              .dark = true};
+    static const Palette light{.background = hex(0xF7F8F9),
+                               .grid = hex(0xD6DBE0),
+                               .axis = hex(0x68727C),
+                               .text = hex(0x1D2329),
+                               .quiet_text = hex(0x5A646E),
+                               .panel = hex(0xFFFFFF, 0.94f),
+                               .panel_border = hex(0xD2D7DC),
+                               .accent = hex(0x0072B2),
+                               .apart_in_time = hex(0x7A838C),
+                               .separated = hex(kBluishGreen),
+                               .overlap = hex(0xB9A900),  // yellow, darkened to be seen on white
+                               .hit = hex(kVermillion),
+                               .dark = false};
     return theme == Theme::dark ? dark : light;
 }
 

@@ -1,3 +1,4 @@
+#include <render/drawlist/pen.h>
 #include <render/drawlist/shown_points.h>
 
 #include <glm/common.hpp>
@@ -24,8 +25,7 @@ const std::array<glm::vec3, 8>& rim_directions() {
     static const std::array<glm::vec3, 8> directions = [] {
         std::array<glm::vec3, 8> out;
         for (std::size_t i = 0; i < out.size(); ++i) {
-            const double angle = static_cast<double>(i) * std::numbers::pi / 4;
-            out[i] = glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
+            out[i] = glm::vec3(glm::dvec3(on_circle(static_cast<double>(i), 8), 0));
         }
         return out;
     }();

@@ -151,11 +151,6 @@ float ViewProjection::pixels_per_metre(glm::vec3 point) const {
     return here && beside ? glm::length(*beside - *here) : 0;
 }
 
-ViewProjection make_projection(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target,
-                               const Frame& free_frame, PictureSize size) {
-    return make_projection(camera, ShownPoints(points), target, free_frame, size);
-}
-
 ViewProjection make_projection(const Camera& camera, const ShownPoints& points, const glm::vec3* target,
                                const Frame& free_frame, PictureSize size) {
     const Frame frame = target ? shifted_picture(camera, size) : free_frame;

@@ -11,7 +11,6 @@
 
 #include <numbers>
 #include <optional>
-#include <span>
 
 namespace mobbscope {
 
@@ -80,8 +79,6 @@ class ShownPoints;
 /// space) the frame is the whole picture, moved by the camera's shift, and the target goes to its middle. `points` also
 /// set what is near and far.
 ViewProjection make_projection(const Camera& camera, const ShownPoints& points, const glm::vec3* target,
-                               const Frame& frame, PictureSize size);
-ViewProjection make_projection(const Camera& camera, std::span<const glm::vec3> points, const glm::vec3* target,
                                const Frame& frame, PictureSize size);
 
 /// Over the viewer's left shoulder, so that shapes read the same from every side. Unit length.

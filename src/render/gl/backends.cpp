@@ -1,3 +1,4 @@
+#include <base/error.h>
 #include <render/gl/backends.h>
 #include <render/gl/gl_context.h>
 #include <render/gl/gl_objects.h>
@@ -16,21 +17,6 @@
 namespace mobbscope {
 
 namespace {
-
-BackendReport report(const char* name, std::unique_ptr<GlContext> (*open)()) {
-    BackendReport out;
-    out.name = name;
-    try {
-        const std::unique_ptr<GlContext> context = open();
-        context->make_current();
-        out.version = gl_string(GL_VERSION);
-        out.renderer = gl_string(GL_RENDERER);
-        out.works = true;
-    } catch (const std::runtime_error& error) {
-        out.why_not = error.what();
-    }
-    return out;
-}
 
 /// The part of OSMesa's interface that is used. Declared here, as its header is in no package where OSMesa is gone.
 namespace osmesa {
@@ -53,15 +39,9 @@ class OsmesaContext final : public GlContext {
   public:
     OsmesaContext() {
         // A compatibility profile would do as well, but core is what the shaders are written for.
-        const std::array<int, 9> attributes{osmesa::kFormat,
-                                            GL_RGBA,
-                                            osmesa::kProfile,
-                                            osmesa::kCoreProfile,
-                                            osmesa::kContextMajorVersion,
-                                            3,
-                                            osmesa::kContextMinorVersion,
-                                            3,
-                                            0};
+        using namespace osmesa;
+        const std::array attributes{
+            kFormat, int{GL_RGBA}, kProfile, kCoreProfile, kContextMajorVersion, 3, kContextMinorVersion, 3, 0};
         context_ = create_(attributes.data(), nullptr);
         if (!context_) throw std::runtime_error("it makes no OpenGL 3.3 core context");
     }
@@ -138,9 +118,62 @@ class EglContext final : public GlContext {
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
+/// A context that is current. Throws std::runtime_error saying why it cannot be had here.
+template <class Context>
+std::unique_ptr<GlContext> open_current() {
+    std::unique_ptr<GlContext> context = std::make_unique<Context>();
+    context->make_current();
+    return context;
+}
+
+struct BackendRow {
+    Backend backend;
+    std::string_view name;
+    std::unique_ptr<GlContext> (*open)();
+};
+/// In the order in which they are tried.
+constexpr BackendRow kBackends[] = {{Backend::osmesa, "osmesa", open_current<OsmesaContext>},
+                                    {Backend::egl, "egl", open_current<EglContext>}};
+
 }  // namespace
 
-std::vector<BackendReport> report_backends() { return {report("osmesa", open_osmesa), report("egl", open_egl)}; }
+std::vector<BackendReport> report_backends() {
+    std::vector<BackendReport> out;
+    for (const BackendRow& row : kBackends) {
+        BackendReport& report = out.emplace_back();
+        report.name = row.name;
+        try {
+            const std::unique_ptr<GlContext> context = row.open();
+            report.version = gl_string(GL_VERSION);
+            report.renderer = gl_string(GL_RENDERER);
+            report.works = true;
+        } catch (const std::runtime_error& error) {
+            report.why_not = error.what();
+        }
+    }
+    return out;
+}
+
+std::optional<Backend> backend_from_name(std::string_view name) {
+    if (name == "auto") return Backend::automatic;
+    for (const BackendRow& row : kBackends) {
+        if (row.name == name) return row.backend;
+    }
+    return std::nullopt;
+}
+
+std::unique_ptr<GlContext> GlContext::open(Backend backend) {
+    std::string reasons;
+    for (const BackendRow& row : kBackends) {
+        if (backend != Backend::automatic && backend != row.backend) continue;
+        try {
+            return row.open();
+        } catch (const std::runtime_error& error) {
+            reasons += (reasons.empty() ? "" : "; ") + std::string(row.name) + ": " + error.what();
+        }
+    }
+    throw MachineError("no OpenGL 3.3 context without a display (" + reasons + ")");
+}
 
 SharedLibrary::SharedLibrary(const std::vector<std::string>& names) {
     std::string reasons;
@@ -162,9 +195,5 @@ void* SharedLibrary::symbol(const char* name) const {
     if (void* address = dlsym(handle_, name)) return address;
     throw std::runtime_error(name_ + " has no function " + name);
 }
-
-std::unique_ptr<GlContext> open_osmesa() { return std::make_unique<OsmesaContext>(); }
-
-std::unique_ptr<GlContext> open_egl() { return std::make_unique<EglContext>(); }
 
 }  // namespace mobbscope

@@ -3,7 +3,6 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/gl/disk_levels.h>
-#include <render/gl/draw_statistics.h>
 #include <render/gl/gl_objects.h>
 
 #include <map>

@@ -21,34 +21,6 @@ void GLAD_API_PTR on_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLen
 
 }  // namespace
 
-std::optional<Backend> backend_from_name(std::string_view name) {
-    if (name == "auto") return Backend::automatic;
-    if (name == "osmesa") return Backend::osmesa;
-    if (name == "egl") return Backend::egl;
-    return std::nullopt;
-}
-
-std::unique_ptr<GlContext> GlContext::open(Backend backend) {
-    std::string reasons;
-    const auto attempt = [&](const char* name, std::unique_ptr<GlContext> (*opener)()) -> std::unique_ptr<GlContext> {
-        try {
-            std::unique_ptr<GlContext> context = opener();
-            context->make_current();
-            return context;
-        } catch (const std::runtime_error& error) {
-            reasons += (reasons.empty() ? "" : "; ") + std::string(name) + ": " + error.what();
-            return nullptr;
-        }
-    };
-    if (backend != Backend::egl) {
-        if (auto context = attempt("osmesa", open_osmesa)) return context;
-    }
-    if (backend != Backend::osmesa) {
-        if (auto context = attempt("egl", open_egl)) return context;
-    }
-    throw MachineError("no OpenGL 3.3 context without a display (" + reasons + ")");
-}
-
 GlContext::~GlContext() {
     if (loaded == this) loaded = nullptr;
 }

@@ -64,8 +64,4 @@ class GlContext {
     std::vector<std::string> warnings_;
 };
 
-/// Each throws std::runtime_error saying why it cannot be had here.
-std::unique_ptr<GlContext> open_osmesa();
-std::unique_ptr<GlContext> open_egl();
-
 }  // namespace mobbscope

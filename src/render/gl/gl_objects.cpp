@@ -15,9 +15,16 @@ namespace mobbscope {
 namespace {
 
 /// What the compiler says of a shader, or the linker of a program, is an error if it failed and else a warning.
-void judge(GlContext& context, const std::string& what, bool done, std::string log) {
+void judge(GlContext& context, const std::string& what, GLuint object, GLenum status, PFNGLGETSHADERIVPROC get,
+           PFNGLGETSHADERINFOLOGPROC get_log) {
+    GLint done = GL_FALSE;
+    GLint length = 0;
+    get(object, status, &done);
+    get(object, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    get_log(object, static_cast<GLsizei>(log.size()), nullptr, log.data());
     while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) log.pop_back();
-    if (!done) throw MachineError(std::string(context.name()) + ", compiling shaders: " + what + ": " + log);
+    if (done != GL_TRUE) throw MachineError(std::string(context.name()) + ", compiling shaders: " + what + ": " + log);
     if (!log.empty()) context.warn(what + ": " + log);
 }
 
@@ -26,13 +33,7 @@ void compile(GlContext& context, GLuint shader, const std::string& file, std::st
     const GLint size = static_cast<GLint>(text.size());
     glShaderSource(shader, 1, &source, &size);
     glCompileShader(shader);
-    GLint done = GL_FALSE;
-    GLint length = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
-    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    judge(context, file, done == GL_TRUE, log);
+    judge(context, file, shader, GL_COMPILE_STATUS, glGetShaderiv, glGetShaderInfoLog);
 }
 
 constexpr GLenum kOff[] = {GL_BLEND,
@@ -64,46 +65,6 @@ std::string gl_string(GLenum name) {
     return text ? reinterpret_cast<const char*>(text) : "";
 }
 
-GLuint BufferKind::create() {
-    GLuint name = 0;
-    glGenBuffers(1, &name);
-    return name;
-}
-void BufferKind::destroy(GLuint name) { glDeleteBuffers(1, &name); }
-
-GLuint VertexArrayKind::create() {
-    GLuint name = 0;
-    glGenVertexArrays(1, &name);
-    return name;
-}
-void VertexArrayKind::destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
-
-GLuint TextureKind::create() {
-    GLuint name = 0;
-    glGenTextures(1, &name);
-    return name;
-}
-void TextureKind::destroy(GLuint name) { glDeleteTextures(1, &name); }
-
-GLuint RenderbufferKind::create() {
-    GLuint name = 0;
-    glGenRenderbuffers(1, &name);
-    return name;
-}
-void RenderbufferKind::destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
-
-GLuint FramebufferKind::create() {
-    GLuint name = 0;
-    glGenFramebuffers(1, &name);
-    return name;
-}
-void FramebufferKind::destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
-
-GLuint ProgramKind::create() { return glCreateProgram(); }
-void ProgramKind::destroy(GLuint name) { glDeleteProgram(name); }
-
-ShaderProgram::ShaderProgram(GlContext& context, const std::string& name) : ShaderProgram(context, name, name) {}
-
 ShaderProgram::ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment)
     : ShaderProgram(context, fragment, render_assets::embedded(vertex + ".vert"),
                     render_assets::embedded(fragment + ".frag")) {}
@@ -117,13 +78,7 @@ ShaderProgram::ShaderProgram(GlContext& context, const std::string& name, std::s
     glAttachShader(program_.name(), vertex_shader.name());
     glAttachShader(program_.name(), fragment_shader.name());
     glLinkProgram(program_.name());
-    GLint done = GL_FALSE;
-    GLint length = 0;
-    glGetProgramiv(program_.name(), GL_LINK_STATUS, &done);
-    glGetProgramiv(program_.name(), GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-    glGetProgramInfoLog(program_.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    judge(context, name, done == GL_TRUE, log);
+    judge(context, name, program_.name(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog);
 }
 
 void ShaderProgram::use() const { glUseProgram(program_.name()); }

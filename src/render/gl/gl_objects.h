@@ -14,6 +14,15 @@
 
 namespace mobbscope {
 
+/// What drawing one picture took. A camera that moves needs none of the world's bytes anew.
+struct DrawStatistics {
+    std::size_t world_bytes = 0;    ///< uploaded: shapes of disks and boxes
+    std::size_t state_bytes = 0;    ///< ... their colours and lines
+    std::size_t overlay_bytes = 0;  ///< ... lines, words and all else
+    std::size_t triangles = 0;      ///< that were asked for
+    std::size_t draw_calls = 0;
+};
+
 /// What the current context says of itself, as GL_VERSION; empty if nothing.
 std::string gl_string(GLenum name);
 
@@ -37,49 +46,38 @@ class GlObject {
     GLuint name_;
 };
 
-struct BufferKind {
-    static GLuint create();
-    static void destroy(GLuint name);
+/// What OpenGL makes and destroys by the number. The functions are glad's pointers, which are set at run time.
+template <PFNGLGENBUFFERSPROC& make, PFNGLDELETEBUFFERSPROC& remove>
+struct CountedKind {
+    static GLuint create() {
+        GLuint name = 0;
+        make(1, &name);
+        return name;
+    }
+    static void destroy(GLuint name) { remove(1, &name); }
 };
-struct VertexArrayKind {
-    static GLuint create();
-    static void destroy(GLuint name);
-};
-struct TextureKind {
-    static GLuint create();
-    static void destroy(GLuint name);
-};
-struct RenderbufferKind {
-    static GLuint create();
-    static void destroy(GLuint name);
-};
-struct FramebufferKind {
-    static GLuint create();
-    static void destroy(GLuint name);
-};
-
-template <GLenum floor_extent>
+template <GLenum stage>
 struct ShaderKind {
-    static GLuint create() { return glCreateShader(floor_extent); }
+    static GLuint create() { return glCreateShader(stage); }
     static void destroy(GLuint name) { glDeleteShader(name); }
 };
 struct ProgramKind {
-    static GLuint create();
-    static void destroy(GLuint name);
+    static GLuint create() { return glCreateProgram(); }
+    static void destroy(GLuint name) { glDeleteProgram(name); }
 };
 
-using Buffer = GlObject<BufferKind>;
-using VertexArray = GlObject<VertexArrayKind>;
-using Texture = GlObject<TextureKind>;
-using Renderbuffer = GlObject<RenderbufferKind>;
-using Framebuffer = GlObject<FramebufferKind>;
+using Buffer = GlObject<CountedKind<glGenBuffers, glDeleteBuffers>>;
+using VertexArray = GlObject<CountedKind<glGenVertexArrays, glDeleteVertexArrays>>;
+using Texture = GlObject<CountedKind<glGenTextures, glDeleteTextures>>;
+using Renderbuffer = GlObject<CountedKind<glGenRenderbuffers, glDeleteRenderbuffers>>;
+using Framebuffer = GlObject<CountedKind<glGenFramebuffers, glDeleteFramebuffers>>;
 
 /// A linked pair of shaders. What the compiler remarks goes to the context's warnings.
 class ShaderProgram {
   public:
     /// From shaders/<name>.vert and .frag, which are part of the program. Throws MachineError with what the compiler
     /// says if it does not take them.
-    ShaderProgram(GlContext& context, const std::string& name);
+    ShaderProgram(GlContext& context, const std::string& name) : ShaderProgram(context, name, name) {}
     /// The same from two shaders of different names.
     ShaderProgram(GlContext& context, const std::string& vertex, const std::string& fragment);
     ShaderProgram(GlContext& context, const std::string& name, std::string_view vertex, std::string_view fragment);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/gl/draw_statistics.h>
 #include <render/gl/gl_objects.h>
 #include <render/gl/glyph_atlas.h>
 

@@ -3,7 +3,6 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
-#include <render/gl/draw_statistics.h>
 #include <render/gl/gl_context.h>
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>

@@ -113,20 +113,13 @@ HeatColor glow(int difference, double tolerance) {
     return t < 0.5f ? glm::mix(kWeak, kMedium, 2 * t) : glm::mix(kMedium, kStrong, 2 * t - 1);
 }
 
-using Layout = JsonWriter::Layout;
-
 void write_size(JsonWriter& out, const char* key, PictureSize size) {
-    out.key(key);
-    out.begin_array(Layout::row);
-    out.value(size.width);
-    out.value(size.height);
-    out.end_array();
+    out.values(key, std::array{size.width, size.height});
 }
 
 void write_bounds(JsonWriter& out, const std::optional<PixelRect>& bounds) {
-    out.key("bounds");
-    if (!bounds) return out.null();
-    out.begin_object(Layout::row);
+    if (!bounds) return out.member("bounds", std::optional<int>());
+    out.begin_object("bounds", JsonWriter::Layout::row);
     out.member("x", bounds->x);
     out.member("y", bounds->y);
     out.member("width", bounds->width);
@@ -224,10 +217,7 @@ void write_diff(JsonWriter& out, const ImageDiff& diff) {
     out.member("maximum", diff.largest);
     out.member("mean", diff.mean);
     write_bounds(out, diff.bounds);
-    out.key("histogram");
-    out.begin_array(Layout::row);
-    for (const std::int64_t count : diff.histogram) out.value(count);
-    out.end_array();
+    out.values("histogram", diff.histogram);
     out.member("threshold", diff.options.channel_tolerance);
     out.member("allowed", diff.options.pixel_fraction);
     out.member("shift", diff.options.shift);

@@ -19,36 +19,15 @@ void note(std::vector<LabelRequest>& notes, const DrawList& list, glm::vec3 at, 
           float text_size) {
     const auto anchor = list.projection.project(at);
     if (!anchor) return;
-    LabelRequest label;
-    label.text = std::move(text);
-    label.face = FontFace::mono;
-    label.size = text_size;
-    label.color = readable(color, list.palette);
-    label.border = color;
-    label.anchor = *anchor;
-    label.directions = {{1, -0.5f}, {-1, -0.5f}, {1, 0.5f}, {-1, 0.5f}, {0, -1}, {0, 1}};
-    label.distance = 4.5f * text_size;
-    label.pill = true;
-    notes.push_back(std::move(label));
-}
-
-void add_name(DrawList& list, LabelLayout& layout, const DrawnAgent& agent, float text_size) {
-    const mobb::PlacedClip& clip = agent.clip();
-    const mobb::Disk last = clip.disk(clip.count() - 1);
-    const glm::vec3 top = list.space.point(last.x, last.y, agent.end());
-    const auto anchor = list.projection.project(top);
-    if (!anchor) return;
-    LabelRequest label;
-    label.text = fit_text(agent.label, FontFace::text, text_size, 0.3f * static_cast<float>(list.size.width));
-    label.size = text_size;
-    label.color = readable(agent.color, list.palette);
-    label.anchor = *anchor;
-    label.directions = {{0, -1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}};
-    const float radius = static_cast<float>(last.r) * list.projection.pixels_per_metre(top);
-    label.pill = true;
-    label.border = with_alpha(list.palette.panel, 0);
-    label.distance = radius * std::max(std::abs(list.projection.back.z), 0.1f) + 0.4f * text_size;
-    layout.place(label, list);
+    notes.push_back({.text = std::move(text),
+                     .face = FontFace::mono,
+                     .size = text_size,
+                     .color = readable(color, list.palette),
+                     .anchor = *anchor,
+                     .directions = {{1, -0.5f}, {-1, -0.5f}, {1, 0.5f}, {-1, 0.5f}, {0, -1}, {0, 1}},
+                     .distance = 4.5f * text_size,
+                     .pill = true,
+                     .border = color});
 }
 
 }  // namespace
@@ -93,11 +72,34 @@ void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest
     }
 }
 
+std::optional<LabelRequest> name_label(const DrawList& list, const DrawnAgent& agent, glm::vec3 top, double radius,
+                                       float text_size) {
+    const auto anchor = list.projection.project(top);
+    if (!anchor) return std::nullopt;
+    const float pixels = static_cast<float>(radius) * list.projection.pixels_per_metre(top);
+    LabelRequest label;
+    label.text = fit_text(agent.label, FontFace::text, text_size, 0.3f * static_cast<float>(list.size.width));
+    label.size = text_size;
+    label.color = readable(agent.color, list.palette);
+    label.anchor = *anchor;
+    label.directions = {{0, -1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}};
+    label.distance = pixels * std::max(std::abs(list.projection.back.z), 0.1f) + 0.4f * text_size;
+    label.pill = true;
+    return label;
+}
+
 bool names_fit(std::size_t agents) { return agents <= kMostNames; }
 
 void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics) {
     if (agents.size() < 2 || !names_fit(agents.size())) return;
-    for (const DrawnAgent& agent : agents) add_name(list, layout, agent, metrics.text);
+    for (const DrawnAgent& agent : agents) {
+        const mobb::Disk last = agent.clip().disk(agent.clip().count() - 1);
+        const glm::vec3 top = list.space.point(last.x, last.y, agent.end());
+        auto label = name_label(list, agent, top, last.r, metrics.text);
+        if (!label) continue;
+        label->border = with_alpha(list.palette.panel, 0);
+        layout.place(*label, list);
+    }
 }
 
 }  // namespace mobbscope

@@ -7,6 +7,7 @@
 #include <render/text/labels.h>
 #include <scene/drawn_agent.h>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,11 @@ void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest
 
 /// More names than this hide the scene and one another.
 bool names_fit(std::size_t agents);
+
+/// A name that stands around the upper end of a path, or of a body, that is as wide as a disk. None where `top` (drawn
+/// space) is not seen.
+std::optional<LabelRequest> name_label(const DrawList& list, const DrawnAgent& agent, glm::vec3 top, double radius,
+                                       float text_size);
 
 /// Names at the upper ends of paths; a single path is named by the legend.
 void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics);

@@ -1,6 +1,7 @@
 #include <render/drawlist/camera.h>
-#include <render/drawlist/draw_list.h>
+#include <render/drawlist/shown_points.h>
 #include <render/layout/common_framing.h>
+#include <render/layout/framing.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,28 +18,9 @@ namespace {
 
 constexpr std::size_t kFewPoints = 10'000;
 
-void add_disk(std::vector<glm::vec3>& points, const DiskInstance& disk) {
-    constexpr int kDirections = 8;
-    for (int i = 0; i < kDirections; ++i) {
-        const double angle = i * 2 * std::numbers::pi / kDirections;
-        const glm::vec3 rim = disk.base + disk.radius * glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
-        points.push_back(rim);
-        points.push_back(rim + glm::vec3(0, 0, disk.height));
-    }
-}
-
-struct PointExtent {
-    glm::dvec3 min{std::numeric_limits<double>::max()};
-    glm::dvec3 max{std::numeric_limits<double>::lowest()};
-    glm::dvec3 middle() const { return 0.5 * (min + max); }
-};
-
-PointExtent extent_of(const std::vector<glm::vec3>& points) {
-    PointExtent extent;
-    for (const glm::vec3& point : points) {
-        extent.min = glm::min(extent.min, glm::dvec3(point));
-        extent.max = glm::max(extent.max, glm::dvec3(point));
-    }
+Bounds extent_of(const std::vector<glm::vec3>& points) {
+    Bounds extent;
+    for (const glm::vec3& point : points) extent.add(point);
     return extent;
 }
 
@@ -48,7 +30,12 @@ void CommonFraming::add(const DrawList& list) {
     space_ = list.space;
     size_ = list.size;
     frame_ = frame_ ? Frame{glm::max(frame_->min, list.frame.min), glm::min(frame_->max, list.frame.max)} : list.frame;
-    for (const DiskInstance& disk : list.disks) add_disk(points_, disk);
+    for (const DiskInstance& disk : list.disks) {
+        for (const glm::vec3& direction : rim_directions()) {
+            const glm::vec3 rim = disk.base + disk.radius * direction;
+            points_.insert(points_.end(), {rim, rim + glm::vec3(0, 0, disk.height)});
+        }
+    }
     for (const BoxInstance& box : list.boxes) {
         for (const glm::vec3& corner : box_corners(box)) points_.push_back(corner);
     }
@@ -68,7 +55,7 @@ Camera CommonFraming::still(const Camera& camera) const {
     PictureFrame picture;
     picture.size = size_;
     picture.space = space_;
-    picture.projection = make_projection(camera, points_, nullptr, *frame_, size_);
+    picture.projection = make_projection(camera, ShownPoints(points_), nullptr, *frame_, size_);
     picture.middle = extent_of(points_).middle();
     return resolved_camera(camera, picture);
 }
@@ -85,7 +72,7 @@ Camera CommonFraming::turning(const Camera& camera) const {
 
     // Turned once around, a point at a distance from the axis and a height needs the eye this far from the axis' foot,
     // for the frame's upper and lower edge and its sides.
-    const PointExtent extent = extent_of(points_);
+    const Bounds extent = extent_of(points_);
     const glm::dvec3 middle = extent.middle();
     double top = 0;
     double bottom = 0;

@@ -34,12 +34,11 @@ std::vector<mobb::PlacedClip> clips_of(const FittedScene& fitted, const std::str
     }
     const auto run_agent = run_agent_by_name(*scene.crowd, name);
     if (!run_agent) return out;
-    const std::vector<Play>& plays = scene.crowd->agents[static_cast<std::size_t>(*run_agent)].plays;
-    const std::size_t last = play_at(scene.crowd->agents[static_cast<std::size_t>(*run_agent)], time + kGlide);
-    for (std::size_t i = play_at(scene.crowd->agents[static_cast<std::size_t>(*run_agent)], time - kGlide); i <= last;
-         ++i) {
-        const GraphMove& move = scene.graph->moves[static_cast<std::size_t>(plays[i].move)];
-        out.emplace_back(*scene.clips[static_cast<std::size_t>(move.clip)].clip, plays[i].placement);
+    const CrowdAgent& agent = scene.crowd->agents[static_cast<std::size_t>(*run_agent)];
+    const std::size_t last = play_at(agent, time + kGlide);
+    for (std::size_t i = play_at(agent, time - kGlide); i <= last; ++i) {
+        const GraphMove& move = scene.graph->moves[static_cast<std::size_t>(agent.plays[i].move)];
+        out.emplace_back(*scene.clips[static_cast<std::size_t>(move.clip)].clip, agent.plays[i].placement);
     }
     return out;
 }

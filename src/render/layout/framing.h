@@ -21,6 +21,7 @@ struct Bounds {
     glm::dvec3 min{std::numeric_limits<double>::max()};
     glm::dvec3 max{std::numeric_limits<double>::lowest()};
     void add(glm::dvec3 p);
+    glm::dvec3 middle() const { return 0.5 * (min + max); }
 };
 
 /// Of the paths' disks.

@@ -17,51 +17,35 @@ namespace {
 constexpr int kMostLevels = 5;
 constexpr std::size_t kMostAgents = 8;  // more would cover the picture; the rest are counted
 
-LegendEntry entry_of(LegendEntry::Mark mark, Rgba color, std::string text) {
-    LegendEntry entry;
-    entry.mark = mark;
-    entry.color = color;
-    entry.text = std::move(text);
-    return entry;
-}
+using Mark = LegendEntry::Mark;
 
-LegendEntry remark(std::string text) { return entry_of(LegendEntry::Mark::remark, Rgba(0), std::move(text)); }
+LegendEntry remark(std::string text) { return {.mark = Mark::remark, .color = Rgba(0), .text = std::move(text)}; }
 
-LegendEntry line_entry(const OutcomeStyle& style, std::string text) {
-    LegendEntry entry;
-    entry.color = style.color;
-    entry.width = style.width;
-    entry.dash = style.dash;
-    entry.text = std::move(text);
-    return entry;
-}
-
-/// The levels that are drawn, coarsest first.
-std::vector<int> drawn_levels(const DrawList& list) {
-    std::set<int> levels;
-    for (const BoxInstance& box : list.boxes) levels.insert(box.order.level);
-    return {levels.begin(), levels.end()};
+LegendEntry dot_entry(Rgba color, std::string text) {
+    return {.mark = Mark::disk, .color = color, .text = std::move(text)};
 }
 
 /// The colours of the levels that are drawn; of many, a few from the coarsest to the finest.
 void add_level_colors(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const DrawnAgent> agents) {
-    const std::vector<int> levels = drawn_levels(list);
+    std::set<int> drawn;
+    for (const BoxInstance& box : list.boxes) drawn.insert(box.order.level);
+    const std::vector<int> levels(drawn.begin(), drawn.end());
     const int count = std::min(static_cast<int>(levels.size()), kMostLevels);
     for (int i = 0; i < count; ++i) {
         const std::size_t which =
             count < 2 ? 0 : (static_cast<std::size_t>(i) * (levels.size() - 1)) / static_cast<std::size_t>(count - 1);
         const Rgba color = level_color(levels[which], deepest_level(agents), list.palette);
-        entries.push_back({LegendEntry::Mark::box, outlining(color, list.palette), with_alpha(color, 0.3f), 1.5f,
-                           kSolid, "level " + std::to_string(levels[which])});
+        entries.push_back({Mark::box, outlining(color, list.palette), with_alpha(color, 0.3f), 1.5f, kSolid,
+                           "level " + std::to_string(levels[which])});
     }
 }
 
 /// Levels look alike in all colours, so they are shown in the text's.
 void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const DrawnAgent> agents,
                 const LevelRange& levels) {
+    const Rgba color = list.palette.quiet_text;
     if (levels.leaves) {
-        entries.push_back({LegendEntry::Mark::box, list.palette.quiet_text, with_alpha(list.palette.quiet_text, 0.2f),
-                           1.5f, kSolid, "leaves"});
+        entries.push_back({Mark::box, color, with_alpha(color, 0.2f), 1.5f, kSolid, "leaves"});
         return;
     }
     int last = 0;
@@ -71,28 +55,22 @@ void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::sp
     const bool few = last - first < kMostLevels;
     for (int level = first; level <= last; level += few ? 1 : last - first) {
         const LevelStyle style = level_style(level, levels.first, last);
-        LegendEntry entry;
-        entry.mark = LegendEntry::Mark::box;
-        entry.color = with_alpha(list.palette.quiet_text, style.edge);
-        entry.fill = with_alpha(list.palette.quiet_text, 2.2f * style.face);
-        entry.width = style.width;
-        entry.text = "level " + std::to_string(level) + (few ? "" : level == first ? ", coarsest" : ", finest");
-        entries.push_back(entry);
+        entries.push_back({Mark::box, with_alpha(color, style.edge), with_alpha(color, 2.2f * style.face), style.width,
+                           kSolid,
+                           "level " + std::to_string(level) +
+                               (few              ? ""
+                                : level == first ? ", coarsest"
+                                                 : ", finest")});
     }
 }
 
 void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const DrawnAgent> sides,
                const QueryProgress& progress, PairOutline outline, std::vector<LegendEntry>& remarks) {
     for (const DrawnAgent& side : sides) {
-        LegendEntry entry;
-        entry.mark = LegendEntry::Mark::box;
-        entry.color = outline == PairOutline::owner
-                          ? side.color
-                          : pair_style(outline, side, progress.event.outcome, list.palette).color;
-        entry.fill = with_alpha(side.color, 0.3f);
-        entry.width = 2;
-        entry.text = side.label + ", under test";
-        entries.push_back(entry);
+        const Rgba color = outline == PairOutline::owner
+                               ? side.color
+                               : pair_style(outline, side, progress.event.outcome, list.palette).color;
+        entries.push_back({Mark::box, color, with_alpha(side.color, 0.3f), 2, kSolid, side.label + ", under test"});
     }
     const auto present = [&](BoxState state) {
         return std::any_of(list.boxes.begin(), list.boxes.end(),
@@ -149,15 +127,18 @@ struct LegendLayout {
 
 }  // namespace
 
+LegendEntry line_entry(const LineStyle& style, std::string text) {
+    return {.color = style.color, .width = style.width, .dash = style.dash, .text = std::move(text)};
+}
+
 std::vector<LegendEntry> agent_entries(std::span<const DrawnAgent> agents) {
     std::vector<LegendEntry> entries;
     const std::size_t shown = std::min(agents.size(), kMostAgents);
     for (const DrawnAgent& agent : agents.first(shown)) {
-        entries.push_back(entry_of(LegendEntry::Mark::disk, agent.color, agent.label));
+        entries.push_back(dot_entry(agent.color, agent.label));
     }
     if (shown < agents.size()) {
-        entries.push_back(
-            entry_of(LegendEntry::Mark::disk, Rgba(0), "and " + std::to_string(agents.size() - shown) + " more"));
+        entries.push_back(dot_entry(Rgba(0), "and " + std::to_string(agents.size() - shown) + " more"));
     }
     return entries;
 }
@@ -169,12 +150,13 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
     if (progress) {
         if (view.boxes) add_query(entries, list, agents, *progress, pair_outline(view), remarks);
         if (!view.boxes && view.disks) entries = agent_entries(agents);
-        using Mark = LegendEntry::Mark;
         if (emphasis.dims) {
             const Rgba dim = mix_colors(list.palette.panel, list.palette.quiet_text, kOutOfFocus);
-            entries.push_back(entry_of(Mark::disk, with_alpha(dim, 1), "dim: outside the nodes under test"));
+            entries.push_back(dot_entry(with_alpha(dim, 1), "dim: outside the nodes under test"));
         }
-        if (emphasis.hits) entries.push_back(entry_of(Mark::double_ring, list.palette.hit, "samples that hit"));
+        if (emphasis.hits) {
+            entries.push_back({.mark = Mark::double_ring, .color = list.palette.hit, .text = "samples that hit"});
+        }
     } else {
         entries = agent_entries(agents);
         if (view.boxes && !list.boxes.empty()) {
@@ -185,8 +167,10 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
             }
         }
     }
-    if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, kSolid, 1.3f}, "time cursor"));
-    if (emphasis.cuts()) entries.push_back(entry_of(LegendEntry::Mark::ring, list.palette.text, "sample at that time"));
+    if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, 1.3f}, "time cursor"));
+    if (emphasis.cuts()) {
+        entries.push_back({.mark = Mark::ring, .color = list.palette.text, .text = "sample at that time"});
+    }
     if (const auto text = beyond_the_paper(list, agents)) remarks.push_back(remark(*text));
     if (has_sheared_boxes(list, agents)) {
         remarks.push_back(remark("boxes look sheared: fitted"));
@@ -202,7 +186,7 @@ glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
     const LegendLayout layout(text_size);
     float widest = 0;
     for (const LegendEntry& entry : entries) {
-        const bool remark = entry.mark == LegendEntry::Mark::remark;
+        const bool remark = entry.mark == Mark::remark;
         const float indent = remark ? 0 : layout.mark + layout.gap;
         widest = std::max(widest, indent + Font::of(FontFace::text).width(entry.text, text_size));
     }
@@ -217,19 +201,19 @@ void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
     glm::vec2 at = corner + layout.padding;
     const float height = line_height(FontFace::text, text_size);
     for (const LegendEntry& entry : list.legend) {
-        const bool remark = entry.mark == LegendEntry::Mark::remark;
+        const bool remark = entry.mark == Mark::remark;
         const glm::vec2 middle = at + glm::vec2(0.5f * layout.mark, 0.5f * height);
         const float r = 0.36f * text_size;
-        if (entry.mark == LegendEntry::Mark::disk) {
+        if (entry.mark == Mark::disk) {
             list.panels.push_back({{middle - r, middle + r}, r, entry.color, Rgba(0), 0});
-        } else if (entry.mark == LegendEntry::Mark::ring || entry.mark == LegendEntry::Mark::double_ring) {
-            const bool twice = entry.mark == LegendEntry::Mark::double_ring;
+        } else if (entry.mark == Mark::ring || entry.mark == Mark::double_ring) {
+            const bool twice = entry.mark == Mark::double_ring;
             const float unit = text_size / 11;
             list.panels.push_back({{middle - r, middle + r}, r, Rgba(0), entry.color, (twice ? 2.2f : 1.4f) * unit});
             const float around = r + 2.4f * unit;
             if (twice)
                 list.panels.push_back({{middle - around, middle + around}, around, Rgba(0), entry.color, 0.9f * unit});
-        } else if (entry.mark == LegendEntry::Mark::box) {
+        } else if (entry.mark == Mark::box) {
             const glm::vec2 half(0.5f * layout.mark - 1, 0.38f * text_size);
             list.panels.push_back(
                 {{middle - half, middle + half}, 1, entry.fill, entry.color, entry.width * text_size / 12});

@@ -7,6 +7,8 @@
 #include <scene/drawn_agent.h>
 
 #include <span>
+#include <string>
+#include <vector>
 
 namespace mobbscope {
 
@@ -16,6 +18,9 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
 
 /// The colours of the first few, and how many more there are.
 std::vector<LegendEntry> agent_entries(std::span<const DrawnAgent> agents);
+
+/// What lines of a style (at scale 1) stand for.
+LegendEntry line_entry(const LineStyle& style, std::string text);
 
 /// How large the legend is, pixels.
 glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size);

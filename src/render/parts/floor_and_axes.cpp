@@ -1,11 +1,14 @@
+#include <render/drawlist/pen.h>
 #include <render/parts/floor_and_axes.h>
 #include <render/text/labels.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace mobbscope {
 
@@ -20,6 +23,13 @@ constexpr float kTick = 4;
 struct Edge {
     glm::dvec2 from, to;
     glm::dvec2 outward;
+
+    bool along_x() const { return from.y == to.y; }
+    std::vector<double> ticks_on(const FloorExtent& s) const {
+        return along_x() ? ticks(s.x0, s.x1, s.step) : ticks(s.y0, s.y1, s.step);
+    }
+    /// Where x or y is `v`.
+    glm::dvec2 at(double v) const { return along_x() ? glm::dvec2(v, from.y) : glm::dvec2(from.x, v); }
 };
 
 std::array<Edge, 4> edges(const FloorExtent& s) {
@@ -42,17 +52,21 @@ double label_step(const std::vector<double>& values, double step, glm::vec2 run,
     return 20 * step;
 }
 
-void add_line(DrawList& list, glm::vec3 from, glm::vec3 to, Rgba color, float width, int level) {
-    LineInstance line;
-    line.from = from;
-    line.to = to;
-    line.color = color;
-    line.width = width;
-    line.order = {0, level, static_cast<std::int64_t>(list.lines.size())};
-    list.lines.push_back(line);
+/// For lines of the surroundings that lie above all those so far of their level.
+Pen surroundings_pen(DrawList& list, int level) {
+    return {list, {DrawLayer::surroundings, level, static_cast<std::int64_t>(list.lines.size())}};
 }
 
 constexpr float kGlass = 0.1f;  // opacity
+
+constexpr float kMapSide = 128;  // pixels at scale 1, of the longer side
+constexpr float kMapPadding = 9;
+constexpr float kMapTitle = 11;
+
+glm::vec2 map_size(const FloorExtent& s, float scale) {
+    const double longest = std::max(s.x1 - s.x0, s.y1 - s.y0);
+    return glm::ceil(glm::vec2(glm::dvec2(s.x1 - s.x0, s.y1 - s.y0) / longest) * kMapSide * scale);
+}
 
 }  // namespace
 
@@ -100,11 +114,13 @@ glm::dvec2 axis_corner(const FloorExtent& s, glm::vec3 right) {
 
 void add_floor_grid(DrawList& list, const FloorExtent& s, float scale) {
     const DrawnSpace& space = list.space;
+    Pen pen = surroundings_pen(list, 0);
+    const LineStyle style{list.palette.grid, scale};
     for (const double x : ticks(s.x0, s.x1, s.step)) {
-        add_line(list, space.point(x, s.y0, s.t0), space.point(x, s.y1, s.t0), list.palette.grid, scale, 0);
+        pen.line(space.point(x, s.y0, s.t0), space.point(x, s.y1, s.t0), style);
     }
     for (const double y : ticks(s.y0, s.y1, s.step)) {
-        add_line(list, space.point(s.x0, y, s.t0), space.point(s.x1, y, s.t0), list.palette.grid, scale, 0);
+        pen.line(space.point(s.x0, y, s.t0), space.point(s.x1, y, s.t0), style);
     }
 }
 
@@ -113,51 +129,40 @@ void add_time_axis(DrawList& list, const FloorExtent& s, float scale) {
     const DrawnSpace& space = list.space;
     const glm::dvec2 foot = axis_corner(s, list.projection.right);
     const auto at = [&](double t) { return space.point(foot.x, foot.y, t); };
+    Pen grid_pen = surroundings_pen(list, 0), axis_pen = surroundings_pen(list, 1);
+    const LineStyle grid{list.palette.grid, scale}, axis{list.palette.axis, 1.2f * scale};
     // Seen edge-on there is no grid behind the scene, so its ticks run all the way across.
     const bool across = floor_on_edge(list.projection);
     const bool along_x = std::abs(list.projection.right.x) > std::abs(list.projection.right.y);
     const glm::dvec2 opposite =
         along_x ? glm::dvec2(foot.x == s.x0 ? s.x1 : s.x0, foot.y) : glm::dvec2(foot.x, foot.y == s.y0 ? s.y1 : s.y0);
     for (const double t : ticks(s.t0, s.t1, s.time_step)) {
-        if (across) add_line(list, at(t), space.point(opposite.x, opposite.y, t), list.palette.grid, scale, 0);
+        if (across) grid_pen.line(at(t), space.point(opposite.x, opposite.y, t), grid);
         const float pixels = list.projection.pixels_per_metre(at(t));
         if (pixels <= 0) continue;
         const float half = kTick * scale / pixels;
-        add_line(list, at(t) - list.projection.right * half, at(t) + list.projection.right * half, list.palette.axis,
-                 1.2f * scale, 1);
+        axis_pen.line(at(t) - list.projection.right * half, at(t) + list.projection.right * half, axis);
     }
     if (across) {
         for (const double v : ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step)) {
             const glm::dvec2 p = along_x ? glm::dvec2(v, foot.y) : glm::dvec2(foot.x, v);
-            add_line(list, space.point(p.x, p.y, s.t0), space.point(p.x, p.y, s.t1), list.palette.grid, scale, 0);
+            grid_pen.line(space.point(p.x, p.y, s.t0), space.point(p.x, p.y, s.t1), grid);
         }
     }
-    add_line(list, at(s.t0), at(s.t1), list.palette.axis, 1.2f * scale, 1);
+    axis_pen.line(at(s.t0), at(s.t1), axis);
 }
 
 void add_time_cursor(DrawList& list, const FloorExtent& s, double time, float scale) {
     const DrawnSpace& space = list.space;
     const glm::vec3 corners[4] = {space.point(s.x0, s.y0, time), space.point(s.x1, s.y0, time),
                                   space.point(s.x1, s.y1, time), space.point(s.x0, s.y1, time)};
-    for (int i = 0; i < 4; ++i) {
-        LineInstance line;
-        line.from = corners[i];
-        line.to = corners[(i + 1) % 4];
-        line.color = list.palette.accent;
-        line.width = 1.3f * scale;
-        line.hidden = 0.3f;
-        line.order = {8, 0, i};
-        list.lines.push_back(line);
-    }
-    BoxInstance sheet;
-    sheet.center = 0.5f * (corners[0] + corners[2]);
-    sheet.extents = {0.5f * (corners[1] - corners[0]), 0.5f * (corners[3] - corners[0]), glm::vec3(0)};
-    sheet.state = BoxState::annotation;
-    sheet.fill = with_alpha(list.palette.accent, 0.035f);
-    sheet.edge = Rgba(0);
-    sheet.pickable = false;
-    sheet.order = {8, 0, 0};
-    list.boxes.push_back(sheet);
+    const LineStyle style{.color = list.palette.accent, .width = 1.3f * scale, .hidden = 0.3f};
+    Pen(list, {DrawLayer::time_cursor})
+        .path(
+            4, [&](int i) { return corners[i % 4]; }, style);
+    list.boxes.push_back(annotation_sheet(0.5f * (corners[0] + corners[2]), 0.5f * (corners[1] - corners[0]),
+                                          0.5f * (corners[3] - corners[0]), with_alpha(list.palette.accent, 0.035f),
+                                          {DrawLayer::time_cursor}));
 }
 
 std::string longest_tick(const FloorExtent& s) {
@@ -210,7 +215,6 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
     std::vector<Side> sides;
     double shown = s.step;
     for (const Edge& edge : edges(s)) {
-        const bool along_x = edge.from.y == edge.to.y;
         const glm::dvec2 middle = 0.5 * (edge.from + edge.to);
         const glm::vec3 here = space.point(middle.x, middle.y, s.t0);
         const glm::vec3 outward(static_cast<float>(edge.outward.x), static_cast<float>(edge.outward.y), 0);
@@ -218,9 +222,9 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
         // left.
         const bool faces = time_on_end(projection) ? glm::dot(outward, projection.right + projection.up) < -0.3f
                                                    : glm::dot(outward, projection.back) > 0.05f;
-        std::vector<double> values = ticks(along_x ? s.x0 : s.y0, along_x ? s.x1 : s.y1, s.step);
+        std::vector<double> values = edge.ticks_on(s);
         const auto seen_at = [&](double v) {
-            return projection.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, s.t0));
+            return projection.project(space.point(edge.at(v).x, edge.at(v).y, s.t0));
         };
         std::erase_if(values, [&](double v) { return !seen_at(v); });
         if (!faces || values.size() < 2) continue;
@@ -236,16 +240,15 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
         sides.push_back({edge, direction, std::move(values)});
     }
     for (auto& [edge, direction, values] : sides) {
-        const bool along_x = edge.from.y == edge.to.y;
         std::erase_if(values, [&](double v) { return std::abs(std::remainder(v, shown)) > 0.01 * s.step; });
         for (const double v : values) {
             // One label tells which way it is; the others are bare.
             const bool last = v == values.back();
-            label.text = last ? std::string(along_x ? "x " : "y ") + tick_text(v, shown) + " m" : tick_text(v, shown);
+            label.text =
+                last ? std::string(edge.along_x() ? "x " : "y ") + tick_text(v, shown) + " m" : tick_text(v, shown);
             // Boxes may reach below a floor that is seen edge-on; its labels stand below them.
             const double height = floor_on_edge(projection) ? s.lowest : s.t0;
-            const auto anchor =
-                projection.project(space.point(along_x ? v : edge.from.x, along_x ? edge.from.y : v, height));
+            const auto anchor = projection.project(space.point(edge.at(v).x, edge.at(v).y, height));
             if (!anchor) continue;
             label.anchor = *anchor;
             label.directions = {direction};
@@ -272,15 +275,10 @@ void add_walls(DrawList& list, glm::dvec2 area, double bottom, double top, float
     const glm::dvec2 half = 0.5 * area;
     const glm::dvec2 corners[4] = {{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
     const Rgba color = list.palette.axis;
+    const auto order = [](int i) { return DrawOrder{DrawLayer::surroundings, 3, i}; };
     const auto add_line = [&](glm::vec3 from, glm::vec3 to, float width, int i) {
-        LineInstance line;
-        line.from = from;
-        line.to = to;
-        line.color = color;
-        line.width = width * scale;
-        line.cap = 0.4f * width * scale;
-        line.order = {0, 3, i};
-        list.lines.push_back(line);
+        const LineStyle style{.color = color, .width = width * scale, .cap = 0.4f * width * scale};
+        list.lines.push_back({style, from, to, order(i)});
     };
     for (int i = 0; i < 4; ++i) {
         const glm::dvec2 a = corners[i];
@@ -293,15 +291,55 @@ void add_walls(DrawList& list, glm::dvec2 area, double bottom, double top, float
         const glm::vec3 b1 = list.space.point(b.x, b.y, top);
         add_line(a1, b1, 1, 2 * i + 1);
         add_line(a0, a1, 1, 8 + i);
-        BoxInstance pane;
-        pane.center = 0.25f * (a0 + b0 + a1 + b1);
-        pane.extents = {0.5f * (b0 - a0), 0.5f * (a1 - a0), glm::vec3(0)};
-        pane.state = BoxState::annotation;
-        pane.fill = with_alpha(color, kGlass);
-        pane.edge = Rgba(0);
-        pane.pickable = false;
-        pane.order = {0, 3, i};
-        list.boxes.push_back(pane);
+        list.boxes.push_back(annotation_sheet(0.25f * (a0 + b0 + a1 + b1), 0.5f * (b0 - a0), 0.5f * (a1 - a0),
+                                              with_alpha(color, kGlass), order(i)));
+    }
+}
+
+glm::vec2 inset_size(const FloorExtent& floor_extent, float scale) {
+    const glm::vec2 map = map_size(floor_extent, scale);
+    const float title = line_height(FontFace::text, kMapTitle * scale);
+    return {std::max(map.x, 100 * scale) + 2 * kMapPadding * scale, map.y + title + 2.6f * kMapPadding * scale};
+}
+
+void add_floor_inset(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& s, double time,
+                     glm::vec2 corner, float scale) {
+    const glm::vec2 size = inset_size(s, scale);
+    const glm::vec2 map = map_size(s, scale);
+    list.panels.push_back({{corner, corner + size}, 5 * scale, list.palette.panel, list.palette.panel_border, 1});
+    char title[64];
+    std::snprintf(title, sizeof title, "floor at %.2f s", time);
+    list.texts.push_back(
+        text_at(title, FontFace::text, kMapTitle * scale, list.palette.quiet_text, corner + kMapPadding * scale));
+    const glm::vec2 origin(corner.x + 0.5f * (size.x - map.x), corner.y + size.y - kMapPadding * scale - map.y);
+    const auto at = [&](double x, double y) {
+        const glm::dvec2 unit((x - s.x0) / (s.x1 - s.x0), (s.y1 - y) / (s.y1 - s.y0));
+        return origin + glm::vec2(unit) * map;
+    };
+    for (const double x : ticks(s.x0, s.x1, s.step)) {
+        list.overlay_lines.push_back({at(x, s.y0), at(x, s.y1), list.palette.grid, 1, kSolid});
+    }
+    for (const double y : ticks(s.y0, s.y1, s.step)) {
+        list.overlay_lines.push_back({at(s.x0, y), at(s.x1, y), list.palette.grid, 1, kSolid});
+    }
+    for (const DrawnAgent& agent : agents) {
+        const mobb::PlacedClip& clip = agent.clip();
+        glm::vec2 from = at(clip.disk(0).x, clip.disk(0).y);
+        for (int i = 1; i < clip.count(); ++i) {
+            const glm::vec2 to = at(clip.disk(i).x, clip.disk(i).y);
+            if (i + 1 < clip.count() && std::hypot(to.x - from.x, to.y - from.y) < 1.5f) continue;
+            list.overlay_lines.push_back({from, to, with_alpha(agent.color, 0.7f), scale, kSolid});
+            from = to;
+        }
+    }
+    const float pixels = map.x / static_cast<float>(s.x1 - s.x0);
+    for (const DrawnAgent& agent : agents) {
+        const std::optional<int> sample = sample_at(agent, time);
+        if (!sample) continue;
+        const mobb::Disk disk = agent.clip().disk(*sample);
+        const glm::vec2 middle = at(disk.x, disk.y);
+        const float r = std::max(static_cast<float>(disk.r) * pixels, 2.5f * scale);
+        list.marks.push_back({{middle - r, middle + r}, r, with_alpha(agent.color, 0.9f), list.palette.text, scale});
     }
 }
 

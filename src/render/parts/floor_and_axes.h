@@ -3,9 +3,11 @@
 
 #include <render/drawlist/draw_list.h>
 #include <render/text/labels.h>
+#include <scene/drawn_agent.h>
 
 #include <glm/vec2.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,5 +60,12 @@ FloorExtent floor_stage(glm::dvec2 area, double begin, double end);
 /// Low walls of glass around the floor that a run takes place on. `bottom`, `top`: in the drawn space's third
 /// coordinate; equal ones make a line on the floor.
 void add_walls(DrawList& list, glm::dvec2 area, double bottom, double top, float scale);
+
+/// The size in pixels of a small map: where everybody is on the floor at one time.
+glm::vec2 inset_size(const FloorExtent& floor_extent, float scale);
+
+/// Adds the map with its upper left corner at a point.
+void add_floor_inset(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& floor_extent, double time,
+                     glm::vec2 corner, float scale);
 
 }  // namespace mobbscope

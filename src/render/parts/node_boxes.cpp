@@ -189,7 +189,8 @@ BoxInstance node_box(const DrawnAgent& agent, int node, const DrawnSpace& space)
     for (std::size_t i = 0; i < 3; ++i) out.extents[i] = space.extent(edges[i], w);
     out.id = {agent.index, ObjectId::Kind::box, node};
     // Participants side by side at each level: 2^32 leaves room for every node index.
-    out.order = {1, agent.placed.node(node).level, (static_cast<std::int64_t>(agent.index) << 32) + node};
+    out.order = {DrawLayer::nodes, agent.placed.node(node).level,
+                 (static_cast<std::int64_t>(agent.index) << 32) + node};
     return out;
 }
 

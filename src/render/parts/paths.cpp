@@ -1,4 +1,5 @@
 #include <mobb/predicate.h>
+#include <render/drawlist/pen.h>
 #include <render/parts/paths.h>
 
 #include <glm/geometric.hpp>
@@ -21,6 +22,11 @@ Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus
     return with_alpha(agent.color, (1 - back) * (in_focus ? 1 : kOutOfFocus) * (focus.behind ? kBehind : 1));
 }
 
+/// In the drawing order: agents side by side, 2^32 samples of each.
+std::int64_t order_index(const DrawnAgent& agent, int sample) {
+    return (static_cast<std::int64_t>(agent.index) << 32) + sample;
+}
+
 }  // namespace
 
 void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus) {
@@ -36,7 +42,7 @@ void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus) 
         instance.height = height;
         instance.color = disk_color(list.palette, agent, focus, i);
         instance.id = {agent.index, ObjectId::Kind::disk, i};
-        instance.order = {0, 0, (static_cast<std::int64_t>(agent.index) << 32) + i};
+        instance.order = {DrawLayer::surroundings, 0, order_index(agent, i)};
         disks.push_back(instance);
     }
 }
@@ -60,20 +66,10 @@ void add_thin_path(DrawList& list, const DrawnAgent& agent, float width) {
         const mobb::Disk disk = clip.disk(std::min(i, clip.count() - 1));
         return list.space.point(disk.x, disk.y, clip.time(i));
     };
-    glm::vec3 from = centre(0);
-    for (int i = 0; i < clip.count(); ++i) {
-        const glm::vec3 to = centre(i + 1);
-        // Pieces shorter than a pixel are not seen as such.
-        if (i + 1 < clip.count() && glm::distance(from, to) * pixels < 1) continue;
-        LineInstance line;
-        line.from = from;
-        line.to = to;
-        line.color = agent.color;
-        line.width = width;
-        line.order = {0, 2, (static_cast<std::int64_t>(agent.index) << 32) + i};
-        list.lines.push_back(line);
-        from = to;
-    }
+    // Pieces shorter than a pixel are not seen as such.
+    const auto too_short = [&](glm::vec3 from, glm::vec3 to) { return glm::distance(from, to) * pixels < 1; };
+    Pen(list, {DrawLayer::surroundings, 2, order_index(agent, 0)})
+        .joined_path(0, clip.count(), centre, too_short, {agent.color, width});
 }
 
 Rgba floor_trace_color(const DrawnAgent& agent, const Palette& palette) {
@@ -93,19 +89,11 @@ void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange 
         p.z = floor;
         return p;
     };
-    glm::vec3 from = on_floor(range.first);
-    for (int i = range.first + 1; i < range.end(); ++i) {
-        const glm::vec3 to = on_floor(i);
-        if (i + 1 < range.end() && std::hypot(to.x - from.x, to.y - from.y) < shortest) continue;
-        LineInstance line;
-        line.from = from;
-        line.to = to;
-        line.color = color;
-        line.width = width;
-        line.order = {0, 1, (static_cast<std::int64_t>(agent.index) << 32) + i};
-        list.lines.push_back(line);
-        from = to;
-    }
+    const auto too_short = [&](glm::vec3 from, glm::vec3 to) {
+        return std::hypot(to.x - from.x, to.y - from.y) < shortest;
+    };
+    Pen(list, {DrawLayer::surroundings, 1, order_index(agent, range.first + 1)})
+        .joined_path(range.first, range.end() - 1, on_floor, too_short, {color, width});
 }
 
 namespace {
@@ -124,20 +112,12 @@ void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingLin
     const double radius = disk.r * static_cast<double>(ring.radius);
     const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
     const auto point = [&](int i) {
-        const double angle = 2 * std::numbers::pi * i / ring.pieces;
-        return list.space.point(disk.x + radius * std::cos(angle), disk.y + radius * std::sin(angle), time);
+        const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + radius * on_circle<double>(i, ring.pieces);
+        return list.space.point(rim.x, rim.y, time);
     };
-    for (int i = 0; i < ring.pieces; ++i) {
-        LineInstance line;
-        line.from = point(i);
-        line.to = point(i + 1);
-        line.color = ring.color;
-        line.width = ring.width;
-        line.cap = 0.3f * ring.width;
-        line.hidden = 1;
-        line.order = {10, ring.order, (static_cast<std::int64_t>(agent.index) << 40) + (sample * ring.pieces + i)};
-        list.lines.push_back(line);
-    }
+    const auto index = (static_cast<std::int64_t>(agent.index) << 40) + sample * ring.pieces;
+    Pen(list, {DrawLayer::rings, ring.order, index})
+        .path(ring.pieces, point, {.color = ring.color, .width = ring.width, .hidden = 1, .cap = 0.3f * ring.width});
 }
 
 }  // namespace

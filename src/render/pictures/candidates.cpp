@@ -1,5 +1,7 @@
 #include <explain/query_sentence.h>
+#include <render/drawlist/pen.h>
 #include <render/layout/caption.h>
+#include <render/layout/legend.h>
 #include <render/parts/paths.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
@@ -20,7 +22,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kCandidateLayer = 6;  // above grid, ways and people
 constexpr float kThrough = 0.75f;   // opacity that is kept behind people
 constexpr float kWayBeyond = 0.4f;  // ... and of a way behind the contact that rules it out
 constexpr std::size_t kMostNamed = 3;
@@ -37,7 +38,11 @@ const SceneClip& clip_of_move(const Scene& run, int move) {
 class Drawer {
   public:
     Drawer(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed, const Metrics& metrics)
-        : list_(list), scene_(fitted.scene()), choice_(followed.choice), metrics_(metrics) {}
+        : list_(list),
+          scene_(fitted.scene()),
+          choice_(followed.choice),
+          metrics_(metrics),
+          pen_(list, {DrawLayer::candidates}) {}
 
     std::vector<LabelRequest> draw() {
         std::vector<std::size_t> shown = shown_candidates(choice_);
@@ -68,53 +73,42 @@ class Drawer {
         return list_.space.point(disk.x, disk.y, 0);
     }
 
-    void add_line(glm::vec3 from, glm::vec3 to, const CandidateStyle& style, float strength = 1) {
-        LineInstance line;
-        line.from = from;
-        line.to = to;
-        line.color = with_alpha(style.color, style.color.a * strength);
-        line.width = style.width * metrics_.scale;
-        line.dash = style.dash * metrics_.scale;
-        line.hidden = kThrough;
-        line.order = {kCandidateLayer, 0, order_++};
-        list_.lines.push_back(line);
+    /// Of what is drawn here, at the picture's scale.
+    LineStyle seen_through(LineStyle style) const {
+        style.hidden = kThrough;
+        return scaled(style, metrics_.scale);
     }
 
     void add_way(std::size_t index) {
         const Candidate& candidate = choice_.candidates[index];
         const CandidateOutcome outcome = outcome_of(choice_, index);
-        const CandidateStyle style = outcome_style_of(outcome, list_.palette);
+        const LineStyle style = seen_through(outcome_style_of(outcome, list_.palette));
+        LineStyle beyond = style;
+        beyond.color.a *= kWayBeyond;
         const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
         const int contact = outcome == CandidateOutcome::ruled_out ? candidate.blocker->contact.a_sample : way.count();
         // Pieces as long as a dash and its gap, or the pattern would be cut short.
         const float pixels = list_.projection.pixels_per_metre(point(way.disk(0), way.time(0)));
-        const float pattern = (style.dash.x + style.dash.y + style.dash.z + style.dash.w) * metrics_.scale;
+        const float pattern = style.dash.x + style.dash.y + style.dash.z + style.dash.w;
         const float shortest = pixels > 0 ? std::max(pattern, 2 * metrics_.scale) / pixels : 0;
         glm::vec3 from = point(way.disk(0), way.time(0));
         for (int i = 1; i < way.count(); ++i) {
             const glm::vec3 to = point(way.disk(i), way.time(i));
             if (i != contact && i + 1 < way.count() && glm::length(to - from) < shortest) continue;
-            add_line(from, to, style, i <= contact ? 1 : kWayBeyond);
+            pen_.line(from, to, i <= contact ? style : beyond);
             from = to;
         }
-        if (outcome != CandidateOutcome::ruled_out) add_end(from, style, outcome == CandidateOutcome::taken);
+        // Where a way ends that could be walked there is a ring.
+        const float at_end = list_.projection.pixels_per_metre(from);
+        if (outcome == CandidateOutcome::ruled_out || at_end <= 0) return;
+        const float radius = (outcome == CandidateOutcome::taken ? 4.5f : 3) * metrics_.scale / at_end;
+        pen_.ring(from, radius, list_.projection.right, list_.projection.up, 12,
+                  {.color = style.color, .width = style.width, .hidden = kThrough});
     }
 
-    /// Where a way ends that could be walked.
-    void add_end(glm::vec3 at, const CandidateStyle& style, bool large) {
-        const float pixels = list_.projection.pixels_per_metre(at);
-        if (pixels <= 0) return;
-        add_ring(at, (large ? 4.5f : 3) * metrics_.scale / pixels, {style.color, kSolid, style.width}, 12, true);
-    }
-
-    void add_ring(glm::vec3 middle, float radius, const CandidateStyle& style, int pieces, bool facing) {
-        const glm::vec3 right = facing ? list_.projection.right : glm::vec3(1, 0, 0);
-        const glm::vec3 up = facing ? list_.projection.up : glm::vec3(0, 1, 0);
-        const auto at = [&](int i) {
-            const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(pieces);
-            return middle + radius * (std::cos(angle) * right + std::sin(angle) * up);
-        };
-        for (int i = 0; i < pieces; ++i) add_line(at(i), at(i + 1), style);
+    /// The outline of a disk.
+    void add_outline(const mobb::Disk& disk, double time, Rgba color) {
+        pen_.ring(point(disk, time), static_cast<float>(disk.r), {1, 0, 0}, {0, 1, 0}, 32, seen_through({color, 1.2f}));
     }
 
     void add_contact(std::size_t index, std::vector<LabelRequest>& labels) {
@@ -127,15 +121,12 @@ class Drawer {
         const mobb::PlacedClip other(*clip_of_move(scene_, play.move).clip, play.placement);
         const mobb::Disk a = way.disk(contact.a_sample);
         const mobb::Disk b = other.disk(contact.b_sample);
-        const CandidateStyle style = outcome_style_of(CandidateOutcome::ruled_out, list_.palette);
-        const CandidateStyle outline{style.color, kSolid, 1.2f};
-        constexpr int kPieces = 32;
-        add_ring(point(a, contact.time), static_cast<float>(a.r), outline, kPieces, false);
+        const Rgba color = outcome_style_of(CandidateOutcome::ruled_out, list_.palette).color;
+        add_outline(a, contact.time, color);
         PlacedAgent who;
         who.agent = blocker.agent;
         const Rgba whose = agent_color(scene_, who, blocker.agent);
-        add_ring(point(b, contact.time), static_cast<float>(b.r), {outlining(whose, list_.palette), kSolid, 1.2f},
-                 kPieces, false);
+        add_outline(b, contact.time, outlining(whose, list_.palette));
         // Where they touch first.
         const glm::dvec2 between(b.x - a.x, b.y - a.y);
         const double length = glm::length(between);
@@ -144,10 +135,9 @@ class Drawer {
         const float pixels = list_.projection.pixels_per_metre(cross);
         if (pixels <= 0) return;
         const float arm = 4.5f * metrics_.scale / pixels;
-        const CandidateStyle mark{style.color, kSolid, 2.4f};
         for (const float side : {-1.0f, 1.0f}) {
             const glm::vec3 way_of_arm = arm * (list_.projection.right + side * list_.projection.up);
-            add_line(cross - way_of_arm, cross + way_of_arm, mark);
+            pen_.line(cross - way_of_arm, cross + way_of_arm, seen_through({color, 2.4f}));
         }
         const auto anchor = list_.projection.project(cross);
         if (!anchor) return;
@@ -155,7 +145,7 @@ class Drawer {
         label.text = agent_name(scene_, blocker.agent);
         label.size = metrics_.text;
         label.color = readable(whose, list_.palette);
-        label.border = style.color;
+        label.border = color;
         label.anchor = *anchor;
         label.directions = {{1, -0.6f}, {-1, -0.6f}, {1, 0.6f}, {-1, 0.6f}, {0, -1}, {0, 1}};
         label.distance = 1.6f * metrics_.text;
@@ -167,7 +157,7 @@ class Drawer {
     const Scene& scene_;
     const Choice& choice_;
     const Metrics& metrics_;
-    std::int64_t order_ = 0;
+    Pen pen_;
 };
 
 }  // namespace
@@ -180,20 +170,20 @@ CandidateOutcome outcome_of(const Choice& choice, std::size_t candidate) {
     return asked.in_the_way ? CandidateOutcome::in_the_way : CandidateOutcome::free;
 }
 
-CandidateStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette) {
+LineStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette) {
     switch (outcome) {
         case CandidateOutcome::taken:
-            return {palette.text, kSolid, 3};
+            return {palette.text, 3};
         case CandidateOutcome::free:
-            return {palette.separated, kSolid, 1.6f};
+            return {palette.separated, 1.6f};
         case CandidateOutcome::in_the_way:
-            return {palette.overlap, {10, 3, 2, 3}, 1.5f};
+            return {palette.overlap, 1.5f, {10, 3, 2, 3}};
         case CandidateOutcome::leaves_floor:
-            return {palette.apart_in_time, {1.5f, 4, 1.5f, 4}, 1.4f};
+            return {palette.apart_in_time, 1.4f, {1.5f, 4, 1.5f, 4}};
         case CandidateOutcome::ruled_out:
             break;
     }
-    return {palette.hit, {7, 4, 7, 4}, 1.6f};
+    return {palette.hit, 1.6f, {7, 4, 7, 4}};
 }
 
 std::string_view outcome_words(CandidateOutcome outcome) {
@@ -291,23 +281,15 @@ std::vector<LabelRequest> add_followed(DrawList& list, std::span<const DrawnAgen
         const mobb::Disk disk = path.clip().disk(*sample);
         const double level = list.moment ? 0 : time;
         constexpr int kPieces = 48;
-        std::int64_t order = 0;
-        for (const auto& [radius, width] : {std::pair(1.25, 2.2f), std::pair(1.5, 1.2f)}) {
+        Pen pen(list, {DrawLayer::candidates, 1});
+        for (const auto& [radius, at_scale_1] : {std::pair(1.25, 2.2f), std::pair(1.5, 1.2f)}) {
             const auto at = [&, r = radius * disk.r](int i) {
-                const double angle = 2 * std::numbers::pi * i / kPieces;
-                return list.space.point(disk.x + r * std::cos(angle), disk.y + r * std::sin(angle), level);
+                const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + r * on_circle<double>(i, kPieces);
+                return list.space.point(rim.x, rim.y, level);
             };
-            for (int i = 0; i < kPieces; ++i) {
-                LineInstance line;
-                line.from = at(i);
-                line.to = at(i + 1);
-                line.color = list.palette.accent;
-                line.width = width * metrics.scale;
-                line.cap = 0.3f * line.width;
-                line.hidden = kThrough;
-                line.order = {kCandidateLayer, 1, order++};
-                list.lines.push_back(line);
-            }
+            const float width = at_scale_1 * metrics.scale;
+            pen.path(kPieces, at,
+                     {.color = list.palette.accent, .width = width, .hidden = kThrough, .cap = 0.3f * width});
         }
         const glm::vec3 top = list.space.point(disk.x, disk.y, list.moment ? height : time);
         const auto anchor = list.projection.project(top);
@@ -334,13 +316,7 @@ std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& 
         bool any = false;
         for (const std::size_t i : shown_candidates(choice)) any = any || outcome_of(choice, i) == outcome;
         if (!any) continue;
-        const CandidateStyle style = outcome_style_of(outcome, palette);
-        LegendEntry entry;
-        entry.color = style.color;
-        entry.dash = style.dash;
-        entry.width = style.width;
-        entry.text = std::string(outcome_words(outcome));
-        out.push_back(std::move(entry));
+        out.push_back(line_entry(outcome_style_of(outcome, palette), std::string(outcome_words(outcome))));
     }
     return out;
 }

@@ -19,13 +19,8 @@ namespace mobbscope {
 enum class CandidateOutcome { taken, free, in_the_way, leaves_floor, ruled_out };
 CandidateOutcome outcome_of(const Choice& choice, std::size_t candidate);
 
-/// How its way is drawn: each outcome has a colour and a line of its own.
-struct CandidateStyle {
-    Rgba color;
-    Dash dash;
-    float width = 1;  ///< pixels at scale 1
-};
-CandidateStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette);
+/// How its way is drawn, at scale 1: each outcome has a colour and a line of its own.
+LineStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette);
 
 /// "taken", "free", "in the way", "leaves the floor", "ruled out".
 std::string_view outcome_words(CandidateOutcome outcome);

@@ -108,11 +108,7 @@ class CrowdPicture final : public Picture {
             const auto fates = candidate_legend(list_.palette, choice_->choice);
             out.legend.insert(out.legend.end(), fates.begin(), fates.end());
         }
-        LegendEntry now;
-        now.color = list_.palette.accent;
-        now.width = 1.3f;
-        now.text = "now";
-        out.legend.push_back(now);
+        out.legend.push_back(line_entry({list_.palette.accent, 1.3f}, "now"));
         return out;
     }
 

@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <explain/query_sentence.h>
+#include <render/drawlist/pen.h>
 #include <render/layout/block_layout.h>
 #include <render/layout/caption.h>
 #include <render/layout/framing.h>
@@ -82,8 +83,7 @@ class Diagram {
     }
     void circle(glm::dvec3 middle, Rgba color, float width) {
         const auto rim = [&](int i) {
-            const double angle = 2 * std::numbers::pi * i / kCirclePieces;
-            return middle + extents_.radius * glm::dvec3(std::cos(angle), std::sin(angle), 0);
+            return middle + extents_.radius * glm::dvec3(on_circle<double>(i, kCirclePieces), 0);
         };
         for (int i = 0; i < kCirclePieces; ++i) line(rim(i), rim(i + 1), color, width);
     }
@@ -104,16 +104,10 @@ class Diagram {
 
   private:
     void add(glm::vec3 from, glm::vec3 to, Rgba color, float width, Dash dash) {
-        LineInstance out;
-        out.from = from;
-        out.to = to;
-        out.color = color;
-        out.width = width * scale_;
-        out.dash = dash * scale_;
-        out.hidden = 1;
-        out.cap = dash == kSolid ? 0.3f * out.width : 0;
-        out.order = {9, 0, static_cast<std::int64_t>(list_.lines.size())};
-        list_.lines.push_back(out);
+        const DrawOrder order{DrawLayer::findings, 0, static_cast<std::int64_t>(list_.lines.size())};
+        LineStyle style = scaled({color, width, dash, 1}, scale_);
+        if (dash == kSolid) style.cap = 0.3f * style.width;
+        list_.lines.push_back({style, from, to, order});
     }
 
     DrawList& list_;
@@ -150,8 +144,7 @@ Perpendicular perpendicular(const AxisExtent& axis, double value, glm::dvec3 cor
 std::vector<glm::vec3> projected_points(const Diagram& diagram, const DiskExtents& extents) {
     std::vector<glm::vec3> out;
     for (int i = 0; i < 16; ++i) {
-        const double angle = i * std::numbers::pi / 8;
-        const glm::dvec3 rim = extents.radius * glm::dvec3(std::cos(angle), std::sin(angle), 0);
+        const glm::dvec3 rim = extents.radius * glm::dvec3(on_circle<double>(i, 16), 0);
         out.push_back(diagram.at(rim));
         out.push_back(diagram.at(rim + glm::dvec3(0, 0, extents.height)));
     }
@@ -217,22 +210,15 @@ bool covers_lines(const Rect& rect, const DrawList& list) {
 
 std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palette, Rgba disk, int sample, double dt) {
     std::vector<LegendEntry> out;
-    const auto add = [&](LegendEntry::Mark mark, Rgba color, std::string text) {
-        LegendEntry entry;
-        entry.mark = mark;
-        entry.color = color;
-        entry.text = std::move(text);
-        out.push_back(std::move(entry));
-    };
-    add(LegendEntry::Mark::disk, disk,
-        "sample " + std::to_string(sample) + ": r " + with_unit(extents.radius, "m") + ", dt " + with_unit(dt, "s"));
+    using Mark = LegendEntry::Mark;
+    const std::string lengths = ": r " + with_unit(extents.radius, "m") + ", dt " + with_unit(dt, "s");
+    out.push_back({.mark = Mark::disk, .color = disk, .text = "sample " + std::to_string(sample) + lengths});
     for (const AxisExtent& axis : extents.along) {
-        add(LegendEntry::Mark::line, palette.accent,
-            axis_name("min", axis.axis) + " \u2212" + with_unit(-axis.min, "m") + ", " + axis_name("max", axis.axis) +
-                ' ' + with_unit(axis.max, "m"));
-        out.back().width = 5;
+        out.push_back(
+            line_entry({palette.accent, 5}, axis_name("min", axis.axis) + " \u2212" + with_unit(-axis.min, "m") + ", " +
+                                                axis_name("max", axis.axis) + ' ' + with_unit(axis.max, "m")));
     }
-    add(LegendEntry::Mark::remark, Rgba(0), "lengths along the axes, from p");
+    out.push_back({.mark = Mark::remark, .color = Rgba(0), .text = "lengths along the axes, from p"});
     return out;
 }
 

@@ -1,3 +1,4 @@
+#include <render/drawlist/pen.h>
 #include <render/layout/annotations.h>
 #include <render/layout/block_layout.h>
 #include <render/layout/follow.h>
@@ -47,8 +48,8 @@ std::vector<glm::vec3> standing_room(const DrawnSpace& space, std::span<const Dr
             const double radius = (d.r + slip) * outside;
             for (const double height : {0.0, heights[s]}) {
                 for (int side = 0; side < kSides; ++side) {
-                    const double angle = (side + 0.5) * 2 * std::numbers::pi / kSides;
-                    out.push_back(space.point(d.x + radius * std::cos(angle), d.y + radius * std::sin(angle), height));
+                    const glm::dvec2 corner = glm::dvec2(d.x, d.y) + radius * on_circle(side + 0.5, kSides);
+                    out.push_back(space.point(corner.x, corner.y, height));
                 }
             }
         }
@@ -135,7 +136,7 @@ class MomentPicture final : public Picture {
         bounds_ = moment_bounds(fitted, agents_);
         outside_ = moment_.time < bounds_.min.z || moment_.time >= bounds_.max.z;
         if (!outside_) choice_ = choice;
-        const glm::dvec3 middle = 0.5 * (bounds_.min + bounds_.max);
+        const glm::dvec3 middle = bounds_.middle();
         list_.space = {{middle.x, middle.y, 0}, 1, camera_anchor(fitted, view_, moment_.time)};
         const double highest = *std::max_element(heights_.begin(), heights_.end());
         floor_extent_ =

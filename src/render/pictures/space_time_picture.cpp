@@ -5,7 +5,6 @@
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
-#include <render/parts/floor_inset.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
 #include <render/pictures/kept_paths.h>

@@ -1,6 +1,7 @@
 #include <explain/query_sentence.h>
 #include <import/skeleton/disk_sampler.h>
 #include <import/skeleton/motion.h>
+#include <render/drawlist/pen.h>
 #include <render/layout/annotations.h>
 #include <render/parts/paths.h>
 #include <render/pictures/standing_agents.h>
@@ -24,40 +25,15 @@ constexpr float kHead = 0.09f;        // metres, radius
 constexpr float kGlassFront = 0.02f;  // opacity of the wall where it is seen face on
 constexpr float kGlassSide = 0.13f;   // ... and how much more where it is seen edge on
 constexpr std::size_t kFewFigures = 50;  // are all drawn, seen or not
-constexpr int kBodyLayer = 2;            // above grid and paths
 
-/// Lines of one body, later ones above earlier ones; bodies are drawn from the farthest to the nearest.
-class Pen {
-  public:
-    Pen(DrawList& list, int rank) : list_(list), order_{kBodyLayer, 0, static_cast<std::int64_t>(rank) << 24} {}
+/// For the lines of one body; bodies are drawn from the farthest to the nearest.
+Pen pen_of(DrawList& list, int rank) { return {list, {DrawLayer::subject, 0, static_cast<std::int64_t>(rank) << 24}}; }
 
-    void line(glm::vec3 from, glm::vec3 to, Rgba color, float width, float hidden = 0, float cap = 0) {
-        LineInstance line;
-        line.from = from;
-        line.to = to;
-        line.color = color;
-        line.width = width;
-        line.hidden = hidden;
-        line.cap = cap;
-        line.order = order_;
-        ++order_.index;
-        list_.lines.push_back(line);
-    }
-
-    void ring(glm::vec3 center, float radius, int pieces, Rgba color, float width, float hidden = 0) {
-        const auto at = [&](int i) { return center + radius * direction(i, pieces); };
-        for (int i = 0; i < pieces; ++i) line(at(i), at(i + 1), color, width, hidden, 0.3f * width);
-    }
-
-    static glm::vec3 direction(int i, int pieces) {
-        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(pieces);
-        return {std::cos(angle), std::sin(angle), 0};
-    }
-
-  private:
-    DrawList& list_;
-    DrawOrder order_;
-};
+/// A circle on the floor or level with it.
+void add_level_ring(Pen& pen, glm::vec3 center, float radius, int pieces, LineStyle style) {
+    style.cap = 0.3f * style.width;
+    pen.ring(center, radius, {1, 0, 0}, {0, 1, 0}, pieces, style);
+}
 
 /// One body with what all its parts need.
 struct Figure {
@@ -125,7 +101,7 @@ void add_body_disk(DrawList& list, const Figure& f, float height, Rgba color) {
     disk.height = height;
     disk.color = color;
     disk.id = {f.agent.index, ObjectId::Kind::disk, f.body.sample};
-    disk.order = {kBodyLayer, 0, f.agent.index};
+    disk.order = {DrawLayer::subject, 0, f.agent.index};
     list.disks.edit().push_back(disk);
 }
 
@@ -135,16 +111,15 @@ void add_glass(DrawList& list, const Figure& f) {
     const float half = std::sin(std::numbers::pi_v<float> / static_cast<float>(f.pieces)) * f.radius;
     const float apothem = std::sqrt(std::max(0.0f, f.radius * f.radius - half * half));
     for (int i = 0; i < f.pieces; ++i) {
-        const glm::vec3 out = Pen::direction(2 * i + 1, 2 * f.pieces);
+        const glm::vec3 out(on_circle(static_cast<float>(i) + 0.5f, f.pieces), 0);
         const float edge_on = 1 - std::abs(glm::dot(glm::vec2(out), eye));
-        BoxInstance pane;
-        pane.center = f.foot + apothem * out + glm::vec3(0, 0, 0.5f * f.height);
-        pane.extents = {half * glm::vec3(-out.y, out.x, 0), glm::vec3(0, 0, 0.5f * f.height), glm::vec3(0)};
-        pane.state = BoxState::annotation;
-        pane.fill = with_alpha(f.agent.color, kGlassFront + kGlassSide * edge_on * edge_on);
-        pane.edge = Rgba(0);
+        const glm::vec3 up(0, 0, 0.5f * f.height);
+        BoxInstance pane =
+            annotation_sheet(f.foot + apothem * out + up, half * glm::vec3(-out.y, out.x, 0), up,
+                             with_alpha(f.agent.color, kGlassFront + kGlassSide * edge_on * edge_on),
+                             {DrawLayer::subject, 0, (static_cast<std::int64_t>(f.agent.index) << 8) + i});
         pane.id = {f.agent.index, ObjectId::Kind::disk, f.body.sample};
-        pane.order = {kBodyLayer, 0, (static_cast<std::int64_t>(f.agent.index) << 8) + i};
+        pane.pickable = true;
         list.boxes.push_back(pane);
     }
 }
@@ -160,7 +135,7 @@ void add_outline(const DrawList& list, Pen& pen, const Figure& f, float width) {
     const glm::vec2 side(-eye.y, eye.x);
     for (const float sign : {-1.0f, 1.0f}) {
         const glm::vec3 foot = f.foot + glm::vec3(f.radius * (cosine * eye + sign * sine * side), 0);
-        pen.line(foot, foot + glm::vec3(0, 0, f.height), f.line, width);
+        pen.line(foot, foot + glm::vec3(0, 0, f.height), {f.line, width});
     }
 }
 
@@ -177,11 +152,8 @@ float bone_width(const Figure& f, float scale) { return std::clamp(kBone * f.pix
 void add_facing_ring(const DrawList& list, Pen& pen, glm::vec3 middle, float radius, float pixels, Rgba color,
                      float width) {
     const int sides = std::clamp(static_cast<int>(radius * pixels), 10, 24);
-    const auto at = [&](int i) {
-        const glm::vec3 d = Pen::direction(i, sides);
-        return middle + radius * (d.x * list.projection.right + d.y * list.projection.up);
-    };
-    for (int i = 0; i < sides; ++i) pen.line(at(i), at(i + 1), color, width, 0.35f, 0.25f * width);
+    pen.ring(middle, radius, list.projection.right, list.projection.up, sides,
+             {color, width, kSolid, 0.35f, 0.25f * width});
 }
 
 /// Each bone as a line in a dark or light rim, so that limbs that cross are told apart; the farthest first.
@@ -216,31 +188,33 @@ void add_skeleton(const DrawList& list, Pen& pen, const Figure& f, float scale) 
     for (const Bone& bone : bones) {
         // Not at its ends, where it meets others.
         const glm::vec3 inset = 0.2f * (bone.to - bone.from);
-        if (around > 0) pen.line(bone.from + inset, bone.to - inset, rim, width + around);
-        pen.line(bone.from, bone.to, color, width, 0.35f, 0.3f * width);
+        if (around > 0) pen.line(bone.from + inset, bone.to - inset, {rim, width + around});
+        pen.line(bone.from, bone.to, {color, width, kSolid, 0.35f, 0.3f * width});
     }
     if (!head) return;
     add_facing_ring(list, pen, places[*head], kHead, f.pixels, color, 0.8f * width);
 }
 
 void add_figure(DrawList& list, const Figure& f, BodyParts parts, int rank, bool plain, float scale) {
-    Pen pen(list, rank);
+    Pen pen = pen_of(list, rank);
     const float thin = 1.1f * scale;
     const float width = f.body.overlaps ? 2.6f * scale : 1.3f * scale;
     const glm::vec3 up(0, 0, 1);
     if (plain) {
         add_body_disk(list, f, parts.walls ? f.height : disk_height(list.projection), f.agent.color);
-        if (f.body.overlaps) pen.ring(f.foot + f.height * up, 1.04f * f.radius, f.pieces, f.foot_line, width, 1);
+        const LineStyle style{f.foot_line, width, kSolid, 1};
+        if (f.body.overlaps) add_level_ring(pen, f.foot + f.height * up, 1.04f * f.radius, f.pieces, style);
         return;
     }
     const float floor = disk_height(list.projection);
     if (parts.disks) add_body_disk(list, f, floor, with_alpha(f.agent.color, list.palette.dark ? 0.55f : 0.6f));
-    if (parts.disks) pen.ring(f.foot + floor * up, f.radius, f.pieces, f.foot_line, width, 0.35f);
+    const LineStyle on_floor{f.foot_line, width, kSolid, 0.35f};
+    if (parts.disks) add_level_ring(pen, f.foot + floor * up, f.radius, f.pieces, on_floor);
     if (parts.walls) add_glass(list, f);
     if (f.agent.skeleton) add_skeleton(list, pen, f, scale);
     if (!parts.walls) return;
     add_outline(list, pen, f, thin);
-    pen.ring(f.foot + f.height * up, f.radius, f.pieces, f.line, 1.3f * scale);
+    add_level_ring(pen, f.foot + f.height * up, f.radius, f.pieces, {f.line, 1.3f * scale});
 }
 
 /// Fills what two disks share, outlines it on the floor and at the top, and joins these where the walls cross.
@@ -250,7 +224,7 @@ void add_overlap(DrawList& list, const Figure& a, const Figure& b, bool plain, s
     const float top = std::min(a.height, b.height);
     const float floor = plain ? std::max(a.height, b.height) : disk_height(list.projection);
     const float lift = 0.004f;
-    Pen pen(list, 1 << 20);
+    Pen pen = pen_of(list, 1 << 20);
     const auto at = [&](std::size_t side, int row, float height) {
         const glm::dvec2 p = shared.sides[side][static_cast<std::size_t>(row)];
         return list.space.point(p.x, p.y, 0) + glm::vec3(0, 0, height);
@@ -258,24 +232,20 @@ void add_overlap(DrawList& list, const Figure& a, const Figure& b, bool plain, s
     for (int row = 0; row + 1 < kRows; ++row) {
         const glm::vec3 corners[4] = {at(0, row, floor + lift), at(1, row, floor + lift), at(0, row + 1, floor + lift),
                                       at(1, row + 1, floor + lift)};
-        BoxInstance strip;
-        strip.center = 0.25f * (corners[0] + corners[1] + corners[2] + corners[3]);
-        strip.extents = {0.25f * (corners[1] - corners[0] + corners[3] - corners[2]),
-                         0.25f * (corners[2] - corners[0] + corners[3] - corners[1]), glm::vec3(0)};
-        strip.state = BoxState::annotation;
-        strip.fill = with_alpha(list.palette.hit, 0.6f);
-        strip.edge = Rgba(0);
-        strip.pickable = false;
-        strip.order = {kBodyLayer, 1, (index << 8) + row};
-        list.boxes.push_back(strip);
+        list.boxes.push_back(annotation_sheet(0.25f * (corners[0] + corners[1] + corners[2] + corners[3]),
+                                              0.25f * (corners[1] - corners[0] + corners[3] - corners[2]),
+                                              0.25f * (corners[2] - corners[0] + corners[3] - corners[1]),
+                                              with_alpha(list.palette.hit, 0.6f),
+                                              {DrawLayer::subject, 1, (index << 8) + row}));
         for (const std::size_t side : {0u, 1u}) {
-            pen.line(at(side, row, floor), at(side, row + 1, floor), list.palette.hit, 2 * scale, 1, 0.5f * scale);
-            if (!plain) pen.line(at(side, row, top), at(side, row + 1, top), list.palette.hit, scale, 1);
+            pen.line(at(side, row, floor), at(side, row + 1, floor),
+                     {list.palette.hit, 2 * scale, kSolid, 1, 0.5f * scale});
+            if (!plain) pen.line(at(side, row, top), at(side, row + 1, top), {list.palette.hit, scale, kSolid, 1});
         }
     }
     if (plain || !shared.has_tips) return;
     for (const int row : {0, kRows - 1}) {
-        pen.line(at(0, row, floor), at(0, row, top), list.palette.hit, 1.6f * scale, 1);
+        pen.line(at(0, row, floor), at(0, row, top), {list.palette.hit, 1.6f * scale, kSolid, 1});
     }
 }
 
@@ -335,15 +305,15 @@ std::vector<LabelRequest> add_radius(DrawList& list, const DrawnAgent& agent, co
     const glm::vec3 middle = f.foot + glm::vec3(0, 0, floor);
     const glm::vec3 tip = list.space.point(joint.x, joint.y, joint.z);
     const glm::vec3 below(tip.x, tip.y, floor);
-    Pen pen(list, (1 << 20) + 1);
+    Pen pen = pen_of(list, (1 << 20) + 1);
     const Rgba color = list.palette.text;
     const float width = 1.4f * metrics.scale;
-    pen.line(middle, below, color, width, 0.35f);
-    if (tip.z > below.z) pen.line(below, tip, color, 0.8f * width, 0.35f);
+    pen.line(middle, below, {color, width, kSolid, 0.35f});
+    if (tip.z > below.z) pen.line(below, tip, {color, 0.8f * width, kSolid, 0.35f});
     const float around = std::max(3.5f * metrics.scale, bone_width(f, metrics.scale)) / f.pixels;
     add_facing_ring(list, pen, tip, around, f.pixels, color, width);
     const float dot = 1.8f * metrics.scale;
-    pen.line(middle, middle, color, 2 * dot, 0.35f, dot);
+    pen.line(middle, middle, {color, 2 * dot, kSolid, 0.35f, dot});
     return length_label(list, middle, below, body.disk.r, list.palette.quiet_text, metrics.text);
 }
 
@@ -357,8 +327,7 @@ std::vector<LabelRequest> add_clearance(DrawList& list, const Body& a, const Bod
     const glm::vec3 up(0, 0, disk_height(list.projection));
     const glm::vec3 begin = list.space.point(near_a.x, near_a.y, 0) + up;
     const glm::vec3 end = list.space.point(near_b.x, near_b.y, 0) + up;
-    Pen pen(list, (1 << 20) + 2);
-    pen.line(begin, end, list.palette.separated, 2 * metrics.scale, 0.35f);
+    pen_of(list, (1 << 20) + 2).line(begin, end, {list.palette.separated, 2 * metrics.scale, kSolid, 0.35f});
     return length_label(list, begin, end, distance - a.disk.r - b.disk.r, list.palette.separated, metrics.text);
 }
 
@@ -368,18 +337,7 @@ void add_body_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
     for (const Body& body : moment.bodies) {
         const DrawnAgent& agent = agents[static_cast<std::size_t>(body.agent)];
         const glm::vec3 top = list.space.point(body.disk.x, body.disk.y, body.height);
-        const auto anchor = list.projection.project(top);
-        if (!anchor) continue;
-        LabelRequest label;
-        label.text = fit_text(agent.label, FontFace::text, metrics.text, 0.3f * static_cast<float>(list.size.width));
-        label.size = metrics.text;
-        label.color = readable(agent.color, list.palette);
-        label.anchor = *anchor;
-        label.directions = {{0, -1}, {1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {0, 1}};
-        const float radius = static_cast<float>(body.disk.r) * list.projection.pixels_per_metre(top);
-        label.pill = true;
-        label.distance = radius * std::max(std::abs(list.projection.back.z), 0.1f) + 0.4f * metrics.text;
-        layout.place(label, list);
+        if (const auto label = name_label(list, agent, top, body.disk.r, metrics.text)) layout.place(*label, list);
     }
 }
 

@@ -1,4 +1,5 @@
 #include <explain/query_progress.h>
+#include <render/drawlist/pen.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
 #include <render/query/query_boxes.h>
@@ -40,32 +41,32 @@ BoxState box_state(mobb::Outcome outcome) {
     return BoxState::overlap;
 }
 
-OutcomeStyle outcome_style(BoxState state, const Palette& palette) {
+LineStyle outcome_style(BoxState state, const Palette& palette) {
     switch (state) {
         case BoxState::apart_in_time:
-            return {palette.apart_in_time, {4, 4, 4, 4}, 1.0f};
+            return {palette.apart_in_time, 1.0f, {4, 4, 4, 4}};
         case BoxState::separated:
-            return {palette.separated, kSolid, 1.2f};
+            return {palette.separated, 1.2f};
         case BoxState::overlap:
-            return {palette.overlap, {10, 4, 2, 4}, 1.2f};
+            return {palette.overlap, 1.2f, {10, 4, 2, 4}};
         case BoxState::hit:
-            return {palette.hit, kSolid, 2.2f};
+            return {palette.hit, 2.2f};
         case BoxState::level:
         case BoxState::under_test:
         case BoxState::annotation:
             break;
     }
-    return {palette.text, kSolid, 2.2f};
+    return {palette.text, 2.2f};
 }
 
 PairOutline pair_outline(const ViewState& view) {
     return view.tested_before ? PairOutline::owner : PairOutline::outcome;
 }
 
-OutcomeStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette) {
+LineStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette) {
     constexpr float kWidth = 2.2f;
-    if (outline == PairOutline::owner) return {outlining(side.color, palette), kSolid, kWidth};
-    OutcomeStyle style = outcome_style(box_state(outcome), palette);
+    if (outline == PairOutline::owner) return {outlining(side.color, palette), kWidth};
+    LineStyle style = outcome_style(box_state(outcome), palette);
     style.width = kWidth;
     return style;
 }
@@ -77,7 +78,7 @@ void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const Qu
         const std::span<const NodeProgress> before =
             outline == PairOutline::owner ? progress.nodes[side] : std::span<const NodeProgress>();
         for (const NodeProgress& node : before) {
-            const OutcomeStyle style = outcome_style(box_state(node.outcome), list.palette);
+            const LineStyle style = outcome_style(box_state(node.outcome), list.palette);
             BoxInstance box = node_box(agent, node.node, list.space);
             box.state = box_state(node.outcome);
             box.edge = faded(style.color, strength(node, progress.step), list.palette);
@@ -89,11 +90,11 @@ void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const Qu
         BoxInstance box = node_box(agent, side == 0 ? progress.event.a : progress.event.b, list.space);
         box.state = BoxState::under_test;
         box.fill = with_alpha(agent.color, 0.17f);
-        const OutcomeStyle style = pair_style(outline, agent, progress.event.outcome, list.palette);
+        const LineStyle style = scaled(pair_style(outline, agent, progress.event.outcome, list.palette), scale);
         box.edge = style.color;
-        box.width = style.width * scale;
-        box.dash = style.dash * scale;
-        box.order.layer = 2;
+        box.width = style.width;
+        box.dash = style.dash;
+        box.order.layer = DrawLayer::subject;
         list.boxes.push_back(box);
     }
 }
@@ -105,17 +106,11 @@ void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::sp
     const float pixels =
         list.projection.pixels_per_metre(list.space.point(foot.x, foot.y, 0.5 * (floor_extent.t0 + floor_extent.t1)));
     if (pixels <= 0) return;
-    const auto add = [&](float aside, double from, double to, const OutcomeStyle& style) {
+    Pen pen(list, {DrawLayer::findings, 1});
+    const auto add = [&](float aside, double from, double to, const LineStyle& style) {
         const glm::vec3 shift = list.projection.right * (aside * scale / pixels);
-        LineInstance line;
-        line.from = list.space.point(foot.x, foot.y, from) + shift;
-        line.to = list.space.point(foot.x, foot.y, to) + shift;
-        line.color = style.color;
-        line.width = style.width * scale;
-        line.dash = style.dash * scale;
-        line.hidden = 1;
-        line.order = {9, 1, static_cast<std::int64_t>(list.lines.size())};
-        list.lines.push_back(line);
+        pen.line(list.space.point(foot.x, foot.y, from) + shift, list.space.point(foot.x, foot.y, to) + shift,
+                 scaled(style, scale));
     };
     double end = floor_extent.t1;
     double begin = floor_extent.t0;
@@ -123,14 +118,14 @@ void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::sp
         const mobb::PlacedTree& tree = sides[side].placed;
         const mobb::Node& node = tree.node(side == 0 ? event.a : event.b);
         add(kFirst + kNext * static_cast<float>(side), tree.begin(node), tree.end(node),
-            {outlining(sides[side].color, list.palette), kSolid, kIntervalBar});
+            {.color = outlining(sides[side].color, list.palette), .width = kIntervalBar, .hidden = 1});
         end = std::min(end, tree.end(node));
         begin = std::max(begin, tree.begin(node));
     }
     if (event.outcome != mobb::Outcome::disjoint_in_time) return;
     // In the text's colour, as the gap in the scene is: a thin grey line between the bars is not seen.
     const Dash dash = outcome_style(BoxState::apart_in_time, list.palette).dash;
-    add(kFirst + 0.5f * kNext, end, begin, {list.palette.text, dash, 1.8f});
+    add(kFirst + 0.5f * kNext, end, begin, {list.palette.text, 1.8f, dash, 1});
 }
 
 bool Emphasis::cuts() const {

@@ -17,13 +17,8 @@ namespace mobbscope {
 /// What a pair's boxes become by the outcome of a test.
 BoxState box_state(mobb::Outcome outcome);
 
-/// Colour and line of an outcome.
-struct OutcomeStyle {
-    Rgba color;
-    Dash dash = kSolid;
-    float width = 1;  ///< pixels at scale 1
-};
-OutcomeStyle outcome_style(BoxState state, const Palette& palette);
+/// Colour and line of an outcome, at scale 1.
+LineStyle outcome_style(BoxState state, const Palette& palette);
 
 /// How the boxes of the pair under test are outlined.
 enum class PairOutline {
@@ -32,7 +27,7 @@ enum class PairOutline {
 };
 PairOutline pair_outline(const ViewState& view);
 /// Of one side's box, whose faces always have the agent's colour.
-OutcomeStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette);
+LineStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette);
 
 /// `sides`: A and B. With PairOutline::outcome only the pair's. `scale`: of line widths.
 void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const QueryProgress& progress,

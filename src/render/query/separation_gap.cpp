@@ -1,4 +1,5 @@
 #include <explain/axis_intervals.h>
+#include <render/drawlist/pen.h>
 #include <render/parts/node_boxes.h>
 #include <render/query/query_boxes.h>
 #include <render/query/separation_gap.h>
@@ -53,34 +54,20 @@ std::optional<SeparationGap> separation_gap(std::span<const DrawnAgent> sides, c
 glm::vec3 add_separation_gap(DrawList& list, const SeparationGap& gap, double time_scale, float scale) {
     const Rgba color = outcome_style(BoxState::separated, list.palette).color;
     const auto drawn = [&](glm::dvec3 p) { return list.space.point(p.x, p.y, p.z / time_scale); };
-    std::int64_t index = 0;
-    const auto add_line = [&](glm::dvec3 from, glm::dvec3 to, float width) {
-        LineInstance line;
-        line.from = drawn(from);
-        line.to = drawn(to);
-        line.color = color;
-        line.width = width * scale;
-        line.cap = 0.5f * line.width;
-        line.hidden = 0.55f;
-        line.order = {9, 0, index++};
-        list.lines.push_back(line);
+    const auto style = [&](float width) {
+        return scaled({.color = color, .width = width, .hidden = 0.55f, .cap = 0.5f * width}, scale);
     };
+    Pen pen(list, {DrawLayer::findings});
     for (const glm::dvec3& middle : {gap.from, gap.to}) {
         const glm::dvec3 corners[4] = {middle - gap.across - gap.along, middle + gap.across - gap.along,
                                        middle + gap.across + gap.along, middle - gap.across + gap.along};
-        for (int i = 0; i < 4; ++i) add_line(corners[i], corners[(i + 1) % 4], 1.8f);
-        BoxInstance sheet;
-        sheet.center = drawn(middle);
-        sheet.extents = {list.space.extent(gap.across, time_scale), list.space.extent(gap.along, time_scale),
-                         glm::vec3(0)};
-        sheet.state = BoxState::annotation;
-        sheet.fill = with_alpha(color, 0.10f);
-        sheet.edge = Rgba(0);
-        sheet.pickable = false;
-        sheet.order = {9, 0, index++};
-        list.boxes.push_back(sheet);
+        pen.path(
+            4, [&](int i) { return drawn(corners[i % 4]); }, style(1.8f));
+        list.boxes.push_back(annotation_sheet(drawn(middle), list.space.extent(gap.across, time_scale),
+                                              list.space.extent(gap.along, time_scale), with_alpha(color, 0.10f),
+                                              pen.order()));
     }
-    add_line(gap.from, gap.to, 2.6f);
+    pen.line(drawn(gap.from), drawn(gap.to), style(2.6f));
     return 0.5f * (drawn(gap.from) + drawn(gap.to));
 }
 
@@ -98,15 +85,8 @@ std::optional<TimeGap> time_gap(std::span<const DrawnAgent> sides, const mobb::T
 }
 
 void add_time_gap(DrawList& list, const TimeGap& gap, float scale) {
-    LineInstance line;
-    line.from = gap.from;
-    line.to = gap.to;
-    line.color = list.palette.text;
-    line.width = 1.8f * scale;
-    line.dash = outcome_style(BoxState::apart_in_time, list.palette).dash * scale;
-    line.hidden = 0.6f;
-    line.order = {9, 0, 0};
-    list.lines.push_back(line);
+    const Dash dash = outcome_style(BoxState::apart_in_time, list.palette).dash;
+    Pen(list, {DrawLayer::findings}).line(gap.from, gap.to, scaled({list.palette.text, 1.8f, dash, 0.6f}, scale));
 }
 
 }  // namespace mobbscope
