@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cli/render/render_options.h>
-#include <cli/render/render_sequence.h>
 #include <render/drawlist/draw_list.h>
 #include <scene/fitted_scene.h>
 
@@ -34,6 +33,20 @@ class SceneStore {
 
     std::vector<std::unique_ptr<Loaded>> scenes_;
 };
+
+/// One view as pictures: itself, or a numbered sequence.
+struct RenderPicture {
+    ViewState view;
+    RenderOutputs outputs;
+};
+
+/// The most pictures of one sequence.
+inline constexpr int kMostPictures = 100'000;
+
+/// All pictures, not yet framed in common. Throws InputError if there are none such, or too many;
+/// std::invalid_argument if the scene lacks what the view names.
+std::vector<RenderPicture> pictures_of(const FittedScene& fitted, const ViewState& view,
+                                       const RenderArguments& arguments);
 
 struct RenderJob {
     RenderArguments arguments;
