@@ -80,7 +80,7 @@ TEST(GltfFuzz, DamagedTextIsReadOrRefused) {
     for (int round = 0; round < 12'000; ++round) {
         // The container stays whole, so that the damage gets past its checks.
         const std::string damaged = round % 2 == 0 ? testing::mutated(json, random) : nudged(json, random);
-        try_to_read(join_glb(damaged, bytes.binary()), "fuzz.glb", outcomes);
+        try_to_read(testing::join_glb(damaged, bytes.binary()), "fuzz.glb", outcomes);
     }
     EXPECT_GT(outcomes.read, 300);
     EXPECT_GT(outcomes.refused, 1000);

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cli/render/render_options.h>
-#include <cli/render/render_sequence.h>
 #include <render/drawlist/draw_list.h>
 #include <render/pictures/kept_paths.h>
 
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -35,6 +35,21 @@ class SceneStore {
 
     std::vector<std::unique_ptr<Loaded>> scenes_;
 };
+
+/// One view as pictures: itself, or a numbered sequence.
+struct RenderPicture {
+    ViewState view;
+    RenderOutputs outputs;
+    std::optional<DrawList> list{};  ///< once it is made: of this view
+};
+
+/// The most pictures of one sequence.
+inline constexpr int kMostPictures = 100'000;
+
+/// All pictures, not yet framed in common. Throws InputError if there are none such, or too many;
+/// std::invalid_argument if the scene lacks what the view names.
+std::vector<RenderPicture> pictures_of(const FittedScene& fitted, const ViewState& view,
+                                       const RenderArguments& arguments);
 
 struct RenderJob {
     RenderArguments arguments;

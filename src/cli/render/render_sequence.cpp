@@ -1,6 +1,6 @@
 #include <base/error.h>
 #include <base/text.h>
-#include <cli/render/render_sequence.h>
+#include <cli/render/render_job.h>
 #include <render/drawlist/view_projection.h>
 #include <render/layout/framing.h>
 #include <scene/crowd_run.h>
