@@ -2,7 +2,6 @@
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
 
-#include <cstdio>
 #include <utility>
 
 namespace mobbscope {
@@ -89,9 +88,7 @@ std::string gain_words(const mobb::TestCounts& tests, const Clearance& clearance
     std::string out = "The direct search would measure " + counted(pairs, "pair", "pairs") + " of samples; this took " +
                       counted(all, "test", "tests");
     if (all > 0 && pairs > all) {
-        char times[32];
-        std::snprintf(times, sizeof times, "%.3g", static_cast<double>(pairs) / static_cast<double>(all));
-        return out + ", " + times + " times fewer.";
+        return out + formatted(", %.3g times fewer.", static_cast<double>(pairs) / static_cast<double>(all));
     }
     return out + (pairs == all ? ", as many." : ": here the trees gain nothing.");
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace mobbscope {
@@ -64,9 +63,7 @@ std::string with_unit(double value, const char* unit) {
     const int digits = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
     // Below a millimetre more decimals are needed to say anything, above 10 fewer.
     const int decimals = std::clamp(size >= 10 ? 2 : digits < -3 ? 2 - digits : 3, 0, 12);
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f %s", decimals, value, unit);
-    return text;
+    return formatted("%.*f %s", decimals, value, unit);
 }
 
 std::string node_name(const DrawnAgent& agent, int node) {

@@ -2,7 +2,6 @@
 #include <paper_tables/table_report.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <utility>
 
@@ -54,13 +53,7 @@ void write_figures(JsonWriter& out, const TableRow& row) {
 
 /// A number in a column: `decimals` behind the point, right-aligned to `width`; "-" for zero tests.
 std::string cell(double value, int width, int decimals) {
-    char text[64];
-    if (value == 0) {
-        std::snprintf(text, sizeof text, "%*s", width, "-");
-    } else {
-        std::snprintf(text, sizeof text, "%*.*f", width, decimals, value);
-    }
-    return text;
+    return value == 0 ? formatted("%*s", width, "-") : formatted("%*.*f", width, decimals, value);
 }
 
 std::string left(std::string_view text, int width) {
@@ -77,20 +70,15 @@ std::string right(std::string_view text, int width) {
 /// Of the column of a kind's tests.
 int width_of(mobb::BoxKind kind) { return kind == mobb::kBoxKinds.front() ? 6 : 8; }
 
-std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-    return text;
-}
+std::string percent(double share) { return formatted("%.1f %%", 100 * share); }
 
 void write_rows(std::ostream& out, const TableReport& report) {
     out << "method           ns/query   quartiles       ";
     for (const mobb::BoxKind kind : mobb::kBoxKinds) out << right(mobb::info(kind).heading, width_of(kind));
     out << "  sample pairs   steps  root rejects | paper: us      2D      3D  samples\n";
     for (const TableRow& row : report.table.rows) {
-        char quartiles[64];
-        std::snprintf(quartiles, sizeof quartiles, "%.1f..%.1f", row.time_ns_q1, row.time_ns_q3);
-        out << left(row.method, 15) << cell(row.time_ns, 10, 1) << "   " << left(quartiles, 16);
+        out << left(row.method, 15) << cell(row.time_ns, 10, 1) << "   "
+            << left(formatted("%.1f..%.1f", row.time_ns_q1, row.time_ns_q3), 16);
         for (const mobb::BoxKind kind : mobb::kBoxKinds) out << cell(row[kind], width_of(kind), 2);
         out << cell(row[mobb::TestKind::samples], 14, 2) << cell(row.sample_steps, 8, 2) << "  "
             << right(row.leaf == 0 ? "-" : percent(row.root_rejected), 12);
@@ -138,9 +126,8 @@ void write_sweep(std::ostream& out, const std::vector<TableRow>& sweep) {
         out << left(std::to_string(leaf), 8);
         for (const std::string& method : methods) {
             const TableRow& row = *by.at({method, leaf});
-            char text[96];
-            std::snprintf(text, sizeof text, "%.1f (%.1f; %.1f)", row.time_ns, row.box_tests(),
-                          row[mobb::TestKind::samples]);
+            const std::string text =
+                formatted("%.1f (%.1f; %.1f)", row.time_ns, row.box_tests(), row[mobb::TestKind::samples]);
             out << left(text, 26);
         }
         out << '\n';

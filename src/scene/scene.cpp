@@ -1,7 +1,7 @@
+#include <base/text.h>
 #include <scene/scene.h>
 
 #include <charconv>
-#include <cstdio>
 
 namespace mobbscope {
 
@@ -25,11 +25,7 @@ std::optional<Color> color_from_text(std::string_view text) {
                  static_cast<std::uint8_t>(rgb & 0xff)};
 }
 
-std::string to_string(const Color& color) {
-    char text[8];
-    std::snprintf(text, sizeof text, "#%02X%02X%02X", color.r, color.g, color.b);
-    return text;
-}
+std::string to_string(const Color& color) { return formatted("#%02X%02X%02X", color.r, color.g, color.b); }
 
 std::size_t query_count(const Scene& scene) {
     if (!scene.queries.empty()) return scene.queries.size();

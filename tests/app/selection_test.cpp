@@ -1,6 +1,6 @@
 // What is selected means the same in every picture, and never what is gone.
 #include <app/document/selection.h>
-#include <app/viewport/describe.h>
+#include <app/viewport/selection_display.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 

@@ -1,7 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
-#include <app/viewport/describe.h>
+#include <app/viewport/selection_display.h>
 #include <base/text.h>
 #include <render/drawlist/palette.h>
 

@@ -1,4 +1,5 @@
 #include <app/viewport/agent_handles.h>
+#include <render/drawlist/pen.h>
 #include <render/drawlist/pick.h>
 #include <render/parts/floor_and_axes.h>
 
@@ -29,9 +30,8 @@ void draw_circle(Ui& ui, const ShownPicture& picture, const HandlePlaces& places
     constexpr int kSides = 64;
     std::array<std::optional<ImVec2>, kSides + 1> points;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kSides;
-        points[i] = picture.at(picture.list.space.point(places.pivot.x + places.radius * std::cos(angle),
-                                                        places.pivot.y + places.radius * std::sin(angle), places.time));
+        const glm::dvec2 rim = glm::dvec2(places.pivot) + places.radius * on_circle(static_cast<double>(i), kSides);
+        points[i] = picture.at(picture.list.space.point(rim.x, rim.y, places.time));
     }
     const auto draw = [&](ImU32 line_color, float width) {
         for (std::size_t i = 0; i < kSides; ++i) {

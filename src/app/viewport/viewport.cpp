@@ -1,6 +1,5 @@
 #include <app/commands/command.h>
-#include <app/viewport/describe.h>
-#include <app/viewport/session_highlights.h>
+#include <app/viewport/selection_display.h>
 #include <app/viewport/viewport.h>
 #include <base/text.h>
 #include <render/drawlist/camera.h>

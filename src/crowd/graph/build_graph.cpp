@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <memory>
@@ -68,11 +67,7 @@ std::string letters(std::size_t index) {
     return index < 26 ? out : letters(index / 26 - 1) + out;
 }
 
-std::string two_decimals(double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.2f", value);
-    return text;
-}
+std::string two_decimals(double value) { return formatted("%.2f", value); }
 
 class Builder {
   public:

@@ -1,3 +1,4 @@
+#include <render/drawlist/pen.h>
 #include <render/drawlist/view_projection.h>
 #include <render/gl/disk_pass.h>
 #include <render/gl/gl_objects.h>
@@ -81,10 +82,7 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
         vertices.push_back({corner, normal});
         return static_cast<GLushort>(vertices.size() - 1);
     };
-    const auto direction = [&](int i) {
-        const double angle = 2 * std::numbers::pi * i / sides;
-        return glm::vec3(glm::dvec3(std::cos(angle), std::sin(angle), 0));
-    };
+    const auto direction = [&](int i) { return glm::vec3(glm::dvec3(on_circle<double>(i, sides), 0)); };
     const glm::vec3 up(0, 0, 1);
     const auto add_face = [&](bool upper) {
         const glm::vec3 level = upper ? up : glm::vec3(0);

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <explain/query_progress.h>
 #include <explain/query_sentence.h>
 #include <render/layout/annotations.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 
 namespace mobbscope {
 
@@ -61,20 +61,14 @@ std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& lev
     }
     std::string text = levels_text(levels, last) + ", " + std::to_string(count) + (count == 1 ? " box" : " boxes");
     if (levels.leaves || std::min(levels.first, last) == last) {
-        char volume[48];
-        std::snprintf(volume, sizeof volume, total >= 1000 && total < 1e9 ? "%.0f" : "%.3g", total);
-        text += std::string(", ") + volume + " m\u00B2\u00B7s";
+        text += formatted(total >= 1000 && total < 1e9 ? ", %.0f m\u00B2\u00B7s" : ", %.3g m\u00B2\u00B7s", total);
     }
     return text;
 }
 
 }  // namespace
 
-std::string at_time(double time) {
-    char text[48];
-    std::snprintf(text, sizeof text, " at %.2f s", time);
-    return text;
-}
+std::string at_time(double time) { return formatted(" at %.2f s", time); }
 
 Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> agents, const ViewState& view) {
     Caption caption;
@@ -106,9 +100,8 @@ bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options) 
 }
 
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%.10g s lies outside %.4g..%.4g s", time, begin, end);
-    caption.detail = caption.detail.empty() ? text : std::string(text) + kDot + caption.detail;
+    const std::string text = formatted("%.10g s lies outside %.4g..%.4g s", time, begin, end);
+    caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;
 }
 
 CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <render/layout/legend.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
@@ -6,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 
@@ -110,11 +110,7 @@ std::optional<std::string> beyond_the_paper(const DrawList& list, std::span<cons
     return std::nullopt;
 }
 
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
+std::string short_number(double value) { return formatted("%.3g", value); }
 
 struct LegendLayout {
     float row, mark, padding, gap;

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/floor_and_axes.h>
 #include <render/text/labels.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace mobbscope {
 
@@ -307,8 +307,7 @@ void add_floor_inset(DrawList& list, std::span<const DrawnAgent> agents, const F
     const glm::vec2 size = inset_size(s, scale);
     const glm::vec2 map = map_size(s, scale);
     list.panels.push_back({{corner, corner + size}, 5 * scale, list.palette.panel, list.palette.panel_border, 1});
-    char title[64];
-    std::snprintf(title, sizeof title, "floor at %.2f s", time);
+    const std::string title = formatted("floor at %.2f s", time);
     list.texts.push_back(
         text_at(title, FontFace::text, kMapTitle * scale, list.palette.quiet_text, corner + kMapPadding * scale));
     const glm::vec2 origin(corner.x + 0.5f * (size.x - map.x), corner.y + size.y - kMapPadding * scale - map.y);

@@ -1,12 +1,11 @@
 #include <base/text.h>
+#include <render/drawlist/pen.h>
 #include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
 #include <scene/crowd_scene.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -64,8 +63,8 @@ void add_lines(DrawList& list, std::span<const Points> lines, Role role, float s
 Points disk_outline(const DrawnSpace& space, const mobb::Disk& disk, double time) {
     Points out;
     for (int i = 0; i <= kRingSides; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kRingSides;
-        out.push_back(space.point(disk.x + disk.r * std::cos(angle), disk.y + disk.r * std::sin(angle), time));
+        const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + disk.r * on_circle<double>(i, kRingSides);
+        out.push_back(space.point(rim.x, rim.y, time));
     }
     return out;
 }

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/drawlist/pen.h>
 #include <render/layout/caption.h>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
@@ -204,11 +204,7 @@ std::vector<std::size_t> shown_candidates(const Choice& choice) {
 std::string candidate_sentence(const Scene& run, const Choice& choice, std::size_t candidate) {
     const Candidate& asked = choice.candidates[candidate];
     std::string text = clip_of_move(run, asked.move).name;
-    if (asked.turn_deg != 0) {
-        char turn[48];
-        std::snprintf(turn, sizeof turn, ", turned by %.0f\u00B0", asked.turn_deg);
-        text += turn;
-    }
+    if (asked.turn_deg != 0) text += formatted(", turned by %.0f\u00B0", asked.turn_deg);
     text += ": ";
     const auto meets = [&] {
         return "meets " + agent_name(run, asked.blocker->agent) + at_time(asked.blocker->contact.time);

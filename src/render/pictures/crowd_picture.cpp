@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 
@@ -44,11 +43,7 @@ std::size_t people_at(std::span<const DrawnAgent> paths, double time) {
     return people.size();
 }
 
-std::string window_text(const Seconds& s) {
-    char text[96];
-    std::snprintf(text, sizeof text, "upwards from %.2f to %.2f s", s.begin, s.end);
-    return text;
-}
+std::string window_text(const Seconds& s) { return formatted("upwards from %.2f to %.2f s", s.begin, s.end); }
 
 /// Boxes that begin before what is shown, or end behind it, would stand there empty.
 void keep_within(DrawList& list, std::span<const DrawnAgent> paths, const Seconds& seconds) {

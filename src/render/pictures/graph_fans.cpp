@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <render/drawlist/pen.h>
 #include <render/pictures/graph_moves.h>
 #include <render/text/labels.h>
 #include <scene/motion_graph.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -118,8 +118,7 @@ class FanPicture {
             const double r = ring * step;
             glm::vec2 from = center + glm::vec2(static_cast<float>(r), 0);
             for (int i = 1; i <= kRingPoints; ++i) {
-                const double turn = 2 * std::numbers::pi * i / kRingPoints;
-                const glm::vec2 to = center + glm::vec2(r * glm::dvec2(std::cos(turn), std::sin(turn)));
+                const glm::vec2 to = center + glm::vec2(r * on_circle<double>(i, kRingPoints));
                 if (inside(from) && inside(to)) {
                     canvas_.line(from, to, canvas_.palette().grid, canvas_.metrics.scale);
                 }

@@ -1,8 +1,8 @@
+#include <base/text.h>
 #include <render/text/labels.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace mobbscope {
 
@@ -101,10 +101,8 @@ std::vector<double> ticks(double from, double to, double step) {
 
 std::string tick_text(double value, double step) {
     const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 12);
-    char text[64];
     // Adding zero turns -0 into 0.
-    std::snprintf(text, sizeof text, "%.*f", decimals, value + 0.0);
-    return text;
+    return formatted("%.*f", decimals, value + 0.0);
 }
 
 }  // namespace mobbscope
