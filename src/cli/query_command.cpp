@@ -29,6 +29,7 @@ void print_event(std::ostream& out, int step, const mobb::Trace::Event& event) {
         << mobb::name(event.test) << ": ";
     // In the order of the outcomes.
     constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
+    static_assert(kWords.size() == static_cast<std::size_t>(mobb::Outcome::no_hit) + 1);
     out << kWords[static_cast<std::size_t>(event.outcome)];
     if (event.outcome == mobb::Outcome::separated) {
         out << " along axis " << event.axis << " by " << brief(event.gap) << " m";

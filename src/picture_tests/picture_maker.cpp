@@ -136,8 +136,7 @@ std::vector<DrawList> panel_lists(const Shot& shot) {
         std::vector<DrawList> lists = lists_of(shot);
         for (std::size_t i = 0; shot.select && i < lists.size(); ++i) {
             const float scale = metrics_of(lists[i].size, shot.picture.scale).scale;
-            if (add_selection(lists[i], *shot.panels[i].fitted, shot.panels[i].view, *shot.select, scale)) continue;
-            throw std::invalid_argument("the picture does not show what is selected");
+            add_selection(lists[i], *shot.panels[i].fitted, shot.panels[i].view, *shot.select, scale);
         }
         return lists;
     } catch (const std::invalid_argument& error) {

@@ -30,7 +30,7 @@ struct OutcomeWords {
     std::string_view key;          ///< of the summary in JSON
     std::string_view in_sum;       ///< "3 without a golden"
     std::string_view mark, badge;  ///< on the page: a sign that needs no colour, and words
-    std::string_view kind;         ///< ... and which colour: good, bad or quiet
+    std::string_view kind;         ///< which colour on the page: good, bad or quiet
 };
 inline constexpr std::array<OutcomeWords, 5> kOutcomeWords{
     {{"passed", "passed", "passed", "✓", "passed", "good"},
@@ -38,6 +38,7 @@ inline constexpr std::array<OutcomeWords, 5> kOutcomeWords{
      {"missing golden", "missing", "without a golden", "∅", "no golden", "bad"},
      {"failed", "failed", "failed", "✕", "failed", "bad"},
      {"skipped", "skipped", "skipped", "–", "skipped", "quiet"}}};
+static_assert(kOutcomeWords.size() == static_cast<std::size_t>(CaseOutcome::skipped) + 1);
 inline const OutcomeWords& words_of(CaseOutcome outcome) { return kOutcomeWords[static_cast<std::size_t>(outcome)]; }
 inline std::string_view name(CaseOutcome outcome) { return words_of(outcome).name; }
 

@@ -125,7 +125,9 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
     Shot shot;
     shot.scene_file = read_path(scene, folder).lexically_normal();
     shot.picture = read_picture_options(place);
-    if (const auto select = place.find("select")) shot.select = parse_named_part(select->string());
+    if (const auto select = place.find("select")) {
+        shot.select = read_at(*select, [&] { return parse_named_part(select->string()); });
+    }
     if (const auto window = place.find("window")) {
         refuse_with_window(place);
         shot.window = read_window(*window, folder);

@@ -13,11 +13,11 @@
 
 namespace mobbscope {
 
-/// The `fit` of a scene file: every key is optional and has FitOptions' name for it.
+/// The `fit` of a scene file over `base`: a key that is not there keeps its value. Each has FitOptions' name for it:
 ///
 ///     {"tree": "mobb", "leaf": 10, "levels": 0, "axes": "endpoints", "time_scale": 1}
 ///
-/// What the keys say, over `base`: a key that is not there keeps its value. Throws InputError.
+/// Throws InputError.
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
 
 /// A figure for people, without its unit; "-" if the level has none.

@@ -54,7 +54,7 @@ TEST(Highlights, AreLinesOnGroundLinesAndNothingElse) {
     DrawList list = list_at(view);
     const std::string before = text_of(list);
     EXPECT_EQ(before.find("highlights"), std::string::npos);
-    ASSERT_TRUE(add_selection(list, scene(), view, {"A", {Kind::node, 1}}, 2));
+    add_selection(list, scene(), view, {"A", {Kind::node, 1}}, 2);
     ASSERT_EQ(list.highlights.size(), 24u) << "the edges of a box, twice";
     EXPECT_EQ(widths(list), (std::vector<float>{8, 4})) << "the ground comes first";
     const auto agents = drawn_agents(scene(), view);
@@ -177,23 +177,33 @@ TEST(Highlights, WhatThePictureLacksIsRefused) {
 class HighlightPixelsTest : public testing::OnEachBackend {};
 
 TEST_P(HighlightPixelsTest, ShowThroughTheWorldBelowTheWords) {
-    DrawList list = list_at({});
-    ASSERT_FALSE(list.disks.empty());
-    // Across the picture, behind all that there is.
-    const glm::vec3 behind = list.disks.front().base - 5.0f * list.projection.back;
-    const Rgba red(1, 0, 0, 1);
-    list.highlights = {
-        {Role::selection, behind - 50.0f * list.projection.right, behind + 50.0f * list.projection.right, red, 9}};
-    const auto at = list.projection.project(behind);
-    ASSERT_TRUE(at);
-    const int y = static_cast<int>(at->y);
-    list.panels = {{{{0, at->y - 20}, {40, at->y + 20}}, 0, {0, 1, 0, 1}}};
-    list.marks.clear();
-    list.texts.clear();
-    const Image image = renderer().draw(list);
-    const auto is = [&](int x, std::array<int, 3> rgb) { return std::equal(rgb.begin(), rgb.end(), image.at(x, y)); };
-    EXPECT_TRUE(is(20, {0, 255, 0})) << "a panel lies over it";
-    for (int x = 45; x < image.width; ++x) EXPECT_TRUE(is(x, {255, 0, 0})) << x;
+    for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::front, CameraPreset::top}) {
+        ViewState view;
+        view.camera.preset = preset;
+        DrawList list = list_at(view);
+        ASSERT_FALSE(list.disks.empty());
+        const glm::vec3 base = list.disks.front().base;
+        const float nearest =
+            list.projection.perspective ? list.projection.depth(base) - list.projection.near_depth : 99;
+        // Across the picture, behind all that there is and before it.
+        for (const float nearer : {-50.0f, -5.0f, 0.9f * nearest}) {
+            const glm::vec3 middle = base + nearer * list.projection.back;
+            const glm::vec3 aside = 500.0f * list.projection.right;
+            list.highlights = {{Role::selection, middle - aside, middle + aside, Rgba(1, 0, 0, 1), 9}};
+            const auto at = list.projection.project(middle);
+            ASSERT_TRUE(at);
+            const int y = static_cast<int>(at->y);
+            list.panels = {{{{0, at->y - 20}, {40, at->y + 20}}, 0, {0, 1, 0, 1}}};
+            list.marks.clear();
+            list.texts.clear();
+            const Image image = renderer().draw(list);
+            const auto is = [&](int x, std::array<int, 3> rgb) {
+                return std::equal(rgb.begin(), rgb.end(), image.at(x, y));
+            };
+            EXPECT_TRUE(is(20, {0, 255, 0})) << "a panel lies over it";
+            for (int x = 45; x < image.width; ++x) EXPECT_TRUE(is(x, {255, 0, 0})) << x << " at " << nearer;
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HighlightPixelsTest, ::testing::Values(Backend::osmesa, Backend::egl),

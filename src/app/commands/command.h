@@ -44,7 +44,8 @@ struct Action : std::function<void(Session&, const std::string& argument)> {
 
 /// What a command may have besides.
 struct CommandTraits {
-    /// "File", "Edit", "View", "Tree", "Query", "Go" or "Help", and behind a slash the submenu; empty: not in a menu
+    /// "File", "Edit", "View", "Tree", "Query", "Go" or "Help", and behind a slash the submenu; empty in a
+    /// row: that of its part; kNoMenu: none
     std::string_view menu{};
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
     bool repeats = false;         ///< while its key is held

@@ -46,6 +46,7 @@ const Command* find_command(std::string_view id) {
 }
 
 const Command& command_named(std::string_view id) {
+    if (const Command* found = find_command(id)) return *found;
     std::vector<std::string> ids;
     for (const Command& command : commands()) ids.emplace_back(command.id);
     return commands()[static_cast<std::size_t>(index_of_name(ids, id, "command"))];

@@ -122,7 +122,7 @@ std::string select_option(const Session& session, PictureSize size) {
         const NamedPart named{agents.at(static_cast<std::size_t>(*agent)).name, selected.part()};
         DrawList list;
         static_cast<PictureFrame&>(list) = picture_frame(fitted, session.view(), size);
-        if (!add_selection(list, fitted, session.view(), named, 1)) return "";
+        add_selection(list, fitted, session.view(), named, 1);
         return " --select " + shell_word(text_of(named));
     } catch (const std::invalid_argument&) {
         return "";

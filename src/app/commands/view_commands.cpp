@@ -217,9 +217,9 @@ void set_time(Session& session, double time) {
 /// The shortest sample of the paths in the picture, seconds.
 double sample_time(const Session& session) {
     double dt = std::numeric_limits<double>::max();
-    for (const PlacedAgent& who : agents_in_view(session.fitted(), session.view())) {
+    for_each_agent_in_view(session.fitted(), session.view(), [&](const PlacedAgent& who) {
         dt = std::min(dt, session.fitted().tree(who.clip).clip().dt());
-    }
+    });
     return dt;
 }
 

@@ -16,7 +16,7 @@ namespace mobbscope::app {
 /// Whether an agent is selected; in a scene without agents a clip that is seen counts as one, as an edit makes it one.
 bool has_selected_agent(const Session& session);
 
-/// ... beside at least one other.
+/// Whether an agent is selected and there is another.
 bool has_selected_of_several(const Session& session);
 
 /// Why a command about an agent cannot be done.
@@ -51,7 +51,7 @@ std::optional<int> current_run_agent(const Session& session);
 /// Its clip and placement at the view's time.
 std::optional<PlacedAgent> current_path(const Session& session);
 
-/// The names of all agents of a run, or of a scene: the first of FittedScene::placed_agents() are these.
+/// The names of all agents of a run, or of a scene in the order in which FittedScene::placed_agents() begins.
 std::vector<std::string> agent_names(const Session& session);
 
 void select_agent_named(Session& session, const std::string& name);

@@ -15,12 +15,6 @@ AgentRef path_of_side(const FittedScene& fitted, int query, int side) {
 
 }  // namespace
 
-std::vector<PlacedAgent> agents_in_view(const FittedScene& fitted, const ViewState& view) {
-    if (!view.query) return fitted.placed_agents();
-    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(*view.query)];
-    return {asked.a, asked.b};
-}
-
 AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int agent) {
     return view.query ? path_of_side(fitted, *view.query, agent) : AgentRef{agent, -1, 0};
 }

@@ -34,7 +34,16 @@ struct Selection {
 };
 
 /// The agents of a picture of `view`: all, or the two of its query.
-std::vector<PlacedAgent> agents_in_view(const FittedScene& fitted, const ViewState& view);
+template <class Use>
+void for_each_agent_in_view(const FittedScene& fitted, const ViewState& view, const Use& use) {
+    if (!view.query) {
+        for (const PlacedAgent& who : fitted.placed_agents()) use(who);
+        return;
+    }
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(*view.query)];
+    use(asked.a);
+    use(asked.b);
+}
 
 /// The agent that ObjectId::agent means in a picture of `view`.
 AgentRef agent_in_view(const FittedScene& fitted, const ViewState& view, int agent);

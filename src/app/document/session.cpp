@@ -647,12 +647,12 @@ void Session::finish(Job& job) {
 mobb::Interval Session::time_span() const {
     if (crowd()) return {0, crowd()->seconds};
     mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    for (const PlacedAgent& who : agents_in_view(fitted(), view())) {
+    for_each_agent_in_view(fitted(), view(), [&](const PlacedAgent& who) {
         const mobb::PlacedTree tree = fitted().placed(who);
         const mobb::PlacedClip& clip = tree.placed_clip();
         span.t0 = std::min(span.t0, clip.time(0));
         span.t1 = std::max(span.t1, clip.time(clip.count()));
-    }
+    });
     return span.t0 <= span.t1 ? span : mobb::Interval{0, 0};
 }
 

@@ -246,9 +246,9 @@ class Session {
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     /// Replaces the document by what `load_all` gives, after asking if there are unsaved changes.
     void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
-    /// The present state is another; no edit of its own.
+    /// Changes the present state in place: no step of its own for undo.
     void amend(const std::function<void(Document&)>& change);
-    /// Another document comes: what plays stops.
+    /// For another document: stops playing; nothing is selected or hovered.
     void point_at_nothing();
     void change_document(Document next, const EditName& name);
     void share_time_and_camera();

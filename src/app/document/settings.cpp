@@ -88,8 +88,7 @@ void save_settings(const std::filesystem::path& file, const Settings& settings) 
     JsonWriter out(text);
     out.begin_object();
     for (const NumberSetting& number : kNumberSettings) out.member(number.key, settings.*number.value);
-    out.key("recent");
-    out.begin_array();
+    out.begin_array("recent");
     for (const std::filesystem::path& path : settings.recent) out.value(std::string_view(path.native()));
     out.end_array();
     out.end_object();

@@ -14,7 +14,7 @@
 ///     frames N
 ///     size WxH
 ///     picture FILE.png                 the whole window
-///     viewport FILE.png                the picture in it, as `render` draws it
+///     viewport FILE.png                the picture in it with what is selected, as `render` draws it
 ///     state [FILE.json]                the state (state_json.h), to standard output or a file
 ///     expect POINTER VALUE             RFC 6901 into the state, and JSON; numbers agree to 1e-9 of their size. What is
 ///     expect POINTER != VALUE          not there is null

@@ -29,8 +29,8 @@ class Painter {
     virtual ~Painter() = default;
     enum class Changed { nothing, highlights, all };  ///< each includes those before it
     /// The texture of what the viewport at that place shows, upper row first at v = 1 (OpenGL's way up). What has
-    /// changed in it is painted anew when a frame is next looked at. `still`: it will stay a while, so it is worth
-    /// smooth edges.
+    /// changed since the last call is painted anew when a frame is next looked at. `still`: it will stay a while, so it
+    /// is worth smooth edges.
     virtual ImTextureID picture(std::size_t place, Changed changed, bool still) = 0;
 };
 

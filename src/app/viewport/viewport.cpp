@@ -143,10 +143,11 @@ void Viewport::update_highlights(const Ui& ui) {
     if (is_active(ui)) {
         const float scale = metrics_of(list_->size, key_->scale).scale;
         const FittedScene& fitted = ui.session.fitted();
-        const auto held = placed_agent_of(fitted, {handle_drag_.agent, -1, 0});
-        if (drag_ == Drag::handle && moved_ && held) {
-            const mobb::PlacedTree before(fitted.tree(held->clip), handle_drag_.start);
-            add_ghost(*list_, before.placed_clip(), scale);
+        if (drag_ == Drag::handle && moved_) {
+            if (const auto held = placed_agent_of(fitted, {handle_drag_.agent, -1, 0})) {
+                const mobb::PlacedTree before(fitted.tree(held->clip), handle_drag_.start);
+                add_ghost(*list_, before.placed_clip(), scale);
+            }
         }
         add_highlights(*list_, ui.session, scale);
     }

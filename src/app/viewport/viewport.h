@@ -20,7 +20,8 @@ class Viewport {
     /// active view, whose camera this one has; null: it has its own.
     void draw(Ui& ui, std::size_t place, const PictureFrame* linked = nullptr);
 
-    /// What it showed last, as `render` would draw it but for a flight under way; null for an empty scene.
+    /// What it showed last, as `render` would draw it but for a flight under way and what is pointed out; null for an
+    /// empty scene.
     const DrawList* shown() const { return list_ ? &*list_ : nullptr; }
 
   private:

@@ -62,7 +62,14 @@ struct KeyRow {
     Key ours;         ///< the first
 };
 
-static_assert(static_cast<int>(Key::end) - static_cast<int>(Key::escape) == GLFW_KEY_END - GLFW_KEY_ESCAPE);
+constexpr bool as_far_apart(Key a, Key b, int glfw_a, int glfw_b) {
+    return static_cast<int>(b) - static_cast<int>(a) == glfw_b - glfw_a;
+}
+static_assert(as_far_apart(Key::escape, Key::end, GLFW_KEY_ESCAPE, GLFW_KEY_END));
+static_assert(as_far_apart(Key::escape, Key::del, GLFW_KEY_ESCAPE, GLFW_KEY_DELETE));
+static_assert(as_far_apart(Key::comma, Key::slash, GLFW_KEY_COMMA, GLFW_KEY_SLASH));
+static_assert(as_far_apart(Key::shift, Key::ctrl, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_LEFT_CONTROL));
+static_assert(as_far_apart(Key::shift, Key::super, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_LEFT_SUPER));
 
 Key physical_key(int key) {
     constexpr std::array<KeyRow, 17> kRows{{{GLFW_KEY_A, GLFW_KEY_Z, Key::a},

@@ -55,17 +55,11 @@ bool needs_renderer(const RenderJob& job) {
     return !job.arguments.ui && !(job.arguments.outputs.image.empty() && job.arguments.outputs.ids.empty());
 }
 
-/// Highlights in a picture's list what --select says. Returns why the picture does not show it; empty: it does.
-std::string highlight_selected(const RenderJob& job, const ViewState& view, DrawList& list) {
+/// Highlights in a picture's list what --select says. Throws as add_selection does.
+void highlight_selected(const RenderJob& job, const ViewState& view, DrawList& list) {
     const PictureOptions& options = job.arguments.picture;
-    const NamedPart& selected = *job.arguments.select;
-    try {
-        if (add_selection(list, *job.paths->fitted(), view, selected, metrics_of(options.size, options.scale).scale))
-            return "";
-        return in_quotes(selected.agent) + " is not there at " + brief(*list.moment) + " s";
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
+    const float scale = metrics_of(options.size, options.scale).scale;
+    add_selection(list, *job.paths->shown_in(view).fitted(), view, *job.arguments.select, scale);
 }
 
 /// Throws InputError unless one of the pictures shows what --select says.
@@ -73,10 +67,14 @@ void check_selection(const RenderJob& job) {
     if (!job.arguments.select) return;
     std::string why_not;
     for (const RenderPicture& picture : job.pictures) {
-        DrawList list = picture.list ? *picture.list : build_draw_list(*job.paths, picture.view, job.arguments.picture);
-        const std::string why_not_here = highlight_selected(job, picture.view, list);
-        if (why_not_here.empty()) return;
-        if (why_not.empty()) why_not = why_not_here;
+        const PictureOptions& options = job.arguments.picture;
+        DrawList list;
+        static_cast<PictureFrame&>(list) = picture_frame(*job.paths, picture.view, options.size, options.scale);
+        try {
+            return highlight_selected(job, picture.view, list);
+        } catch (const std::invalid_argument& error) {
+            if (why_not.empty()) why_not = error.what();
+        }
     }
     throw InputError(job.arguments.file.string(), "", "--select: " + why_not);
 }
@@ -86,7 +84,13 @@ void draw_scene(const RenderJob& job, RenderPicture& picture, Renderer* renderer
     const RenderOutputs& outputs = picture.outputs;
     if (!picture.list) picture.list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
     DrawList list = *std::exchange(picture.list, {});
-    if (job.arguments.select) highlight_selected(job, picture.view, list);
+    if (job.arguments.select) {
+        try {
+            highlight_selected(job, picture.view, list);
+        } catch (const std::invalid_argument&) {
+            // Another picture of the sequence shows it.
+        }
+    }
     if (!outputs.image.empty()) write_png(outputs.image, renderer->draw(list, job.arguments.picture.samples));
     std::optional<IdImage> ids;
     if (!outputs.ids.empty()) {

@@ -110,12 +110,6 @@ void add_shown_options(Command& command, ViewArguments& view) {
     }
 }
 
-/// As add_selection reads it.
-NamedPart parse_selection(const std::string& text) {
-    if (text.empty()) throw std::invalid_argument("give AGENT, AGENT:node:N or AGENT:sample:N");
-    return parse_named_part(text);
-}
-
 void add_sequence_options(Command& command, SequenceArguments& sequence) {
     constexpr const char* kGroup = "Numbered pictures (OUT_0000.png, ...)";
     add_parsed(command, "--frames", sequence.frames, parse_frames,
@@ -263,8 +257,9 @@ void add_render_options(Command& command, RenderArguments& arguments) {
                "With --ui: size of text and panels, 0.5 to 4", "X");
     add_camera_options(command, arguments.view);
     add_shown_options(command, arguments.view);
-    add_parsed(command, "--select", arguments.select, parse_selection,
-               "Highlights an agent, or a node or sample: AGENT, AGENT:node:N or AGENT:sample:N", "WHAT")
+    add_parsed(command, "--select", arguments.select, parse_named_part,
+               "Highlights an agent, or a node or sample: AGENT (or AGENT:path), AGENT:node:N or AGENT:sample:N",
+               "WHAT")
         .group(kShownGroup);
     add_sequence_options(command, arguments.sequence);
     add_fit_options(command, arguments.fit);

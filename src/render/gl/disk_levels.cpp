@@ -18,9 +18,9 @@ constexpr float kWidestStep = 0.8f;      // pixels of a disk's face that its suc
 constexpr float kColorStep = 0.04f;      // between neighbours; more is a hit, or an end of what is in focus
 constexpr std::size_t kLongest = 32;     // disks in a tube, so that the colour follows
 constexpr std::size_t kInBlock = 128;    // disks
-constexpr float kLeap = 1.6f;            // times the mean step of its block: tubes only go over a larger one ...
-constexpr float kSmallLeap = 1.25f;      // ... if it is smaller than so many times what they may be off
-constexpr float kMostTimesUsual = 1.5f;  // what the widest disk of a block is
+constexpr float kLeap = 1.6f;            // times the mean step of its block: a longer step is a leap
+constexpr float kSmallLeap = 1.25f;      // times what a tube may be off: it goes over leaps that are shorter
+constexpr float kMostTimesUsual = 1.5f;  // the widest disk of a block counts as so many times the usual one at most
 constexpr float kFinestLevel = 0.008f;   // metres that its tubes may be off
 constexpr float kLevelsPerDoubling = 4;  // of the tolerance: tubes are nearly as long as they may be
 

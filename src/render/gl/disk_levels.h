@@ -51,8 +51,8 @@ struct DiskBlock {
     float widest = 0;        ///< radius
     float usual_radius = 0;  ///< the mean, or more where one is far wider: what the number of sides is chosen for
     float tallest = 0;       ///< disk
-    float longest_step = 0;  ///< of the steps that are not leaps
-    float widest_step = 0;   ///< ... the widest: what a disk's successor leaves free of its face, metres
+    float longest_step = 0;  ///< longer ones are leaps, which only coarse tubes go over
+    float widest_step = 0;   ///< the widest that is no leap: what a disk's successor leaves free of its face, metres
 };
 
 class DiskLevels {

@@ -23,8 +23,9 @@ struct Vertex {
 
 using ColorBytes = std::array<std::uint8_t, 4>;
 
-constexpr float kFlatBlock = 0.15f;       // of its distance: how far a block may reach and still have one scale
-constexpr std::size_t kMostInBatch = 32;  // blocks in one draw call: between calls the nearest come first
+constexpr float kFlatBlock = 0.15f;        // of its distance: how far a block may reach and still have one scale
+constexpr std::size_t kMostBridged = 512;  // disks beside the picture that are drawn to save a draw call
+constexpr std::size_t kMostInBatch = 32;   // blocks in one draw call: between calls the nearest come first
 
 ColorBytes bytes_of(Rgba color) {
     ColorBytes out;
@@ -46,7 +47,8 @@ bool behind(const DiskInstance& disk, const ViewProjection& projection) {
     return projection.perspective && projection.depth(disk.base) + disk.radius + disk.height < projection.near_depth;
 }
 
-/// Each block has as many as it needs, of a few numbers: what is far away is most of a crowd.
+/// As many as the usual disk of a block needs, of a few numbers: what is far away is most of a crowd. A disk half as
+/// wide again is off by half as much again.
 int coarse_sides(float radius) {
     constexpr std::array kSides{4, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 80, 96, 128};
     const float needed = sides_for(radius, 0.9f);
@@ -200,10 +202,11 @@ std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projec
     std::ranges::sort(seen, {}, &DiskLevels::Range::first);
     std::vector<Batch> out;
     for (const DiskLevels::Range& range : seen) {
-        if (out.empty() || out.back().range.first + out.back().range.count != range.first) {
+        // A few disks beside the picture cost less than another draw call.
+        if (out.empty() || out.back().range.first + out.back().range.count + kMostBridged < range.first) {
             out.push_back({0, sides, part, {range.first, 0}, 0});
         }
-        out.back().range.count += range.count;
+        out.back().range.count = range.first + range.count - out.back().range.first;
     }
     return out;
 }

@@ -137,12 +137,14 @@ void LinePass::draw_highlights(const DrawList& list, DrawStatistics& statistics)
         instances.push_back({line.from, line.to, line.color, kSolid, glm::vec3(line.width, 0, 0)});
     }
     statistics.overlay_bytes += upload(highlights_, instances);
-    begin(list.projection.clip_from_world, list.size);
+    // The depths of the picture are the world's, and what is pointed out may lie before or beyond it: only what the eye
+    // is too near to is cut.
+    glm::mat4 flat = list.projection.clip_from_world;
+    for (int column = 0; column < 4; ++column) flat[column][2] = 0;
+    if (list.projection.perspective) flat[3][2] = -list.projection.near_depth;
+    begin(flat, list.size);
     glDisable(GL_DEPTH_TEST);
-    // The depths of the picture are the world's; a ghost may stand beyond it.
-    glEnable(GL_DEPTH_CLAMP);
     draw({false, 0, instances.size()}, highlights_, statistics);
-    glDisable(GL_DEPTH_CLAMP);
 }
 
 void LinePass::keep_overlay(const DrawList& list, DrawStatistics& statistics) {

@@ -101,6 +101,7 @@ struct Renderer::State {
 
     /// Into the result's framebuffer, on a ground that is taken for opaque.
     void paint(const DrawList& list, int samples, Rgba ground) {
+        painted = nullptr;
         begin(list.size);
         check_samples(samples);
         if (!targets || targets->size() != list.size || targets->samples() != samples) {
@@ -108,7 +109,6 @@ struct Renderer::State {
             targets.emplace(list.size, samples);
             ground_and_disks.reset();
         }
-        painted = nullptr;
         draw_scene(list, ground);
         overlay.keep(list, statistics);
         lines.keep_overlay(list, statistics);

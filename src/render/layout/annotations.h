@@ -26,8 +26,7 @@ void add_notes(DrawList& list, LabelLayout& layout, std::span<const LabelRequest
 /// More names than this hide the scene and one another.
 bool names_fit(std::size_t agents);
 
-/// A name that stands around the upper end of a path, or of a body, that is as wide as a disk. None where `top` (drawn
-/// space) is not seen.
+/// A name beside `top` (drawn space), the upper end of a path or body of that radius. None where that is not seen.
 std::optional<LabelRequest> name_label(const DrawList& list, const DrawnAgent& agent, glm::vec3 top, double radius,
                                        float text_size);
 

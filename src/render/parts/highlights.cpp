@@ -163,6 +163,7 @@ void add_ghost(DrawList& list, const mobb::PlacedClip& before, float scale) {
 }
 
 NamedPart parse_named_part(std::string_view text) {
+    if (text.empty()) throw std::invalid_argument("give AGENT, AGENT:path, AGENT:node:N or AGENT:sample:N");
     if (text.ends_with(kPathSuffix)) return {std::string(text.substr(0, text.size() - kPathSuffix.size())), {}};
     const std::size_t last = text.rfind(':');
     if (last != std::string_view::npos) {
@@ -185,7 +186,7 @@ std::string text_of(const NamedPart& named) {
     return parse_named_part(named.agent) == named ? named.agent : named.agent + std::string(kPathSuffix);
 }
 
-bool add_selection(DrawList& list, const FittedScene& fitted, const ViewState& view, const NamedPart& named,
+void add_selection(DrawList& list, const FittedScene& fitted, const ViewState& view, const NamedPart& named,
                    float scale) {
     if (is_run(fitted.scene())) return add_selection(list, fitted_at(fitted, view), view, named, scale);
     std::vector<DrawnAgent> agents = drawn_agents(fitted, view);
@@ -196,7 +197,9 @@ bool add_selection(DrawList& list, const FittedScene& fitted, const ViewState& v
     if (list.moment && named.part.kind == AgentPart::Kind::node) {
         throw std::invalid_argument("a node is not shown in the picture of a moment: leave out --show moment");
     }
-    return add_highlight(list, agent, named.part, Role::selection, scale);
+    if (!add_highlight(list, agent, named.part, Role::selection, scale)) {
+        throw std::invalid_argument(in_quotes(named.agent) + " is not there at " + brief(*list.moment) + " s");
+    }
 }
 
 }  // namespace mobbscope

@@ -29,13 +29,14 @@ struct NamedPart {
     AgentPart part;
     friend bool operator==(const NamedPart&, const NamedPart&) = default;
 };
+/// Throws std::invalid_argument if it is empty.
 NamedPart parse_named_part(std::string_view text);
 std::string text_of(const NamedPart& named);
 
-/// Highlights it as selected in the list of a view of the scene (or of a run). Returns what add_highlight does. Throws
-/// std::invalid_argument, saying what there is, if the picture is not of such an agent, the agent has no such node or
-/// sample, or it is a node and the picture is of a moment.
-bool add_selection(DrawList& list, const FittedScene& fitted, const ViewState& view, const NamedPart& named,
+/// Highlights it as selected in the list of a view of the scene (or of a run). Throws std::invalid_argument, saying
+/// what there is, if the picture is not of such an agent, the agent has no such node or sample or is not there at the
+/// moment of the picture, or it is a node and the picture is of a moment.
+void add_selection(DrawList& list, const FittedScene& fitted, const ViewState& view, const NamedPart& named,
                    float scale);
 
 }  // namespace mobbscope

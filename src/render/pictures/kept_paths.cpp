@@ -20,7 +20,8 @@ const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewSt
 
 const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                            const std::vector<PathFocus>& foci) {
-    const Shapes shapes{view.query, list.space.origin, list.space.time_height, view.time_window};
+    const Shapes shapes{view.query, list.space.origin, list.space.time_height,
+                        fitted_->scene().crowd ? view.time_window : 0};
     const Colors colors{view.theme, foci};
     if (shapes_ != shapes) {
         for (std::size_t i = 0; i < agents.size(); ++i) add_disks(list, agents[i], foci[i]);

@@ -23,8 +23,8 @@ class KeptPaths {
 
     const std::shared_ptr<const FittedScene>& fitted() const { return fitted_; }
 
-    /// Those of the scene that a view of a run shows (fitted_at), kept as long as the views' time and window are the
-    /// same; of any other scene these themselves.
+    /// Those of the scene that a view of a run shows (fitted_at), kept as long as the views show the same
+    /// kind of picture, time and window; of any other scene these themselves.
     KeptPaths& shown_in(const ViewState& view);
 
     /// bounds_of the agents of a view.
@@ -40,7 +40,7 @@ class KeptPaths {
         std::optional<int> query;
         glm::dvec3 origin{0};
         double time_height = 0;
-        double time_window = 0;  ///< of a run, around the origin's time
+        double time_window = 0;  ///< of a run, whose window begins at the origin's time
         friend bool operator==(const Shapes&, const Shapes&) = default;
     };
     struct Colors {

@@ -75,8 +75,8 @@ class Picture {
     Blocks blocks_;
 };
 
-/// Points of a grid with so many cells along each side of a box between two of its corners, where they are seen, as
-/// small rectangles.
+/// The points of a grid in the box from `low` to `high` that are seen, as small rectangles around their pixels.
+/// `cells`: along each side.
 std::vector<Rect> seen_grid(const ViewProjection& projection, glm::vec3 low, glm::vec3 high, glm::ivec3 cells);
 
 /// The middle of those points.
