@@ -179,7 +179,7 @@ TEST(RenderView, ASelectionThatIsNoneIsRefused) {
         {{"A:node:99999"}, "--select: 'A' has no node 99999: give 0 to "},
         {{"A:sample:-1"}, "--select: 'A' has no sample -1: give 0 to "},
         {{"A:node:x"}, "not of an agent 'A:node:x'"},
-        {{""}, "give AGENT, AGENT:node:N or AGENT:sample:N"},
+        {{""}, "give AGENT, AGENT:path, AGENT:node:N or AGENT:sample:N"},
         {{"A", "--ui"}, "--ui and --select"},
         {{"A:node:0", "--show", "moment"}, "leave out --show moment"},
         {{"A", "--show", "moment", "--time", "900"}, "'A' is not there at 900 s"},
