@@ -82,13 +82,13 @@ class StatementWords {
     std::string file(const char* extension) {
         if (done()) throw std::invalid_argument("\"" + line_.words[0] + "\" needs a file name");
         // A single word may have stood in quotes.
-        const std::string name = line_.words.size() == 2 ? next("") : std::string(rest());
+        std::string name = line_.words.size() == 2 ? next("") : std::string(rest());
         if (lower_extension(name) != extension) {
             throw std::invalid_argument(in_quotes(name) + " must end in " + extension);
         }
         return name;
     }
-    /// ... or none: empty.
+    /// The same; empty if nothing is left.
     std::string file_if_any(const char* extension) { return done() ? "" : file(extension); }
     void end() const {
         if (!done()) throw std::invalid_argument(in_quotes(line_.words[at_]) + " is too much here");
