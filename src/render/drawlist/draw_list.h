@@ -255,16 +255,16 @@ struct PictureFrame {
     std::optional<double> moment;  ///< global seconds: heights are metres and no times, for the floor then
 };
 
-struct DrawList : PictureFrame {
-    Palette palette;
-    /// Behind everything; none: the palette's, which is what steps back does so towards. With opacity below 1 the
-    /// picture is seen through where nothing is drawn.
-    std::optional<Rgba> background;
-    std::vector<std::string> agents;  ///< names of what ObjectId::agent counts
-
+/// What changes with the scene, its fits, the step and the time alone; another camera changes no more than the width of
+/// edges. It stays in the renderer's buffers.
+struct DrawnWorld {
     SharedValues<DiskInstance> disks;
     std::vector<BoxInstance> boxes;
-    std::vector<LineInstance> lines;
+};
+
+/// What is made for one camera and size.
+struct DrawnOverlay {
+    std::vector<LineInstance> lines;        ///< within the world
     std::vector<HighlightLine> highlights;  ///< over these, in this order
 
     std::string headline;  ///< the sentence at the top
@@ -273,6 +273,14 @@ struct DrawList : PictureFrame {
     std::vector<OverlayLine> overlay_lines;  ///< over the panels
     std::vector<OverlayPanel> marks;         ///< over the lines
     std::vector<TextRun> texts;              ///< over all
+};
+
+struct DrawList : PictureFrame, DrawnWorld, DrawnOverlay {
+    Palette palette;
+    /// Behind everything; none: the palette's, which is what steps back does so towards. With opacity below 1 the
+    /// picture is seen through where nothing is drawn.
+    std::optional<Rgba> background;
+    std::vector<std::string> agents;  ///< names of what ObjectId::agent counts
 };
 
 /// By the sign along each axis: bit i of the index is set where it is positive along extent i.

@@ -11,13 +11,13 @@ constexpr float kHiddenEdge = 0.38f;
 
 }  // namespace
 
-void BoxBuffer::keep(const DrawList& list, DrawStatistics& statistics) {
+void BoxBuffer::keep(const DrawnWorld& world, DrawStatistics& statistics) {
     std::vector<Shape> shapes;
     std::vector<Look> looks;
-    shapes.reserve(list.boxes.size());
-    looks.reserve(list.boxes.size());
+    shapes.reserve(world.boxes.size());
+    looks.reserve(world.boxes.size());
     orders_.clear();
-    for (const BoxInstance* box : in_order(list.boxes)) {
+    for (const BoxInstance* box : in_order(world.boxes)) {
         Shape shape{box->center, {box->extents[0], box->extents[1], box->extents[2]}, {0, 0}};
         if (box->pickable) {
             shape.id[0] = box->id.r();

@@ -26,7 +26,7 @@ class BoxBuffer {
         friend bool operator==(const Look&, const Look&) = default;
     };
 
-    void keep(const DrawList& list, DrawStatistics& statistics);
+    void keep(const DrawnWorld& world, DrawStatistics& statistics);
 
     std::size_t size() const { return shapes_.size(); }
     const std::vector<DrawOrder>& orders() const { return orders_; }

@@ -117,14 +117,14 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
 }
 
 /// The colours alone, where the shapes are those of before.
-void DiskPass::keep(const DrawList& list) {
-    const bool same = levels_ && list.disks.shares_with(kept_);
-    kept_ = list.disks;
+void DiskPass::keep(const DrawnWorld& world) {
+    const bool same = levels_ && world.disks.shares_with(kept_);
+    kept_ = world.disks;
     if (same) {
         stays_ = true;
         return;
     }
-    const std::vector<const DiskInstance*> sorted = in_order(list.disks);
+    const std::vector<const DiskInstance*> sorted = in_order(world.disks);
     const auto forget_colors = [](Stored& stored) { stored.has_colors = false; };
     if (levels_ && levels_->take_colors(sorted)) {
         stays_ = true;

@@ -45,7 +45,7 @@ class DiskPass {
         float depth = 0;  ///< of the nearest
     };
 
-    void keep(const DrawList& list);
+    void keep(const DrawnWorld& world);
     const Cylinder& cylinder(int sides);
     /// Upload what is missing of a level, or of all disks. Colours only of levels that are drawn.
     const Stored& store_shapes(int level, DrawStatistics& statistics);

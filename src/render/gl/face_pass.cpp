@@ -51,7 +51,9 @@ FacePass::FacePass(GlContext& context, const BoxBuffer& boxes)
     VertexLayout(sizeof(Rect), 1).floats(0, 4, 0);
 }
 
-bool FacePass::needed(const DrawList& list) { return std::any_of(list.boxes.begin(), list.boxes.end(), has_faces); }
+bool FacePass::needed(const DrawnWorld& world) {
+    return std::any_of(world.boxes.begin(), world.boxes.end(), has_faces);
+}
 
 void FacePass::draw(const DrawList& list, bool ids, DrawStatistics& statistics) {
     if (boxes_.size() == 0) return;

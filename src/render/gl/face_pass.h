@@ -16,7 +16,7 @@ class FacePass {
     FacePass(GlContext& context, const BoxBuffer& boxes);
 
     /// True if the list has faces to blend.
-    static bool needed(const DrawList& list);
+    static bool needed(const DrawnWorld& world);
 
     /// Sums the faces into the bound framebuffer (see Targets::faces), which need not be cleared.
     void accumulate(const DrawList& list, DrawStatistics& statistics);

@@ -147,9 +147,9 @@ void LinePass::draw_highlights(const DrawList& list, DrawStatistics& statistics)
     draw({false, 0, instances.size()}, highlights_, statistics);
 }
 
-void LinePass::keep_overlay(const DrawList& list, DrawStatistics& statistics) {
+void LinePass::keep_overlay(const DrawnOverlay& overlay, DrawStatistics& statistics) {
     std::vector<Instance> instances;
-    for (const OverlayLine& line : list.overlay_lines) {
+    for (const OverlayLine& line : overlay.overlay_lines) {
         instances.push_back(
             {glm::vec3(line.from, 0), glm::vec3(line.to, 0), line.color, line.dash, glm::vec3(line.width, 0, 0)});
     }

@@ -22,7 +22,7 @@ class LinePass {
     /// What is pointed out, over the scene.
     void draw_highlights(const DrawList& list, DrawStatistics& statistics);
     /// The lines over the picture: uploads the list's; draws what was uploaded.
-    void keep_overlay(const DrawList& list, DrawStatistics& statistics);
+    void keep_overlay(const DrawnOverlay& overlay, DrawStatistics& statistics);
     void draw_overlay(PictureSize size, DrawStatistics& statistics);
 
   private:

@@ -13,7 +13,7 @@ struct OverlayPass::Instance {
 
 OverlayPass::OverlayPass(GlContext& context) : program_(context, "overlay") {}
 
-void OverlayPass::keep(const DrawList& list, DrawStatistics& statistics) {
+void OverlayPass::keep(const DrawnOverlay& overlay, DrawStatistics& statistics) {
     std::vector<Instance> instances;
     const auto add = [&](const std::vector<OverlayPanel>& panels) {
         for (const OverlayPanel& panel : panels) {
@@ -21,11 +21,11 @@ void OverlayPass::keep(const DrawList& list, DrawStatistics& statistics) {
                 {panel.rect, panel.fill, panel.border, glm::vec2(panel.radius, panel.border_width), glm::vec2(-1)});
         }
     };
-    add(list.panels);
+    add(overlay.panels);
     panels_ = instances.size();
-    add(list.marks);
-    if (!list.texts.empty()) {
-        const GlyphAtlas atlas = make_atlas(list.texts, glyphs_);
+    add(overlay.marks);
+    if (!overlay.texts.empty()) {
+        const GlyphAtlas atlas = make_atlas(overlay.texts, glyphs_);
         statistics.overlay_bytes += atlas.coverage.size();
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, atlas_.name());

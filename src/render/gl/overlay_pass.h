@@ -14,7 +14,7 @@ class OverlayPass {
     explicit OverlayPass(GlContext& context);
 
     /// Uploads the list's panels, marks and texts.
-    void keep(const DrawList& list, DrawStatistics& statistics);
+    void keep(const DrawnOverlay& overlay, DrawStatistics& statistics);
     /// Draws what was uploaded: panels; what lies over the lines, marks and then texts.
     void draw_panels(PictureSize size, DrawStatistics& statistics);
     void draw_texts(PictureSize size, DrawStatistics& statistics);
