@@ -552,6 +552,15 @@ TEST(Jobs, ACancelledFitLeavesTheDocument) {
     EXPECT_EQ(opened.scene().fit.axes, mobb::Axes::endpoints);
 }
 
+/// A long walk against itself as an excerpt, with a fit under way.
+void fit_in_excerpt(Session& session, CrossingFolder& folder) {
+    session.open({long_walk(folder)});
+    while (session.job()) session.poll();
+    const PlacedAgent who = session.fitted().placed_agents().front();
+    session.open_excerpt(who, who);
+    run_command(session, "tree.axes", "minarea");
+}
+
 TEST(Jobs, EditsGoOnMeanwhileAndAreKept) {
     CrossingFolder folder;
     Session session(true);
@@ -577,12 +586,7 @@ TEST(Jobs, EditsGoOnMeanwhileAndAreKept) {
 TEST(Jobs, UndoOutOfAnExcerptEndsThem) {
     CrossingFolder folder;
     Session session(true);
-    session.open({long_walk(folder)});
-    while (session.job()) session.poll();
-    const PlacedAgent who = session.fitted().placed_agents().front();
-    const PlacedAgent other = who;
-    session.open_excerpt(who, other);
-    run_command(session, "tree.axes", "minarea");
+    fit_in_excerpt(session, folder);
     ASSERT_TRUE(session.job());
     session.undo();
     EXPECT_FALSE(session.in_excerpt());
@@ -660,15 +664,11 @@ TEST(Jobs, WhatPlaysGoesOn) {
 TEST(Jobs, TheDocumentIsNotLeftForAnExcerptMeanwhile) {
     CrossingFolder folder;
     Session session(true);
-    session.open({long_walk(folder)});
-    while (session.job()) session.poll();
-    const PlacedAgent who = session.fitted().placed_agents().front();
-    const PlacedAgent other = who;
-    session.open_excerpt(who, other);
-    run_command(session, "tree.axes", "minarea");
+    fit_in_excerpt(session, folder);
     ASSERT_TRUE(session.job());
     const auto before = session.document().fitted;
-    EXPECT_THROW(session.open_excerpt(who, other), std::invalid_argument);
+    const PlacedAgent who = session.fitted().placed_agents().front();
+    EXPECT_THROW(session.open_excerpt(who, who), std::invalid_argument);
     EXPECT_THROW(session.leave_excerpt(), std::invalid_argument);
     EXPECT_EQ(session.document().fitted, before);
 }

@@ -24,14 +24,6 @@ void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
 
 }  // namespace
 
-void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
-    for (int i = range.first; i < range.end(); ++i) {
-        const mobb::Disk disk = clip.disk(i);
-        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
-        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
-    }
-}
-
 PictureSize viewport_size(const Session& session) {
     return session.hooks.viewport_size ? session.hooks.viewport_size() : kWithoutWindow;
 }

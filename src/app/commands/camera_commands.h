@@ -17,9 +17,6 @@ PictureSize viewport_size(const Session& session);
 /// height that it has now, as the camera's target is measured in it. Requires a scene.
 void move_camera(Session& session, const std::function<Camera(const Camera&, const PictureFrame&)>& move);
 
-/// Adds the disks of a clip's samples, in (x, y, t).
-void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range);
-
 /// What `selected` covers of what the present picture shows, in (x, y, t), or in the picture of a moment (x, y,
 /// height). None if it is not in the picture.
 std::optional<Bounds> box_of(const Session& session, const Selection& selected);

@@ -3,6 +3,7 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <base/text.h>
+#include <render/layout/framing.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>

@@ -22,16 +22,17 @@ void Bounds::add(glm::dvec3 p) {
     max = glm::max(max, p);
 }
 
+void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range) {
+    for (int i = range.first; i < range.end(); ++i) {
+        const mobb::Disk disk = clip.disk(i);
+        bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
+        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
+    }
+}
+
 Bounds bounds_of(std::span<const DrawnAgent> agents) {
     Bounds bounds;
-    for (const DrawnAgent& agent : agents) {
-        const mobb::PlacedClip& clip = agent.clip();
-        for (int i = 0; i < clip.count(); ++i) {
-            const mobb::Disk d = clip.disk(i);
-            bounds.add({d.x - d.r, d.y - d.r, clip.time(i)});
-            bounds.add({d.x + d.r, d.y + d.r, clip.time(i + 1)});
-        }
-    }
+    for (const DrawnAgent& agent : agents) add_samples(bounds, agent.clip(), {0, agent.clip().count()});
     return bounds;
 }
 

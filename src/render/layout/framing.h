@@ -24,6 +24,9 @@ struct Bounds {
     glm::dvec3 middle() const { return 0.5 * (min + max); }
 };
 
+/// Adds the disks of some of a clip's samples.
+void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange range);
+
 /// Of the paths' disks.
 Bounds bounds_of(std::span<const DrawnAgent> agents);
 
