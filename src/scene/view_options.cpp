@@ -151,7 +151,7 @@ std::vector<ViewOption> all_view_options() {
             "yaw_deg": {"description": "free: direction from the target to the eye", "$ref": "#/$defs/angle"},
             "pitch_deg": {"description": "free: above the floor", "type": "number", "minimum": -90, "maximum": 90},
             "perspective": {"type": "boolean"},
-            "fov_deg": {"description": "Vertical; with a target over the whole picture", "type": "number", "minimum": 0.5, "maximum": 150},
+            "fov_deg": {"description": "Vertical, of the whole picture", "type": "number", "minimum": 0.5, "maximum": 150},
             "target": {"description": "World metres, time drawn as height; without it the camera frames the scene", "type": "array", "items": {"$ref": "#/$defs/length"}, "minItems": 3, "maxItems": 3},
             "distance": {"description": "From the target to the eye", "type": "number", "minimum": 1e-6, "maximum": 1e9},
             "shift": {"description": "How far to the right and upwards of the picture's middle the target is seen, in widths and heights of the picture", "type": "array", "items": {"type": "number", "minimum": -1, "maximum": 1}, "minItems": 2, "maxItems": 2}

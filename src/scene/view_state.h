@@ -47,8 +47,7 @@ struct Camera {
     double yaw_deg = 45;                      ///< free: direction from the target to the eye, counter-clockwise from +x
     double pitch_deg = 25;                    ///< free: above the floor, -90..90
     bool perspective = true;                  ///< top, front and side are orthographic whatever this says
-    /// Vertical, kLeastFov..kMostFov: over the whole picture with a target, otherwise over what the scene is framed in.
-    double fov_deg = 12;
+    double fov_deg = 12;                      ///< vertical, of the whole picture, kLeastFov..kMostFov
     /// What is looked at, world metres with time drawn as height; none: the camera frames the scene by itself. Of a run
     /// time is counted from the view's; where an agent is followed x and y are counted from it.
     std::optional<glm::dvec3> target;

@@ -56,13 +56,13 @@ TEST(Settled, ShowsWhatTheFramedPictureShows) {
                         view.camera.fov_deg = fov;
                         if (query) view.query = 0;
                         const DrawList framed = build_draw_list(fitted, view, kGoldenSize);
-                        view.camera = resolved_camera(view.camera, framed);
+                        view.camera = framed.camera;
                         ASSERT_TRUE(view.camera.target);
                         EXPECT_EQ(view.camera.preset, CameraPreset::free);
                         const DrawList aimed = build_draw_list(fitted, view, kGoldenSize);
                         EXPECT_LT(pixel_difference(framed.projection, aimed.projection, points_of(framed)), 0.05f)
                             << name(preset) << (perspective ? "" : " ortho") << (far ? " far" : "") << " fov " << fov;
-                        EXPECT_EQ(resolved_camera(view.camera, aimed), view.camera) << "settled already";
+                        EXPECT_EQ(aimed.camera, view.camera) << "settled already";
                     }
                 }
             }
@@ -75,7 +75,7 @@ TEST(Settled, TheTargetIsInTheMiddleOfTheScene) {
     ViewState view;
     view.time_height = 3;
     const DrawList list = build_draw_list(fitted, view, kGoldenSize);
-    const Camera camera = resolved_camera(view.camera, list);
+    const Camera camera = list.camera;
     EXPECT_NEAR(camera.target->x, 501, 0.5);
     EXPECT_NEAR(camera.target->y, 500, 0.5);
     EXPECT_NEAR(camera.target->z, 3 * 41, 1.5);
@@ -88,7 +88,7 @@ TEST(Settled, SteppingDoesNotMoveThePicture) {
     view.query = 0;
     const PictureSize narrow{320, 360};
     DrawList first = build_draw_list(fitted, view, narrow);
-    view.camera = resolved_camera(view.camera, first);
+    view.camera = first.camera;
     const glm::vec3 point(0.1f, 0.2f, 0.3f);
     const glm::vec2 at = first.projection.project(point).value();
     bool captions_differ = false;
@@ -105,7 +105,7 @@ TEST(Settled, SteppingDoesNotMoveThePicture) {
 ViewProjection camera_lens(const Camera& camera, PictureSize size = kGoldenSize) {
     const glm::vec3 target(*camera.target);
     const std::vector<glm::vec3> points{target - 5.0f, target + 5.0f};
-    return make_projection(camera, ShownPoints(points), &target, {}, size);
+    return make_projection(camera, ShownPoints(points), &target, size);
 }
 
 Camera explicit_camera(bool perspective) {
@@ -243,8 +243,8 @@ TEST(Camera, TheFrameIsThatOfThePicture) {
                 EXPECT_EQ(frame.size, list.size);
                 EXPECT_EQ(frame.space.time_height, list.space.time_height);
                 EXPECT_EQ(frame.moment, list.moment);
-                EXPECT_EQ(resolved_camera(view.camera, frame), resolved_camera(view.camera, list));
-                view.camera = resolved_camera(view.camera, frame);
+                EXPECT_EQ(frame.camera, list.camera);
+                view.camera = frame.camera;
                 EXPECT_EQ(picture_frame(fitted, view, kGoldenSize).projection.clip_from_world,
                           build_draw_list(fitted, view, kGoldenSize).projection.clip_from_world);
             }

@@ -24,7 +24,7 @@ ViewProjection lens_of(float pixels_per_metre, double pitch_deg = 20) {
     camera.yaw_deg = -90;
     camera.pitch_deg = pitch_deg;
     const PictureSize size{1280, 12800};
-    return make_projection(camera, ShownPoints(points), nullptr, {{0, 0}, {1280, 12800}}, size);
+    return make_projection(camera, ShownPoints(points), nullptr, size);
 }
 
 /// A path of 60 disks, 0.1 m high each.
@@ -203,8 +203,7 @@ TEST(DiskLevels, ThePixelScaleIsTheLens) {
         camera.preset = CameraPreset::free;
         camera.perspective = perspective;
         const std::vector<glm::vec3> points{{-3, -2, 0}, {3, 2, 5}};
-        const ViewProjection projection =
-            make_projection(camera, ShownPoints(points), nullptr, {{40, 30}, {600, 300}}, {640, 360});
+        const ViewProjection projection = make_projection(camera, ShownPoints(points), nullptr, {640, 360});
         const PixelScale scale(projection);
         for (const glm::vec3& p : {points[0], points[1], glm::vec3(1, -1, 2)}) {
             EXPECT_NEAR(scale.at(p), projection.pixels_per_metre(p), 1e-3f * scale.at(p));

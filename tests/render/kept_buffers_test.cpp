@@ -57,7 +57,7 @@ TEST_P(KeptBuffersTest, OrbitingUploadsNothingOfTheWorld) {
 
 TEST_P(KeptBuffersTest, ZoomingUploadsNothingOfTheWorld) {
     ViewState view;
-    view.camera = resolved_camera(view.camera, build_draw_list(paths_, view, {.size = kSmallSize}));
+    view.camera = build_draw_list(paths_, view, {.size = kSmallSize}).camera;
     settle(view, 1);
     const double distance = view.camera.distance;
     std::size_t nearest = 0;

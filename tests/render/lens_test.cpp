@@ -18,10 +18,10 @@ std::vector<glm::vec3> block(glm::vec3 half) {
     return points;
 }
 
-TEST(ViewProjection, EverythingFitsIntoTheFrame) {
+TEST(ViewProjection, EverythingFitsIntoThePicture) {
     for (const PictureSize size :
          {PictureSize{640, 360}, PictureSize{360, 640}, PictureSize{1000, 100}, PictureSize{64, 64}}) {
-        const Frame frame{{10, 20}, {static_cast<float>(size.width) - 5, static_cast<float>(size.height) - 15}};
+        const glm::vec2 picture(size.width, size.height);
         for (const CameraPreset preset :
              {CameraPreset::iso, CameraPreset::top, CameraPreset::front, CameraPreset::side, CameraPreset::free}) {
             for (const glm::vec3 half : {glm::vec3(1, 1, 1), glm::vec3(20, 0.1f, 3), glm::vec3(0.01f, 5, 5)}) {
@@ -29,12 +29,11 @@ TEST(ViewProjection, EverythingFitsIntoTheFrame) {
                 camera.preset = preset;
                 camera.pitch_deg = -35;
                 const std::vector<glm::vec3> points = block(half);
-                const ViewProjection projection = make_projection(camera, ShownPoints(points), nullptr, frame, size);
+                const ViewProjection projection = make_projection(camera, ShownPoints(points), nullptr, size);
                 float tightest = 1e9f;
                 for (const glm::vec3& point : points) {
                     const glm::vec2 at = projection.project(point).value();
-                    const float room =
-                        std::min({at.x - frame.min.x, at.y - frame.min.y, frame.max.x - at.x, frame.max.y - at.y});
+                    const float room = std::min({at.x, at.y, picture.x - at.x, picture.y - at.y});
                     EXPECT_GE(room, -0.1f);
                     tightest = std::min(tightest, room);
                     const glm::vec4 clip = projection.clip_from_world * glm::vec4(point, 1);
@@ -48,11 +47,10 @@ TEST(ViewProjection, EverythingFitsIntoTheFrame) {
 
 TEST(ViewProjection, PresetsLookTheRightWay) {
     const std::vector<glm::vec3> points = block(glm::vec3(1));
-    const Frame frame{{0, 0}, {200, 200}};
     const auto at = [&](CameraPreset preset, glm::vec3 p) {
         Camera camera;
         camera.preset = preset;
-        return make_projection(camera, ShownPoints(points), nullptr, frame, {200, 200}).project(p).value();
+        return make_projection(camera, ShownPoints(points), nullptr, {200, 200}).project(p).value();
     };
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).x, 200, 0.1);
     EXPECT_NEAR(at(CameraPreset::top, {1, 1, 0}).y, 0, 0.1);
@@ -67,8 +65,7 @@ TEST(ViewProjection, ATargetGoesToTheMiddle) {
     camera.preset = CameraPreset::free;
     camera.distance = 7;
     const glm::vec3 target(0.3f, 0.2f, 0.5f);
-    const ViewProjection projection =
-        make_projection(camera, ShownPoints(block(glm::vec3(1))), &target, {{0, 0}, {300, 200}}, {300, 200});
+    const ViewProjection projection = make_projection(camera, ShownPoints(block(glm::vec3(1))), &target, {300, 200});
     EXPECT_NEAR(projection.project(target)->x, 150, 0.01);
     EXPECT_NEAR(projection.project(target)->y, 100, 0.01);
     EXPECT_NEAR(projection.depth(target), 7, 1e-4);
@@ -82,8 +79,7 @@ TEST(ViewProjection, WhatIsBehindTheEyeIsNotSeen) {
     camera.pitch_deg = 0;
     camera.distance = 2;
     const glm::vec3 target(0);
-    const ViewProjection projection =
-        make_projection(camera, ShownPoints(block(glm::vec3(5))), &target, {{0, 0}, {300, 200}}, {300, 200});
+    const ViewProjection projection = make_projection(camera, ShownPoints(block(glm::vec3(5))), &target, {300, 200});
     EXPECT_TRUE(projection.project({1, 0, 0}).has_value());
     EXPECT_FALSE(projection.project({2, 0, 0}).has_value());
     EXPECT_FALSE(projection.project({4, 0.1f, 0.1f}).has_value());
@@ -92,8 +88,7 @@ TEST(ViewProjection, WhatIsBehindTheEyeIsNotSeen) {
 
 TEST(ViewProjection, APointHasNoExtentAndStillIsSeen) {
     const std::vector<glm::vec3> point{glm::vec3(0)};
-    const ViewProjection projection =
-        make_projection({}, ShownPoints(point), nullptr, {{0, 0}, {100, 100}}, {100, 100});
+    const ViewProjection projection = make_projection({}, ShownPoints(point), nullptr, {100, 100});
     EXPECT_NEAR(projection.project(point[0])->x, 50, 0.5);
     EXPECT_NEAR(projection.project(point[0])->y, 50, 0.5);
 }

@@ -109,7 +109,7 @@ TEST_P(PickTest, AgreesFromInsideABoxAmongDisks) {
     ViewState view = fitted.scene().view;
     view.levels = {0, 2, false};
     DrawList list = build_draw_list(fitted, view, kPickSize);
-    view.camera = resolved_camera(view.camera, list);
+    view.camera = list.camera;
     view.camera.fov_deg = 100;
     view.camera.distance = 0.2;
     list = build_draw_list(fitted, view, kPickSize);

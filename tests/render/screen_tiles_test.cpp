@@ -18,7 +18,7 @@ ViewProjection projection(bool perspective) {
     camera.preset = CameraPreset::free;
     camera.perspective = perspective;
     const std::vector<glm::vec3> points{{-3, -2, 0}, {3, 2, 5}};
-    return make_projection(camera, ShownPoints(points), nullptr, {{20, 10}, {320, 200}}, kOddSize);
+    return make_projection(camera, ShownPoints(points), nullptr, kOddSize);
 }
 
 BoxInstance box(glm::vec3 center, float half) {

@@ -7,6 +7,8 @@
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/moment.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <vector>
 
@@ -32,7 +34,7 @@ void move_camera(Session& session, const std::function<Camera(const Camera&, con
     const PictureSize size = viewport_size(session);
     const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
     const PictureFrame picture = picture_frame(session.fitted(), session.view(), size, scale);
-    const Camera moved = move(resolved_camera(session.view().camera, picture), picture);
+    const Camera moved = move(picture.camera, picture);
     session.change_view([&](ViewState& view) {
         view.camera = moved;
         if (!picture.moment) view.time_height = picture.space.time_height;
@@ -66,6 +68,45 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
         bounds.max.z = *std::max_element(heights.begin(), heights.end());
     }
     return bounds;
+}
+
+std::optional<Bounds> box_of_test(const Session& session) {
+    const RecordedQuery* recorded = session.recorded();
+    if (!recorded || session.view().show == Show::moment) return std::nullopt;
+    const auto event = recorded->trace[session.step()];
+    const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
+    Bounds bounds;
+    add_box(bounds, sides[0].placed, event.a);
+    add_box(bounds, sides[1].placed, event.b);
+    return bounds;
+}
+
+bool is_well_seen(const Bounds& box, const PictureFrame& picture) {
+    constexpr float kMiddle = 0.3f;  // of the picture, to either side
+    constexpr float kSmall = 0.15f;  // of the picture's shorter side
+    const glm::vec2 size(picture.size.width, picture.size.height);
+    glm::vec2 low = size;
+    glm::vec2 high(0);
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at(corner & 1u ? box.max.x : box.min.x, corner & 2u ? box.max.y : box.min.y,
+                            corner & 4u ? box.max.z : box.min.z);
+        const auto pixel = picture.projection.project(picture.space.point(at.x, at.y, at.z));
+        if (!pixel) return false;
+        low = glm::min(low, *pixel);
+        high = glm::max(high, *pixel);
+    }
+    const glm::vec2 aside = glm::abs(0.5f * (low + high) / size - 0.5f);
+    const glm::vec2 extent = high - low;
+    return std::max(aside.x, aside.y) <= kMiddle && std::max(extent.x, extent.y) >= kSmall * std::min(size.x, size.y);
+}
+
+void frame_box(Session& session, const Bounds& box) {
+    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
+        const auto target = [&](glm::dvec3 at) {
+            return picture.space.to_target(picture.space.point(at.x, at.y, at.z));
+        };
+        return framing(camera, target(box.min), target(box.max), picture.size);
+    });
 }
 
 bool follows(const Session& session) { return !session.view().follow.empty(); }

@@ -21,6 +21,15 @@ void move_camera(Session& session, const std::function<Camera(const Camera&, con
 /// height). None if it is not in the picture.
 std::optional<Bounds> box_of(const Session& session, const Selection& selected);
 
+/// What the pair under test covers, likewise; none without a query in view, or in the picture of a moment.
+std::optional<Bounds> box_of_test(const Session& session);
+
+/// Whether a box that box_of gave is near the middle of a picture, and not small in it.
+bool is_well_seen(const Bounds& box, const PictureFrame& picture);
+
+/// Brings a box that box_of gave into the middle, as large as it fits.
+void frame_box(Session& session, const Bounds& box);
+
 bool follows(const Session& session);
 
 /// Follows and selects an agent, with so many metres around it in the picture. Throws std::invalid_argument if there is

@@ -25,21 +25,18 @@ bool shows_levels(const Session& session) { return has_scene(session) && !sessio
 
 // --- the camera
 
-/// The scene framed by itself again. What the field of view was before the camera stood somewhere is not known.
+/// The scene framed by itself again.
 void frame_by_itself(Camera& camera) {
-    if (camera.target) camera.fov_deg = Camera{}.fov_deg;
     camera.target.reset();
     camera.distance = 0;
     camera.shift = {0, 0};
 }
 
+/// The camera turns about its target, and stays as far from it.
 Command see_from(CameraPreset preset, std::string_view id, std::string_view title, std::string_view key,
                  std::string_view doc) {
     const auto see = [preset](Session& session) {
-        session.change_view([&](ViewState& view) {
-            view.camera.preset = preset;
-            frame_by_itself(view.camera);
-        });
+        session.change_view([&](ViewState& view) { view.camera.preset = preset; });
     };
     const auto is_seen = [preset](const Session& session) { return session.view().camera.preset == preset; };
     return {id, title, doc, see, {.shortcut = key, .checked = is_seen}};
@@ -71,19 +68,19 @@ void frame_selected_agent(Session& session) {
     follow_agent(session, who, kAroundFollowed);
 }
 
+/// What is selected, else the pair under test; none: neither is in the picture.
+std::optional<Bounds> what_to_frame(const Session& session) {
+    // A query that is selected is the one in view: what is looked at is its test.
+    const bool apart = session.selection.kind != Selection::Kind::query;
+    const std::optional<Bounds> selected = apart ? box_of(session, session.selection) : std::nullopt;
+    return selected ? selected : box_of_test(session);
+}
+
 void frame_selection(Session& session) {
-    const Selection selected = session.selection;
-    if (follows(session) && (selected.kind == Selection::Kind::none || is_agent_selected(session))) {
-        return frame_selected_agent(session);
-    }
-    const std::optional<Bounds> box = box_of(session, selected);
-    if (!box) return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session);
-    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
-        const auto target = [&](glm::dvec3 at) {
-            return picture.space.to_target(picture.space.point(at.x, at.y, at.z));
-        };
-        return framing(camera, target(box->min), target(box->max), picture.size);
-    });
+    const bool whom = session.selection.kind == Selection::Kind::none || is_agent_selected(session);
+    if (follows(session) && whom) return frame_selected_agent(session);
+    if (const std::optional<Bounds> box = what_to_frame(session)) return frame_box(session, *box);
+    return follows(session) ? frame_followed(session, kAroundFollowed) : frame_all(session);
 }
 
 void zoom(Session& session, double factor) {
@@ -112,14 +109,34 @@ Command orbit_step(glm::dvec2 way, std::string_view id, std::string_view title, 
 
 bool shows_moment(const Session& session) { return session.view().show == Show::moment; }
 
-/// Heights mean something else then, so the camera frames the scene anew; who it goes along with stays as near.
-void toggle_moment(Session& session) {
-    const bool goes_along = follows(session) && session.view().camera.target;
+std::string_view subject(const ViewState& view) {
+    if (view.show == Show::moment) return "moment";
+    return view.projection ? "disk" : "space-time";
+}
+
+/// Heights mean something else in a picture of something else: each has its own camera, and frames the scene when it is
+/// shown first. A disk is framed each time, as it may be another one.
+void show_other_picture(Session& session, const std::function<void(ViewState&)>& change) {
     session.change_view([&](ViewState& view) {
-        view.show = view.show == Show::moment ? Show::space_time : Show::moment;
-        if (!goes_along) frame_by_itself(view.camera);
+        session.cameras_aside[subject(view)] = view.camera;
+        change(view);
+        const auto known = session.cameras_aside.find(subject(view));
+        if (known != session.cameras_aside.end() && !view.projection) {
+            view.camera = known->second;
+        } else {
+            frame_by_itself(view.camera);
+        }
     });
-    if (goes_along) center_followed(session);
+}
+
+/// Who the camera goes along with stays as near.
+void toggle_moment(Session& session) {
+    const auto toggle = [](ViewState& view) {
+        view.show = view.show == Show::moment ? Show::space_time : Show::moment;
+    };
+    if (!follows(session) || !session.view().camera.target) return show_other_picture(session, toggle);
+    session.change_view(toggle);
+    center_followed(session);
 }
 
 /// Levels of the deepest tree in the picture.
@@ -182,7 +199,7 @@ std::optional<DiskProjection> selected_disk(const Session& session) {
 
 void toggle_projection(Session& session) {
     const auto disk = session.view().projection ? std::nullopt : selected_disk(session);
-    session.change_view([&](ViewState& view) { view.projection = disk; });
+    show_other_picture(session, [&](ViewState& view) { view.projection = disk; });
 }
 
 // --- the window
@@ -252,8 +269,7 @@ void toggle_split(Session& session) {
 
 std::vector<Command> direction_commands() {
     const std::vector<Command> rows{
-        see_from(CameraPreset::iso, "view.iso", "View from a corner", "1",
-                 "Looks from above a corner of the floor, with the whole scene in the picture."),
+        see_from(CameraPreset::iso, "view.iso", "View from a corner", "1", "Looks from above a corner of the floor."),
         see_from(CameraPreset::top, "view.top", "View from above", "2",
                  "Looks down on the floor: the paths as on a map."),
         see_from(CameraPreset::front, "view.front", "View from the front", "3",
@@ -269,11 +285,16 @@ std::vector<Command> direction_commands() {
                  .checked = [](const Session& session) { return orientation(session.view().camera).perspective; }}),
         Command(
             "view.frame", "Frame the selection",
-            "Brings what is selected into the middle, as large as it fits; without a selection everything. Following "
-            "somebody, it goes along with who is selected.",
+            "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
+            "else everything. Following somebody, it goes along with who is selected.",
             frame_selection, {.shortcut = "F"}),
         Command("view.frame_all", "Frame everything", "Shows the whole scene again from the present direction.",
                 frame_all, {.shortcut = "Home"}),
+        Command("view.follow_test", "Follow the test",
+                "Lets the camera go to the pair under test whenever a step leaves the middle of the picture or becomes "
+                "small in it.",
+                [](Session& session) { session.follow_test = !session.follow_test; },
+                {.checked = [](const Session& session) { return session.follow_test; }}),
     };
     return in_menu("View", rows);
 }

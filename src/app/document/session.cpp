@@ -216,6 +216,15 @@ void Session::activate_view(std::size_t place) {
     });
 }
 
+void Session::settle_camera(std::size_t place, const Camera& camera, double time_height) {
+    if (place >= view_count()) return;
+    amend([&](Document& next) {
+        ViewState& view = place == next.place ? next.view : next.beside[place - (place > next.place ? 1 : 0)].view;
+        view.camera = camera;
+        if (time_height > 0) view.time_height = time_height;
+    });
+}
+
 void Session::link_cameras(bool linked) {
     amend([&](Document& next) { next.linked_cameras = linked; });
 }
@@ -235,7 +244,8 @@ void Session::share_time_and_camera() {
         ViewState view = other.view;
         view.time = next.view.time;
         view.theme = next.view.theme;
-        if (next.linked_cameras) {
+        // Heights mean something else in the picture of a moment.
+        if (next.linked_cameras && view.show == next.view.show) {
             view.camera = next.view.camera;
             view.time_height = next.view.time_height;
             view.follow = next.view.follow;
@@ -386,6 +396,7 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
     next.excerpt_of = std::make_shared<const ExcerptSource>(
         ExcerptSource{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
     point_at_nothing();
+    cameras_aside.clear();
     ++excerpts_opened_;
     history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
     changed();
@@ -401,6 +412,7 @@ void Session::leave_excerpt() {
     require_no_job();
     const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
     point_at_nothing();
+    cameras_aside.clear();
     history_.change({origin->fitted, origin->view, nullptr}, {"going back to the whole", ""});
     changed();
 }
@@ -437,6 +449,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     point_at_nothing();
     candidate = -1;
     conflict = -1;
+    cameras_aside.clear();
     // What went wrong with the last document is over.
     std::erase_if(messages_, [](const Message& message) { return message.level != Message::Level::info; });
     history_.reset(std::move(document));

@@ -118,6 +118,9 @@ class Session {
     void close_other_views();
     /// Commands and panels are about the view at that place from now on; of a place that there is not nothing changes.
     void activate_view(std::size_t place);
+    /// Says where the camera of the view at a place stands, which framed the scene by itself so far, or whose picture
+    /// has another size now; and how high a second is drawn (metres; 0: as before). No step of its own for undo.
+    void settle_camera(std::size_t place, const Camera& camera, double time_height);
     /// Whether all views have one camera.
     void link_cameras(bool linked);
 
@@ -202,6 +205,10 @@ class Session {
     const std::vector<Message>& messages() const { return messages_; }
     void dismiss(std::size_t message);
     void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
+
+    bool follow_test = false;  ///< the camera goes to the pair under test where that is not well in the picture
+    /// Cameras of the pictures that are not shown now, by what they are of: "space-time", "moment", "disk".
+    std::map<std::string_view, Camera> cameras_aside;
 
     // The queue: the document changes between frames only, so panels may keep references into it while they draw.
     /// Does `something` once the frame is drawn. What it throws becomes a message.

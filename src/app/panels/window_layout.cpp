@@ -49,19 +49,12 @@ void draw_views(Ui& ui, std::vector<Viewport>& viewports) {
     const float line = std::max(1.0f, std::floor(ui.px(1)));
     const float count = static_cast<float>(viewports.size());
     const float width = std::floor((room.x - line * (count - 1)) / count);
-    const auto draw = [&](std::size_t place, const PictureFrame* linked) {
+    for (std::size_t place = 0; place < viewports.size(); ++place) {
         ImGui::SetCursorPos({corner.x + static_cast<float>(place) * (width + line), corner.y});
         ImGui::BeginChild(("view " + std::to_string(place)).c_str(), {width, room.y}, false,
                           ImGuiWindowFlags_NoBackground);
-        viewports[place].draw(ui, place, linked);
+        viewports[place].draw(ui, place);
         ImGui::EndChild();
-    };
-    // The others follow its camera.
-    const std::size_t active = ui.session.active_place();
-    draw(active, nullptr);
-    const PictureFrame* linked = ui.session.document().linked_cameras ? viewports[active].shown() : nullptr;
-    for (std::size_t place = 0; place < viewports.size(); ++place) {
-        if (place != active) draw(place, linked);
     }
 }
 

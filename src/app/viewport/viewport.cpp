@@ -1,3 +1,4 @@
+#include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/viewport/selection_display.h>
 #include <app/viewport/viewport.h>
@@ -85,7 +86,7 @@ void Viewport::build(const Key& key, const FollowedChoice* choice) {
     unpainted_ = Changed::all;
 }
 
-Camera Viewport::shown_camera() const { return list_ ? resolved_camera(key_->view.camera, *list_) : key_->view.camera; }
+Camera Viewport::shown_camera() const { return list_ ? list_->camera : key_->view.camera; }
 
 /// The camera has jumped, by a command or by undo: it flies there instead, if somebody is looking.
 void Viewport::take_off(Ui& ui, const Key& next) {
@@ -95,7 +96,7 @@ void Viewport::take_off(Ui& ui, const Key& next) {
         if (!key_ || key_->fitted != next.fitted || key_->size != next.size) flight_.reset();
         return;
     }
-    Camera from = resolved_camera(flight_ ? flight_->at(ui.now) : key_->view.camera, *list_);
+    Camera from = list_->camera;
     const PictureFrame there = picture_frame(paths_of(next), next.view, next.size, next.scale);
     // Heights must mean the same all the way.
     if (there.space.time_height != list_->space.time_height || there.moment.has_value() != list_->moment.has_value()) {
@@ -104,24 +105,46 @@ void Viewport::take_off(Ui& ui, const Key& next) {
     // Targets may be counted from somebody else now: the way begins where the camera stands.
     const glm::dvec3 seen = list_->space.place(list_->space.from_target(*from.target));
     from.target = there.space.to_target(there.space.point(seen.x, seen.y, seen.z));
-    flight_.emplace(from, resolved_camera(next.view.camera, there), ui.now);
+    flight_.emplace(from, there.camera, ui.now);
 }
 
-void Viewport::update_picture(Ui& ui, PictureSize size, const PictureFrame* linked) {
-    const Session& session = ui.session;
+Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const {
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
-    SceneView seen = session.view_at(view_place_);
-    // A camera that frames the scene by itself would frame the boxes of each fit in another way: it stands where that
-    // of the active view stands.
-    const bool same_kind = linked && linked->moment.has_value() == (seen.view.show == Show::moment);
-    if (same_kind && !seen.view.camera.target) {
-        seen.view.camera = resolved_camera(seen.view.camera, *linked);
-        if (!linked->moment) seen.view.time_height = linked->space.time_height;
+    const SceneView seen = ui.session.view_at(view_place_);
+    return {seen.fitted, seen.view, size, words, choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1)};
+}
+
+/// Gives the view a camera that stands.
+void Viewport::settle(Ui& ui, Key& next) {
+    Camera& camera = next.view.camera;
+    double height = 0;
+    if (!camera.target) {
+        try {
+            check(next.size);
+            const PictureFrame framed = picture_frame(paths_of(next), next.view, next.size, next.scale);
+            camera.target = framed.camera.target;
+            camera.distance = framed.camera.distance;
+            // Targets are measured in it.
+            if (!framed.moment) height = framed.space.time_height;
+        } catch (const std::invalid_argument&) {
+            return;  // build says so
+        }
+    } else if (key_ && key_->view.camera == camera && key_->size.height != next.size.height) {
+        camera = resized(camera, key_->size, next.size);
+    } else {
+        return;
     }
-    const FollowedChoice* choice = seen.view.candidates && is_active(ui) ? session.choice() : nullptr;
-    const Key next{seen.fitted, seen.view, size, words,
-                   choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1)};
+    if (height > 0) next.view.time_height = height;
+    ui.session.enqueue(
+        [&session = ui.session, place = view_place_, camera, height] { session.settle_camera(place, camera, height); });
+}
+
+void Viewport::update_picture(Ui& ui, PictureSize size) {
+    const Session& session = ui.session;
+    const FollowedChoice* choice = is_active(ui) && session.view().candidates ? session.choice() : nullptr;
+    Key next = wanted(ui, size, choice);
+    settle(ui, next);
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);
     changed_at_ = ui.now;
@@ -135,6 +158,18 @@ void Viewport::update_picture(Ui& ui, PictureSize size, const PictureFrame* link
     }
     flight_.reset();
     build(next, choice);
+}
+
+/// Lets the camera go to another step's pair, if it is to and the pair is not well in the picture.
+void Viewport::follow_test(Ui& ui) {
+    const Session& session = ui.session;
+    if (!session.follow_test || !session.recorded()) return test_looked_for_.reset();
+    const std::pair test(*session.view().query, session.step());
+    if (flight_ || test_looked_for_ == test) return;
+    test_looked_for_ = test;
+    const std::optional<Bounds> box = box_of_test(session);
+    if (!box || is_well_seen(*box, *list_)) return;
+    ui.session.enqueue([&session = ui.session, box] { frame_box(session, *box); });
 }
 
 /// Sets what is pointed out in the list, which is not built anew for that.
@@ -167,7 +202,7 @@ void Viewport::show(Ui& ui, ImVec2 corner) {
     ImGui::GetWindowDrawList()->AddImage(texture_, corner, end, {0, 1}, {1, 0});
 }
 
-void Viewport::draw(Ui& ui, std::size_t place, const PictureFrame* linked) {
+void Viewport::draw(Ui& ui, std::size_t place) {
     view_place_ = place;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -179,7 +214,7 @@ void Viewport::draw(Ui& ui, std::size_t place, const PictureFrame* linked) {
         return;
     }
     if (size.width < kMinSide || size.height < kMinSide) return;
-    update_picture(ui, size, linked);
+    update_picture(ui, size);
     if (is_active(ui)) {
         ui.session.hooks.viewport_size = [size] { return size; };
         ui.session.hooks.viewport_scale = [scale = key_->scale] { return scale; };
@@ -188,6 +223,7 @@ void Viewport::draw(Ui& ui, std::size_t place, const PictureFrame* linked) {
         ImGui::TextWrapped("%s", why_not_.c_str());
         return;
     }
+    if (is_active(ui)) follow_test(ui);
     const ShownPicture picture{*list_, corner};
     ImGui::InvisibleButton(
         "##picture", room,

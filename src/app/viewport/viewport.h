@@ -16,9 +16,9 @@ namespace mobbscope::app {
 class Viewport {
   public:
     /// Draws the picture of the session's view at a place into the current ImGui child window; of the active view
-    /// handles and what is under the mouse too. A press makes a view the active one. `linked`: the picture of the
-    /// active view, whose camera this one has; null: it has its own.
-    void draw(Ui& ui, std::size_t place, const PictureFrame* linked = nullptr);
+    /// handles and what is under the mouse too. A press makes a view the active one. A camera that is to frame the
+    /// scene by itself does so here, once, and stands from then on; a picture of another height keeps its scale.
+    void draw(Ui& ui, std::size_t place);
 
     /// What it showed last, as `render` would draw it but for a flight under way and what is pointed out; null for an
     /// empty scene.
@@ -38,7 +38,10 @@ class Viewport {
 
     bool is_active(const Ui& ui) const { return view_place_ == ui.session.active_place(); }
     void name_trees(const Ui& ui, ImVec2 corner) const;
-    void update_picture(Ui& ui, PictureSize size, const PictureFrame* linked);
+    void update_picture(Ui& ui, PictureSize size);
+    Key wanted(const Ui& ui, PictureSize size, const FollowedChoice* choice) const;
+    void settle(Ui& ui, Key& next);
+    void follow_test(Ui& ui);
     KeptPaths& paths_of(const Key& key);
     void build(const Key& key, const FollowedChoice* choice);
     void take_off(Ui& ui, const Key& next);
@@ -71,7 +74,8 @@ class Viewport {
     std::string why_not_;  ///< there is no list: the reason
     std::optional<Flight> flight_;
     using Changed = Painter::Changed;
-    Changed unpainted_ = Changed::nothing;  ///< what has changed since the painter was told
+    Changed unpainted_ = Changed::nothing;                ///< what has changed since the painter was told
+    std::optional<std::pair<int, int>> test_looked_for_;  ///< query and step whose test the camera has followed to
     bool shown_still_ = false;
     double changed_at_ = 0;
     ImTextureID texture_ = nullptr;

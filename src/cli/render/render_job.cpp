@@ -10,7 +10,6 @@
 #include <render/drawlist/draw_list_json.h>
 #include <render/gl/renderer.h>
 #include <render/image/png.h>
-#include <render/layout/common_framing.h>
 #include <render/layout/follow.h>
 #include <render/pictures/build_draw_list.h>
 
@@ -172,12 +171,12 @@ void RenderPlan::add(RenderArguments arguments) {
 
 void RenderPlan::check_and_frame(RenderJob& job) {
     const bool turns = job.arguments.sequence.turntable.has_value();
-    const Camera& asked = job.pictures.front().view.camera;
     const bool near = is_near_followed(job);
-    const bool framed = !near && job.arguments.sequence.any() && !asked.target;
-    std::optional<Camera> camera;  // near whom it follows
-    CommonFraming framing;
-    bool legends = true;
+    const bool turns_about_all = turns && !near && !job.pictures.front().view.camera.target;
+    std::optional<Camera> camera;  // of all pictures, so that none jumps
+    if (turns_about_all) {
+        camera = turning_camera(*job.paths, job.pictures.front().view, job.arguments.picture.size);
+    }
     for (RenderPicture& picture : job.pictures) {
         DrawList list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
         note_glyphs(list);
@@ -185,19 +184,11 @@ void RenderPlan::check_and_frame(RenderJob& job) {
             const Camera seen = framing_followed(*job.paths->fitted(), picture.view, list);
             if (!camera) camera = seen;
             camera->distance = std::max(camera->distance, seen.distance);
-        } else if (framed) {
-            framing.add(list);
-            legends = legends && !list.legend.empty();
-        } else if (!job.arguments.ui) {
+        } else if (!camera && !job.arguments.ui) {
             keep(picture, std::move(list));
         }
     }
-    if (camera) return see_from(job.pictures, *camera, turns);
-    if (!framed) return;
-    see_from(job.pictures, turns ? framing.turning(asked) : framing.still(asked), turns);
-    job.arguments.picture.framed = true;
-    // A legend that one picture has no room for would come and go.
-    for (RenderPicture& picture : job.pictures) picture.view.legend = picture.view.legend && legends;
+    if (camera) see_from(job.pictures, *camera, turns);
 }
 
 /// Unless there are many already: a long batch would fill the memory.

@@ -87,29 +87,9 @@ Camera between(const Camera& from, const Camera& to, double t) {
     return out;
 }
 
-Camera resolved_camera(const Camera& camera, const PictureFrame& picture) {
-    const ViewProjection& projection = picture.projection;
-    const Orientation o = orientation(camera);
-    Camera out = camera;
-    out.preset = CameraPreset::free;
-    out.yaw_deg = o.yaw_deg;
-    out.pitch_deg = o.pitch_deg;
-    out.perspective = o.perspective;
-    if (camera.target) return out;
-
-    const glm::dvec3 back(projection.back);
-    const double depth = glm::dot(glm::dvec3(projection.eye) - picture.middle, back);
-    out.target = picture.space.to_target(glm::dvec3(projection.eye) - back * depth);
-    out.shift = 0.5 * glm::dvec2(projection.middle);
-    // Half of what the picture's height shows is tan(fov / 2) * distance.
-    const double half_height = 1 / static_cast<double>(projection.scale.y);
-    if (o.perspective) {
-        out.distance = depth;
-        out.fov_deg = std::min(2 * std::atan(half_height) / kDegree, kMostFov);
-    } else {
-        out.distance = half_height / std::tan(camera.fov_deg * kDegree / 2);
-    }
-    return out;
+Camera resized(Camera camera, PictureSize from, PictureSize to) {
+    camera.distance = within_reach(camera.distance * to.height / from.height);
+    return camera;
 }
 
 }  // namespace mobbscope

@@ -1,4 +1,4 @@
-/// Moving the camera. All take and return explicit cameras (see resolved_camera): with a target in world metres with
+/// Moving the camera. All take and return explicit cameras (see framed_camera): with a target in world metres with
 /// time drawn as height. Distances stay within kNearest..kFarthest.
 #pragma once
 
@@ -32,10 +32,7 @@ Camera framing(const Camera& camera, glm::dvec3 min, glm::dvec3 max, PictureSize
 /// Perspective comes or goes half-way.
 Camera between(const Camera& from, const Camera& to, double t);
 
-/// The explicit camera (preset free, with a target) that shows what `picture` shows, which was framed with `camera`.
-/// The target lies in the middle of the picture's free part, as deep as the middle of the scene. It is in world metres
-/// with time drawn `picture.space.time_height` high, which the view has to keep. A camera that has a target keeps it. A
-/// field of view beyond kMostFov, as a tiny picture may have, is cut to that.
-Camera resolved_camera(const Camera& camera, const PictureFrame& picture);
+/// For a picture of another height: what a metre is wide at the target, in pixels, stays.
+Camera resized(Camera camera, PictureSize from, PictureSize to);
 
 }  // namespace mobbscope

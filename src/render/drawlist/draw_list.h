@@ -250,8 +250,7 @@ struct PictureFrame {
     PictureSize size;
     DrawnSpace space;
     ViewProjection projection;
-    Frame frame;           ///< the part of the picture that is left for the scene; a camera with a target may leave it
-    glm::dvec3 middle{0};  ///< of the scene, drawn space
+    Camera camera;                 ///< explicit (see framed_camera): the view's, or the one that frames the scene
     std::optional<double> moment;  ///< global seconds: heights are metres and no times, for the floor then
 };
 

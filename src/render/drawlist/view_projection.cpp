@@ -79,22 +79,12 @@ glm::mat4 view_matrix(const ViewProjection& projection) {
     return m;
 }
 
-/// Shifts and shrinks clip space so that what filled the picture fills the frame; the rest of the picture shows more
-/// around.
-glm::mat4 into_frame(glm::vec2 scale, glm::vec2 middle) {
+/// Shifts clip space.
+glm::mat4 moved_by(glm::vec2 middle) {
     glm::mat4 m(1);
-    m[0][0] = scale.x;
-    m[1][1] = scale.y;
     m[3][0] = middle.x;
     m[3][1] = middle.y;
     return m;
-}
-
-/// The whole picture, moved so that its middle is where the target is seen.
-Frame shifted_picture(const Camera& camera, PictureSize size) {
-    const glm::vec2 picture(size.width, size.height);
-    const glm::vec2 by = glm::vec2(camera.shift) * glm::vec2(1, -1) * picture;
-    return {by, by + picture};
 }
 
 }  // namespace
@@ -152,8 +142,7 @@ float ViewProjection::pixels_per_metre(glm::vec3 point) const {
 }
 
 ViewProjection make_projection(const Camera& camera, const ShownPoints& points, const glm::vec3* target,
-                               const Frame& free_frame, PictureSize size) {
-    const Frame frame = target ? shifted_picture(camera, size) : free_frame;
+                               PictureSize size) {
     const Directions d = directions(camera);
     ViewProjection projection;
     projection.size = size;
@@ -169,8 +158,7 @@ ViewProjection make_projection(const Camera& camera, const ShownPoints& points, 
         std::tie(extent.min.x, extent.max.x) = extent_along(projection.right);
         std::tie(extent.min.y, extent.max.y) = extent_along(projection.up);
     }
-    const glm::vec2 frame_size = glm::max(frame.max - frame.min, glm::vec2(1));
-    const float aspect = frame_size.x / frame_size.y;
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     const float tan_y = static_cast<float>(std::tan(radians(camera.fov_deg) / 2));
     Stand stand;
     if (target) {
@@ -192,15 +180,12 @@ ViewProjection make_projection(const Camera& camera, const ShownPoints& points, 
         projection.far_depth = std::max(projection.far_depth, 1e-3f);
         projection.near_depth = std::max(projection.near_depth, 1e-3f * projection.far_depth);
     }
-    const glm::vec2 scale = projection.perspective ? glm::vec2(1 / (tan_y * aspect), 1 / tan_y)
-                                                   : glm::vec2(1 / (stand.half_height * aspect), 1 / stand.half_height);
-    const glm::vec2 picture(size.width, size.height);
-    const glm::vec2 shrink = (frame.max - frame.min) / picture;
-    projection.scale = shrink * scale;
-    projection.middle = ((frame.max + frame.min) / picture - 1.0f) * glm::vec2(1, -1);
+    projection.scale = projection.perspective ? glm::vec2(1 / (tan_y * aspect), 1 / tan_y)
+                                              : glm::vec2(1 / (stand.half_height * aspect), 1 / stand.half_height);
+    if (target) projection.middle = 2.0f * glm::vec2(camera.shift);
     projection.clip_from_world =
-        into_frame(shrink, projection.middle) *
-        projection_matrix(projection.perspective, scale, projection.near_depth, projection.far_depth) *
+        moved_by(projection.middle) *
+        projection_matrix(projection.perspective, projection.scale, projection.near_depth, projection.far_depth) *
         view_matrix(projection);
     return projection;
 }

@@ -16,12 +16,6 @@ namespace mobbscope {
 
 inline constexpr double kDegree = std::numbers::pi / 180;  // in radians
 
-/// The part of a picture that the scene is to fill, pixels from the upper left corner.
-struct Frame {
-    glm::vec2 min{0};
-    glm::vec2 max{0};
-};
-
 /// What is seen in one place of the picture, drawn space.
 struct Ray {
     glm::dvec3 origin{0};
@@ -75,11 +69,11 @@ Directions directions(const Camera& camera);
 
 class ShownPoints;
 
-/// A projection for the camera. Without a target all `points` fit into `frame` as large as can be. With `target` (drawn
-/// space) the frame is the whole picture, moved by the camera's shift, and the target goes to its middle. `points` also
-/// set what is near and far.
+/// A projection for the camera. Without a target all `points` fit into the picture as large as can be. With `target`
+/// (drawn space) that goes to the picture's middle, moved by the camera's shift. `points` also set what is near and
+/// far.
 ViewProjection make_projection(const Camera& camera, const ShownPoints& points, const glm::vec3* target,
-                               const Frame& frame, PictureSize size);
+                               PictureSize size);
 
 /// Over the viewer's left shoulder, so that shapes read the same from every side. Unit length.
 inline glm::vec3 towards_light(const ViewProjection& projection) {

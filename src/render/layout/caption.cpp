@@ -95,10 +95,6 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
     return caption;
 }
 
-bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options) {
-    return view.camera.target && !options.framed;
-}
-
 void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
     const std::string text = formatted("%.10g s lies outside %.4g..%.4g s", time, begin, end);
     caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;

@@ -28,9 +28,6 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
 /// " at 1.23 s".
 std::string at_time(double time);
 
-/// Whether the scene may lie behind the words: it does not where the camera frames it by itself.
-bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options);
-
 /// Says in the detail that a time cursor is not drawn, as it lies outside what the paths take.
 void mention_cursor_outside(Caption& caption, double time, double begin, double end);
 

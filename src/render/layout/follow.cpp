@@ -81,8 +81,8 @@ glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, 
 
 Camera framing_followed(const FittedScene& fitted, const ViewState& view, const PictureFrame& picture, double metres) {
     const glm::dvec3 at = target_of_followed(fitted, view, picture);
-    return framing(resolved_camera(view.camera, picture), at - glm::dvec3(metres, metres, 0),
-                   at + glm::dvec3(metres, metres, kStanding), picture.size);
+    return framing(picture.camera, at - glm::dvec3(metres, metres, 0), at + glm::dvec3(metres, metres, kStanding),
+                   picture.size);
 }
 
 bool can_follow(const Scene& scene, const std::string& name) {

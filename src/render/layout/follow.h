@@ -29,7 +29,7 @@ inline constexpr double kStanding = 1.8;  ///< metres: people's height
 /// view.
 glm::dvec3 target_of_followed(const FittedScene& fitted, const ViewState& view, const PictureFrame& picture);
 
-/// The explicit camera (see resolved_camera) that has so many metres around the followed agent in the picture, as seen
+/// The explicit camera (see framed_camera) that has so many metres around the followed agent in the picture, as seen
 /// from where the view's camera looks. `picture`: of the view.
 Camera framing_followed(const FittedScene& fitted, const ViewState& view, const PictureFrame& picture,
                         double metres = kAroundFollowed);

@@ -1,19 +1,38 @@
+#include <render/drawlist/camera.h>
 #include <render/drawlist/draw_list.h>
 #include <render/layout/framing.h>
-#include <render/layout/legend.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <numbers>
 
 namespace mobbscope {
 
 namespace {
 
-/// Where legend and map would shrink the scene to less than this they are left out.
-constexpr float kLeastShare = 0.62f;
+/// The middle of the points' bounds.
+glm::dvec3 middle_of(const ShownPoints& points) {
+    const auto along = [&](glm::vec3 way) {
+        return 0.5 * (static_cast<double>(points.most(way)) - static_cast<double>(points.most(-way)));
+    };
+    return {along({1, 0, 0}), along({0, 1, 0}), along({0, 0, 1})};
+}
+
+/// How far from a vertical axis the points reach, metres; a little more than they do.
+double reach_around(const ShownPoints& points, glm::dvec3 axis) {
+    constexpr int kWays = 32;
+    double reach = 0;
+    for (int i = 0; i < kWays; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kWays;
+        const glm::dvec3 way(std::cos(angle), std::sin(angle), 0);
+        reach = std::max(reach, static_cast<double>(points.most(glm::vec3(way))) - glm::dot(way, axis));
+    }
+    return reach / std::cos(std::numbers::pi / kWays);
+}
 
 }  // namespace
 
@@ -36,16 +55,6 @@ Bounds bounds_of(std::span<const DrawnAgent> agents) {
     return bounds;
 }
 
-Bounds with_boxes(Bounds bounds, const DrawList& list) {
-    for (const BoxInstance& box : list.boxes) {
-        for (const glm::vec3& corner : box_corners(box)) {
-            bounds.add({corner.x + list.space.origin.x, corner.y + list.space.origin.y,
-                        corner.z / list.space.time_height + list.space.origin.z});
-        }
-    }
-    return bounds;
-}
-
 DrawnSpace space_for(const Bounds& bounds, const ViewState& view) {
     DrawnSpace space;
     const glm::dvec3 extent = bounds.max - bounds.min;
@@ -65,65 +74,63 @@ void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorE
     for (const double t : {floor_extent.t0, floor_extent.t1}) points.add(space.point(foot.x, foot.y, t));
 }
 
-Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, const ViewState& view,
-                 const Metrics& metrics) {
-    const glm::vec2 picture(size.width, size.height);
-    const Frame bare{glm::vec2(metrics.pad, std::max(metrics.pad, top)), picture - metrics.pad};
-    if (!view.labels) return bare;
-    Frame frame = bare;
-    const Font& mono = Font::of(FontFace::mono);
-    frame.min.y += 1.8f * metrics.text;  // names over the paths
-    if (view.floor) {
-        const bool floor_seen_level = std::abs(orientation(view.camera).pitch_deg) < 2;
-        frame.max.y -= 1.6f * metrics.small;
-        // Half of what the corner of the floor is labelled with goes beyond it, all of it where that corner is to the
-        // right.
-        frame.max.x -=
-            mono.width("y " + longest_distance(floor_extent) + " m", metrics.small) * (floor_seen_level ? 0.5f : 1.0f);
-    }
-    if (view.time_axis) frame.min.x += mono.width(longest_tick(floor_extent), metrics.small) + metrics.small;
-    // In a tiny picture the scene matters more than its labels, which then stand where they find room.
-    const bool enough = frame.max.x - frame.min.x > 0.5f * picture.x && frame.max.y - frame.min.y > 0.4f * picture.y;
-    return enough ? frame : bare;
+Camera framed_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
+                     double margin) {
+    const Orientation seen = orientation(camera);
+    Camera out = camera;
+    out.preset = CameraPreset::free;
+    out.yaw_deg = seen.yaw_deg;
+    out.pitch_deg = seen.pitch_deg;
+    out.perspective = seen.perspective;
+    if (camera.target) return out;
+
+    // Half of what the picture's height shows is tangent * distance; the points fill it without the margin.
+    const double tangent = std::tan(camera.fov_deg * kDegree / 2);
+    Camera within = out;
+    within.fov_deg = 2 * std::atan(tangent / (1 + margin)) / kDegree;
+    const ViewProjection fitted = make_projection(within, points, nullptr, size);
+    const glm::dvec3 back(fitted.back);
+    const double depth = glm::dot(glm::dvec3(fitted.eye) - middle_of(points), back);
+    out.target = space.to_target(glm::dvec3(fitted.eye) - back * depth);
+    out.distance = seen.perspective ? depth : (1 + margin) / static_cast<double>(fitted.scale.y) / tangent;
+    return out;
 }
 
-ViewProjection projection_for(const DrawList& list, const ViewState& view, const ShownPoints& points,
-                              const Frame& frame) {
-    std::optional<glm::vec3> target;
-    if (view.camera.target) target = list.space.from_target(*view.camera.target);
-    return make_projection(view.camera, points, target ? &*target : nullptr, frame, list.size);
+Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size) {
+    Camera out = framed_camera(camera, points, space, size);
+    if (camera.target) return out;
+    // Half of what the picture shows at the target without its margin, in distances to it.
+    const double half_y = std::tan(out.fov_deg * kDegree / 2) / (1 + kFrameMargin);
+    const double half_x = half_y * size.width / size.height;
+    const double cosine = std::cos(out.pitch_deg * kDegree);
+    const double sine = std::sin(out.pitch_deg * kDegree);
+    const double near = out.perspective ? 1 : 0;  // what comes nearer grows
+
+    // All points lie in an upright cylinder about the axis of the turn. Of its rims each needs the eye this far from
+    // the middle, for the picture's upper and lower edge and its sides.
+    const glm::dvec3 middle = middle_of(points);
+    const double reach = reach_around(points, middle);
+    const double high = static_cast<double>(points.most({0, 0, 1})) - middle.z;
+    double top = 0;
+    double bottom = 0;
+    double sides = 0;
+    for (const double height : {-high, high}) {
+        top = std::max(top, height * (cosine / half_y + near * sine) + reach * std::abs(near * cosine - sine / half_y));
+        bottom = std::max(bottom,
+                          -height * (cosine / half_y - near * sine) + reach * std::abs(near * cosine + sine / half_y));
+        sides = std::max(sides, reach * std::hypot(1 / half_x, near * cosine) + near * height * sine);
+    }
+    // The target goes up the axis until above and below need the same.
+    const double up = cosine > 1e-6 ? std::clamp((top - bottom) * half_y / (2 * cosine), -high, high) : 0;
+    out.distance = std::max({top - up * (cosine / half_y + near * sine), bottom + up * (cosine / half_y - near * sine),
+                             sides - up * near * sine, 1e-3});
+    out.target = space.to_target(middle + glm::dvec3(0, 0, up));
+    return out;
 }
 
-Blocks aim(DrawList& list, const ShownPoints& points, const FloorExtent& floor_extent, const ViewState& view,
-           const Metrics& metrics, float top, glm::vec2 map, const std::function<std::vector<Rect>()>& busy) {
-    const glm::vec2 legend = legend_size(list.legend, metrics.small);
-    const Rect area{{metrics.pad, top + 0.3f * metrics.pad},
-                    glm::vec2(list.size.width, list.size.height) - metrics.pad};
-    const auto place = [&] { return place_blocks(area, legend, map, busy()); };
-    const Frame frame = free_frame(list.size, top, floor_extent, view, metrics);
-    list.projection = projection_for(list, view, points, frame);
-    list.frame = frame;
-    Blocks blocks = place();
-    if (!blocks.covers || view.camera.target) return blocks;
-    // No corner is free: the scene makes room, beside or below it, whichever costs it less.
-    const glm::vec2 room = glm::max(legend, map) + metrics.pad;
-    Frame beside = frame;
-    beside.min.x += room.x;
-    Frame above = frame;
-    above.max.y -= room.y;
-    const ViewProjection lens_beside = projection_for(list, view, points, beside);
-    const ViewProjection lens_above = projection_for(list, view, points, above);
-    const glm::vec3 middle = 0.5f * (points.front() + points.back());
-    const bool fits_beside = lens_beside.pixels_per_metre(middle) >= lens_above.pixels_per_metre(middle);
-    const ViewProjection& larger = fits_beside ? lens_beside : lens_above;
-    if (larger.pixels_per_metre(middle) < kLeastShare * list.projection.pixels_per_metre(middle)) {
-        // The scene is what the picture is for.
-        list.legend.clear();
-        return place_blocks(area, glm::vec2(0), glm::vec2(0), {});
-    }
-    list.projection = larger;
-    list.frame = fits_beside ? beside : above;
-    return place();
+void project(PictureFrame& frame, const ShownPoints& points) {
+    const glm::vec3 target = frame.space.from_target(*frame.camera.target);
+    frame.projection = make_projection(frame.camera, points, &target, frame.size);
 }
 
 }  // namespace mobbscope

@@ -1,18 +1,13 @@
-/// Where the scene goes in the picture: how time becomes height, and what the projection must show.
+/// Where the scene goes in the picture: how time becomes height, and the camera that shows it all.
 #pragma once
 
 #include <render/drawlist/draw_list.h>
-#include <render/drawlist/picture_options.h>
 #include <render/drawlist/shown_points.h>
-#include <render/layout/block_layout.h>
 #include <render/parts/floor_and_axes.h>
-#include <render/query/query_boxes.h>
 #include <scene/drawn_agent.h>
 
-#include <functional>
 #include <limits>
 #include <span>
-#include <vector>
 
 namespace mobbscope {
 
@@ -30,28 +25,27 @@ void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange
 /// Of the paths' disks.
 Bounds bounds_of(std::span<const DrawnAgent> agents);
 
-/// `bounds` with the boxes that are shown.
-Bounds with_boxes(Bounds bounds, const DrawList& list);
-
 /// About as tall as wide, unless the view says how tall.
 DrawnSpace space_for(const Bounds& bounds, const ViewState& view);
 
-/// Adds floor and axis to what must be inside the picture.
+/// Adds floor and axis to what is near and far.
 void add_floor_points(ShownPoints& points, const DrawnSpace& space, const FloorExtent& floor_extent,
                       const ViewState& view, bool has_cursor);
 
-/// The picture without its margin, what is above `top`, and room for the labels along the scene's outline.
-Frame free_frame(PictureSize size, float top, const FloorExtent& floor_extent, const ViewState& view,
-                 const Metrics& metrics);
+/// How much wider and higher than what it frames a picture is.
+inline constexpr double kFrameMargin = 0.1;
 
-/// A projection that shows the points in a frame, or what the view's camera aims at.
-ViewProjection projection_for(const DrawList& list, const ViewState& view, const ShownPoints& points,
-                              const Frame& frame);
+/// The explicit camera (preset free, with a target) that looks from where `camera` does and has all `points` (drawn
+/// space) in the picture, with a margin, as large as they fit. It depends on nothing else: neither words nor panels nor
+/// boxes move it. The target is seen in the middle of the picture, as deep as the middle of the points; it is in world
+/// metres with time drawn `space.time_height` high, which the view has to keep. A camera that has a target keeps it.
+Camera framed_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size,
+                     double margin = kFrameMargin);
 
-/// Sets the list's projection and frame, so that all `points` (drawn space) fit into what caption, labels and blocks
-/// leave; returns the places of legend and map. `top`: where the caption ends, pixels. `map`: its size, 0 for none.
-/// `busy`: what blocks had better not cover, asked for once a projection is set.
-Blocks aim(DrawList& list, const ShownPoints& points, const FloorExtent& floor_extent, const ViewState& view,
-           const Metrics& metrics, float top, glm::vec2 map, const std::function<std::vector<Rect>()>& busy);
+/// Likewise, but it may be turned about its target: all points are in the picture from every side.
+Camera turning_camera(const Camera& camera, const ShownPoints& points, const DrawnSpace& space, PictureSize size);
+
+/// Sets what is seen through the frame's camera. `points`: what is near and far.
+void project(PictureFrame& frame, const ShownPoints& points);
 
 }  // namespace mobbscope

@@ -81,4 +81,8 @@ PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize s
                         [](Picture& picture) { return picture.aim(); });
 }
 
+Camera turning_camera(KeptPaths& kept, const ViewState& view, PictureSize size) {
+    return with_picture(kept, view, {.size = size}, nullptr, [](Picture& picture) { return picture.turning(); });
+}
+
 }  // namespace mobbscope

@@ -35,6 +35,9 @@ DrawList build_draw_list(KeptPaths& kept, const ViewState& view, const PictureOp
 PictureFrame picture_frame(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale = 0);
 PictureFrame picture_frame(KeptPaths& kept, const ViewState& view, PictureSize size, double scale = 0);
 
+/// The camera of such a picture that has all of it in the picture from every side, to be turned about its target.
+Camera turning_camera(KeptPaths& kept, const ViewState& view, PictureSize size);
+
 /// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
 std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);
 

@@ -86,8 +86,8 @@ class CrowdPicture final : public Picture {
         list_.space.anchor = camera_anchor(fitted_, view, time_);
         if (view.disks) kept.add_disks_of(list_, agents_, view, std::vector<PathFocus>(agents_.size()));
         floor_extent_ = floor_stage(crowd_.area, seconds_.begin, seconds_.end);
-        points_ = ShownPoints(floor_corners(floor_extent_, list_.space));
-        list_.middle = middle_of(points_);
+        framed_ = ShownPoints(floor_corners(floor_extent_, list_.space));
+        points_ = framed_;
     }
 
   private:
@@ -105,11 +105,6 @@ class CrowdPicture final : public Picture {
         }
         out.legend.push_back(line_entry({list_.palette.accent, 1.3f}, "now"));
         return out;
-    }
-
-    /// The widest labels of the whole run, so that nothing moves while time runs.
-    FloorExtent widest_floor() const override {
-        return floor_stage(crowd_.area, crowd_.seconds - 2 * view_.time_window, crowd_.seconds);
     }
 
     std::vector<Rect> busy() const override {

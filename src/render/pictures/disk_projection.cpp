@@ -21,8 +21,9 @@ namespace mobbscope {
 namespace {
 
 constexpr int kCirclePieces = 64;
-constexpr double kAxisBeyond = 0.35;  // of the radius: how far axes go beyond what is marked on them
-constexpr double kAside = 0.16;       // ... and perpendiculars, and how far the height stands beside the disk
+constexpr double kAxisBeyond = 0.35;     // of the radius: how far axes go beyond what is marked on them
+constexpr double kMarginForNames = 0.3;  // they stand beyond the ends of the axes and of the perpendiculars
+constexpr double kAside = 0.16;          // ... and perpendiculars, and how far the height stands beside the disk
 
 const DrawnAgent& checked(std::span<const DrawnAgent> agents, const DiskProjection& projection) {
     if (projection.agent < 0 || static_cast<std::size_t>(projection.agent) >= agents.size()) {
@@ -195,18 +196,6 @@ void draw(Diagram& diagram, const DiskExtents& extents, const ViewProjection& pr
     diagram.dot(glm::dvec3(0), palette.text, 3.6f);
 }
 
-/// Whether something of the drawing would lie behind a rectangle.
-bool covers_lines(const Rect& rect, const DrawList& list) {
-    return std::any_of(list.lines.begin(), list.lines.end(), [&](const LineInstance& line) {
-        constexpr int kPieces = 24;
-        for (int i = 0; i <= kPieces; ++i) {
-            const auto at = list.projection.project(glm::mix(line.from, line.to, static_cast<float>(i) / kPieces));
-            if (at && Rect{*at, *at}.grown(0.5f).overlaps(rect)) return true;
-        }
-        return false;
-    });
-}
-
 std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palette, Rgba disk, int sample, double dt) {
     std::vector<LegendEntry> out;
     using Mark = LegendEntry::Mark;
@@ -311,6 +300,10 @@ class DiskProjectionPicture final : public Picture {
         const double w = agent_.placed.time_scale();
         list_.space.origin = {extents_.base.x, extents_.base.y, extents_.base.z / w};
         list_.space.time_height = view.time_height > 0 ? view.time_height : w;
+        const Diagram diagram(list_, extents_, w, metrics_.scale);
+        framed_ = ShownPoints(projected_points(diagram, extents_));
+        points_ = framed_;
+        margin_ = kMarginForNames;
         if (!view.disks) return;
         DiskInstance disk;
         disk.radius = static_cast<float>(extents_.radius);
@@ -318,7 +311,6 @@ class DiskProjectionPicture final : public Picture {
         disk.color = with_alpha(agent_.color, 0.5f);
         disk.id = {agent_.index, ObjectId::Kind::disk, view.projection->sample};
         list_.disks.edit().push_back(disk);
-        list_.middle = {0, 0, 0.5 * static_cast<double>(disk.height)};
     }
 
   private:
@@ -330,39 +322,10 @@ class DiskProjectionPicture final : public Picture {
         return out;
     }
 
-    /// The legend has its corner, and the drawing makes room for it.
-    Blocks find_places(float top, glm::vec2) override {
-        Frame frame{glm::vec2(metrics_.pad, top), glm::vec2(list_.size.width, list_.size.height) - metrics_.pad};
-        if (view_.labels) {
-            // Names stand beyond the ends of the axes and of the perpendiculars.
-            frame.min += glm::vec2(3, 1.7f) * metrics_.text;
-            frame.max -= glm::vec2(3, 1.7f) * metrics_.text;
-        }
-        draw_within(frame);
-        Blocks blocks;
-        if (list_.legend.empty()) return blocks;
-        const glm::vec2 block = legend_size(list_.legend, metrics_.small);
-        const glm::vec2 corner(metrics_.pad, static_cast<float>(list_.size.height) - metrics_.pad - block.y);
-        blocks.legend = Rect{corner, corner + block};
-        if (!covers_lines(blocks.legend->grown(metrics_.text), list_)) return blocks;
-        // Beside or above the legend, wherever more is left.
-        const glm::vec2 left = frame.max - frame.min - block;
-        if (left.x > left.y) {
-            frame.min.x += block.x;
-        } else {
-            frame.max.y -= block.y;
-        }
-        draw_within(frame);
-        return blocks;
-    }
-
-    void draw_within(const Frame& within) {
+    std::vector<LabelRequest> content() override {
         Diagram diagram(list_, extents_, agent_.placed.time_scale(), metrics_.scale);
-        list_.lines.clear();
-        list_.marks.clear();
-        list_.projection = projection_for(list_, view_, ShownPoints(projected_points(diagram, extents_)), within);
-        list_.frame = within;
         mobbscope::draw(diagram, extents_, list_.projection, list_.palette, agent_.color);
+        return {};
     }
 
     std::vector<LabelRequest> floor_labels() const override { return {}; }

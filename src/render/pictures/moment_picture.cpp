@@ -145,9 +145,8 @@ class MomentPicture final : public Picture {
         // Walls hold everybody, wherever they will stand.
         if (!crowd_) standing_ = standing_room(list_.space, agents_, heights_, 0.02 * floor_extent_.step);
         corners_ = floor_corners(floor_extent_, list_.space);
-        points_ = ShownPoints(standing_);
-        if (crowd_) points_.add(corners_);
-        list_.middle = middle_of(points_);
+        framed_ = ShownPoints(crowd_ ? corners_ : standing_);
+        points_ = framed_;
         if (!crowd_) points_.add(std::span(corners_).first(4));
     }
 

@@ -26,12 +26,14 @@ Picture::Picture(const FittedScene& fitted, const ViewState& view, const Picture
 }
 
 const PictureFrame& Picture::aim() {
+    list_.camera = framed_camera(view_.camera, framed_, list_.space, list_.size, margin_);
+    project(list_, points_);
     float top = metrics_.pad;
     glm::vec2 map(0);
     if (view_.labels) {
         Words said = words();
         if (!view_.caption) said.caption = {};
-        said.caption.panel = scene_may_lie_behind(view_, options_);
+        said.caption.panel = true;
         if (!view_.legend) said.legend.clear();
         TextBudget kept = fit_to_budget(said.caption, std::move(said.legend), said.map, list_.size, metrics_);
         list_.legend = std::move(kept.legend);
@@ -39,12 +41,10 @@ const PictureFrame& Picture::aim() {
         top = add_caption(list_, said.caption, kept.caption, metrics_.pad, metrics_.scale);
     }
     layout_ = LabelLayout(list_);
-    blocks_ = find_places(top, map);
+    const Rect area{{metrics_.pad, top + 0.3f * metrics_.pad},
+                    glm::vec2(list_.size.width, list_.size.height) - metrics_.pad};
+    blocks_ = place_blocks(area, legend_size(list_.legend, metrics_.small), map, busy());
     return list_;
-}
-
-Blocks Picture::find_places(float top, glm::vec2 map) {
-    return mobbscope::aim(list_, points_, widest_floor(), view_, metrics_, top, map, [&] { return busy(); });
 }
 
 std::vector<LabelRequest> Picture::floor_labels() const {
@@ -82,14 +82,6 @@ std::vector<Rect> seen_grid(const ViewProjection& projection, glm::vec3 low, glm
         }
     }
     return out;
-}
-
-glm::dvec3 middle_of(const ShownPoints& points) {
-    if (points.empty()) return glm::dvec3(0);
-    const auto along = [&](glm::vec3 way) {
-        return 0.5 * (static_cast<double>(points.most(way)) - static_cast<double>(points.most(-way)));
-    };
-    return {along({1, 0, 0}), along({0, 1, 0}), along({0, 0, 1})};
 }
 
 }  // namespace mobbscope

@@ -6,6 +6,7 @@
 #include <render/drawlist/shown_points.h>
 #include <render/layout/block_layout.h>
 #include <render/layout/caption.h>
+#include <render/layout/framing.h>
 #include <render/parts/floor_and_axes.h>
 #include <render/text/labels.h>
 #include <scene/drawn_agent.h>
@@ -32,6 +33,8 @@ class Picture {
     const PictureFrame& aim();
     /// Aims and draws the rest; once.
     DrawList draw();
+    /// The camera that may be turned about its target and always has all in the picture.
+    Camera turning() const { return turning_camera(view_.camera, framed_, list_.space, list_.size); }
 
   protected:
     struct Words {
@@ -45,8 +48,6 @@ class Picture {
 
     /// What the picture says. The caption is left out where the view has none.
     virtual Words words() = 0;
-    /// Sets projection and frame below `top` (pixels); returns the places of the legend and a map of that size.
-    virtual Blocks find_places(float top, glm::vec2 map);
     /// What legend and map had better not cover. Needs the projection.
     virtual std::vector<Rect> busy() const { return {}; }
     /// Adds what is drawn; returns what is said beside it. Needs the projection.
@@ -58,16 +59,15 @@ class Picture {
     /// Adds names, which come last.
     virtual void add_names_to(LabelLayout&) {}
 
-    /// The floor whose labels the picture leaves room for.
-    virtual FloorExtent widest_floor() const { return floor_extent_; }
-
     const FittedScene& fitted_;
     ViewState view_;
     PictureOptions options_;
     Metrics metrics_;
     std::vector<DrawnAgent> agents_;
     FloorExtent floor_extent_;
-    ShownPoints points_;  ///< all that must be inside the picture
+    ShownPoints framed_;  ///< what the camera frames where it has no target: neither step nor time changes it
+    ShownPoints points_;  ///< all that is drawn: what is near and far
+    double margin_ = kFrameMargin;
     DrawList list_;
 
   private:
@@ -78,9 +78,6 @@ class Picture {
 /// The points of a grid in the box from `low` to `high` that are seen, as small rectangles around their pixels.
 /// `cells`: along each side.
 std::vector<Rect> seen_grid(const ViewProjection& projection, glm::vec3 low, glm::vec3 high, glm::ivec3 cells);
-
-/// The middle of those points.
-glm::dvec3 middle_of(const ShownPoints& points);
 
 /// Paths and boxes of a scene in space-time. `kept`: of the scene; outlives the picture.
 std::unique_ptr<Picture> space_time_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options);

@@ -79,16 +79,12 @@ class SpaceTimePicture final : public Picture {
         }
         const bool levels = view_.boxes && !progress();
         if (levels) add_level_boxes(list_, agents_, view_.levels, view_.color_by, metrics_.scale);
-        if (view_.disks) {
-            const bool behind = levels && view_.color_by == ColorBy::level;
-            points_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, progress(), behind));
-        }
-        const Bounds all = with_boxes(bounds, list_);
-        floor_extent_ = floor_extent_of(all.min, all.max);
-        floor_extent_.t0 = bounds.min.z;
-        floor_extent_.t1 = bounds.max.z;
+        const bool behind = levels && view_.color_by == ColorBy::level;
+        framed_ = kept.add_disks_of(list_, agents_, view_, foci_of(agents_, emphasis_, progress(), behind));
+        if (!view_.disks) list_.disks = {};
+        floor_extent_ = floor_extent_of(bounds.min, bounds.max);
+        points_ = framed_;
         for (const BoxInstance& box : list_.boxes) points_.add(box_corners(box));
-        list_.middle = middle_of(points_);
         add_floor_points(points_, list_.space, floor_extent_, view_, emphasis_.cursor.has_value());
     }
 
