@@ -167,8 +167,7 @@ std::vector<Case> cases() {
          }});
     add({"view.top", "", {{"view.zoom_in", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().camera.preset, CameraPreset::top);
-             EXPECT_FALSE(w.view().camera.target);
-             EXPECT_EQ(w.view().camera.fov_deg, Camera{}.fov_deg);
+             EXPECT_TRUE(w.view().camera.target) << "it turns, and stays as near";
          }});
     look("view.front", "", [](CommandWorld& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::front); });
     look("view.side", "", [](CommandWorld& w) { EXPECT_EQ(w.view().camera.preset, CameraPreset::side); });
@@ -180,6 +179,7 @@ std::vector<Case> cases() {
              EXPECT_NEAR(w.view().camera.target->z, 1.5 * w.view().time_height, 0.1);
          }});
     add({"view.frame", "", {{"view.zoom_in", ""}}, [](CommandWorld& w) { EXPECT_FALSE(w.view().camera.target); }});
+    look("view.follow_test", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.follow_test); });
     add({"view.frame_all", "", {{"view.orbit", "10 5"}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.view().camera.target);
              EXPECT_NEAR(w.view().camera.yaw_deg, orientation(Camera{}).yaw_deg - 10, 1e-4) << "the direction stays";
@@ -233,7 +233,7 @@ std::vector<Case> cases() {
              EXPECT_NEAR(w.view().camera.target->z, 0.875, 0.01) << "half a person's height";
              run_command(w.session, "view.moment");
              EXPECT_EQ(w.view().show, Show::space_time);
-             EXPECT_FALSE(w.view().camera.target);
+             EXPECT_TRUE(w.view().camera.target) << "as it was before";
              run_command(w.session, "view.moment");
          }});
     look("view.split", "", [](CommandWorld& w) {

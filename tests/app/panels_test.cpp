@@ -106,6 +106,8 @@ TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     run_command(w.session, "go.agent", "A");
     w.window.settle();
     ASSERT_TRUE(w.has("handle.move"));
+    const Camera in_space_time = w.session.view().camera;
+    ASSERT_TRUE(in_space_time.target) << "what framed the scene stands";
     w.key("M");
     ASSERT_EQ(w.session.view().show, Show::moment);
     EXPECT_FALSE(w.has("handle.move")) << "they stand where a path begins, in space-time";
@@ -136,7 +138,92 @@ TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     EXPECT_EQ(w.session.view().time_height, time_height);
     w.key("M");
     EXPECT_EQ(w.session.view().show, Show::space_time);
-    EXPECT_FALSE(w.session.view().camera.target);
+    EXPECT_EQ(w.session.view().camera, in_space_time) << "each picture has its own camera";
+}
+
+TEST(StillCamera, NothingThatIsShownMovesIt) {
+    Window w;
+    const Camera opened = w.session.view().camera;
+    ASSERT_TRUE(opened.target) << "it frames the scene once";
+    const double time_height = w.session.view().time_height;
+    EXPECT_GT(time_height, 0);
+    EXPECT_FALSE(w.session.history().can_undo()) << "framing is no step of its own";
+    const auto expect_still = [&](const std::string& after) {
+        EXPECT_EQ(w.session.view().camera, opened) << after;
+        EXPECT_EQ(w.session.view().time_height, time_height) << after;
+    };
+    for (const std::string key : {"]", "[", "E", ".", ","}) {
+        w.key(key);
+        expect_still(key);
+    }
+    run_command(w.session, "query.select", "0");
+    w.window.settle();
+    expect_still("a query");
+    for (const std::string key : {"Shift+Left", "Right", "Right", "Shift+Right", "Left", "S", "O"}) {
+        w.key(key);
+        expect_still(key);
+    }
+    const mobb::TreeKind before = w.session.fitted().options().tree;
+    run_command(w.session, "tree.kind", before == mobb::TreeKind::umobb ? "mobb" : "umobb");
+    w.window.settle();
+    expect_still("another kind of tree");
+    run_command(w.session, "go.agent", "B");
+    w.window.settle();
+    expect_still("a selection");
+    run_command(w.session, "query.none");
+    w.window.settle();
+    expect_still("no query");
+}
+
+TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
+    Window w;
+    run_command(w.session, "query.select", "0");
+    w.window.settle();
+    w.key("Shift+Right");
+    const Camera opened = w.session.view().camera;
+    w.key("F");
+    EXPECT_LT(w.session.view().camera.distance, 0.9 * opened.distance) << "the pair under test";
+    w.key("Home");
+    w.window.settle();
+    const Camera home = w.session.view().camera;
+    ASSERT_TRUE(home.target);
+    const auto pixels = [&] {
+        const DrawList list = build_draw_list(w.session.fitted(), w.session.view(), w.session.hooks.viewport_size());
+        return list.projection.pixels_per_metre(list.space.from_target(*w.session.view().camera.target));
+    };
+    const float scale = pixels();
+    const int height = w.session.hooks.viewport_size().height;
+    w.window.resize({900, 800});
+    w.window.settle();
+    ASSERT_NE(w.session.hooks.viewport_size().height, height);
+    EXPECT_EQ(w.session.view().camera.target, home.target);
+    EXPECT_NEAR(pixels(), scale, 1e-3 * scale);
+    w.session.undo();
+    w.session.undo();
+    w.window.settle();
+    EXPECT_EQ(w.session.view().camera.target, opened.target);
+    EXPECT_NEAR(w.session.view().camera.distance * height, opened.distance * w.session.hooks.viewport_size().height,
+                1e-6 * opened.distance * height)
+        << "where undo leads, too";
+}
+
+TEST(StillCamera, ItFollowsTheTestWhereThatIsAskedFor) {
+    Window w;
+    run_command(w.session, "query.select", "0");
+    w.window.settle();
+    w.key("Shift+Left");
+    run_command(w.session, "view.zoom", "6");
+    w.window.settle();
+    const Camera near = w.session.view().camera;
+    w.key("Shift+Right");
+    EXPECT_EQ(w.session.view().camera, near);
+    run_command(w.session, "view.follow_test");
+    w.window.settle();
+    EXPECT_NE(w.session.view().camera, near) << "the last pair was not in the picture";
+    const Camera there = w.session.view().camera;
+    run_command(w.session, "view.orbit", "10 0");
+    w.window.settle();
+    EXPECT_NE(w.session.view().camera, there) << "a hand is not overruled";
 }
 
 TEST(Panels, TheCameraGoesOnFromWhatKeysHaveMade) {

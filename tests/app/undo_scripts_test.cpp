@@ -1,7 +1,9 @@
 // Whatever is done in the window, undo leads back to where it began, and redo to where it was.
+#include <app/commands/camera_commands.h>
 #include <app/script/script.h>
 #include <app/window/headless_window.h>
 #include <base/error.h>
+#include <base/text.h>
 #include <scene/load_files.h>
 
 #include <support/temp_folder.h>
@@ -17,6 +19,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -31,12 +34,15 @@ int script_budget() {
     return text ? std::atoi(text) : 36;
 }
 
-/// A document as text, what it is an excerpt of included.
-std::string as_json(const Document& document) {
+/// A document as text, what it is an excerpt of included. A camera's distance goes with the height of the picture.
+std::string as_json(const Document& document, int picture_height) {
     Scene scene = document.fitted->scene();
     scene.view = document.view;
-    std::string text = to_json(scene);
-    if (document.excerpt_of) text += as_json({document.excerpt_of->fitted, document.excerpt_of->view});
+    Camera& camera = scene.view.camera;
+    std::string distance;
+    if (camera.target) distance = formatted("%.9g", std::exchange(camera.distance, 1) / picture_height);
+    std::string text = to_json(scene) + distance;
+    if (document.excerpt_of) text += as_json({document.excerpt_of->fitted, document.excerpt_of->view}, picture_height);
     return text;
 }
 
@@ -49,8 +55,9 @@ class Worked {
           script_(static_cast<std::uint64_t>(seed), size_of(seed), kLeast, kMost) {
         session.may_write = false;
         session.open({file});
+        begin();
+        window.resize(size_of(seed));
         settle();
-        begun_ = session.document();
     }
 
     void work(int statements) {
@@ -62,13 +69,15 @@ class Worked {
             // Another file was opened: what was done before is no past of it.
             const History& history = session.history();
             const bool fresh = !history.can_undo() && !history.can_redo();
-            if (fresh && session.document().fitted != begun_.fitted) begun_ = session.document();
+            if (fresh && session.document().fitted != begun_in_) begin();
         }
         session.stop();
         settle();
     }
 
-    const Document& begun() const { return begun_; }
+    /// The document as text.
+    std::string now() const { return as_json(session.document(), viewport_size(session).height); }
+    const std::string& begun() const { return begun_; }
 
     Session session;
     HeadlessWindow window;
@@ -76,6 +85,14 @@ class Worked {
 
   private:
     static PictureSize size_of(int seed) { return seed % 3 == 0 ? kLeast : kMost; }
+
+    /// In a window where the camera has something to frame the scene in.
+    void begin() {
+        window.resize(kMost);
+        settle();
+        begun_ = now();
+        begun_in_ = session.document().fitted;
+    }
 
     void run(const std::string& line) {
         try {
@@ -94,7 +111,8 @@ class Worked {
     }
 
     test::RandomScript script_;
-    Document begun_ = session.document();
+    std::string begun_;
+    std::shared_ptr<const FittedScene> begun_in_;
 };
 
 TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {
@@ -115,18 +133,18 @@ TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {
         ASSERT_LE(session.history().count(), 1 + 3 * lines) << "a statement is a state, or a few of them";
         std::vector<std::string> past;
         while (session.history().can_undo()) {
-            past.push_back(as_json(session.document()));
+            past.push_back(worked.now());
             ASSERT_LE(past.size(), 1000u) << "undo does not end";
             session.undo();
             worked.window.frame();
         }
-        ASSERT_EQ(as_json(session.document()), as_json(worked.begun()));
+        ASSERT_EQ(worked.now(), worked.begun());
         undone += past.size();
         for (; !past.empty(); past.pop_back()) {
             ASSERT_TRUE(session.history().can_redo());
             session.redo();
             worked.window.frame();
-            ASSERT_EQ(as_json(session.document()), past.back());
+            ASSERT_EQ(worked.now(), past.back());
         }
         ASSERT_EQ(worked.window.shell().frames_drawn(), 0) << "nobody looks";
     }

@@ -106,7 +106,7 @@ std::vector<Fault> faults() {
         {"one level off", levels, list_of(deeper), true},
         {"a missing disk", levels, changed(levels, [](DrawList& list) { list.disks.edit().pop_back(); }), true},
         {"a missing disk inside", levels,
-         changed(levels, [](DrawList& list) { list.disks.edit().erase(list.disks.begin() + 30); }), false},
+         changed(levels, [](DrawList& list) { list.disks.edit().erase(list.disks.begin() + 18); }), false},
         {"colours of hit and miss swapped", query, changed(query, swap_hit_and_miss), true},
         {"a label 2 pixels aside", levels, changed(levels, [](DrawList& list) { label(list, "A").baseline.x += 2; }),
          false},

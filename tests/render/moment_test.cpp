@@ -209,7 +209,7 @@ TEST(Moment, TheOverlapLiesInBothDisks) {
     EXPECT_TRUE(disk_overlap(a, {2, 2, 0.5}, 9).sides[0].empty());
 }
 
-TEST(Moment, EverythingIsInsideThePictureAndTheFrameStandsStill) {
+TEST(Moment, PeopleAreInsideThePictureAndTheFrameStandsStill) {
     const FittedScene scenes[] = {fitted(collision()), fitted(crossing())};
     for (const auto& [index, preset] : {std::pair(0, CameraPreset::iso), std::pair(0, CameraPreset::top),
                                         std::pair(0, CameraPreset::front), std::pair(1, CameraPreset::iso)}) {
@@ -227,6 +227,7 @@ TEST(Moment, EverythingIsInsideThePictureAndTheFrameStandsStill) {
             frame = list.projection.clip_from_world;
             const Rect picture{glm::vec2(0), glm::vec2(kGoldenSize.width, kGoldenSize.height)};
             for (const LineInstance& line : list.lines) {
+                if (line.order.layer != DrawLayer::subject) continue;  // the floor may go beyond the people
                 for (const glm::vec3& end : {line.from, line.to}) {
                     const auto pixel = list.projection.project(end);
                     ASSERT_TRUE(pixel);

@@ -48,6 +48,13 @@ void History::amend(Document document) {
     state.document = std::move(document);
 }
 
+void History::amend_views(const std::function<void(ViewState&)>& change) {
+    for (State& state : states_) {
+        change(state.document.view);
+        for (SceneView& other : state.document.beside) change(other.view);
+    }
+}
+
 /// Behind the present state, which it becomes; what follows stays.
 void History::append(State state) {
     states_.insert(states_.begin() + static_cast<std::ptrdiff_t>(++now_), state);

@@ -5,6 +5,7 @@
 #include <scene/view_state.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -64,6 +65,8 @@ class History {
     void change_view(Document document);
     /// The present state is this instead; no edit of its own.
     void amend(Document document);
+    /// How the scene is seen is changed in all states.
+    void amend_views(const std::function<void(ViewState&)>& change);
     /// The next edit starts a group of its own, even under the same name.
     void close_group() { open_ = false; }
 

@@ -3,6 +3,7 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <explain/query_progress.h>
+#include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
 #include <scene/crowd_scene.h>
 #include <scene/load_files.h>
@@ -223,6 +224,14 @@ void Session::settle_camera(std::size_t place, const Camera& camera, double time
         view.camera = camera;
         if (time_height > 0) view.time_height = time_height;
     });
+}
+
+void Session::resize_pictures(PictureSize from, PictureSize to) {
+    const auto resize = [&](Camera& camera) {
+        if (camera.target) camera = resized(camera, from, to);
+    };
+    history_.amend_views([&](ViewState& view) { resize(view.camera); });
+    for (auto& aside : cameras_aside) resize(aside.second);
 }
 
 void Session::link_cameras(bool linked) {

@@ -118,9 +118,11 @@ class Session {
     void close_other_views();
     /// Commands and panels are about the view at that place from now on; of a place that there is not nothing changes.
     void activate_view(std::size_t place);
-    /// Says where the camera of the view at a place stands, which framed the scene by itself so far, or whose picture
-    /// has another size now; and how high a second is drawn (metres; 0: as before). No step of its own for undo.
+    /// Says where the camera of the view at a place stands, which framed the scene by itself so far, and how high a
+    /// second is drawn (metres; 0: as before). No step of its own for undo.
     void settle_camera(std::size_t place, const Camera& camera, double time_height);
+    /// The pictures have another height: cameras that stand keep their scale, also those that undo leads to.
+    void resize_pictures(PictureSize from, PictureSize to);
     /// Whether all views have one camera.
     void link_cameras(bool linked);
 

@@ -118,26 +118,28 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
 /// Gives the view a camera that stands.
 void Viewport::settle(Ui& ui, Key& next) {
     Camera& camera = next.view.camera;
-    double height = 0;
-    if (!camera.target) {
-        try {
-            check(next.size);
-            const PictureFrame framed = picture_frame(paths_of(next), next.view, next.size, next.scale);
-            camera.target = framed.camera.target;
-            camera.distance = framed.camera.distance;
-            // Targets are measured in it.
-            if (!framed.moment) height = framed.space.time_height;
-        } catch (const std::invalid_argument&) {
-            return;  // build says so
-        }
-    } else if (key_ && key_->view.camera == camera && key_->size.height != next.size.height) {
+    Session& session = ui.session;
+    const bool same_document = std::exchange(opening_, session.opening()) == session.opening();
+    if (camera.target) {
+        if (!key_ || !same_document || key_->size.height == next.size.height) return;
         camera = resized(camera, key_->size, next.size);
-    } else {
+        if (!is_active(ui)) return;
+        session.enqueue([&session, from = key_->size, to = next.size] { session.resize_pictures(from, to); });
         return;
     }
-    if (height > 0) next.view.time_height = height;
-    ui.session.enqueue(
-        [&session = ui.session, place = view_place_, camera, height] { session.settle_camera(place, camera, height); });
+    try {
+        check(next.size);
+        const PictureFrame framed = picture_frame(paths_of(next), next.view, next.size, next.scale);
+        camera.target = framed.camera.target;
+        camera.distance = framed.camera.distance;
+        // Targets are measured in it.
+        const double height = framed.moment ? 0 : framed.space.time_height;
+        if (height > 0) next.view.time_height = height;
+        session.enqueue(
+            [&session, place = view_place_, camera, height] { session.settle_camera(place, camera, height); });
+    } catch (const std::invalid_argument&) {
+        // Nothing can be drawn; build says why.
+    }
 }
 
 void Viewport::update_picture(Ui& ui, PictureSize size) {

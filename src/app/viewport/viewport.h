@@ -69,6 +69,7 @@ class Viewport {
 
     std::optional<KeptPaths> paths_;  ///< of key_'s scene
     std::size_t view_place_ = 0;      ///< of the session's views
+    int opening_ = 0;                 ///< of the document that was shown last (Session::opening)
     std::optional<Key> key_;          ///< what the document asks for, a flight apart
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
