@@ -77,9 +77,7 @@ std::vector<DrawList> lists_of(const Shot& shot) {
         ViewState view = shot.panels[i].view;
         view.camera = framing.still(view.camera);
         view.time_height = alone[i].space.time_height;
-        PictureOptions framed = options;
-        framed.framed = true;
-        lists.push_back(build_draw_list(*shot.panels[i].fitted, view, framed));
+        lists.push_back(build_draw_list(*shot.panels[i].fitted, view, options));
     }
     return lists;
 }

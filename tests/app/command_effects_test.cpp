@@ -322,6 +322,18 @@ std::vector<Case> cases() {
     add({"view.time_height", "auto", {{"view.time_height", "3"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().time_height, 0);
          }});
+    look("view.past", "", [](CommandWorld& w) { EXPECT_EQ(w.view().past, Past::siblings) << "from ancestors on"; });
+    look("view.past", "pair", [](CommandWorld& w) { EXPECT_EQ(w.view().past, Past::pair); });
+    add({"view.past", "", {{"view.past", "all"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().past, Past::pair) << "the first follows the last";
+         }});
+    look("view.fold_caption", "", [](CommandWorld& w) { EXPECT_TRUE(w.view().fold_caption); });
+    look("view.fold_legend", "", [](CommandWorld& w) { EXPECT_TRUE(w.view().fold_legend); });
+    look("view.fold_inset", "", [](CommandWorld& w) { EXPECT_TRUE(w.view().fold_inset); });
+    add({"view.fold_legend", "", {{"view.fold_legend", ""}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.view().fold_legend);
+         }});
+    look("view.whole_legend", "", [](CommandWorld& w) { EXPECT_TRUE(w.view().whole_legend); });
     look("view.theme", "", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::light); });
     look("view.theme", "dark", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::dark); });
     look("window.scale", "1.3", [](CommandWorld& w) { EXPECT_EQ(w.session.settings.ui_scale, 1.3); });

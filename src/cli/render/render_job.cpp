@@ -177,7 +177,6 @@ void RenderPlan::check_and_frame(RenderJob& job) {
     const bool framed = !near && job.arguments.sequence.any() && !asked.target;
     std::optional<Camera> camera;  // near whom it follows
     CommonFraming framing;
-    bool legends = true;
     for (RenderPicture& picture : job.pictures) {
         DrawList list = build_draw_list(*job.paths, picture.view, job.arguments.picture);
         note_glyphs(list);
@@ -187,7 +186,6 @@ void RenderPlan::check_and_frame(RenderJob& job) {
             camera->distance = std::max(camera->distance, seen.distance);
         } else if (framed) {
             framing.add(list);
-            legends = legends && !list.legend.empty();
         } else if (!job.arguments.ui) {
             keep(picture, std::move(list));
         }
@@ -195,9 +193,6 @@ void RenderPlan::check_and_frame(RenderJob& job) {
     if (camera) return see_from(job.pictures, *camera, turns);
     if (!framed) return;
     see_from(job.pictures, turns ? framing.turning(asked) : framing.still(asked), turns);
-    job.arguments.picture.framed = true;
-    // A legend that one picture has no room for would come and go.
-    for (RenderPicture& picture : job.pictures) picture.view.legend = picture.view.legend && legends;
 }
 
 /// Unless there are many already: a long batch would fill the memory.

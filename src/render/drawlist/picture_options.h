@@ -19,8 +19,6 @@ struct PictureOptions {
     double scale = 0;                  ///< of text and lines, as build_draw_list takes it
     int samples = kPictureSamples;     ///< per pixel of the scene: 1, 2, 4 or 8
     std::optional<Rgba> background{};  ///< instead of the theme's; opacity below 1: seen through where nothing is drawn
-    /// The camera's target comes of a common framing: the scene keeps out of the words, as without a target.
-    bool framed = false;
 };
 
 /// The smallest and largest side of a picture, and the most pixels that it may have.

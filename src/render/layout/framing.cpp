@@ -1,6 +1,5 @@
 #include <render/drawlist/draw_list.h>
 #include <render/layout/framing.h>
-#include <render/layout/legend.h>
 
 #include <glm/common.hpp>
 
@@ -96,7 +95,7 @@ ViewProjection projection_for(const DrawList& list, const ViewState& view, const
 
 Blocks aim(DrawList& list, const ShownPoints& points, const FloorExtent& floor_extent, const ViewState& view,
            const Metrics& metrics, float top, glm::vec2 map, const std::function<std::vector<Rect>()>& busy) {
-    const glm::vec2 legend = legend_size(list.legend, metrics.small);
+    const glm::vec2 legend(0);
     const Rect area{{metrics.pad, top + 0.3f * metrics.pad},
                     glm::vec2(list.size.width, list.size.height) - metrics.pad};
     const auto place = [&] { return place_blocks(area, legend, map, busy()); };

@@ -1,6 +1,5 @@
 #include <base/text.h>
 #include <render/layout/annotations.h>
-#include <render/layout/block_layout.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
@@ -91,13 +90,13 @@ class CrowdPicture final : public Picture {
     }
 
   private:
-    Words words() override {
-        Words out;
+    OverlayContents words() override {
+        OverlayContents out;
         out.caption.headlines = {headline_of(outside_ ? people_at(agents_, time_) : crowd_.agents.size(), time_)};
         out.caption.detail = choice_ ? choice_sentence(fitted_.scene(), *choice_) : window_text(seconds_);
         if (outside_) mention_cursor_outside(out.caption, time_, 0, crowd_.seconds);
         if (names_fit(crowd_.agents.size())) {
-            out.legend = agent_entries(std::span(agents_).first(crowd_.agents.size()));
+            out.legend = agent_entries(list_, std::span(agents_).first(crowd_.agents.size()), agents_);
         }
         if (choice_) {
             const auto fates = candidate_legend(list_.palette, choice_->choice);
@@ -110,11 +109,6 @@ class CrowdPicture final : public Picture {
     /// The widest labels of the whole run, so that nothing moves while time runs.
     FloorExtent widest_floor() const override {
         return floor_stage(crowd_.area, crowd_.seconds - 2 * view_.time_window, crowd_.seconds);
-    }
-
-    std::vector<Rect> busy() const override {
-        const std::vector<glm::vec3> corners = floor_corners(floor_extent_, list_.space);
-        return seen_grid(list_.projection, corners.front(), corners.back(), {6, 6, 6});
     }
 
     std::vector<LabelRequest> content() override {

@@ -195,18 +195,6 @@ void draw(Diagram& diagram, const DiskExtents& extents, const ViewProjection& pr
     diagram.dot(glm::dvec3(0), palette.text, 3.6f);
 }
 
-/// Whether something of the drawing would lie behind a rectangle.
-bool covers_lines(const Rect& rect, const DrawList& list) {
-    return std::any_of(list.lines.begin(), list.lines.end(), [&](const LineInstance& line) {
-        constexpr int kPieces = 24;
-        for (int i = 0; i <= kPieces; ++i) {
-            const auto at = list.projection.project(glm::mix(line.from, line.to, static_cast<float>(i) / kPieces));
-            if (at && Rect{*at, *at}.grown(0.5f).overlaps(rect)) return true;
-        }
-        return false;
-    });
-}
-
 std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palette, Rgba disk, int sample, double dt) {
     std::vector<LegendEntry> out;
     using Mark = LegendEntry::Mark;
@@ -322,38 +310,22 @@ class DiskProjectionPicture final : public Picture {
     }
 
   private:
-    Words words() override {
-        Words out;
+    OverlayContents words() override {
+        OverlayContents out;
         const std::string who = "how far sample " + std::to_string(view_.projection->sample) + " reaches";
         out.caption.headlines = {who + " along the axes of " + node_name(agent_, view_.projection->node), who};
         out.legend = legend(extents_, list_.palette, agent_.color, view_.projection->sample, agent_.clip().clip().dt());
         return out;
     }
 
-    /// The legend has its corner, and the drawing makes room for it.
-    Blocks find_places(float top, glm::vec2) override {
-        Frame frame{glm::vec2(metrics_.pad, top), glm::vec2(list_.size.width, list_.size.height) - metrics_.pad};
+    void find_place() override {
+        Frame frame{glm::vec2(metrics_.pad), glm::vec2(list_.size.width, list_.size.height) - metrics_.pad};
         if (view_.labels) {
             // Names stand beyond the ends of the axes and of the perpendiculars.
             frame.min += glm::vec2(3, 1.7f) * metrics_.text;
             frame.max -= glm::vec2(3, 1.7f) * metrics_.text;
         }
         draw_within(frame);
-        Blocks blocks;
-        if (list_.legend.empty()) return blocks;
-        const glm::vec2 block = legend_size(list_.legend, metrics_.small);
-        const glm::vec2 corner(metrics_.pad, static_cast<float>(list_.size.height) - metrics_.pad - block.y);
-        blocks.legend = Rect{corner, corner + block};
-        if (!covers_lines(blocks.legend->grown(metrics_.text), list_)) return blocks;
-        // Beside or above the legend, wherever more is left.
-        const glm::vec2 left = frame.max - frame.min - block;
-        if (left.x > left.y) {
-            frame.min.x += block.x;
-        } else {
-            frame.max.y -= block.y;
-        }
-        draw_within(frame);
-        return blocks;
     }
 
     void draw_within(const Frame& within) {
