@@ -169,7 +169,7 @@ TEST(Overlays, FoldToTheirHeaders) {
 
 TEST(Overlays, WhatHasNoRoomIsFoldedAndSaysSo) {
     const FittedScene fitted = testing::hit_scene();
-    const DrawList list = build_draw_list(fitted, busy_view(), PictureSize{330, 220});
+    const DrawList list = build_draw_list(fitted, busy_view(), PictureSize{330, 150});
     expect_apart(list);
     const Overlay& legend = *overlay(list, Kind::legend);
     EXPECT_TRUE(legend.folded && legend.no_room);

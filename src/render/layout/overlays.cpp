@@ -68,6 +68,13 @@ std::vector<LegendEntry> shown_rows(std::span<const LegendEntry> all, std::size_
     return out;
 }
 
+/// Whether nothing of the headline is cut off.
+bool is_whole(const Caption& caption, const CaptionLines& lines) {
+    std::string shown;
+    for (const std::string& line : lines.headline) shown += (shown.empty() ? "" : " ") + line;
+    return std::ranges::find(caption.headlines, shown) != caption.headlines.end();
+}
+
 class OverlayLayout {
   public:
     OverlayLayout(DrawList& list, const OverlayContents& contents, const ViewState& view, const Metrics& metrics)
@@ -95,8 +102,10 @@ class OverlayLayout {
         const auto folded = [&](const std::string& title, glm::vec2 corner, float room, bool no_room, bool dot) {
             Place place;
             place.no_room = no_room;
-            const std::array<std::string, 2> words{no_room ? title + ": no room" : title, title};
-            const auto fits = [&](const std::string& text) { return spacing_.header_size(text, dot).x <= room; };
+            const auto fits = [&](const std::string& words) { return spacing_.header_size(words, dot).x <= room; };
+            const std::string short_one = fit_text(title, FontFace::text, spacing_.text, 0.6f * room);
+            const std::array<std::string, 2> words =
+                no_room ? std::array{title + ": no room", std::string("no room")} : std::array{title, short_one};
             const auto found = std::ranges::find_if(words, fits);
             if (found != words.end()) place.header = *found;
             place.rect = in_corner(area_, corner, spacing_.header_size(place.header, dot));
@@ -151,8 +160,10 @@ class OverlayLayout {
         const float beside_header = area_.size().x - (map_ ? map_->rect.size().x + spacing_.gap : 0);
         const bool both = map_ && !view_.fold_inset && beside_map >= 0.5f * area_.size().x;
         const float room = (both ? beside_map : beside_header) - 2 * spacing_.padding - spacing_.chevron;
-        const auto fits = [&](const Caption& caption, std::size_t most_headlines) {
-            caption_lines_ = caption_lines(caption, room, metrics_.scale, most_headlines);
+        const auto fits = [&](const Caption& caption) {
+            caption_lines_ = caption_lines(caption, room, metrics_.scale, 2);
+            // A sentence that breaks off before the outcome says nothing; a name that is cut still does.
+            if (caption.headlines.size() > 1 && !is_whole(caption, caption_lines_)) return false;
             const glm::vec2 text = caption_size(caption, caption_lines_, metrics_.scale);
             const glm::vec2 size = spacing_.around(text + glm::vec2(spacing_.chevron, 0));
             const Rect rect = in_corner(area_, {0, 0}, size);
@@ -160,15 +171,9 @@ class OverlayLayout {
             open(caption_, rect);
             return true;
         };
-        Caption fewer = contents_.caption;
-        if (fits(fewer, 2)) return;
-        fewer.detail.clear();
-        if (fits(fewer, 2)) return;
-        // A line that breaks off before the outcome says nothing.
-        const bool whole =
-            caption_lines(fewer, room, metrics_.scale, 1).headline == std::vector<std::string>{fewer.headlines.back()};
-        if (whole && fits(fewer, 1)) return;
-        caption_lines_ = {};
+        Caption without_detail = contents_.caption;
+        without_detail.detail.clear();
+        if (!fits(contents_.caption)) fits(without_detail);
     }
 
     void open_legend() {
