@@ -56,7 +56,7 @@ def main():
         "fit": {"tree": "mobb", "leaf": 20},
         "queries": [{"a": "A", "b": "B", "expect": {"collides": False}}],
         "view": {"camera": {"preset": "free", "yaw_deg": -95, "pitch_deg": 20}, "query": 0, "step": 1,
-                 "time_height": 2.2, "tested_before": False, "theme": "light"},
+                 "time_height": 2.2, "past": "pair", "theme": "light"},
     })
 
     # Fig. 4: B is so short that a leaf of it meets an inner node of A. B goes where the first child of that node was,
@@ -69,7 +69,7 @@ def main():
         "fit": {"tree": "mobb", "leaf": 20},
         "queries": [{"a": "A", "b": "B", "expect": {"collides": False}}],
         "view": {"camera": {"preset": "free", "yaw_deg": -60, "pitch_deg": 20}, "query": 0, "step": 15,
-                 "time_height": 1.8, "tested_before": False, "theme": "light"},
+                 "time_height": 1.8, "past": "pair", "theme": "light"},
     })
 
     # Fig. 6: a disk in a free box that leans along +x, so that the front view looks along its axis 1.

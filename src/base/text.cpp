@@ -136,6 +136,11 @@ std::string listed(std::span<const std::string_view> names) {
     return out;
 }
 
+std::string either(std::span<const std::string_view> names) {
+    if (names.size() < 2) return listed(names);
+    return listed(names.first(names.size() - 1)) + " or " + std::string(names.back());
+}
+
 std::string lower(std::string_view text) {
     std::string out(text);
     for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

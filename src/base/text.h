@@ -51,6 +51,8 @@ std::optional<Enum> enumerator_named(std::span<const std::string_view> names, st
 
 /// "mobb, umobb, hybrid1".
 std::string listed(std::span<const std::string_view> names);
+/// "pair, siblings or all".
+std::string either(std::span<const std::string_view> names);
 
 /// With small letters for the capitals of ASCII.
 std::string lower(std::string_view text);

@@ -1,11 +1,34 @@
 #include <explain/query_progress.h>
 #include <scene/view_state.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
+
+namespace {
+
+/// The events up to a step that are told of, in order; the step's own is always there. Not of Past::pair.
+std::vector<int> events_of_past(const mobb::Trace& trace, int step, Past past) {
+    const int parent = trace[step].parent;
+    std::vector<int> out;
+    // The two roots have no parent, and so no siblings.
+    const int first = past == Past::all || parent < 0 ? 0 : parent + 1;
+    for (int i = step; i >= first; --i) {
+        const bool sibling = past == Past::siblings && parent >= 0 && trace[i].parent == parent;
+        if (i == step || past == Past::all || sibling) out.push_back(i);
+    }
+    if (past != Past::all) {
+        for (int i = parent; i >= 0; i = trace[i].parent) out.push_back(i);
+    }
+    std::ranges::reverse(out);
+    return out;
+}
+
+}  // namespace
 
 int event_of(const Step& step, const mobb::Trace& trace) {
     const int last = trace.size() - 1;
@@ -25,12 +48,13 @@ int event_of(const Step& step, const mobb::Trace& trace) {
     return static_cast<int>(step.value);
 }
 
-QueryProgress progress_at(const mobb::Trace& trace, int step) {
+QueryProgress progress_at(const mobb::Trace& trace, int step, Past past) {
     QueryProgress out;
     out.step = step;
     out.event = trace[step];
+    if (past == Past::pair) return out;
     std::array<std::map<int, NodeProgress>, 2> known;
-    for (int i = 0; i <= step; ++i) {
+    for (const int i : events_of_past(trace, step, past)) {
         const mobb::Trace::Event event = trace[i];
         const std::array<int, 2> nodes{event.a, event.b};
         for (std::size_t side = 0; side < 2; ++side) {

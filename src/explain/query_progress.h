@@ -27,7 +27,7 @@ struct QueryProgress {
     std::array<std::vector<NodeProgress>, 2> nodes;  ///< of A and of B, by index, without those of the pair under test
 };
 
-/// 0 <= step < trace.size().
-QueryProgress progress_at(const mobb::Trace& trace, int step);
+/// 0 <= step < trace.size(). `past`: which of the tests before the step are told of.
+QueryProgress progress_at(const mobb::Trace& trace, int step, Past past);
 
 }  // namespace mobbscope

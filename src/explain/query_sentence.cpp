@@ -82,11 +82,14 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     return "the boxes overlap, " + what_next(sides, event);
 }
 
+std::string step_of(int step, const mobb::Trace& trace) {
+    return "step " + std::to_string(step) + " of 0.." + std::to_string(trace.size() - 1);
+}
+
 std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {
     const mobb::Trace::Event event = trace[step];
-    return "step " + std::to_string(step) + " / " + std::to_string(trace.size() - 1) + ": " +
-           node_name(sides[0], event.a) + " against " + node_name(sides[1], event.b) + ": " +
-           outcome_text(sides, event);
+    return step_of(step, trace) + ": " + node_name(sides[0], event.a) + " against " + node_name(sides[1], event.b) +
+           ": " + outcome_text(sides, event);
 }
 
 std::vector<std::string> step_sentences(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step) {

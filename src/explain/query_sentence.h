@@ -16,7 +16,10 @@ std::string node_name(const DrawnAgent& agent, int node);
 /// What a test found: "separated along B's long axis by 0.183 m".
 std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
-/// What a step shows: "step 14 / 61: A 2.1 against B 2.3: separated along B's long axis by 0.183 m".
+/// "step 14 of 0..61": where a step stands in a trace, in the same words everywhere.
+std::string step_of(int step, const mobb::Trace& trace);
+
+/// What a step shows: "step 14 of 0..61: A 2.1 against B 2.3: separated along B's long axis by 0.183 m".
 std::string step_sentence(std::span<const DrawnAgent> sides, const mobb::Trace& trace, int step);
 
 /// The same in fewer and fewer words, for pictures with less room; all tell the whole outcome. Never empty.

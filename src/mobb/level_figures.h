@@ -22,16 +22,17 @@ std::vector<LevelFigures> level_figures(const Tree& tree);
 
 /// One of the figures as a column: `fit`'s table and its JSON and the window's tree panel have them all, in this order.
 struct LevelColumn {
-    const char* key;   ///< of JSON, and at the head of a table
-    const char* unit;  ///< behind it; empty: a number without one
-    bool whole;        ///< counts something
-    std::optional<double> (*of)(const LevelFigures&);
+    const char* key;                                   ///< of JSON, and at the head of a table
+    const char* unit;                                  ///< behind it in a table; empty: a number without one
+    bool whole;                                        ///< counts something
+    std::optional<double> (*of)(const LevelFigures&);  ///< as JSON has it
+    double in_unit = 1;                                ///< `of` times this is what a table shows
 };
 inline constexpr std::array kLevelColumns{
     LevelColumn{"level", "", true, [](const LevelFigures& f) -> std::optional<double> { return f.level; }},
     LevelColumn{"nodes", "", true, [](const LevelFigures& f) -> std::optional<double> { return f.nodes; }},
     LevelColumn{"volume", "m^2*s", false, [](const LevelFigures& f) -> std::optional<double> { return f.volume; }},
-    LevelColumn{"tightness", "", false, [](const LevelFigures& f) { return f.tightness; }},
+    LevelColumn{"tightness", "%", false, [](const LevelFigures& f) { return f.tightness; }, 100},
 };
 
 /// Sum over the samples of pi*r^2*dt, m^2*s.

@@ -175,7 +175,7 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
 std::string level_text(const mobb::LevelColumn& column, const mobb::LevelFigures& figures) {
     const std::optional<double> value = column.of(figures);
     if (!value) return "-";
-    return column.whole ? std::to_string(static_cast<std::int64_t>(*value)) : brief(*value);
+    return column.whole ? std::to_string(static_cast<std::int64_t>(*value)) : brief(*value * column.in_unit);
 }
 
 void write_tree(JsonWriter& out, const std::string& clip, const mobb::Tree& tree) {

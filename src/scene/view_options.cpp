@@ -117,13 +117,13 @@ template <auto member, auto find>
 ViewOption choice(ViewOption row) {
     row.read = [names = row.choices, refused = row.refused_in_file](const JsonPlace& place, ViewState& view) {
         const auto value = find(place.string());
-        if (!value) place.fail(refusal_of(refused, place.string()) + "; give " + names[0] + " or " + names[1]);
+        if (!value) place.fail(refusal_of(refused, place.string()) + "; give " + either(names));
         view.*member = *value;
     };
     row.write = [](JsonWriter& out, const ViewState& view) { out.value(name(view.*member)); };
     row.parse = [names = row.choices](const std::string& text, ViewState& view) {
         const auto value = find(text);
-        if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + names[0] + ", " + names[1]);
+        if (!value) throw std::invalid_argument(in_quotes(text) + " is not one of " + listed(names));
         view.*member = *value;
     };
     row.text = [](const ViewState& view) { return std::string(name(view.*member)); };
@@ -325,16 +325,26 @@ std::vector<ViewOption> all_view_options() {
              .choices = {"dark", "light"},
              .refused_in_file = "{} is no theme",
              .refused_in_window = "a theme cannot be {}"}),
-        toggle<&ViewState::tested_before>(
-            {.key = "tested_before",
+        choice<&ViewState::past, past_from_name>(
+            {.key = "past",
              .schema =
-                 R"({"description": "With a query: the boxes of pairs tested before the step's too", "type": "boolean"})",
-             .option = "--tested-before,!--pair-only",
-             .help = "With a query: the pairs before the step's, or it alone",
-             .command = "view.tested_before",
-             .title = "Pairs tested before",
+                 R"({"description": "With a query, what is drawn beside the pair under test: nothing, the pairs that called it, those that its parent called before it too, or every pair tested before", "enum": ["pair", "ancestors", "siblings", "all"]})",
+             .option = "--past",
+             .placeholder = "WHICH",
+             .help =
+                 "With a query, the pairs before the step's: pair (none), ancestors, siblings (and ancestors) or all",
+             .short_form = {"--pair-only", "pair"},
+             .former_toggle = {"tested_before", "all", "pair"},
+             .command = "view.past",
+             .title = "Past tests",
              .menu = "View/Show",
-             .doc = "Shows with a query the boxes of the pairs that were tested before the step's too."}),
+             .doc =
+                 "Shows beside the pair under test the pairs that called it (ancestors), those that its parent called "
+                 "before it too (siblings), all that were tested before, or none (pair).",
+             .argument = "[pair|ancestors|siblings|all]",
+             .choices = {"pair", "ancestors", "siblings", "all"},
+             .refused_in_file = "{} are no past tests",
+             .refused_in_window = "past tests cannot be {}"}),
         toggle<&ViewState::candidates>(
             {.key = "candidates",
              .schema =
@@ -402,6 +412,35 @@ std::vector<ViewOption> all_view_options() {
                                     .menu = "View/Show",
                                     .shortcut = "K",
                                     .doc = "Shows what colours and lines stand for."}),
+        toggle<&ViewState::fold_caption>({.key = "fold_caption",
+                                          .option = "--fold-caption,!--unfold-caption",
+                                          .help = "The caption as one short line",
+                                          .command = "view.fold_caption",
+                                          .title = "Fold the caption",
+                                          .menu = "View/Overlays",
+                                          .doc = "Folds the sentences at the top to one short line, or unfolds them."}),
+        toggle<&ViewState::fold_legend>({.key = "fold_legend",
+                                         .option = "--fold-legend,!--unfold-legend",
+                                         .help = "The legend as its header alone",
+                                         .command = "view.fold_legend",
+                                         .title = "Fold the legend",
+                                         .menu = "View/Overlays",
+                                         .doc = "Folds the legend to its header, or unfolds it."}),
+        toggle<&ViewState::fold_inset>(
+            {.key = "fold_inset",
+             .option = "--fold-inset,!--unfold-inset",
+             .help = "The floor inset as its header alone",
+             .command = "view.fold_inset",
+             .title = "Fold the floor inset",
+             .menu = "View/Overlays",
+             .doc = "Folds the small picture of the floor in the corner to its header, or unfolds it."}),
+        toggle<&ViewState::whole_legend>({.key = "whole_legend",
+                                          .option = "--whole-legend,!--short-legend",
+                                          .help = "All rows of the legend, or six",
+                                          .command = "view.whole_legend",
+                                          .title = "Whole legend",
+                                          .menu = "View/Overlays",
+                                          .doc = "Shows all rows of the legend, not only the first six."}),
     };
 }
 
@@ -428,10 +467,19 @@ std::string refusal_of(std::string_view refused, std::string_view text) {
 
 ViewState read_view(const JsonPlace& place, ViewState view) {
     std::vector<std::string_view> keys;
-    for (const ViewOption& option : view_options()) keys.push_back(option.key);
+    for (const ViewOption& option : view_options()) {
+        keys.push_back(option.key);
+        if (!option.former_toggle.key.empty()) keys.push_back(option.former_toggle.key);
+    }
     place.allow_only(keys);
     for (const ViewOption& option : view_options()) {
-        if (const auto value = place.find(option.key)) option.read(*value, view);
+        const auto value = place.find(option.key);
+        if (value) option.read(*value, view);
+        const FormerToggle& former = option.former_toggle;
+        const auto old = former.key.empty() ? std::nullopt : place.find(former.key);
+        if (!old) continue;
+        if (value) old->fail("says the same as " + in_quotes(option.key) + " in an older way; leave it out");
+        option.parse(std::string(old->boolean() ? former.on : former.off), view);
     }
     return view;
 }

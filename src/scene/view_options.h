@@ -5,7 +5,7 @@
 ///     {"show": "space-time", "camera": {"preset": "iso", "yaw_deg": 45, "pitch_deg": 25, "perspective": true,
 ///     "fov_deg": 12,
 ///                 "target": [0, 0, 1], "distance": 12, "shift": [0, 0.1]},
-///      "levels": "1:3", "query": 0, "step": "40%", "tested_before": true,
+///      "levels": "1:3", "query": 0, "step": "40%", "past": "ancestors",
 ///      "projection": {"participant": 0, "node": 0, "sample": 3}, "time": 1.5, "time_height": 2,
 ///      "color_by": "agent", "theme": "dark",
 ///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true}
@@ -25,6 +25,19 @@
 
 namespace mobbscope {
 
+/// How a choice was written when it was a toggle: files that have it are still read.
+struct FormerToggle {
+    std::string_view key{};  ///< of the view's JSON; empty: it never was one
+    std::string_view on{};   ///< what true means
+    std::string_view off{};  ///< what false means
+};
+
+/// An option of `render` that is short for another one with a value.
+struct ShortForm {
+    std::string_view option{};  ///< "--pair-only"; empty: there is none
+    std::string_view value{};
+};
+
 struct ViewOption {
     std::string_view key;       ///< of the view's JSON: ViewState's name for it
     std::string_view schema{};  ///< JSON Schema of its value
@@ -33,8 +46,12 @@ struct ViewOption {
     std::string_view option{};  ///< "--theme"; of a toggle "--floor,!--no-floor"
     std::string_view placeholder{};
     std::string_view help{};
+    ShortForm short_form{};
 
-    // In the window: a toggle, or a choice, has a command; those of the menu "View/Show" stand in it by themselves.
+    FormerToggle former_toggle{};
+
+    // In the window: a toggle, or a choice, has a command; those of the menus "View/Show" and
+    // "View/Overlays" stand in them by themselves.
     std::string_view command{};  ///< its id: "view.floor"; empty: none is made from the row
     std::string_view title{};
     std::string_view menu{};
@@ -43,7 +60,7 @@ struct ViewOption {
     std::string_view argument{};  ///< of a choice, as Command has it: "[dark|light]"
 
     // Of a choice: its names, and what is said of another one ({}) in a file and in the window.
-    std::vector<std::string> choices{};
+    std::vector<std::string_view> choices{};
     std::string_view refused_in_file{};
     std::string_view refused_in_window{};
 

@@ -22,6 +22,14 @@ enum class ColorBy { agent, level };
 /// cylinders.
 enum class Show { space_time, moment };
 
+/// With a query, which tests before the present one are drawn too.
+enum class Past {
+    pair,       ///< none: the pair under test alone
+    ancestors,  ///< the pairs that called it, up to the roots
+    siblings,   ///< ... and those that its parent called before it
+    all,        ///< every pair tested before
+};
+
 /// One disk and how far it reaches along the axes of a box around it (the paper's Fig. 6).
 struct DiskProjection {
     int agent = 0;   ///< index into what is drawn
@@ -82,9 +90,9 @@ struct ViewState {
     LevelRange levels;
     std::optional<int> query;  ///< index into the effective queries: its state at `step` is drawn instead of the levels
     Step step;
-    /// With a query: boxes of the pairs that were tested before the step's too. Without them the pair's own say by
-    /// colour and line how its test ended, and the time axis when its nodes take place.
-    bool tested_before = true;
+    /// With a query. Where the pair stands alone its boxes say by colour and line how its test ended, and the time axis
+    /// when its nodes take place.
+    Past past = Past::ancestors;
     std::optional<DiskProjection> projection;  ///< drawn instead of all else
     std::optional<double> time;  ///< global seconds: the time cursor, drawn as a plane with the disks that hold then
     /// Seconds before and after `time` that space-time shows of a crowd's run (kLeastTimeWindow..kMostTimeWindow).
@@ -102,6 +110,11 @@ struct ViewState {
     bool labels = true;     ///< all text
     bool caption = true;    ///< the sentences at the top; where a title says it they are not needed
     bool legend = true;
+    // Overlays fold to a header in their corner; where the picture has no room they do so by themselves.
+    bool fold_caption = false;
+    bool fold_legend = false;
+    bool fold_inset = false;    ///< the small map of the floor
+    bool whole_legend = false;  ///< all its rows, not the first six
     friend bool operator==(const ViewState&, const ViewState&) = default;
 };
 
@@ -117,6 +130,8 @@ std::string_view name(Theme theme);
 std::optional<Theme> theme_from_name(std::string_view name);
 std::string_view name(ColorBy color_by);
 std::optional<ColorBy> color_by_from_name(std::string_view name);
+std::string_view name(Past past);
+std::optional<Past> past_from_name(std::string_view name);
 /// "space-time" and "moment".
 std::string_view name(Show show);
 std::optional<Show> show_from_name(std::string_view name);

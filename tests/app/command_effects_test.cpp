@@ -282,8 +282,9 @@ std::vector<Case> cases() {
     for (const ViewOption& option : view_options()) {
         if (!option.toggle || !option.command.starts_with("view.")) continue;
         look(std::string(option.command), "", [&option](CommandWorld& w) {
-            EXPECT_FALSE(w.view().*option.toggle) << option.key;
-            EXPECT_FALSE(find_command(option.command)->checked(w.session));
+            const bool now = !(ViewState{}.*option.toggle);
+            EXPECT_EQ(w.view().*option.toggle, now) << option.key;
+            EXPECT_EQ(find_command(option.command)->checked(w.session), now);
         });
     }
     add({"view.projection", "", {{"go.sample", "A 7"}}, [](CommandWorld& w) {
@@ -321,6 +322,14 @@ std::vector<Case> cases() {
     look("view.time_height", "2.5", [](CommandWorld& w) { EXPECT_EQ(w.view().time_height, 2.5); });
     add({"view.time_height", "auto", {{"view.time_height", "3"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().time_height, 0);
+         }});
+    look("view.past", "", [](CommandWorld& w) { EXPECT_EQ(w.view().past, Past::siblings) << "from ancestors on"; });
+    look("view.past", "pair", [](CommandWorld& w) { EXPECT_EQ(w.view().past, Past::pair); });
+    add({"view.past", "", {{"view.past", "all"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().past, Past::pair) << "the first follows the last";
+         }});
+    add({"view.fold_legend", "", {{"view.fold_legend", ""}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.view().fold_legend);
          }});
     look("view.theme", "", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::light); });
     look("view.theme", "dark", [](CommandWorld& w) { EXPECT_EQ(w.view().theme, Theme::dark); });

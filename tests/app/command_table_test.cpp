@@ -111,6 +111,7 @@ TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
         {"tree.leaf", "0", "the samples of a leaf cannot be '0': give a whole number from 1 to 2147483647"},
         {"view.zoom", "0", "the factor cannot be '0': give a number from 0.001 to 1000"},
         {"view.theme", "blue", "a theme cannot be 'blue': give dark or light"},
+        {"view.past", "none", "past tests cannot be 'none': give pair, ancestors, siblings or all"},
         {"query.select", "3", "the query cannot be '3': give a whole number from 0 to 2"},
         {"query.add", "A", "an agent is not asked against itself"},
         {"go.node", "A", "the node cannot be 'A': give a name and a number, such as A 12"},

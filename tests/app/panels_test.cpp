@@ -101,6 +101,54 @@ TEST(Panels, KeysDoNothingToWhatIsBeingDragged) {
     EXPECT_EQ(w.session.scene().agents.size(), 4u);
 }
 
+/// A click on the panel itself folds it; neither the camera nor the selection notices.
+TEST(Panels, OverlaysFoldByAClick) {
+    Window w;
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "time.at", "1");
+    run_command(w.session, "view.past", "all");
+    run_command(w.session, "go.agent", "A");
+    w.window.settle();
+    const Camera camera = w.session.view().camera;
+    const auto overlay = [&](Overlay::Kind kind) {
+        const auto& all = w.window.shell().shown()->overlays;
+        return *std::ranges::find(all, kind, &Overlay::kind);
+    };
+    const std::vector<std::pair<std::string, Overlay::Kind>> panels{{"overlay.caption", Overlay::Kind::caption},
+                                                                    {"overlay.legend", Overlay::Kind::legend},
+                                                                    {"overlay.inset", Overlay::Kind::inset}};
+    for (const auto& [mark, kind] : panels) {
+        EXPECT_FALSE(overlay(kind).folded) << mark;
+        w.click(mark);
+        EXPECT_TRUE(overlay(kind).folded) << mark;
+    }
+    EXPECT_TRUE(w.session.view().fold_caption && w.session.view().fold_legend && w.session.view().fold_inset);
+    for (const auto& [mark, kind] : panels) {
+        w.click(mark);
+        EXPECT_FALSE(overlay(kind).folded) << mark;
+    }
+    const float before = overlay(Overlay::Kind::legend).rect.size().y;
+    w.click("overlay.legend.more");
+    EXPECT_TRUE(w.session.view().whole_legend);
+    EXPECT_GT(overlay(Overlay::Kind::legend).rect.size().y, before);
+    w.click("overlay.legend.more");
+    EXPECT_EQ(overlay(Overlay::Kind::legend).rect.size().y, before);
+    EXPECT_EQ(w.session.view().camera, camera);
+    EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::path, {0, -1, 0}, -1}));
+
+    // What lies behind a panel is neither pointed at nor selected through it.
+    const Rect legend = overlay(Overlay::Kind::legend).rect;
+    const glm::vec2 at = w.window.shell().marks().all().at("viewport").min + legend.center();
+    w.window.shell().feed(MouseMove{at});
+    w.window.settle();
+    EXPECT_EQ(w.session.hovered, Selection{});
+    w.window.shell().feed(MouseButton{0, true});
+    w.window.shell().feed(MouseButton{0, false});
+    w.window.settle();
+    EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::path, {0, -1, 0}, -1}));
+    EXPECT_FALSE(w.session.view().fold_legend) << "only its chevron folds it";
+}
+
 TEST(Panels, AMomentIsWalkedThroughAndHasNoHandles) {
     Window w;
     run_command(w.session, "go.agent", "A");

@@ -84,7 +84,7 @@ TEST(Fit, JsonIsTheTree) {
 
 TEST(Fit, TheTableHasTheColumnsOfALevel) {
     const Result run = run_program({"fit", kFitScenes + "crossing.json"});
-    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s   tightness\n"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s   tightness %\n"), std::string::npos) << run.out;
     const FittedScene fitted(load_scene(kFitScenes + "crossing.json"), {});
     std::istringstream lines(run.out);
     std::string line;
@@ -95,7 +95,7 @@ TEST(Fit, TheTableHasTheColumnsOfALevel) {
         root >> shown;
         EXPECT_EQ(shown, level_text(column, mobb::level_figures(fitted.tree(0)).front())) << column.key;
     }
-    EXPECT_EQ(line.size(), std::string("  level   nodes   volume m^2*s   tightness").size());
+    EXPECT_EQ(line.size(), std::string("  level   nodes   volume m^2*s   tightness %").size());
 }
 
 TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
@@ -105,8 +105,8 @@ TEST(Fit, ColumnsStayApartWhereNumbersAreWiderThanHeadings) {
         "thin.json", R"({"clips": {"thin": {"dt": 1, "samples": [[0, 0, 1e-60], [3, 1, 1e-60], [4, 9, 1e-60]]}}})");
     const Result run = run_program({"fit", file.string(), "--leaf", "3"});
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s      tightness\n"
-                           "      0       1             69   1.36591e-121\n"),
+    EXPECT_NE(run.out.find("\n  level   nodes   volume m^2*s    tightness %\n"
+                           "      0       1             69   1.36591e-119\n"),
               std::string::npos)
         << run.out;
 }

@@ -137,10 +137,14 @@ TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     for (const char* off : {"--no-labels", "--no-floor", "--no-time-axis", "--no-boxes", "--no-disks", "--pair-only"}) {
         EXPECT_NE(picture({kCrossing, "--query", "0", "--step", "40%", off}).rgba, all.rgba) << off;
     }
+    const Image pair = picture({kCrossing, "--query", "0", "--step", "40%", "--past", "pair"});
+    EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", "--pair-only"}).rgba, pair.rgba);
+    EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", "--past", "ancestors"}).rgba, all.rgba);
+    EXPECT_NE(picture({kCrossing, "--query", "0", "--step", "40%", "--past", "all"}).rgba, all.rgba);
     EXPECT_NE(picture({kCrossing, "--no-legend"}).rgba, picture({kCrossing}).rgba);
     for (const ViewOption& option : view_options()) {
         if (!option.toggle || option.option.empty()) continue;
-        const std::string on(option.option.substr(0, option.option.find(',')));
+        const std::string on = in_command_line(option, ViewState{}).substr(1);
         EXPECT_EQ(picture({kCrossing, "--query", "0", "--step", "40%", on}).rgba, all.rgba) << on;
     }
 }

@@ -240,7 +240,7 @@ bool has_caption_on_a_panel(const DrawList& list) {
     return std::any_of(list.panels.begin(), list.panels.end(), holds);
 }
 
-TEST_F(CrowdPicture, TheCaptionHasAPanel) {
+TEST_F(CrowdPicture, TheCaptionStandsOnAPanel) {
     Scene pair = run.scene();
     pair.crowd = nullptr;
     pair.agents = {{"a", 0, {}, std::nullopt}, {"b", 1, {{3, 0}, 0, 0}, std::nullopt}};

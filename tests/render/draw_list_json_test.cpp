@@ -52,7 +52,7 @@ TEST(DrawListJson, SaysAllThatIsDrawn) {
     const json value = json::parse(text_of(list));
     EXPECT_EQ(testing::keys(value),
               (std::set<std::string>{"size", "background", "participants", "camera", "disks", "boxes", "lines",
-                                     "headline", "legend", "panels", "overlay_lines", "marks", "texts"}));
+                                     "headline", "legend", "overlays", "panels", "overlay_lines", "marks", "texts"}));
     EXPECT_EQ(value["size"], json({640, 360}));
     EXPECT_EQ(value["background"], "#14181DFF");
     EXPECT_EQ(value["participants"], json({"A", "B"}));

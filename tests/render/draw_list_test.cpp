@@ -202,6 +202,7 @@ TEST(DrawList, ACursorOutsideIsSaidAndNotExplained) {
 TEST(DrawList, LegendDashesGrowWithTheText) {
     ViewState view;
     view.query = 0;
+    view.past = Past::all;
     const auto longest_dash = [&](PictureSize size) {
         float longest = 0;
         for (const OverlayLine& line : build_draw_list(testing::hit_scene(), view, size).overlay_lines)
@@ -281,6 +282,36 @@ TEST(DrawList, OddScenesAreDrawn) {
             EXPECT_EQ(list.disks.size(), static_cast<std::size_t>(count));
             const glm::vec2 at = list.projection.project(list.disks[0].base).value();
             EXPECT_TRUE(at.x >= 0 && at.x <= 640 && at.y >= 0 && at.y <= 360) << at.x << ' ' << at.y;
+        }
+    }
+}
+
+/// Also where colours say whose boxes they are.
+TEST(DrawList, ARangeOfLevelsIsToldApart) {
+    const FittedScene fitted = testing::miss_scene();
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        ViewState view;
+        view.theme = theme;
+        view.levels = {0, 4, false};
+        const DrawList list = build_draw_list(fitted, view, PictureSize{1280, 720});
+        const auto apart = [](Rgba a, Rgba b) { return glm::length(glm::vec3(a) - glm::vec3(b)); };
+        for (const int agent : {0, 1}) {
+            std::map<int, Rgba> colors;
+            for (const BoxInstance& box : list.boxes) {
+                if (box.id.agent == agent) colors[box.order.level] = box.edge;
+            }
+            ASSERT_EQ(colors.size(), 5u);
+            for (int level = 1; level < 5; ++level) EXPECT_GT(apart(colors[level - 1], colors[level]), 0.1f) << level;
+            for (const auto& [level, color] : colors) EXPECT_GT(contrast(color, list.palette.background), 1.5f);
+        }
+        std::vector<LegendEntry> swatches;
+        for (const LegendEntry& entry : list.legend) {
+            if (entry.text.starts_with("level")) swatches.push_back(entry);
+        }
+        ASSERT_EQ(swatches.size(), 5u);
+        for (std::size_t i = 1; i < 5; ++i) {
+            EXPECT_GT(apart(swatches[i - 1].color, swatches[i].color), 0.1f) << i;
+            EXPECT_EQ(swatches[i].fill.a, swatches[0].fill.a);
         }
     }
 }

@@ -1,4 +1,3 @@
-#include <render/layout/block_layout.h>
 #include <render/text/labels.h>
 
 #include <gtest/gtest.h>
@@ -37,26 +36,6 @@ TEST(LabelLayout, ReservedPlacesStayFree) {
     DrawList list;
     EXPECT_FALSE(layout.place(label_at("x", {100, 60}), list));
     EXPECT_TRUE(list.texts.empty());
-}
-
-TEST(Blocks, NeverOverlap) {
-    const std::vector<Rect> crowded{{{0, 0}, {200, 120}}};
-    for (const float wide : {40.0f, 90.0f, 150.0f}) {
-        const Blocks blocks = place_blocks({{0, 0}, {200, 120}}, {wide, 70}, {100, 80}, crowded);
-        ASSERT_TRUE(blocks.legend);
-        EXPECT_TRUE(blocks.covers);
-        EXPECT_EQ(blocks.map.has_value(), wide < 98) << wide;
-        EXPECT_FALSE(blocks.map && blocks.map->overlaps(*blocks.legend));
-    }
-}
-
-TEST(Blocks, TakeTheEmptyCorner) {
-    const std::vector<Rect> busy{{{0, 60}, {200, 120}}, {{0, 0}, {90, 60}}};
-    const Blocks blocks = place_blocks({{0, 0}, {200, 120}}, {60, 40}, {0, 0}, busy);
-    ASSERT_TRUE(blocks.legend);
-    EXPECT_FALSE(blocks.map);
-    EXPECT_FALSE(blocks.covers);
-    EXPECT_EQ(blocks.legend->min, glm::vec2(140, 0));
 }
 
 }  // namespace

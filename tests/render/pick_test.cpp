@@ -62,7 +62,11 @@ Agreement compare(const DrawList& list, const IdImage& drawn) {
             const std::vector<Pick> picks = pick(list, middle_of_pixel(x, y));
             ++out.pixels;
             out.shown += expected ? 1 : 0;
-            if (agrees(picks, expected)) continue;
+            // A face that is seen edge-on may run through the middles of a row: rounding takes either side of it.
+            const auto agrees_near = [&](float aside) {
+                return agrees(pick(list, middle_of_pixel(x, y) + glm::vec2(0, aside)), expected);
+            };
+            if (agrees(picks, expected) || agrees_near(-0.02f) || agrees_near(0.02f)) continue;
             ++out.differing;
             out.example = "(" + std::to_string(x) + ", " + std::to_string(y) + "): drawn " + describe(expected) +
                           ", picked " + describe(picks.empty() ? std::nullopt : std::optional(picks.front().id));

@@ -11,6 +11,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -52,7 +56,7 @@ TEST(QueryProgress, StepsAreEventsPercentagesOrTheEnd) {
 TEST(QueryProgress, OnlyTestedNodesAreKnown) {
     const Query query(testing::hit_scene());
     for (int step = 0; step < query.recorded.trace.size(); ++step) {
-        const QueryProgress progress = progress_at(query.recorded.trace, step);
+        const QueryProgress progress = progress_at(query.recorded.trace, step, Past::all);
         for (const NodeProgress& node : progress.nodes[0]) {
             EXPECT_NE(node.node, progress.event.a);
             bool tested = false;
@@ -62,9 +66,67 @@ TEST(QueryProgress, OnlyTestedNodesAreKnown) {
     }
 }
 
+/// Which nodes of A and B each kind of past tells of, worked out from the trace by itself.
+TEST(QueryProgress, ThePastIsThePairTheAncestorsTheSiblingsOrAll) {
+    const Query query(testing::hit_scene());
+    const mobb::Trace& trace = query.recorded.trace;
+    bool siblings_differ = false;
+    bool all_differ = false;
+    for (int step = 0; step < trace.size(); ++step) {
+        std::set<std::pair<std::size_t, int>> chain;
+        for (int i = trace[step].parent; i >= 0; i = trace[i].parent) chain.insert({{0, trace[i].a}, {1, trace[i].b}});
+        auto siblings = chain;
+        std::set<std::pair<std::size_t, int>> all;
+        for (int i = 0; i <= step; ++i) {
+            all.insert({{0, trace[i].a}, {1, trace[i].b}});
+            if (trace[step].parent >= 0 && trace[i].parent == trace[step].parent) {
+                siblings.insert({{0, trace[i].a}, {1, trace[i].b}});
+            }
+        }
+        const auto told = [&](Past past) {
+            std::set<std::pair<std::size_t, int>> out;
+            const QueryProgress progress = progress_at(trace, step, past);
+            for (const std::size_t side : {0u, 1u}) {
+                for (const NodeProgress& node : progress.nodes[side]) out.emplace(side, node.node);
+            }
+            return out;
+        };
+        // The pair under test itself is not of the past.
+        for (auto* wanted : {&chain, &siblings, &all}) {
+            wanted->erase({0, trace[step].a});
+            wanted->erase({1, trace[step].b});
+        }
+        EXPECT_TRUE(told(Past::pair).empty());
+        EXPECT_EQ(told(Past::ancestors), chain) << step;
+        EXPECT_EQ(told(Past::siblings), siblings) << step;
+        EXPECT_EQ(told(Past::all), all) << step;
+        const QueryProgress callers = progress_at(trace, step, Past::ancestors);
+        for (const NodeProgress& node : callers.nodes[0]) EXPECT_TRUE(node.open);
+        siblings_differ = siblings_differ || siblings != chain;
+        all_differ = all_differ || all != siblings;
+    }
+    EXPECT_TRUE(siblings_differ && all_differ);
+}
+
+TEST(QueryPicture, ThePastIsDrawnAsAskedFor) {
+    Query query(testing::hit_scene());
+    const int step = query.recorded.trace.size() - 1;
+    std::vector<std::size_t> drawn;
+    for (const Past past : {Past::pair, Past::ancestors, Past::siblings, Past::all}) {
+        query.view.past = past;
+        const QueryProgress progress = progress_at(query.recorded.trace, step, past);
+        std::size_t boxes = 0;
+        for (const BoxInstance& box : query.at(step).boxes) boxes += box.pickable ? 1u : 0u;
+        EXPECT_EQ(boxes, 2 + progress.nodes[0].size() + progress.nodes[1].size());
+        drawn.push_back(boxes);
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(drawn));
+    EXPECT_LT(drawn[1], drawn[3]);
+}
+
 TEST(QueryProgress, AHitSettlesThePairsAboveIt) {
     const Query query(testing::hit_scene());
-    const QueryProgress progress = progress_at(query.recorded.trace, query.recorded.trace.size() - 1);
+    const QueryProgress progress = progress_at(query.recorded.trace, query.recorded.trace.size() - 1, Past::all);
     ASSERT_EQ(progress.event.outcome, mobb::Outcome::hit);
     const auto root = std::find_if(progress.nodes[0].begin(), progress.nodes[0].end(),
                                    [](const NodeProgress& n) { return n.node == 0; });
@@ -91,7 +153,7 @@ TEST(QueryPicture, ThePairUnderTestIsFilled) {
 
 TEST(QueryPicture, ThePairAloneSaysHowItsTestEnded) {
     Query query(testing::miss_scene());
-    query.view.tested_before = false;
+    query.view.past = Past::pair;
     for (int step = 0; step < query.recorded.trace.size(); ++step) {
         const DrawList list = query.at(step, {1280, 720});
         const mobb::Trace::Event event = query.recorded.trace[step];
@@ -120,7 +182,7 @@ TEST(QueryPicture, ThePairAloneHasItsTimesMarkedOnTheAxis) {
         return out;
     };
     EXPECT_TRUE(bars(last).empty()) << "with other pairs in the picture the axis stays as it is";
-    query.view.tested_before = false;
+    query.view.past = Past::pair;
     for (int step = 0; step <= last; ++step) {
         const mobb::Trace::Event event = query.recorded.trace[step];
         const std::vector<LineInstance> lines = bars(step);
@@ -187,6 +249,7 @@ TEST(QueryPicture, HitAndCursorRingsDifferAndAreExplained) {
 
 TEST(QueryPicture, EarlierPairsAreSeenInBothThemes) {
     Query query(testing::miss_scene());
+    query.view.past = Past::all;
     for (const Theme theme : {Theme::dark, Theme::light}) {
         query.view.theme = theme;
         for (int step = 0; step < query.recorded.trace.size(); ++step) {
@@ -266,7 +329,7 @@ TEST(QuerySentence, SaysWhatAStepShows) {
     ASSERT_GE(step, 0);
     const std::string sentence = step_sentence(query.sides, query.recorded.trace, step);
     const std::string start =
-        "step " + std::to_string(step) + " / " + std::to_string(query.recorded.trace.size() - 1) + ": A ";
+        "step " + std::to_string(step) + " of 0.." + std::to_string(query.recorded.trace.size() - 1) + ": A ";
     EXPECT_TRUE(sentence.starts_with(start)) << sentence;
     EXPECT_NE(sentence.find(" against B "), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("separated along "), std::string::npos) << sentence;

@@ -99,7 +99,7 @@ TEST(Font, AMissingGlyphIsAHollowBox) {
 
 TEST(GlyphAtlas, EveryGlyphLiesInItAndHasInk) {
     TextRun run;
-    run.text = "step 14 / 61: A 2.1";
+    run.text = "step 14 of 0..61: A 2.1";
     run.baseline = {10.3f, 20};
     const std::vector<TextRun> runs{run};
     GlyphCache cache;

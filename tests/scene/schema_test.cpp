@@ -96,6 +96,11 @@ TEST(Schema, OfAViewIsTheTableOfItsOptions) {
     for (const ViewOption& option : view_options()) {
         made += (made.empty() ? "" : ",\n") + ("        \"" + std::string(option.key)) +
                 "\": " + std::string(option.schema);
+        const FormerToggle& former = option.former_toggle;
+        if (former.key.empty()) continue;
+        made += ",\n        \"" + std::string(former.key) + R"(": {"description": "Before there was `)" +
+                std::string(option.key) + "`: true is " + std::string(former.on) + ", false is " +
+                std::string(former.off) + R"(", "deprecated": true, "type": "boolean"})";
     }
     const std::filesystem::path file = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/scene.schema.json";
     std::string text = testing::slurp(file);
@@ -191,7 +196,7 @@ TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
           "target": [0, 0, 0], "distance": 1, "shift": [0, 0.1]}, "levels": 1, "query": 0, "step": 0, "time": 0, "time_height": 1, "color_by": "level", "theme": "light"}})",
                               "s.json", folder.path());
     for (const ViewOption& option : view_options()) {
-        if (option.toggle) scene.view.*option.toggle = false;
+        if (option.toggle) scene.view.*option.toggle = !(scene.view.*option.toggle);
     }
     std::set<std::string> keys;
     collect_properties(schema(), keys);

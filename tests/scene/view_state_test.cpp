@@ -1,8 +1,13 @@
+#include <scene/scene.h>
+#include <scene/view_options.h>
 #include <scene/view_state.h>
+#include <support/input_error.h>
 
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 namespace mobbscope {
 namespace {
@@ -37,6 +42,34 @@ TEST(ViewState, NamesAreTheirOwnInverse) {
     EXPECT_EQ(color_by_from_name(name(ColorBy::level)), ColorBy::level);
     EXPECT_FALSE(color_by_from_name("node"));
     EXPECT_FALSE(theme_from_name(""));
+    for (const Past past : {Past::pair, Past::ancestors, Past::siblings, Past::all}) {
+        EXPECT_EQ(past_from_name(name(past)), past);
+    }
+}
+
+ViewState view_in(const std::string& json) {
+    return parse_scene(R"({"clips": {"c": {"dt": 1, "samples": [[0, 0, 1]]}}, "view": )" + json + "}", "s.json", "")
+        .view;
+}
+
+/// How the past was written before there was a choice.
+TEST(ViewState, FilesThatSayTestedBeforeAreStillRead) {
+    EXPECT_EQ(view_in("{}").past, Past::ancestors);
+    EXPECT_EQ(view_in(R"({"tested_before": true})").past, Past::all);
+    EXPECT_EQ(view_in(R"({"tested_before": false})").past, Past::pair);
+    EXPECT_EQ(view_in(R"({"past": "siblings"})").past, Past::siblings);
+    const std::string both = testing::input_error([] { view_in(R"({"past": "pair", "tested_before": true})"); });
+    EXPECT_NE(both.find("/view/tested_before: says the same as 'past' in an older way; leave it out"),
+              std::string::npos)
+        << both;
+    const std::string other = testing::input_error([] { view_in(R"({"past": "some"})"); });
+    EXPECT_NE(other.find("give pair, ancestors, siblings or all"), std::string::npos) << other;
+    EXPECT_NE(testing::input_error([] { view_in(R"({"tested_before": "yes"})"); }), "");
+    std::ostringstream out;
+    JsonWriter writer(out);
+    write_view(writer, view_in(R"({"tested_before": true})"));
+    EXPECT_NE(out.str().find(R"("past": "all")"), std::string::npos) << out.str();
+    EXPECT_EQ(out.str().find("tested_before"), std::string::npos);
 }
 
 }  // namespace

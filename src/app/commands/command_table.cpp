@@ -90,18 +90,19 @@ Command option_command(const ViewOption& option) {
         return {option.command, option.title, option.doc, flip, traits};
     }
     const auto choose = [&option](Session& session, const std::string& text) {
-        const std::vector<std::string>& all = option.choices;
+        const std::vector<std::string_view>& all = option.choices;
         // Without an argument the next one.
         const auto now = std::ranges::find(all, option.text(session.view()));
-        const std::string& wanted = text.empty() ? (now + 1 == all.end() ? all.front() : *(now + 1)) : text;
+        const std::string wanted(text.empty() ? (now + 1 == all.end() ? all.front() : *(now + 1)) : text);
         if (std::ranges::find(all, wanted) == all.end()) {
-            throw std::invalid_argument(refusal_of(option.refused_in_window, wanted) + ": give " + all[0] + " or " +
-                                        all[1]);
+            throw std::invalid_argument(refusal_of(option.refused_in_window, wanted) + ": give " + either(all));
         }
         session.change_view([&](ViewState& view) { option.parse(wanted, view); });
     };
     traits.argument = option.argument;
-    traits.choices = [&option](const Session&) { return option.choices; };
+    traits.choices = [&option](const Session&) {
+        return std::vector<std::string>(option.choices.begin(), option.choices.end());
+    };
     traits.chosen = [&option](const Session& session, const std::string& text) {
         return option.text(session.view()) == text;
     };

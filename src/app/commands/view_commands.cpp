@@ -355,11 +355,11 @@ std::vector<Command> picture_commands() {
     return in_menu("View", rows);
 }
 
-/// The toggles, made from their rows in scene/view_options.cpp.
+/// What is drawn and what folds, made from the rows in scene/view_options.cpp.
 std::vector<Command> show_commands() {
     std::vector<Command> out;
     for (const ViewOption& option : view_options()) {
-        if (option.menu == "View/Show") out.push_back(option_command(option));
+        if (option.menu == "View/Show" || option.menu == "View/Overlays") out.push_back(option_command(option));
     }
     return out;
 }

@@ -4,6 +4,7 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
+#include <explain/query_sentence.h>
 #include <render/parts/paths.h>
 #include <render/text/labels.h>
 #include <scene/crowd_run.h>
@@ -16,7 +17,8 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kMostBar = 26;  // height of a path's bar, pixels at scale 1
+constexpr float kMostBar = 26;     // height of a path's bar, pixels at scale 1
+constexpr float kLeastStrip = 60;  // of the strip of steps, which else has a line of its own
 
 /// An empty span has some length too.
 ChartAxis time_axis(const mobb::Interval& span, float left, float width) {
@@ -150,11 +152,11 @@ void time_row(Ui& ui, bool tall) {
 
 /// The second clock: where in the trace we stand.
 void step_row(Ui& ui, QueryPictures& pictures) {
-    const int last = ui.session.recorded()->trace.size() - 1;
     ImGui::AlignTextToFramePadding();
-    text_line(ui.style.text, formatted("step %d / %d", ui.session.step(), last), ui.style.mono);
-    ImGui::SameLine();
-    pictures.strip(ui, ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
+    text_line(ui.style.text, step_of(ui.session.step(), ui.session.recorded()->trace), ui.style.mono);
+    const float least = ui.px(kLeastStrip);
+    flow(least);
+    pictures.strip(ui, std::max(least, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
 }
 
 /// A bar, a triangle or both, on the last button.
@@ -232,13 +234,16 @@ void step_transport(Ui& ui) {
     text_button(ui, "hit", "step.next_hit");
     ImGui::PopStyleVar(2);
 
-    const std::string format = formatted("step %%d / %d", last);
+    // With the number as a number, which is what a Ctrl+click edits.
+    const std::string number = std::to_string(step);
+    std::string words = step_of(step, ui.session.recorded()->trace);
+    words.replace(words.find(number), number.size(), "%d");
     ImGui::PushFont(ui.style.mono);
     // The number stays readable under the grab.
     ImGui::PushStyleColor(ImGuiCol_SliderGrab, to_im(with_alpha(ui.style.palette.accent, 0.45f)));
     ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, to_im(with_alpha(ui.style.palette.accent, 0.6f)));
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderInt("##step", &step, 0, last, words.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
         invoke(ui.session, "step.to", std::to_string(step));
     }
     ui.mark("query.step");

@@ -45,6 +45,45 @@ std::vector<Pick> picks(const DrawList& list, glm::vec2 pixel) {
     return hits;
 }
 
+/// What folds an overlay, and what shows all of a legend.
+const char* fold_command(Overlay::Kind kind) {
+    switch (kind) {
+        case Overlay::Kind::caption:
+            return "view.fold_caption";
+        case Overlay::Kind::legend:
+            return "view.fold_legend";
+        case Overlay::Kind::inset:
+            break;
+    }
+    return "view.fold_inset";
+}
+
+bool contains(const Rect& rect, glm::vec2 pixel) { return rect.contains({pixel, pixel}); }
+
+/// The overlay under a pixel; null: none.
+const Overlay* overlay_at(const DrawList& list, glm::vec2 pixel) {
+    const auto at = std::ranges::find_if(list.overlays, [&](const Overlay& o) { return contains(o.rect, pixel); });
+    return at == list.overlays.end() ? nullptr : &*at;
+}
+
+/// What a click on a pixel of an overlay does.
+struct OverlayClick {
+    Rect rect;                      ///< where it may be clicked
+    const char* command = nullptr;  ///< null: nothing, as there is no room to unfold it
+    const char* words = nullptr;
+};
+
+std::optional<OverlayClick> overlay_click(const DrawList& list, glm::vec2 pixel) {
+    const Overlay* overlay = overlay_at(list, pixel);
+    if (!overlay) return std::nullopt;
+    if (contains(overlay->fold, pixel)) {
+        if (overlay->no_room) return OverlayClick{overlay->fold, nullptr, "A larger picture has room for it"};
+        return OverlayClick{overlay->fold, fold_command(overlay->kind), overlay->folded ? "Unfold" : "Fold"};
+    }
+    if (!overlay->more || !contains(*overlay->more, pixel)) return std::nullopt;
+    return OverlayClick{*overlay->more, "view.whole_legend", "Show all rows, or six"};
+}
+
 /// Nothing is open: what to do.
 void welcome(Ui& ui) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -238,7 +277,8 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     if (ui.session.view_count() > 1) name_trees(ui, corner);
 }
 
-/// The kind of trees of a view in its upper right corner; a frame in the accent's colour around the active view.
+/// The kind of trees of a view in its lower right corner, which no overlay takes; a frame in the accent's colour around
+/// the active view.
 void Viewport::name_trees(const Ui& ui, ImVec2 corner) const {
     const std::string name(mobb::info(key_->fitted->options().tree).label);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
@@ -246,7 +286,7 @@ void Viewport::name_trees(const Ui& ui, ImVec2 corner) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 text = ImGui::CalcTextSize(name.c_str());
     const float gap = ui.px(8);
-    const ImVec2 at{end.x - text.x - 2 * gap, corner.y + gap};
+    const ImVec2 at{end.x - text.x - 2 * gap, end.y - text.y - 2 * gap};
     const ImU32 color = is_active(ui) ? ui.style.accent : ui.style.border;
     draw.AddRectFilled({at.x - gap, at.y - gap / 2}, {at.x + text.x + gap, at.y + text.y + gap / 2}, ui.style.panel,
                        ui.px(4));
@@ -285,8 +325,9 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
     }
     if (drag_ == Drag::none) {
         const auto held = over && list_ && is_active(ui) ? handles(ui, picture) : std::nullopt;
-        lit_ = held ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
-        if (over && list_ && is_active(ui) && lit_ == Handle::none) {
+        const bool on_overlay = over && list_ && overlay_at(*list_, pixel);
+        lit_ = held && !on_overlay ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
+        if (over && list_ && is_active(ui) && lit_ == Handle::none && !on_overlay) {
             hover(ui, pixel);
         } else if (place_) {
             place_.reset();
@@ -337,8 +378,12 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     drag_ = Drag::orbit;
     place_.reset();
     ui.session.hovered = {};
+    const auto on_overlay = list_ ? overlay_click(*list_, pixel) : std::nullopt;
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
+    } else if (on_overlay) {
+        drag_ = Drag::none;
+        if (on_overlay->command) invoke(ui.session, on_overlay->command);
     } else if (const auto hold = is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;
@@ -394,6 +439,7 @@ void Viewport::hover(Ui& ui, glm::vec2 pixel) {
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
 void Viewport::click(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
+    if (overlay_at(*list_, pixel)) return;
     const std::vector<Pick> hits = picks(*list_, pixel);
     const bool again = glm::length(pixel - clicked_at_) <= ui.px(kClickReach);
     depth_ = again ? depth_ + 1 : 0;
@@ -445,6 +491,25 @@ void Viewport::handle_tooltip(Ui& ui, const mobb::Placement& placement) const {
     ImGui::EndTooltip();
 }
 
+/// Says where overlays can be clicked, and lights what is under the mouse.
+void Viewport::decorate_overlays(Ui& ui, const ShownPicture& picture) const {
+    const glm::vec2 corner(picture.corner.x, picture.corner.y);
+    for (const Overlay& overlay : list_->overlays) {
+        const std::string name = "overlay." + std::string(std::string_view(fold_command(overlay.kind)).substr(10));
+        ui.marks.add(name, {corner + overlay.fold.min, corner + overlay.fold.max});
+        if (overlay.more) ui.marks.add(name + ".more", {corner + overlay.more->min, corner + overlay.more->max});
+    }
+    const auto lit = overlay_click(*list_, mouse_pixel(picture));
+    if (!lit || drag_ != Drag::none || !ImGui::IsItemHovered()) return;
+    if (lit->command) {
+        const glm::vec2 min = corner + lit->rect.min;
+        const glm::vec2 max = corner + lit->rect.max;
+        ImGui::GetWindowDrawList()->AddRect({min.x, min.y}, {max.x, max.y}, ui.style.accent, ui.px(3));
+        ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    }
+    ImGui::SetTooltip("%s", lit->words);
+}
+
 void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
     const ImVec2 end{picture.corner.x + static_cast<float>(list_->size.width),
                      picture.corner.y + static_cast<float>(list_->size.height)};
@@ -468,6 +533,7 @@ void Viewport::decorate(Ui& ui, const ShownPicture& picture) {
     } else if (drag_ == Drag::none && ImGui::IsItemHovered()) {
         tooltip(ui);
     }
+    decorate_overlays(ui, picture);
     ImGui::PopStyleVar();
 }
 

@@ -57,6 +57,7 @@ class Viewport {
     void tooltip(Ui& ui) const;
     void handle_tooltip(Ui& ui, const mobb::Placement& placement) const;
     void decorate(Ui& ui, const ShownPicture& picture);
+    void decorate_overlays(Ui& ui, const ShownPicture& picture) const;
     Camera shown_camera() const;
     void move_camera(Ui& ui, const Camera& camera);
     /// The agent that can be dragged, as it is selected and in the picture.

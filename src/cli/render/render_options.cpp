@@ -107,6 +107,13 @@ void add_shown_options(Command& command, ViewArguments& view) {
                                                  name, [set](bool on) { set(on ? "true" : "false"); }, help)
                                            : command.add_option(name, set, help, std::string(option.placeholder));
         Option(added).group(kShownGroup);
+        if (option.short_form.option.empty()) continue;
+        const std::string value(option.short_form.value);
+        command
+            .add_flag(
+                std::string(option.short_form.option), [set, value](bool) { set(value); },
+                "Short for " + name + ' ' + value)
+            .group(kShownGroup);
     }
 }
 

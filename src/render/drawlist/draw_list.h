@@ -245,6 +245,17 @@ struct LegendEntry {
     std::string text;
 };
 
+/// The caption, the legend or the map of the floor: a panel in a corner of its own, which a click folds to its header.
+struct Overlay {
+    enum class Kind { caption, legend, inset };
+    Kind kind = Kind::caption;
+    Rect rect;                 ///< what it covers
+    Rect fold;                 ///< where a click folds or unfolds it
+    bool folded = false;       ///< its header alone is there
+    bool no_room = false;      ///< ... as the picture is too small for the rest; the header says so
+    std::optional<Rect> more;  ///< of a legend with more rows than it shows by itself: where a click shows all, or few
+};
+
 /// From where a scene is seen: all that moving the camera needs to know.
 struct PictureFrame {
     PictureSize size;
@@ -266,8 +277,9 @@ struct DrawnOverlay {
     std::vector<LineInstance> lines;        ///< within the world
     std::vector<HighlightLine> highlights;  ///< over these, in this order
 
-    std::string headline;  ///< the sentence at the top
-    std::vector<LegendEntry> legend;
+    std::string headline;                    ///< the sentence at the top
+    std::vector<LegendEntry> legend;         ///< all of it, whatever part of it is shown
+    std::vector<Overlay> overlays;           ///< none over another
     std::vector<OverlayPanel> panels;        ///< over the scene, in this order
     std::vector<OverlayLine> overlay_lines;  ///< over the panels
     std::vector<OverlayPanel> marks;         ///< over the lines

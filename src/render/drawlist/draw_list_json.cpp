@@ -95,6 +95,11 @@ std::string_view name(LegendEntry::Mark mark) {
     return kNames[static_cast<std::size_t>(mark)];
 }
 
+std::string_view name(Overlay::Kind kind) {
+    constexpr std::array<std::string_view, 3> kNames{"caption", "legend", "inset"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
 std::string_view name(HighlightLine::Role role) {
     constexpr std::array<std::string_view, 5> kNames{"selection", "hover", "candidate", "conflict", "ghost"};
     return kNames[static_cast<std::size_t>(role)];
@@ -209,6 +214,15 @@ void write_panel(JsonWriter& out, const OverlayPanel& panel) {
     color(out, "fill", panel.fill);
     color(out, "border", panel.border);
     number(out, "border_width", panel.border_width);
+}
+
+void write_overlay(JsonWriter& out, const Overlay& overlay) {
+    out.member("name", name(overlay.kind));
+    vector(out, "min", overlay.rect.min);
+    vector(out, "max", overlay.rect.max);
+    out.member("folded", overlay.folded);
+    out.member("no_room", overlay.no_room);
+    out.member("more", overlay.more.has_value());
 }
 
 void write_overlay_line(JsonWriter& out, const OverlayLine& line) {
@@ -371,6 +385,7 @@ void write_draw_list(std::ostream& stream, const DrawList& list, const IdImage* 
         color(out, "color", entry.color);
         out.member("text", entry.text);
     });
+    rows(out, "overlays", list.overlays, [&](const Overlay& overlay) { write_overlay(out, overlay); });
     rows(out, "panels", list.panels, [&](const OverlayPanel& panel) { write_panel(out, panel); });
     rows(out, "overlay_lines", list.overlay_lines, [&](const OverlayLine& line) { write_overlay_line(out, line); });
     rows(out, "marks", list.marks, [&](const OverlayPanel& mark) { write_panel(out, mark); });

@@ -9,6 +9,7 @@
 ///      "lines":  [{"layer", "from", "to", "color", "width", "dash", "cap", "hidden", "on_screen"}],
 ///      "highlights": [{"role", "from", "to", "color", "width", "on_screen"}],   only where something is pointed out
 ///      "headline", "legend": [{"mark", "color", "text"}],
+///      "overlays": [{"name", "min", "max", "folded", "no_room", "more"}],
 ///      "panels": [{"min", "max", "radius", "fill", "border", "border_width"}],
 ///      "overlay_lines": [{"from", "to", "color", "width", "dash"}], "marks": [as panels],
 ///      "texts":  [{"text", "at", "size", "face", "color", "on_screen"}]}

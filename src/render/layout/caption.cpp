@@ -20,14 +20,11 @@ constexpr const char* kDot = "  \u00B7  ";
 
 struct Sizes {
     float headline, detail, indent, between;
-    float legend, padding;  ///< the panel is like the legend's
     explicit Sizes(float scale)
         : headline(std::round(16 * scale)),
           detail(std::round(12 * scale)),
           indent(std::round(1.1f * headline)),
-          between(std::round(3 * scale)),
-          legend(std::round(11 * scale)),
-          padding(panel_padding(legend)) {}
+          between(std::round(3 * scale)) {}
 };
 
 /// The rest of too many lines is cut off visibly rather than run down the picture; so are words too long for a line.
@@ -72,7 +69,8 @@ std::string at_time(double time) { return formatted(" at %.2f s", time); }
 
 Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> agents, const ViewState& view) {
     Caption caption;
-    caption.headlines = {fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string()};
+    caption.title = fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string();
+    caption.headlines = {caption.title};
     if (view.boxes) {
         caption.detail = std::string(mobb::info(fitted.options().tree).title) + ", leaf " +
                          std::to_string(fitted.options().leaf) + kDot + boxes_text(agents, view.levels);
@@ -88,6 +86,7 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
                       int step) {
     Caption caption;
     caption.headlines = step_sentences(sides, recorded.trace, step);
+    caption.title = step_of(step, recorded.trace);
     caption.detail = std::string(mobb::info(sides[0].placed.tree().options().tree).title) + ", leaf " +
                      std::to_string(sides[0].placed.tree().options().leaf) + kDot + answer_sentence(sides, recorded);
     const mobb::Outcome outcome = recorded.trace[step].outcome;
@@ -102,7 +101,7 @@ void mention_cursor_outside(Caption& caption, double time, double begin, double 
 
 CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {
     const Sizes sizes(scale);
-    room -= (caption.mark.a > 0 ? sizes.indent : 0) + (caption.panel ? 2 * sizes.padding : 0);
+    room -= caption.mark.a > 0 ? sizes.indent : 0;
     CaptionLines out;
     for (const std::string& headline : caption.headlines) {
         out.headline = wrap_text(headline, FontFace::text, sizes.headline, room);
@@ -126,21 +125,12 @@ glm::vec2 caption_size(const Caption& caption, const CaptionLines& lines, float 
     for (const std::string& line : lines.headline) add(line, sizes.headline);
     if (!lines.detail.empty()) size.y += sizes.between;
     for (const std::string& line : lines.detail) add(line, sizes.detail);
-    if (caption.panel) size = glm::ceil(size) + 2 * sizes.padding;
-    return size;
+    return glm::ceil(size);
 }
 
-float add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, float margin, float scale) {
-    if (caption.headlines.empty()) return margin;
+void add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, glm::vec2 corner, float scale) {
     const Sizes sizes(scale);
-    list.headline = caption.headlines.front();
-    glm::vec2 at(margin);
-    const glm::vec2 size = caption_size(caption, lines, scale);
-    const bool backed = caption.panel && size.x > 0;
-    if (backed) {
-        list.panels.push_back(text_panel({at, at + size}, list.palette, sizes.legend));
-        at += sizes.padding;
-    }
+    glm::vec2 at = corner;
     if (caption.mark.a > 0 && !lines.headline.empty()) {
         const float r = 0.3f * sizes.headline;
         const glm::vec2 middle = at + glm::vec2(r, 0.56f * line_height(FontFace::text, sizes.headline));
@@ -154,7 +144,6 @@ float add_caption(DrawList& list, const Caption& caption, const CaptionLines& li
     for (const std::string& line : lines.headline) add(line, sizes.headline, list.palette.text);
     if (!lines.detail.empty()) at.y += sizes.between;
     for (const std::string& line : lines.detail) add(line, sizes.detail, list.palette.quiet_text);
-    return at.y + (backed ? sizes.padding : 0);
 }
 
 }  // namespace mobbscope

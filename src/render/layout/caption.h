@@ -14,8 +14,8 @@ namespace mobbscope {
 struct Caption {
     std::vector<std::string> headlines;  ///< the sentence that answers what is seen, in fewer and fewer words; or none
     std::string detail;                  ///< read second
+    std::string title;                   ///< what is left of it when it is folded; empty: its last headline
     Rgba mark{0};                        ///< colour of the dot before the headline; opacity 0: none
-    bool panel = false;                  ///< on a panel, as the scene may lie behind
 };
 
 /// What the scene is and which boxes are shown, with their volume.
@@ -37,13 +37,13 @@ struct CaptionLines {
     std::vector<std::string> detail;
 };
 
-/// `room`: pixels across, with the dot and the panel. A last headline that is too long is cut off visibly.
+/// `room`: pixels across, with the dot. A last headline that is too long is cut off visibly.
 CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines);
 
-/// What it covers, pixels: with its dot and its panel.
+/// What it covers, pixels: with its dot.
 glm::vec2 caption_size(const Caption& caption, const CaptionLines& lines, float scale);
 
-/// Adds it along the top edge; returns where it ends, pixels from the top.
-float add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, float margin, float scale);
+/// Adds it with its upper left corner at a point.
+void add_caption(DrawList& list, const Caption& caption, const CaptionLines& lines, glm::vec2 corner, float scale);
 
 }  // namespace mobbscope

@@ -5,6 +5,8 @@
 #include <render/query/query_boxes.h>
 #include <render/text/labels.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,7 +17,7 @@ namespace mobbscope {
 namespace {
 
 constexpr int kMostLevels = 5;
-constexpr std::size_t kMostAgents = 8;  // more would cover the picture; the rest are counted
+constexpr float kSwatchFill = 0.3f;  // opacity
 
 using Mark = LegendEntry::Mark;
 
@@ -25,11 +27,70 @@ LegendEntry dot_entry(Rgba color, std::string text) {
     return {.mark = Mark::disk, .color = color, .text = std::move(text)};
 }
 
-/// The colours of the levels that are drawn; of many, a few from the coarsest to the finest.
-void add_level_colors(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const DrawnAgent> agents) {
-    std::set<int> drawn;
-    for (const BoxInstance& box : list.boxes) drawn.insert(box.order.level);
-    const std::vector<int> levels(drawn.begin(), drawn.end());
+/// What of the scene is inside the picture.
+class Sight {
+  public:
+    explicit Sight(const DrawList& list)
+        : list_(list), picture_{glm::vec2(0), glm::vec2(list.size.width, list.size.height)} {}
+
+    /// A disk around a point of drawn space.
+    bool disk(glm::vec3 at, double radius) const {
+        const auto pixel = list_.projection.project(at);
+        if (!pixel) return false;
+        const float r = static_cast<float>(radius) * list_.projection.pixels_per_metre(at);
+        return Rect{*pixel, *pixel}.grown(std::max(r, 0.5f)).overlaps(picture_);
+    }
+    bool sample(const DrawnAgent& agent, int index) const {
+        const mobb::Disk disk_of = agent.clip().disk(index);
+        // Of a moment it is the floor that is seen.
+        const double time = list_.moment ? 0 : agent.clip().time(index);
+        return disk(list_.space.point(disk_of.x, disk_of.y, time), disk_of.r);
+    }
+    bool path(const DrawnAgent& agent) const {
+        const mobb::SampleRange shown = agent.samples();
+        for (int i = shown.first; i < shown.end(); ++i) {
+            if (sample(agent, i)) return true;
+        }
+        return false;
+    }
+    /// One that reaches behind the eye counts as seen.
+    bool box(const BoxInstance& box) const {
+        std::optional<Rect> around;
+        bool behind = false;
+        for (const glm::vec3& corner : box_corners(box)) {
+            const auto at = list_.projection.project(corner);
+            behind = behind || !at;
+            if (at) around = around ? Rect{glm::min(around->min, *at), glm::max(around->max, *at)} : Rect{*at, *at};
+        }
+        return around && (behind || around->grown(0.5f).overlaps(picture_));
+    }
+    /// The boxes that stand for nodes.
+    std::vector<const BoxInstance*> boxes() const {
+        std::vector<const BoxInstance*> out;
+        for (const BoxInstance& one : list_.boxes) {
+            if (one.pickable && box(one)) out.push_back(&one);
+        }
+        return out;
+    }
+
+  private:
+    const DrawList& list_;
+    Rect picture_;
+};
+
+using SeenBoxes = std::vector<const BoxInstance*>;
+
+std::set<int> levels_of(const SeenBoxes& boxes) {
+    std::set<int> out;
+    for (const BoxInstance* box : boxes) out.insert(box->order.level);
+    return out;
+}
+
+/// The colours of the levels that are seen; of many, a few from the coarsest to the finest.
+void add_level_colors(std::vector<LegendEntry>& entries, const DrawList& list, const SeenBoxes& boxes,
+                      std::span<const DrawnAgent> agents) {
+    const std::set<int> seen = levels_of(boxes);
+    const std::vector<int> levels(seen.begin(), seen.end());
     const int count = std::min(static_cast<int>(levels.size()), kMostLevels);
     for (int i = 0; i < count; ++i) {
         const std::size_t which =
@@ -40,41 +101,44 @@ void add_level_colors(std::vector<LegendEntry>& entries, const DrawList& list, s
     }
 }
 
-/// Levels look alike in all colours, so they are shown in the text's.
-void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const DrawnAgent> agents,
-                const LevelRange& levels) {
-    const Rgba color = list.palette.quiet_text;
-    if (levels.leaves) {
-        entries.push_back({Mark::box, color, with_alpha(color, 0.2f), 1.5f, kSolid, "leaves"});
-        return;
-    }
+/// A range of levels goes from dim to bright in every agent's colour, so it is shown in the text's.
+void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, const SeenBoxes& boxes,
+                std::span<const DrawnAgent> agents, const LevelRange& levels) {
+    const auto add = [&](const LevelStyle& style, std::string text) {
+        const Rgba color = level_tint(list.palette.quiet_text, style, list.palette);
+        entries.push_back({Mark::box, color, with_alpha(color, kSwatchFill), style.width, kSolid, std::move(text)});
+    };
+    if (levels.leaves) return add(level_style(0, 0, 0), "leaves");
     int last = 0;
     for (const DrawnAgent& agent : agents) last = std::max(last, last_shown_level(agent.placed.tree(), levels));
-    const int first = std::min(levels.first, last);
+    const std::set<int> seen = levels_of(boxes);
     // Of many levels the coarsest and the finest tell how those between look.
-    const bool few = last - first < kMostLevels;
-    for (int level = first; level <= last; level += few ? 1 : last - first) {
-        const LevelStyle style = level_style(level, levels.first, last);
-        entries.push_back({Mark::box, with_alpha(color, style.edge), with_alpha(color, 2.2f * style.face), style.width,
-                           kSolid,
-                           "level " + std::to_string(level) +
-                               (few              ? ""
-                                : level == first ? ", coarsest"
-                                                 : ", finest")});
+    const bool few = static_cast<int>(seen.size()) <= kMostLevels;
+    for (const int level : seen) {
+        const bool coarsest = level == *seen.begin();
+        if (!few && !coarsest && level != *seen.rbegin()) continue;
+        add(level_style(level, levels.first, last), "level " + std::to_string(level) +
+                                                        (few        ? ""
+                                                         : coarsest ? ", coarsest"
+                                                                    : ", finest"));
     }
 }
 
-void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const DrawnAgent> sides,
-               const QueryProgress& progress, PairOutline outline, std::vector<LegendEntry>& remarks) {
+void add_query(std::vector<LegendEntry>& entries, const DrawList& list, const SeenBoxes& boxes,
+               std::span<const DrawnAgent> sides, const QueryProgress& progress, PairOutline outline,
+               std::vector<LegendEntry>& remarks) {
     for (const DrawnAgent& side : sides) {
+        const bool seen = std::ranges::any_of(boxes, [&](const BoxInstance* box) {
+            return box->state == BoxState::under_test && box->id.agent == side.index;
+        });
+        if (!seen) continue;
         const Rgba color = outline == PairOutline::owner
                                ? side.color
                                : pair_style(outline, side, progress.event.outcome, list.palette).color;
         entries.push_back({Mark::box, color, with_alpha(side.color, 0.3f), 2, kSolid, side.label + ", under test"});
     }
     const auto present = [&](BoxState state) {
-        return std::any_of(list.boxes.begin(), list.boxes.end(),
-                           [&](const BoxInstance& b) { return b.state == state; });
+        return std::ranges::any_of(boxes, [&](const BoxInstance* box) { return box->state == state; });
     };
     const std::pair<BoxState, const char*> outcomes[] = {{BoxState::separated, "separated in space"},
                                                          {BoxState::apart_in_time, "apart in time"},
@@ -85,7 +149,9 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::spa
         if (present(state) || box_state(progress.event.outcome) == state)
             entries.push_back(line_entry(outcome_style(state, list.palette), text));
     }
-    const bool earlier = outline == PairOutline::owner && (!progress.nodes[0].empty() || !progress.nodes[1].empty());
+    const auto is_earlier = [](const NodeProgress& node) { return !node.open; };
+    const bool earlier =
+        std::ranges::any_of(progress.nodes[0], is_earlier) || std::ranges::any_of(progress.nodes[1], is_earlier);
     if (earlier) remarks.push_back(remark("fine boxes: the latest test of a node"));
 }
 
@@ -112,14 +178,7 @@ std::optional<std::string> beyond_the_paper(const DrawList& list, std::span<cons
 
 std::string short_number(double value) { return formatted("%.3g", value); }
 
-struct LegendLayout {
-    float row, mark, padding, gap;
-    explicit LegendLayout(float size)
-        : row(std::round(1.55f * size)),
-          mark(std::round(1.7f * size)),
-          padding(panel_padding(size)),
-          gap(std::round(0.7f * size)) {}
-};
+float mark_width(float text_size) { return std::round(1.7f * text_size); }
 
 }  // namespace
 
@@ -127,45 +186,50 @@ LegendEntry line_entry(const LineStyle& style, std::string text) {
     return {.color = style.color, .width = style.width, .dash = style.dash, .text = std::move(text)};
 }
 
-std::vector<LegendEntry> agent_entries(std::span<const DrawnAgent> agents) {
+std::vector<LegendEntry> agent_entries(const DrawList& list, std::span<const DrawnAgent> agents,
+                                       std::span<const DrawnAgent> paths) {
+    const Sight sight(list);
     std::vector<LegendEntry> entries;
-    const std::size_t shown = std::min(agents.size(), kMostAgents);
-    for (const DrawnAgent& agent : agents.first(shown)) {
-        entries.push_back(dot_entry(agent.color, agent.label));
-    }
-    if (shown < agents.size()) {
-        entries.push_back(dot_entry(Rgba(0), "and " + std::to_string(agents.size() - shown) + " more"));
+    for (const DrawnAgent& agent : agents) {
+        const bool seen = std::ranges::any_of(paths, [&](const DrawnAgent& path) {
+            const bool own = agent.run_agent >= 0 ? path.run_agent == agent.run_agent : path.index == agent.index;
+            return own && sight.path(path);
+        });
+        if (seen) entries.push_back(dot_entry(agent.color, agent.label));
     }
     return entries;
 }
 
 std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                         const Emphasis& emphasis, const QueryProgress* progress) {
+    const Sight sight(list);
+    const SeenBoxes boxes = sight.boxes();
     std::vector<LegendEntry> entries;
     std::vector<LegendEntry> remarks;
     if (progress) {
-        if (view.boxes) add_query(entries, list, agents, *progress, pair_outline(view), remarks);
-        if (!view.boxes && view.disks) entries = agent_entries(agents);
+        if (view.boxes) add_query(entries, list, boxes, agents, *progress, pair_outline(view), remarks);
+        if (!view.boxes && view.disks) entries = agent_entries(list, agents, agents);
+        const auto is_seen = [&](std::size_t side) { return sight.sample(agents[side], (*emphasis.hits)[side]); };
+        if (emphasis.hits && (is_seen(0) || is_seen(1))) {
+            entries.push_back({.mark = Mark::double_ring, .color = list.palette.hit, .text = "samples that hit"});
+        }
         if (emphasis.dims) {
             const Rgba dim = mix_colors(list.palette.panel, list.palette.quiet_text, kOutOfFocus);
             entries.push_back(dot_entry(with_alpha(dim, 1), "dim: outside the nodes under test"));
         }
-        if (emphasis.hits) {
-            entries.push_back({.mark = Mark::double_ring, .color = list.palette.hit, .text = "samples that hit"});
-        }
     } else {
-        entries = agent_entries(agents);
-        if (view.boxes && !list.boxes.empty()) {
-            if (view.color_by == ColorBy::level) {
-                add_level_colors(entries, list, agents);
-            } else {
-                add_levels(entries, list, agents, view.levels);
-            }
+        entries = agent_entries(list, agents, agents);
+        if (view.color_by == ColorBy::level) {
+            add_level_colors(entries, list, boxes, agents);
+        } else if (!boxes.empty()) {
+            add_levels(entries, list, boxes, agents, view.levels);
         }
     }
     if (emphasis.cursor) entries.push_back(line_entry({list.palette.accent, 1.3f}, "time cursor"));
-    if (emphasis.cuts()) {
+    for (std::size_t i = 0; i < emphasis.at_cursor.size(); ++i) {
+        if (!emphasis.at_cursor[i] || !sight.sample(agents[i], *emphasis.at_cursor[i])) continue;
         entries.push_back({.mark = Mark::ring, .color = list.palette.text, .text = "sample at that time"});
+        break;
     }
     if (const auto text = beyond_the_paper(list, agents)) remarks.push_back(remark(*text));
     if (has_sheared_boxes(list, agents)) {
@@ -177,28 +241,28 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
     return entries;
 }
 
-glm::vec2 legend_size(std::span<const LegendEntry> entries, float text_size) {
-    if (entries.empty()) return glm::vec2(0);
-    const LegendLayout layout(text_size);
-    float widest = 0;
-    for (const LegendEntry& entry : entries) {
-        const bool remark = entry.mark == Mark::remark;
-        const float indent = remark ? 0 : layout.mark + layout.gap;
-        widest = std::max(widest, indent + Font::of(FontFace::text).width(entry.text, text_size));
-    }
-    return {std::ceil(2 * layout.padding + widest),
-            2 * layout.padding + layout.row * static_cast<float>(entries.size()) - 0.3f * text_size};
+float legend_row(float text_size) { return std::round(1.55f * text_size); }
+
+float legend_indent(const LegendEntry& row, float text_size) {
+    return row.mark == Mark::remark ? 0 : mark_width(text_size) + std::round(0.7f * text_size);
 }
 
-void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
-    const LegendLayout layout(text_size);
-    const glm::vec2 size = legend_size(list.legend, text_size);
-    list.panels.push_back(text_panel({corner, corner + size}, list.palette, text_size));
-    glm::vec2 at = corner + layout.padding;
+glm::vec2 legend_size(std::span<const LegendEntry> rows, float text_size, float text_room) {
+    float widest = 0;
+    for (const LegendEntry& row : rows) {
+        const float words = std::min(Font::of(FontFace::text).width(row.text, text_size), text_room);
+        widest = std::max(widest, legend_indent(row, text_size) + words);
+    }
+    return glm::ceil(glm::vec2(widest, legend_row(text_size) * static_cast<float>(rows.size()) - 0.3f * text_size));
+}
+
+void add_legend(DrawList& list, std::span<const LegendEntry> rows, glm::vec2 corner, float text_size, float text_room) {
+    glm::vec2 at = corner;
+    const float mark_room = mark_width(text_size);
     const float height = line_height(FontFace::text, text_size);
-    for (const LegendEntry& entry : list.legend) {
+    for (const LegendEntry& entry : rows) {
         const bool remark = entry.mark == Mark::remark;
-        const glm::vec2 middle = at + glm::vec2(0.5f * layout.mark, 0.5f * height);
+        const glm::vec2 middle = at + glm::vec2(0.5f * mark_room, 0.5f * height);
         const float r = 0.36f * text_size;
         if (entry.mark == Mark::disk) {
             list.panels.push_back({{middle - r, middle + r}, r, entry.color, Rgba(0), 0});
@@ -210,19 +274,19 @@ void add_legend(DrawList& list, glm::vec2 corner, float text_size) {
             if (twice)
                 list.panels.push_back({{middle - around, middle + around}, around, Rgba(0), entry.color, 0.9f * unit});
         } else if (entry.mark == Mark::box) {
-            const glm::vec2 half(0.5f * layout.mark - 1, 0.38f * text_size);
+            const glm::vec2 half(0.5f * mark_room - 1, 0.38f * text_size);
             list.panels.push_back(
                 {{middle - half, middle + half}, 1, entry.fill, entry.color, entry.width * text_size / 12});
         } else if (!remark) {
-            const glm::vec2 half(0.5f * layout.mark, 0);
+            const glm::vec2 half(0.5f * mark_room, 0);
             list.overlay_lines.push_back({middle - half, middle + half, entry.color,
                                           std::max(entry.width, 1.4f) * text_size / 12,
                                           0.6f * entry.dash * text_size / 11.0f});
         }
-        const glm::vec2 text_corner = remark ? at : at + glm::vec2(layout.mark + layout.gap, 0);
-        list.texts.push_back(text_at(entry.text, FontFace::text, text_size,
-                                     remark ? list.palette.quiet_text : list.palette.text, text_corner));
-        at.y += layout.row;
+        list.texts.push_back(text_at(fit_text(entry.text, FontFace::text, text_size, text_room), FontFace::text,
+                                     text_size, remark ? list.palette.quiet_text : list.palette.text,
+                                     at + glm::vec2(legend_indent(entry, text_size), 0)));
+        at.y += legend_row(text_size);
     }
 }
 

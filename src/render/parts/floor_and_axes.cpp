@@ -60,13 +60,6 @@ Pen surroundings_pen(DrawList& list, int level) {
 constexpr float kGlass = 0.1f;  // opacity
 
 constexpr float kMapSide = 128;  // pixels at scale 1, of the longer side
-constexpr float kMapPadding = 9;
-constexpr float kMapTitle = 11;
-
-glm::vec2 map_size(const FloorExtent& s, float scale) {
-    const double longest = std::max(s.x1 - s.x0, s.y1 - s.y0);
-    return glm::ceil(glm::vec2(glm::dvec2(s.x1 - s.x0, s.y1 - s.y0) / longest) * kMapSide * scale);
-}
 
 }  // namespace
 
@@ -205,8 +198,6 @@ std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const Floo
         }
     }
     if (!floor) return out;
-    // Figures that touch read as one.
-    label.room = 0.5f * size;
     struct Side {
         Edge edge;
         glm::vec2 direction;
@@ -296,24 +287,17 @@ void add_walls(DrawList& list, glm::dvec2 area, double bottom, double top, float
     }
 }
 
-glm::vec2 inset_size(const FloorExtent& floor_extent, float scale) {
-    const glm::vec2 map = map_size(floor_extent, scale);
-    const float title = line_height(FontFace::text, kMapTitle * scale);
-    return {std::max(map.x, 100 * scale) + 2 * kMapPadding * scale, map.y + title + 2.6f * kMapPadding * scale};
+glm::vec2 map_size(const FloorExtent& s, float scale) {
+    const double longest = std::max(s.x1 - s.x0, s.y1 - s.y0);
+    return glm::ceil(glm::vec2(glm::dvec2(s.x1 - s.x0, s.y1 - s.y0) / longest) * kMapSide * scale);
 }
 
-void add_floor_inset(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& s, double time,
-                     glm::vec2 corner, float scale) {
-    const glm::vec2 size = inset_size(s, scale);
-    const glm::vec2 map = map_size(s, scale);
-    list.panels.push_back({{corner, corner + size}, 5 * scale, list.palette.panel, list.palette.panel_border, 1});
-    const std::string title = formatted("floor at %.2f s", time);
-    list.texts.push_back(
-        text_at(title, FontFace::text, kMapTitle * scale, list.palette.quiet_text, corner + kMapPadding * scale));
-    const glm::vec2 origin(corner.x + 0.5f * (size.x - map.x), corner.y + size.y - kMapPadding * scale - map.y);
+void add_floor_map(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& s, double time,
+                   const Rect& within, float scale) {
+    const glm::vec2 map = within.size();
     const auto at = [&](double x, double y) {
         const glm::dvec2 unit((x - s.x0) / (s.x1 - s.x0), (s.y1 - y) / (s.y1 - s.y0));
-        return origin + glm::vec2(unit) * map;
+        return within.min + glm::vec2(unit) * map;
     };
     for (const double x : ticks(s.x0, s.x1, s.step)) {
         list.overlay_lines.push_back({at(x, s.y0), at(x, s.y1), list.palette.grid, 1, kSolid});

@@ -62,10 +62,10 @@ FloorExtent floor_stage(glm::dvec2 area, double begin, double end);
 void add_walls(DrawList& list, glm::dvec2 area, double bottom, double top, float scale);
 
 /// The size in pixels of a small map: where everybody is on the floor at one time.
-glm::vec2 inset_size(const FloorExtent& floor_extent, float scale);
+glm::vec2 map_size(const FloorExtent& floor_extent, float scale);
 
-/// Adds the map with its upper left corner at a point.
-void add_floor_inset(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& floor_extent, double time,
-                     glm::vec2 corner, float scale);
+/// Adds the map within a rectangle of that size.
+void add_floor_map(DrawList& list, std::span<const DrawnAgent> agents, const FloorExtent& floor_extent, double time,
+                   const Rect& within, float scale);
 
 }  // namespace mobbscope

@@ -105,7 +105,14 @@ LevelStyle level_style(int level, int first, int last) {
     if (first >= last) return {0.09f, 0.95f, 1.5f};
     // 0 for the coarsest shown, 1 for the finest.
     const float t = std::clamp(static_cast<float>(level - first) / static_cast<float>(last - first), 0.0f, 1.0f);
-    return {0.025f + 0.075f * t, 0.45f + 0.5f * t, 0.9f + 0.9f * t};
+    return {0.025f + 0.075f * t, 0.7f + 0.25f * t, 0.9f + 0.9f * t, t};
+}
+
+Rgba level_tint(Rgba color, const LevelStyle& style, const Palette& palette) {
+    constexpr float kMost = 0.45f;  // more would leave no colour
+    const float by = kMost * (2 * style.bright - 1);
+    const Rgba strong = palette.dark ? Rgba(1) : Rgba(0, 0, 0, 1);
+    return with_alpha(by < 0 ? mix_colors(color, palette.background, -by) : mix_colors(color, strong, by), color.a);
 }
 
 void refine_crowded_boxes(DrawList& list, float scale) {
@@ -148,7 +155,8 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
         for (const int node : shown_nodes(tree, levels)) {
             const int level = agent.placed.node(node).level;
             const LevelStyle style = levels.leaves ? level_style(0, 0, 0) : level_style(level, levels.first, last);
-            const Rgba color = color_by == ColorBy::level ? level_color(level, deepest, list.palette) : agent.color;
+            const Rgba color = color_by == ColorBy::level ? level_color(level, deepest, list.palette)
+                                                          : level_tint(agent.color, style, list.palette);
             BoxInstance box = node_box(agent, node, list.space);
             box.state = BoxState::level;
             box.fill = with_alpha(color, style.face);

@@ -13,7 +13,7 @@ namespace mobbscope {
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels);
 
 /// The boxes of those nodes, coloured by their agent or their level; where several levels are shown, finer ones are
-/// fuller and heavier.
+/// brighter, fuller and heavier.
 void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const LevelRange& levels, ColorBy color_by,
                      float scale);
 
@@ -23,17 +23,21 @@ int deepest_level(std::span<const DrawnAgent> agents);
 /// The colour of a level where boxes are coloured by it: that level's in all pictures of trees that are so deep.
 Rgba level_color(int level, int deepest, const Palette& palette);
 
+/// How the boxes of one level look.
+struct LevelStyle {
+    float face = 0;       ///< opacity
+    float edge = 1;       ///< opacity
+    float width = 1;      ///< pixels at scale 1
+    float bright = 0.5f;  ///< of a range: 0 on the coarsest level, 1 on the finest; of a single one neither
+};
+LevelStyle level_style(int level, int first, int last);
+
+/// An agent's colour, or any other, on a level of a range: from dim to bright, so that levels are told apart.
+Rgba level_tint(Rgba color, const LevelStyle& style, const Palette& palette);
+
 /// Makes boxes of levels finer where they are small in the picture, and fainter where many lie over one another, as
 /// they would bury what is inside. Needs the projection. `scale`: of line widths.
 void refine_crowded_boxes(DrawList& list, float scale);
-
-/// How the boxes of one level look.
-struct LevelStyle {
-    float face = 0;   ///< opacity
-    float edge = 1;   ///< opacity
-    float width = 1;  ///< pixels at scale 1
-};
-LevelStyle level_style(int level, int first, int last);
 
 /// The last level that there is to show in a tree.
 int last_shown_level(const mobb::Tree& tree, const LevelRange& levels);

@@ -1,6 +1,5 @@
 #include <base/text.h>
 #include <render/layout/annotations.h>
-#include <render/layout/block_layout.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
@@ -91,13 +90,13 @@ class CrowdPicture final : public Picture {
     }
 
   private:
-    Words words() override {
-        Words out;
+    OverlayContents words() override {
+        OverlayContents out;
         out.caption.headlines = {headline_of(outside_ ? people_at(agents_, time_) : crowd_.agents.size(), time_)};
         out.caption.detail = choice_ ? choice_sentence(fitted_.scene(), *choice_) : window_text(seconds_);
         if (outside_) mention_cursor_outside(out.caption, time_, 0, crowd_.seconds);
         if (names_fit(crowd_.agents.size())) {
-            out.legend = agent_entries(std::span(agents_).first(crowd_.agents.size()));
+            out.legend = agent_entries(list_, std::span(agents_).first(crowd_.agents.size()), agents_);
         }
         if (choice_) {
             const auto fates = candidate_legend(list_.palette, choice_->choice);
@@ -105,11 +104,6 @@ class CrowdPicture final : public Picture {
         }
         out.legend.push_back(line_entry({list_.palette.accent, 1.3f}, "now"));
         return out;
-    }
-
-    std::vector<Rect> busy() const override {
-        const std::vector<glm::vec3> corners = floor_corners(floor_extent_, list_.space);
-        return seen_grid(list_.projection, corners.front(), corners.back(), {6, 6, 6});
     }
 
     std::vector<LabelRequest> content() override {

@@ -1,7 +1,6 @@
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/drawlist/pen.h>
-#include <render/layout/block_layout.h>
 #include <render/layout/caption.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
@@ -314,8 +313,8 @@ class DiskProjectionPicture final : public Picture {
     }
 
   private:
-    Words words() override {
-        Words out;
+    OverlayContents words() override {
+        OverlayContents out;
         const std::string who = "how far sample " + std::to_string(view_.projection->sample) + " reaches";
         out.caption.headlines = {who + " along the axes of " + node_name(agent_, view_.projection->node), who};
         out.legend = legend(extents_, list_.palette, agent_.color, view_.projection->sample, agent_.clip().clip().dt());

@@ -147,7 +147,7 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
     };
     const auto both = [&](const BodyPair& pair) { return agent(pair.a).label + " and " + agent(pair.b).label; };
     const std::size_t count = moment.bodies.size();
-    // There is always a detail, or the scene would jump while time runs.
+    // There is always a detail, or the caption would change its height while time runs.
     const auto add_detail = [&](const std::string& text) {
         out.detail += (out.detail.empty() ? "" : "  \u00B7  ") + text;
     };
@@ -193,11 +193,12 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
     return out;
 }
 
-std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const DrawnAgent> agents,
-                                       const ViewState& view) {
+std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const DrawnAgent> agents,
+                                       std::span<const DrawnAgent> paths, const ViewState& view) {
+    const Palette& palette = list.palette;
     std::vector<LegendEntry> out;
     // A crowd's colours only keep neighbours apart.
-    if (names_fit(agents.size())) out = agent_entries(agents);
+    if (names_fit(agents.size())) out = agent_entries(list, agents, paths);
     const auto line = [&](Rgba color, float width, const char* text) {
         LegendEntry entry;
         entry.color = color;

@@ -60,8 +60,9 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
 /// Radii of few are drawn as lines; those of more would be told apart by nobody.
 bool may_show_radii(std::span<const DrawnAgent> agents);
 
-/// What the picture's colours and lines stand for, whenever it is: the legend stays while time runs.
-std::vector<LegendEntry> moment_legend(const Palette& palette, std::span<const DrawnAgent> agents,
-                                       const ViewState& view);
+/// What the picture's colours and lines stand for, whenever it is: the legend stays while time runs. `paths`: of the
+/// agents. Needs the projection.
+std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const DrawnAgent> agents,
+                                       std::span<const DrawnAgent> paths, const ViewState& view);
 
 }  // namespace mobbscope

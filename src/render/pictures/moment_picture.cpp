@@ -1,6 +1,5 @@
 #include <render/drawlist/pen.h>
 #include <render/layout/annotations.h>
-#include <render/layout/block_layout.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
 #include <render/layout/legend.h>
@@ -53,22 +52,6 @@ std::vector<glm::vec3> standing_room(const DrawnSpace& space, std::span<const Dr
                 }
             }
         }
-    }
-    return out;
-}
-
-/// Where those prisms are seen.
-std::vector<Rect> seen_at(const ViewProjection& projection, std::span<const glm::vec3> room) {
-    constexpr std::size_t kCorners = 16;
-    std::vector<Rect> out;
-    for (std::size_t first = 0; first + kCorners <= room.size(); first += kCorners) {
-        std::optional<Rect> around;
-        for (const glm::vec3& corner : room.subspan(first, kCorners)) {
-            const auto at = projection.project(corner);
-            if (!at) continue;
-            around = around ? Rect{glm::min(around->min, *at), glm::max(around->max, *at)} : Rect{*at, *at};
-        }
-        if (around) out.push_back(*around);
     }
     return out;
 }
@@ -153,26 +136,16 @@ class MomentPicture final : public Picture {
   private:
     std::span<const DrawnAgent> persons() const { return std::span(agents_).first(count_); }
 
-    Words words() override {
-        Words out;
+    OverlayContents words() override {
+        OverlayContents out;
         out.caption = moment_caption(list_.palette, agents_, moment_, count_);
         if (outside_) mention_cursor_outside(out.caption, moment_.time, bounds_.min.z, bounds_.max.z);
         if (choice_) {
             out.caption.detail = choice_sentence(fitted_.scene(), *choice_);
             out.legend = candidate_legend(list_.palette, choice_->choice);
         }
-        const std::vector<LegendEntry> who = moment_legend(list_.palette, persons(), view_);
+        const std::vector<LegendEntry> who = moment_legend(list_, persons(), agents_, view_);
         out.legend.insert(out.legend.end(), who.begin(), who.end());
-        return out;
-    }
-
-    std::vector<Rect> busy() const override {
-        std::vector<Rect> out = occupied(list_, floor_extent_, view_, metrics_);
-        const std::vector<Rect> bodies = seen_at(list_.projection, standing_);
-        out.insert(out.end(), bodies.begin(), bodies.end());
-        if (!crowd_) return out;
-        const std::vector<Rect> floor = seen_grid(list_.projection, corners_[0], corners_[3], {10, 10, 0});
-        out.insert(out.end(), floor.begin(), floor.end());
         return out;
     }
 

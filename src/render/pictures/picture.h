@@ -4,9 +4,8 @@
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/drawlist/shown_points.h>
-#include <render/layout/block_layout.h>
-#include <render/layout/caption.h>
 #include <render/layout/framing.h>
+#include <render/layout/overlays.h>
 #include <render/parts/floor_and_axes.h>
 #include <render/text/labels.h>
 #include <scene/drawn_agent.h>
@@ -29,7 +28,7 @@ class Picture {
     Picture(const Picture&) = delete;
     Picture& operator=(const Picture&) = delete;
 
-    /// Finds the place of scene, caption, legend and map. All that a camera needs to know.
+    /// Finds the place of the scene. All that a camera needs to know.
     const PictureFrame& aim();
     /// Aims and draws the rest; once.
     DrawList draw();
@@ -37,25 +36,17 @@ class Picture {
     Camera turning() const { return turning_camera(view_.camera, framed_, list_.space, list_.size); }
 
   protected:
-    struct Words {
-        Caption caption;
-        std::vector<LegendEntry> legend;
-        glm::vec2 map{0};  ///< size of the floor map, pixels; 0: none
-    };
-
     /// Throws std::invalid_argument if there is nobody to draw.
     Picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options);
 
-    /// What the picture says. The caption is left out where the view has none.
-    virtual Words words() = 0;
-    /// What legend and map had better not cover. Needs the projection.
-    virtual std::vector<Rect> busy() const { return {}; }
+    /// What the picture says. Needs the projection.
+    virtual OverlayContents words() = 0;
     /// Adds what is drawn; returns what is said beside it. Needs the projection.
     virtual std::vector<LabelRequest> content() { return {}; }
     /// What stands along the floor and the time axis.
     virtual std::vector<LabelRequest> floor_labels() const;
-    /// Adds the floor map with its upper left corner at a point.
-    virtual void add_map(glm::vec2) {}
+    /// Adds the floor's map within a rectangle of the size that words() asks for.
+    virtual void add_map(const Rect&) {}
     /// Adds names, which come last.
     virtual void add_names_to(LabelLayout&) {}
 
@@ -69,15 +60,8 @@ class Picture {
     ShownPoints points_;  ///< all that is drawn: what is near and far
     double margin_ = kFrameMargin;
     DrawList list_;
-
-  private:
-    LabelLayout layout_;
-    Blocks blocks_;
 };
 
-/// The points of a grid in the box from `low` to `high` that are seen, as small rectangles around their pixels.
-/// `cells`: along each side.
-std::vector<Rect> seen_grid(const ViewProjection& projection, glm::vec3 low, glm::vec3 high, glm::ivec3 cells);
 
 /// Paths and boxes of a scene in space-time. `kept`: of the scene; outlives the picture.
 std::unique_ptr<Picture> space_time_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options);

@@ -1,6 +1,5 @@
 #include <explain/query_progress.h>
 #include <render/layout/annotations.h>
-#include <render/layout/block_layout.h>
 #include <render/layout/caption.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
@@ -28,7 +27,7 @@ struct QueryAtStep {
 
     QueryAtStep(const FittedScene& fitted, const ViewState& view)
         : recorded(record(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)])),
-          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace))) {}
+          progress(progress_at(recorded.trace, event_of(view.step, recorded.trace), view.past)) {}
     QueryAtStep(const QueryAtStep&) = delete;
     QueryAtStep& operator=(const QueryAtStep&) = delete;
 };
@@ -91,19 +90,20 @@ class SpaceTimePicture final : public Picture {
   private:
     const QueryProgress* progress() const { return query_ ? &query_->progress : nullptr; }
 
-    Words words() override {
-        Words out;
+    OverlayContents words() override {
+        OverlayContents out;
         out.caption = query_ ? query_caption(list_.palette, agents_, query_->recorded, progress()->step)
                              : scene_caption(fitted_, agents_, view_);
         if (view_.time && !emphasis_.cursor) {
             mention_cursor_outside(out.caption, *view_.time, floor_extent_.t0, floor_extent_.t1);
         }
         out.legend = legend_entries(list_, agents_, view_, emphasis_, progress());
-        if (emphasis_.cursor) out.map = inset_size(floor_extent_, metrics_.scale);
+        if (emphasis_.cursor) {
+            out.map_title = "floor" + at_time(*emphasis_.cursor);
+            out.map = map_size(floor_extent_, metrics_.scale);
+        }
         return out;
     }
-
-    std::vector<Rect> busy() const override { return occupied(list_, floor_extent_, view_, metrics_); }
 
     std::vector<LabelRequest> content() override {
         refine_crowded_boxes(list_, metrics_.scale);
@@ -120,8 +120,8 @@ class SpaceTimePicture final : public Picture {
         return add_findings(list_, agents_, query_->recorded, *progress(), metrics_);
     }
 
-    void add_map(glm::vec2 corner) override {
-        add_floor_inset(list_, agents_, floor_extent_, *emphasis_.cursor, corner, metrics_.scale);
+    void add_map(const Rect& within) override {
+        add_floor_map(list_, agents_, floor_extent_, *emphasis_.cursor, within, metrics_.scale);
     }
 
     void add_names_to(LabelLayout& layout) override { add_names(list_, layout, agents_, metrics_); }

@@ -60,7 +60,7 @@ LineStyle outcome_style(BoxState state, const Palette& palette) {
 }
 
 PairOutline pair_outline(const ViewState& view) {
-    return view.tested_before ? PairOutline::owner : PairOutline::outcome;
+    return view.past == Past::pair ? PairOutline::outcome : PairOutline::owner;
 }
 
 LineStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette) {
@@ -75,9 +75,7 @@ void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const Qu
                      PairOutline outline, float scale) {
     for (std::size_t side = 0; side < 2; ++side) {
         const DrawnAgent& agent = sides[side];
-        const std::span<const NodeProgress> before =
-            outline == PairOutline::owner ? progress.nodes[side] : std::span<const NodeProgress>();
-        for (const NodeProgress& node : before) {
+        for (const NodeProgress& node : progress.nodes[side]) {
             const LineStyle style = outcome_style(box_state(node.outcome), list.palette);
             BoxInstance box = node_box(agent, node.node, list.space);
             box.state = box_state(node.outcome);
@@ -126,10 +124,6 @@ void add_time_intervals(DrawList& list, const FloorExtent& floor_extent, std::sp
     // In the text's colour, as the gap in the scene is: a thin grey line between the bars is not seen.
     const Dash dash = outcome_style(BoxState::apart_in_time, list.palette).dash;
     add(kFirst + 0.5f * kNext, end, begin, {list.palette.text, 1.8f, dash, 1});
-}
-
-bool Emphasis::cuts() const {
-    return std::any_of(at_cursor.begin(), at_cursor.end(), [](const auto& sample) { return sample.has_value(); });
 }
 
 Emphasis emphasis_of(const ViewState& view, std::span<const DrawnAgent> agents, double begin, double end,

@@ -23,13 +23,13 @@ LineStyle outcome_style(BoxState state, const Palette& palette);
 /// How the boxes of the pair under test are outlined.
 enum class PairOutline {
     owner,    ///< in their agents' colours: the outcomes' are those of the pairs before it
-    outcome,  ///< by how its test ended: there are no others
+    outcome,  ///< by how its test ended: there are no others (Past::pair)
 };
 PairOutline pair_outline(const ViewState& view);
 /// Of one side's box, whose faces always have the agent's colour.
 LineStyle pair_style(PairOutline outline, const DrawnAgent& side, mobb::Outcome outcome, const Palette& palette);
 
-/// `sides`: A and B. With PairOutline::outcome only the pair's. `scale`: of line widths.
+/// Those of the pair under test and of the nodes that the progress tells of. `sides`: A and B. `scale`: of line widths.
 void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const QueryProgress& progress,
                      PairOutline outline, float scale);
 
@@ -43,9 +43,6 @@ struct Emphasis {
     std::vector<std::optional<int>> at_cursor;  ///< by agent: the sample that holds then
     std::optional<std::array<int, 2>> hits;     ///< samples of A and B that collide
     bool dims = false;                          ///< disks outside the nodes under test step back
-
-    /// True if any path has a sample at the cursor.
-    bool cuts() const;
 };
 
 /// `begin`, `end`: of the paths. `progress`: of the query in the view, or null.

@@ -17,7 +17,6 @@ struct LabelRequest {
     glm::vec2 anchor{0};                ///< pixels
     std::vector<glm::vec2> directions;  ///< where it may stand from there, best first; any length
     float distance = 4;                 ///< pixels from the anchor to the label's edge
-    float room = 2;                     ///< pixels kept free to the left and right of it
     bool pill = false;                  ///< on a small panel of its own
     Rgba border{0};                     ///< of the panel
 };
@@ -30,7 +29,8 @@ class LabelLayout {
 
     /// Keeps labels out of a rectangle.
     void reserve(const Rect& rect) { taken_.push_back(rect); }
-    bool is_free(const Rect& rect, float room = 2) const;
+    /// Whether nothing is there, nor within `room` pixels to the left and right of it.
+    bool is_free(const Rect& rect, float room) const;
 
     /// Adds the label to the list at the first direction that is free; false if none is. Earlier labels have
     /// precedence.

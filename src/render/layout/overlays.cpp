@@ -1,0 +1,306 @@
+#include <base/text.h>
+#include <render/layout/legend.h>
+#include <render/layout/overlays.h>
+#include <render/text/labels.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace mobbscope {
+
+namespace {
+
+using Kind = Overlay::Kind;
+
+constexpr float kWidestWords = 0.4f;  // of the picture, in a legend
+
+float area_of(glm::vec2 size) { return size.x * size.y; }
+
+/// Of all overlays of a picture.
+struct PanelSpacing {
+    float text = 0;     ///< size of the legend's words and of headers, pixels
+    float padding = 0;  ///< between a panel's edge and what is on it
+    float gap = 0;      ///< between panels
+    float chevron = 0;  ///< the square that a chevron stands in
+    float header = 0;   ///< height of a folded panel
+    explicit PanelSpacing(const Metrics& metrics)
+        : text(metrics.small),
+          padding(panel_padding(metrics.small)),
+          gap(std::round(0.5f * metrics.pad)),
+          chevron(line_height(FontFace::text, metrics.small)),
+          header(chevron + 2 * std::round(0.5f * padding)) {}
+
+    glm::vec2 around(glm::vec2 content) const { return content + 2 * padding; }
+    /// A folded panel with that text; without one the chevron alone.
+    glm::vec2 header_size(const std::string& words, bool dot) const {
+        const float dot_room = dot ? 0.9f * text : 0;
+        const float width = words.empty() ? 0 : 0.3f * text + dot_room + Font::of(FontFace::text).width(words, text);
+        return {std::ceil(chevron + width + padding), header};
+    }
+};
+
+/// A panel and how it is shown.
+struct Place {
+    Rect rect;
+    bool open = false;
+    bool no_room = false;
+    std::string header;  ///< of a folded one
+};
+
+/// What stands in the corner of an area. `corner`: (0, 0) is the upper left.
+Rect in_corner(const Rect& area, glm::vec2 corner, glm::vec2 size) {
+    const glm::vec2 at = glm::round(area.min + corner * (area.size() - size));
+    return {at, at + size};
+}
+
+/// The legend's rows that are shown: all, or the first few and how many more there are.
+std::vector<LegendEntry> shown_rows(std::span<const LegendEntry> all, std::size_t most) {
+    std::vector<LegendEntry> out(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(most, all.size())));
+    if (out.size() == all.size()) return out;
+    LegendEntry rest;
+    rest.mark = LegendEntry::Mark::remark;
+    rest.text = "and " + std::to_string(all.size() - out.size()) + " more";
+    out.push_back(rest);
+    return out;
+}
+
+/// Whether nothing of the headline is cut off.
+bool is_whole(const Caption& caption, const CaptionLines& lines) {
+    std::string shown;
+    for (const std::string& line : lines.headline) shown += (shown.empty() ? "" : " ") + line;
+    return std::ranges::find(caption.headlines, shown) != caption.headlines.end();
+}
+
+class OverlayLayout {
+  public:
+    OverlayLayout(DrawList& list, const OverlayContents& contents, const ViewState& view, const Metrics& metrics)
+        : list_(list),
+          contents_(contents),
+          view_(view),
+          metrics_(metrics),
+          spacing_(metrics),
+          area_{glm::vec2(metrics.pad), glm::vec2(list.size.width, list.size.height) - metrics.pad},
+          words_room_(kWidestWords * area_.size().x) {}
+
+    std::optional<Rect> add() {
+        fold_all();
+        open_caption();
+        open_legend();
+        open_map();
+        if (caption_) draw_caption();
+        if (legend_) draw_legend();
+        return map_ ? draw_map() : std::nullopt;
+    }
+
+  private:
+    /// Every panel as its header, which is what there is room for in any picture.
+    void fold_all() {
+        const auto folded = [&](const std::string& title, glm::vec2 corner, float room, bool no_room, bool dot) {
+            Place place;
+            place.no_room = no_room;
+            const auto fits = [&](const std::string& words) { return spacing_.header_size(words, dot).x <= room; };
+            const std::string short_one = fit_text(title, FontFace::text, spacing_.text, 0.6f * room);
+            const std::array<std::string, 2> words =
+                no_room ? std::array{title + ": no room", std::string("no room")} : std::array{title, short_one};
+            const auto found = std::ranges::find_if(words, fits);
+            if (found != words.end()) place.header = *found;
+            place.rect = in_corner(area_, corner, spacing_.header_size(place.header, dot));
+            return place;
+        };
+        const bool has_map = contents_.map.x > 0;
+        const float half = 0.5f * (area_.size().x - spacing_.gap);
+        if (has_map) map_ = folded(contents_.map_title, {1, 0}, half, !view_.fold_inset, false);
+        if (!contents_.caption.headlines.empty()) {
+            const Caption& caption = contents_.caption;
+            const std::string& title = caption.title.empty() ? caption.headlines.back() : caption.title;
+            const bool dot = caption.mark.a > 0;
+            const float room = area_.size().x - (map_ ? map_->rect.size().x + spacing_.gap : 0);
+            caption_ = folded(title, {0, 0}, room, !view_.fold_caption, dot);
+        }
+        if (!contents_.legend.empty()) {
+            legend_ = folded("Legend", {0, 1}, area_.size().x, !view_.fold_legend, false);
+        }
+    }
+
+    bool is_free(const Rect& rect, std::initializer_list<const std::optional<Place>*> others) const {
+        return area_.grown(0.5f).contains(rect) && std::ranges::none_of(others, [&](const std::optional<Place>* other) {
+                   return *other && (*other)->rect.grown(spacing_.gap - 0.5f).overlaps(rect);
+               });
+    }
+
+    /// Whether that much may be covered beside what is open already.
+    bool may_cover(glm::vec2 size) const {
+        float covered = area_of(size);
+        for (const std::optional<Place>* place : {&caption_, &legend_, &map_}) {
+            if (*place && (*place)->open) covered += area_of((*place)->rect.size());
+        }
+        return covered <= kMostCovered * static_cast<float>(list_.size.width) * static_cast<float>(list_.size.height);
+    }
+
+    void open(std::optional<Place>& place, const Rect& rect) {
+        place->rect = rect;
+        place->open = true;
+        place->no_room = false;
+    }
+
+    glm::vec2 map_panel() const {
+        const float title = Font::of(FontFace::text).width(contents_.map_title, spacing_.text) + spacing_.chevron;
+        return glm::ceil(
+            spacing_.around({std::max(contents_.map.x, title), contents_.map.y + 1.5f * spacing_.chevron}));
+    }
+
+    void open_caption() {
+        if (!caption_ || view_.fold_caption) return;
+        // Beside the map if that leaves enough, for the map to be seen as well.
+        const float beside_map = area_.size().x - (map_ ? map_panel().x + spacing_.gap : 0);
+        const float beside_header = area_.size().x - (map_ ? map_->rect.size().x + spacing_.gap : 0);
+        const bool both = map_ && !view_.fold_inset && beside_map >= 0.5f * area_.size().x;
+        const float room = (both ? beside_map : beside_header) - 2 * spacing_.padding - spacing_.chevron;
+        const auto fits = [&](const Caption& caption) {
+            caption_lines_ = caption_lines(caption, room, metrics_.scale, 2);
+            // A sentence that breaks off before the outcome says nothing; a name that is cut still does.
+            if (caption.headlines.size() > 1 && !is_whole(caption, caption_lines_)) return false;
+            const glm::vec2 text = caption_size(caption, caption_lines_, metrics_.scale);
+            const glm::vec2 size = spacing_.around(text + glm::vec2(spacing_.chevron, 0));
+            const Rect rect = in_corner(area_, {0, 0}, size);
+            if (!is_free(rect, {&legend_, &map_}) || !may_cover(size)) return false;
+            open(caption_, rect);
+            return true;
+        };
+        Caption without_detail = contents_.caption;
+        without_detail.detail.clear();
+        if (!fits(contents_.caption)) fits(without_detail);
+    }
+
+    void open_legend() {
+        if (!legend_ || view_.fold_legend) return;
+        const std::span<const LegendEntry> all = contents_.legend;
+        const auto fits = [&](std::size_t most) {
+            rows_ = shown_rows(all, most);
+            glm::vec2 content = legend_size(rows_, spacing_.text, words_room_);
+            // The chevron stands at the end of the first row.
+            content.x = std::max(
+                content.x, legend_size(std::span(rows_).first(1), spacing_.text, words_room_).x + spacing_.chevron);
+            const glm::vec2 size = glm::ceil(spacing_.around(content));
+            const Rect rect = in_corner(area_, {0, 1}, size);
+            const bool short_one = most <= kLegendRows;
+            if (!is_free(rect, {&caption_, &map_}) || (short_one && !may_cover(size))) return false;
+            open(legend_, rect);
+            return true;
+        };
+        if (view_.whole_legend) {
+            for (std::size_t most = all.size(); most > kLegendRows; --most) {
+                if (fits(most)) return;
+            }
+        }
+        if (!fits(kLegendRows)) rows_.clear();
+    }
+
+    void open_map() {
+        if (!map_ || view_.fold_inset) return;
+        const Rect rect = in_corner(area_, {1, 0}, map_panel());
+        if (is_free(rect, {&caption_, &legend_}) && may_cover(rect.size())) open(map_, rect);
+    }
+
+    // --- drawing
+
+    /// Panel and chevron; of a folded one the header's words. Returns the upper left corner of what it holds.
+    glm::vec2 draw_panel(Kind kind, const Place& place, Rgba dot = Rgba(0)) {
+        list_.panels.push_back(text_panel(place.rect, list_.palette, spacing_.text));
+        const float square = spacing_.chevron;
+        const float inset = 0.5f * (spacing_.header - square);
+        Overlay overlay{kind, place.rect, place.rect, !place.open, place.no_room, std::nullopt};
+        if (place.open) {
+            // As large as a folded panel is high, so that it is easily hit.
+            overlay.fold = {{place.rect.max.x - spacing_.header, place.rect.min.y},
+                            {place.rect.max.x, place.rect.min.y + spacing_.header}};
+            add_chevron(overlay.fold.center(), {0, 1});
+        } else {
+            const glm::vec2 corner = place.rect.min + inset;
+            add_chevron(corner + 0.5f * square, {1, 0});
+            float x = corner.x + square + 0.3f * spacing_.text;
+            if (dot.a > 0 && !place.header.empty()) {
+                const float r = 0.3f * spacing_.text;
+                const glm::vec2 middle(x + r, corner.y + 0.52f * square);
+                list_.panels.push_back({{middle - r, middle + r}, r, dot, Rgba(0), 0});
+                x += 0.9f * spacing_.text;
+            }
+            if (!place.header.empty()) {
+                list_.texts.push_back(
+                    text_at(place.header, FontFace::text, spacing_.text, list_.palette.quiet_text, {x, corner.y}));
+            }
+        }
+        list_.overlays.push_back(overlay);
+        return place.rect.min + spacing_.padding;
+    }
+
+    /// An angle that points along x or y.
+    void add_chevron(glm::vec2 middle, glm::vec2 way) {
+        const float r = 0.26f * spacing_.text;
+        const glm::vec2 across(way.y, way.x);
+        const glm::vec2 tip = middle + 0.5f * r * way;
+        for (const float side : {-1.0f, 1.0f}) {
+            list_.overlay_lines.push_back({middle - 0.5f * r * way + side * r * across, tip, list_.palette.quiet_text,
+                                           1.3f * metrics_.scale, kSolid});
+        }
+    }
+
+    void draw_caption() {
+        list_.headline = contents_.caption.headlines.front();
+        const glm::vec2 corner = draw_panel(Kind::caption, *caption_, contents_.caption.mark);
+        if (caption_->open) add_caption(list_, contents_.caption, caption_lines_, corner, metrics_.scale);
+    }
+
+    void draw_legend() {
+        list_.legend = contents_.legend;
+        const glm::vec2 corner = draw_panel(Kind::legend, *legend_);
+        if (!legend_->open) return;
+        add_legend(list_, rows_, corner, spacing_.text, words_room_);
+        if (list_.legend.size() <= kLegendRows) return;
+        const Rect& panel = legend_->rect;
+        const float row = legend_row(spacing_.text);
+        const bool whole = rows_.size() > kLegendRows + 1;
+        // The words that count the rest, or where all rows are there a chevron at the end of the last.
+        Rect more{{panel.min.x, panel.max.y - row - 0.5f * spacing_.padding}, panel.max};
+        if (whole) {
+            more.min = panel.max - spacing_.header;
+            add_chevron(more.center(), {0, -1});
+        }
+        list_.overlays.back().more = more;
+    }
+
+    std::optional<Rect> draw_map() {
+        const glm::vec2 corner = draw_panel(Kind::inset, *map_);
+        if (!map_->open) return std::nullopt;
+        list_.texts.push_back(
+            text_at(contents_.map_title, FontFace::text, spacing_.text, list_.palette.quiet_text, corner));
+        const Rect& panel = map_->rect;
+        const glm::vec2 at(std::round(panel.center().x - 0.5f * contents_.map.x),
+                           panel.max.y - spacing_.padding - contents_.map.y);
+        return Rect{at, at + contents_.map};
+    }
+
+    DrawList& list_;
+    const OverlayContents& contents_;
+    const ViewState& view_;
+    const Metrics& metrics_;
+    PanelSpacing spacing_;
+    Rect area_;         ///< the picture without its margin
+    float words_room_;  ///< of the legend
+    std::optional<Place> caption_, legend_, map_;
+    CaptionLines caption_lines_;
+    std::vector<LegendEntry> rows_;
+};
+
+}  // namespace
+
+std::optional<Rect> add_overlays(DrawList& list, const OverlayContents& contents, const ViewState& view,
+                                 const Metrics& metrics) {
+    return OverlayLayout(list, contents, view, metrics).add();
+}
+
+}  // namespace mobbscope
