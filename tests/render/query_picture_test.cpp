@@ -3,6 +3,7 @@
 #include <render/pictures/build_draw_list.h>
 #include <render/query/query_boxes.h>
 #include <render/query/separation_gap.h>
+#include <scene/scene.h>
 
 #include "render/pictures.h"
 #include "render/scenes.h"
@@ -68,7 +69,8 @@ TEST(QueryProgress, OnlyTestedNodesAreKnown) {
 
 /// Which nodes of A and B each kind of past tells of, worked out from the trace by itself.
 TEST(QueryProgress, ThePastIsThePairTheAncestorsTheSiblingsOrAll) {
-    const Query query(testing::hit_scene());
+    // Of which siblings have children of their own.
+    const Query query(FittedScene(load_scene(MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json"), {}));
     const mobb::Trace& trace = query.recorded.trace;
     bool siblings_differ = false;
     bool all_differ = false;
