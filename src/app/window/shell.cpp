@@ -142,22 +142,25 @@ struct Shell::State {
         return clipboard.c_str();
     }
 
-    /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
-    bool press(const Chord& chord, bool repeated) {
+    /// Runs the command of a chord, unless the keys are somebody else's.
+    InputQueue::Taken press(const Chord& chord, bool repeated) {
+        using Taken = InputQueue::Taken;
         const Command* command = command_for(chord);
         if (!command || (repeated && !command->repeats) || session.dialog != Dialog::none) {
-            return false;
+            return Taken::nobodys;
         }
         // A drag ends on what it began on.
-        if (input.any_button_down()) return false;
-        if (ImGui::GetIO().WantTextInput && edits_text(chord)) return false;
+        if (input.any_button_down()) return Taken::nobodys;
+        if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-        if (busy && !chord.ctrl && edits_text(chord)) return false;
+        if (busy && !chord.ctrl && edits_text(chord)) return Taken::nobodys;
+        // Each press is undone by itself, also of those that one frame takes in.
+        if (!ImGui::IsAnyItemActive()) session.close_group();
         // A key that has nothing to do now says nothing.
         if (command->enabled(session)) invoke(session, command->id);
         // No panel is being drawn: what comes next from the keyboard meets what this one has done.
         session.run_queue();
-        return true;
+        return session.dialog == Dialog::none ? Taken::command : Taken::opened;
     }
 
     void drop(const Drop& dropped) {
