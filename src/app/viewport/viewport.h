@@ -44,6 +44,7 @@ class Viewport {
     void take_off(Ui& ui, const Key& next);
     void update_highlights(const Ui& ui);
     void show(Ui& ui, ImVec2 corner);
+    void sign_of_work(Ui& ui, ImVec2 end) const;
     void mouse(Ui& ui, const ShownPicture& picture);
     void wheel(Ui& ui, glm::vec2 pixel);
     void press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel);
@@ -72,9 +73,6 @@ class Viewport {
     std::optional<Flight> flight_;
     using Changed = Painter::Changed;
     Changed unpainted_ = Changed::nothing;  ///< what has changed since the painter was told
-    bool shown_still_ = false;
-    double changed_at_ = 0;
-    ImTextureID texture_ = nullptr;
 
     Drag drag_ = Drag::none;
     HandleDrag handle_drag_;
