@@ -28,8 +28,10 @@ flat out uvec2 object_id;
 // this one, or that it stands on. With a margin of many times what depths are rounded by.
 bool is_covered(vec2 at, vec3 by, float radius, vec4 middle) {
     float reach = inner * by.z - 0.02 * radius;
-    float height = (top_and_radius.z - base_and_radius.z) * scale / middle.w;
-    if (reach <= 0.0 || height < 0.02 || middle.w - near_depth < 4.0 * (radius + by.z)) return false;
+    float height = top_and_radius.z - base_and_radius.z;
+    if (reach <= 0.0 || height * scale / middle.w < 0.02) return false;
+    // The other one must be drawn, all of it.
+    if (middle.w - near_depth < length(by.xy) + by.z + height) return false;
     mat2 onwards = mat2(next_corner, vec2(-next_corner.y, next_corner.x));
     return length(by.xy) < reach && length(at - by.xy) < reach && length(onwards * at - by.xy) < reach &&
            length(at * onwards - by.xy) < reach;

@@ -77,6 +77,7 @@ TEST_P(PaintTest, WhatDisksHideOfEachOtherIsLeftOutWithoutATrace) {
             view.camera.pitch_deg = pitch;
             view.camera.target = glm::dvec3(0, 0, 1);
             view.camera.distance = distance;
+            view.camera.perspective = distance < 14;
             DrawList list = build_draw_list(testing::hit_scene(), view, kSmallSize);
             const Image left_out = renderer().draw(list);
             for (DiskInstance& disk : list.disks.edit()) disk.id.index *= 2;
