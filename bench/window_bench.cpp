@@ -1,4 +1,5 @@
-/// What a frame of the whole window costs while somebody uses it: process CPU time and frames a second, 1280x720.
+/// What the whole window costs while somebody uses it, 1280x720: process CPU time and frames a second; and how soon it
+/// answers a key.
 #include "crowd.h"
 
 #include <app/commands/command.h>
@@ -8,11 +9,17 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
+#include <deque>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace mobbscope::app {
@@ -134,6 +141,152 @@ void panel(benchmark::State& state, Backend backend, int agents) {
     measure(state, window, [&](std::size_t frame) { return around({120, 400}, 60, frame); });
 }
 
+// --- how soon it answers
+
+double wall_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// A window in real time, as a person has it: it draws when there is something to draw.
+class LiveWindow {
+  public:
+    LiveWindow(Backend backend, const Scene& scene)
+        : session_(true, settings_with(Panels::usual)), shell_(GlContext::open(backend), session_, 1) {
+        session_.open_scene(scene, {});
+        rest();
+        if (session_.empty()) throw std::runtime_error("the scene was not opened");
+    }
+
+    Session& session() { return session_; }
+
+    /// Until nothing more is to be drawn.
+    void rest() { answer_to({}, Key::none); }
+
+    struct Answer {
+        double changed = 0;  ///< seconds from the first press to another picture
+        double fine = 0;     ///< ... from the last press to the one that stays
+        double cpu = 0;      ///< of the process
+        int frames = 0;
+    };
+    /// `presses`: of the key, at so many seconds from now.
+    Answer answer_to(std::deque<double> presses, Key key) {
+        const double last = presses.empty() ? 0 : presses.back();
+        const Image before = shell_.frames_drawn() > 0 ? picture() : Image{};
+        const double begin = wall_seconds();
+        const double cpu = cpu_seconds();
+        const int drawn = shell_.frames_drawn();
+        Answer out;
+        for (double next = 0;;) {
+            const double since = wall_seconds() - begin;
+            bool pressed = false;
+            for (; !presses.empty() && presses.front() <= since; presses.pop_front()) {
+                for (const bool down : {true, false}) shell_.feed(KeyPress{key, down});
+                pressed = true;
+            }
+            if (!pressed && next > 0) {
+                if (std::isinf(next) && presses.empty() && !session_.job()) break;
+                const double due = presses.empty() ? next : std::min(next, presses.front() - since);
+                std::this_thread::sleep_for(std::chrono::duration<double>(std::min(due, 0.01)));
+                next -= std::min(due, 0.01);
+                continue;
+            }
+            next = shell_.frame(kWindow, wall_seconds());
+            const Image now = picture();
+            out.fine = wall_seconds() - begin - last;
+            if (out.changed == 0 && now.rgba != before.rgba) out.changed = wall_seconds() - begin;
+        }
+        out.cpu = cpu_seconds() - cpu;
+        out.frames = shell_.frames_drawn() - drawn;
+        return out;
+    }
+
+  private:
+    /// What the viewport shows; the panels may answer before it.
+    Image picture() {
+        const Image all = shell_.read_back();
+        const auto mark = shell_.marks().all().find("viewport");
+        if (mark == shell_.marks().all().end()) return {};
+        const glm::ivec2 min(mark->second.min);
+        const glm::ivec2 size(mark->second.size());
+        Image out(size.x, size.y);
+        for (int y = 0; y < size.y; ++y) std::copy_n(all.at(min.x, min.y + y), 4 * size.x, out.at(0, y));
+        return out;
+    }
+
+    Session session_;
+    Shell shell_;
+};
+
+constexpr double kLongWalk = 5000 / 30.0;  // seconds: 5,000 samples
+
+/// What is looked at, and two keys that undo each other there.
+struct Looked {
+    std::string name;
+    std::function<Scene()> scene;
+    std::function<void(Session&)> look;
+    Key on, back;
+};
+
+Scene long_pair() { return bench::pair(kLongWalk); }
+
+void frame_pair_under_test(Session& session) {
+    run_command(session, "step.percent", "60");
+    const mobb::Trace::Event event = session.recorded()->trace[session.step()];
+    session.select({Selection::Kind::node, {0, -1, 0}, event.a});
+    run_command(session, "view.frame");
+    session.select({});
+}
+
+std::vector<Looked> all_looked_at() {
+    return {
+        {"query_whole", long_pair, [](Session& s) { run_command(s, "step.percent", "60"); }, Key::left, Key::right},
+        {"query_near", long_pair, frame_pair_under_test, Key::left, Key::right},
+        {"leaves_whole", long_pair, [](Session& s) { run_command(s, "view.leaves"); }, Key::left_bracket,
+         Key::right_bracket},
+        {"leaves_near", long_pair,
+         [](Session& s) {
+             frame_pair_under_test(s);
+             run_command(s, "view.leaves");
+         },
+         Key::left_bracket, Key::right_bracket},
+        {"moment", long_pair,
+         [](Session& s) {
+             run_command(s, "view.moment");
+             run_command(s, "time.at", "60");
+         },
+         Key::period, Key::comma},
+        {"following", [] { return bench::run(100, 60); },
+         [](Session& s) {
+             run_command(s, "time.at", "30");
+             run_command(s, "crowd.follow", s.crowd()->agents.front().name);
+         },
+         Key::period, Key::comma},
+    };
+}
+
+/// The time of an iteration is that from the (last) press to the picture that stays.
+void answer(benchmark::State& state, Backend backend, const Looked& looked, int presses) {
+    LiveWindow window(backend, looked.scene());
+    looked.look(window.session());
+    window.rest();
+    LiveWindow::Answer sum;
+    bool back = false;
+    for (auto _ : state) {
+        std::deque<double> at;
+        for (int i = 0; i < presses; ++i) at.push_back(0.1 * i);
+        const LiveWindow::Answer one = window.answer_to(at, back ? looked.back : looked.on);
+        back = !back;
+        state.SetIterationTime(std::max(one.fine, 1e-9));
+        sum = {sum.changed + one.changed, 0, sum.cpu + one.cpu, sum.frames + one.frames};
+    }
+    const auto mean = [&](double of) { return of / static_cast<double>(state.iterations()); };
+    state.counters["changed_ms"] = 1000 * mean(sum.changed);
+    state.counters["cpu_ms"] = 1000 * mean(sum.cpu);
+    state.counters["frames"] = mean(sum.frames);
+}
+
 template <class Body, class... Arguments>
 void add(const std::string& name, Body body, Arguments... arguments) {
     benchmark::RegisterBenchmark(name.c_str(), body, arguments...)
@@ -166,6 +319,14 @@ void add_all() {
             add("follow_space_time" + crowd + on, play, backend, agents, Show::space_time, true);
         }
         add("drag/2_clips_of_42_s" + on, drag, backend, 42.0);
+        for (const Looked& looked : all_looked_at()) {
+            for (const auto& [presses, count] : {std::pair("press/", 1), std::pair("ten_presses/", 10)}) {
+                const std::string row = presses + looked.name + on;
+                benchmark::RegisterBenchmark(row.c_str(), answer, backend, looked, count)
+                    ->Unit(benchmark::kMillisecond)
+                    ->UseManualTime();
+            }
+        }
     }
 }
 

@@ -17,7 +17,7 @@ class InputQueueTest : public ::testing::Test {
         queue.feed(io(), {[this](const Chord& chord, bool repeated) {
                               chords.push_back(chord);
                               repeats += repeated;
-                              return takes_chords;
+                              return taken;
                           },
                           [this](const Drop& drop) { dropped += drop.paths.size(); }, [this] { closed = true; }});
     }
@@ -27,7 +27,7 @@ class InputQueueTest : public ::testing::Test {
     int repeats = 0;
     std::size_t dropped = 0;
     bool closed = false;
-    bool takes_chords = false;
+    InputQueue::Taken taken = InputQueue::Taken::nobodys;
 
   private:
     ImGuiContext* context_;
@@ -86,17 +86,83 @@ TEST_F(InputQueueTest, AHeldKeyRepeats) {
 }
 
 TEST_F(InputQueueTest, AKeyThatDidSomethingTypesNothing) {
-    takes_chords = true;
+    taken = InputQueue::Taken::command;
     queue.push(KeyPress{Key::f, true});
     queue.push(TypedText{U'f'});
     feed();
     EXPECT_TRUE(io().InputQueueCharacters.empty());
-    takes_chords = false;
+    taken = InputQueue::Taken::nobodys;
     queue.push(KeyPress{Key::g, true});
     queue.push(TypedText{U'g'});
     feed();
     ASSERT_EQ(io().InputQueueCharacters.Size, 1);
     EXPECT_EQ(io().InputQueueCharacters[0], 'g');
+}
+
+TEST_F(InputQueueTest, PressesOfACommandsKeyAllComeInOneFrame) {
+    taken = InputQueue::Taken::command;
+    for (int i = 0; i < 10; ++i) {
+        queue.push(KeyPress{Key::left_bracket, true});
+        queue.push(TypedText{U'['});
+        queue.push(KeyPress{Key::left_bracket, false});
+    }
+    feed();
+    EXPECT_EQ(chords.size(), 10u);
+    EXPECT_EQ(repeats, 0);
+    EXPECT_TRUE(queue.empty());
+    EXPECT_TRUE(io().InputQueueCharacters.empty());
+    EXPECT_FALSE(io().KeysDown[static_cast<std::size_t>(Key::left_bracket)]) << "it is not Dear ImGui's";
+    queue.push(KeyPress{Key::right, true});
+    for (int i = 0; i < 30; ++i) queue.push(KeyPress{Key::right, true});
+    feed();
+    EXPECT_EQ(chords.size(), 41u);
+    EXPECT_EQ(repeats, 30);
+    EXPECT_TRUE(queue.empty()) << "a held key does not pile up";
+}
+
+TEST_F(InputQueueTest, APressOfTheMouseMeetsWhatTheKeysHaveDone) {
+    taken = InputQueue::Taken::command;
+    queue.push(KeyPress{Key::right, true});
+    queue.push(MouseButton{0, true});
+    queue.push(KeyPress{Key::right, false});
+    feed();
+    EXPECT_FALSE(io().MouseDown[0]);
+    feed();
+    EXPECT_TRUE(io().MouseDown[0]);
+}
+
+TEST_F(InputQueueTest, WhatACommandOpensTakesTheKeysFromTheNextFrameOn) {
+    taken = InputQueue::Taken::opened;
+    queue.push(KeyPress{Key::slash, true});
+    queue.push(TypedText{U'?'});
+    queue.push(KeyPress{Key::slash, false});
+    queue.push(KeyPress{Key::a, true});
+    queue.push(TypedText{U'a'});
+    feed();
+    EXPECT_TRUE(io().InputQueueCharacters.empty());
+    EXPECT_EQ(chords.size(), 1u);
+    taken = InputQueue::Taken::nobodys;
+    feed();
+    EXPECT_EQ(chords.size(), 2u);
+    ASSERT_EQ(io().InputQueueCharacters.Size, 1);
+    EXPECT_EQ(io().InputQueueCharacters[0], 'a');
+}
+
+TEST_F(InputQueueTest, AHeldKeyOfACommandThatDoesNotRepeatTypesNothing) {
+    taken = InputQueue::Taken::command;
+    queue.push(KeyPress{Key::b, true});
+    feed();
+    taken = InputQueue::Taken::nobodys;
+    queue.push(KeyPress{Key::b, true});
+    queue.push(TypedText{U'b'});
+    feed();
+    EXPECT_TRUE(io().InputQueueCharacters.empty());
+    EXPECT_FALSE(io().KeysDown[static_cast<std::size_t>(Key::b)]);
+    queue.push(KeyPress{Key::b, false});
+    queue.push(KeyPress{Key::b, true});
+    queue.push(TypedText{U'b'});
+    feed();
+    EXPECT_EQ(io().InputQueueCharacters.Size, 1) << "pressed anew it is nobody's";
 }
 
 TEST_F(InputQueueTest, EnterAfterTextComesAFrameLater) {

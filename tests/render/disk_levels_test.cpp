@@ -69,6 +69,20 @@ bool has(const std::vector<DiskPiece>& disks, int sample) {
     });
 }
 
+TEST(DiskLevels, DisksKnowWhichStandOnThemAndWhichTheyStandOn) {
+    std::vector<DiskInstance> disks = path();
+    disks[20].id.index = 100;  // the path has a gap there
+    const std::vector<DiskPiece> pieces = pieces_of(disks);
+    for (std::size_t i = 0; i + 1 < disks.size(); ++i) {
+        const glm::vec3 step = disks[i + 1].base - disks[i].base;
+        const bool gap = i == 19 || i == 20;
+        EXPECT_EQ(pieces[i].above, gap ? glm::vec3(0) : glm::vec3(step.x, step.y, disks[i + 1].radius)) << i;
+        EXPECT_EQ(pieces[i + 1].below, gap ? glm::vec3(0) : glm::vec3(-step.x, -step.y, disks[i].radius)) << i;
+    }
+    EXPECT_EQ(pieces.front().below, glm::vec3(0));
+    EXPECT_EQ(pieces.back().above, glm::vec3(0));
+}
+
 TEST(DiskLevels, FarDisksJoinUp) {
     DiskLevels levels(path());
     const Drawn far = seen(levels, lens_of(8));

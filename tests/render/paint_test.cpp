@@ -8,10 +8,12 @@
 #include <glad/gl.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -64,6 +66,78 @@ TEST_P(PaintTest, CoarseDisksDifferAtTheirEdgesAlone) {
         const ImageDiff found = diff(renderer().draw(list, 1), renderer().draw(list), options);
         EXPECT_LT(found.fraction(), 0.004) << "from " << distance << " m";
     }
+}
+
+/// Disks that follow one another leave out what they hide of each other; those of which every other is missing do not.
+TEST_P(PaintTest, WhatDisksHideOfEachOtherIsLeftOutWithoutATrace) {
+    for (const double pitch : {-70.0, -15.0, 4.0, 30.0, 90.0}) {
+        for (const double distance : {9.0, 14.0, 30.0}) {
+            ViewState view;
+            view.camera.preset = CameraPreset::free;
+            view.camera.pitch_deg = pitch;
+            view.camera.target = glm::dvec3(0, 0, 1);
+            view.camera.distance = distance;
+            view.camera.perspective = distance < 14;
+            DrawList list = build_draw_list(testing::hit_scene(), view, kSmallSize);
+            const Image left_out = renderer().draw(list);
+            for (DiskInstance& disk : list.disks.edit()) disk.id.index *= 2;
+            EXPECT_EQ(renderer().draw(list).rgba, left_out.rgba) << pitch << " degrees, " << distance << " m";
+        }
+    }
+}
+
+/// A clock by which each part of a picture takes longer than there is time for.
+PaintPace one_part() {
+    static double now = 0;
+    static const std::function<double()> hurries = [] { return now += 1; };
+    return {hurries, 0.5};
+}
+
+TEST_P(PaintTest, APictureThatIsPaintedInPartsIsTheSame) {
+    const DrawList list = everything();
+    const Image drawn = renderer().draw(list);
+    for (const std::string then : {"go on", "something else between", "go on"}) {
+        renderer().begin_paint(list, kPictureSamples);
+        int parts = 1;
+        const Texture* painted = nullptr;
+        for (; !(painted = renderer().paint_more(list, one_part())); ++parts) {
+            ASSERT_LT(parts, 1000);
+            if (parts != 2 || then == "go on") continue;
+            const DrawList other = build_draw_list(testing::miss_scene(), ViewState{}, kSmallSize);
+            renderer().paint_coarse(other, 2);
+            EXPECT_FALSE(renderer().is_painting(list)) << "another picture ends it";
+            renderer().begin_paint(list, kPictureSamples);
+        }
+        EXPECT_GE(parts, 3) << then;
+        EXPECT_EQ(pixels_of(*painted, kSmallSize), drawn.rgba) << then;
+        EXPECT_TRUE(renderer().has_scene(list, kPictureSamples));
+    }
+}
+
+TEST_P(PaintTest, ACoarsePictureHasEverythingWhereTheFineOneHasIt) {
+    const DrawList list = everything();
+    const Image fine = renderer().draw(list);
+    EXPECT_EQ(pixels_of(renderer().paint_coarse(list, 1), kSmallSize),
+              pixels_of(renderer().paint(list, 1), kSmallSize));
+    DiffOptions options;
+    options.channel_tolerance = 60;
+    options.shift = 1;
+    for (const int divisor : {2, 3, 4}) {
+        Image coarse(kSmallSize.width, kSmallSize.height);
+        coarse.rgba = pixels_of(renderer().paint_coarse(list, divisor), kSmallSize);
+        EXPECT_NE(coarse.rgba, fine.rgba);
+        EXPECT_LT(diff(coarse, fine, options).fraction(), 0.02 * divisor) << divisor;
+        // The words are on all pixels.
+        const Rect words = list.texts.front().box;
+        int differing = 0;
+        for (int y = static_cast<int>(words.min.y); y < static_cast<int>(words.max.y); ++y) {
+            const int x = static_cast<int>(words.min.x);
+            const auto* row = coarse.at(x, y);
+            differing += !std::equal(row, row + 4 * static_cast<int>(words.size().x), fine.at(x, y));
+        }
+        EXPECT_EQ(differing, 0) << divisor;
+    }
+    EXPECT_EQ(renderer().draw(list).rgba, fine.rgba) << "it leaves nothing behind";
 }
 
 TEST_P(PaintTest, TheNumberOfSamplesMayChange) {

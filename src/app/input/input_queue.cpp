@@ -16,6 +16,7 @@ struct InputQueue::Frame {
     bool any_key = false;
     bool after_key = false;  ///< the last event was a key
     bool in_text = false;    ///< a text field has the keys
+    bool opened = false;     ///< what a command opened takes the keys from the next frame on
 
     bool any_button() const { return buttons[0] || buttons[1] || buttons[2]; }
 };
@@ -42,6 +43,8 @@ bool InputQueue::is_letter(const KeyPress& key, const Frame& frame) const {
 }
 
 bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) const {
+    // But for the letter of the key that opened it.
+    if (frame.opened) return !typed_by_command_ || !std::holds_alternative<TypedText>(event);
     if (std::holds_alternative<MouseMove>(event)) return frame.any_button() || frame.turned;
     if (const auto* button = std::get_if<MouseButton>(&event)) {
         // What is under the mouse is known a frame after it got there.
@@ -74,20 +77,29 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
     } else if (const auto* key = std::get_if<KeyPress>(&event)) {
         const bool repeated = key->down && keys_[index_of(key->key)];
         keys_[index_of(key->key)] = key->down;
-        io.KeysDown[index_of(key->key)] = key->down;
         io.KeyCtrl = keys_[index_of(Key::ctrl)];
         io.KeyShift = keys_[index_of(Key::shift)];
         io.KeyAlt = keys_[index_of(Key::alt)];
         io.KeySuper = keys_[index_of(Key::super)];
         frame.after_key = true;
-        if (!is_letter(*key, frame)) frame.keys[index_of(key->key)] = frame.any_key = true;
-        typed_by_command_ = key->down && others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated);
+        const Taken taken =
+            key->down ? others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated) : Taken::nobodys;
+        frame.opened = taken == Taken::opened;
+        bool& commands = commands_[index_of(key->key)];
+        // A command's key stays that until it goes up, even where the command does not repeat.
+        const bool is_command = taken != Taken::nobodys || (commands && (repeated || !key->down));
+        commands = typed_by_command_ = is_command && key->down;
+        io.KeysDown[index_of(key->key)] = key->down && !is_command;
+        if (is_letter(*key, frame)) return;
+        frame.any_key = true;
+        // A command has had all of its key.
+        frame.keys[index_of(key->key)] = !is_command;
     } else if (const auto* text = std::get_if<TypedText>(&event)) {
         // Not through AddInputCharacter: from 1.87 on it has a queue of its own, a frame behind the keys of this one.
-        if (!typed_by_command_) io.InputQueueCharacters.push_back(typed_letter(text->code));
-        typed_by_command_ = false;
-        frame.typed = true;
         frame.after_key = after_key;
+        if (std::exchange(typed_by_command_, false)) return;
+        io.InputQueueCharacters.push_back(typed_letter(text->code));
+        frame.typed = true;
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         others.drop(*drop);
     } else {
@@ -102,8 +114,6 @@ void InputQueue::feed(ImGuiIO& io, const Others& others) {
         const InputEvent event = std::move(waiting_.front());
         waiting_.pop_front();
         apply(event, frame, io, others);
-        // What a command opens takes the keys from the next frame on.
-        if (typed_by_command_ && (waiting_.empty() || !std::holds_alternative<TypedText>(waiting_.front()))) break;
     }
 }
 

@@ -1,4 +1,5 @@
-/// Input on its way to Dear ImGui, which sees one state of mouse and keys a frame: what comes too fast for that waits.
+/// Input on its way to commands, of which a frame runs any number, and to Dear ImGui, which sees one state of mouse and
+/// keys a frame: what comes too fast for that waits.
 #pragma once
 
 #include <app/input/input.h>
@@ -13,10 +14,13 @@ namespace mobbscope::app {
 
 class InputQueue {
   public:
+    /// Whose a key was. `command`: it ran one, and so it types nothing and Dear ImGui does not see it; `opened`: one
+    /// after which something else takes the keys, from the next frame on.
+    enum class Taken { nobodys, command, opened };
     /// What is not for Dear ImGui. Called in the order of the events.
     struct Others {
-        /// A key went down, or repeats; true if it did something: then it types nothing.
-        std::function<bool(const Chord& chord, bool repeated)> chord;
+        /// A key went down, or repeats.
+        std::function<Taken(const Chord& chord, bool repeated)> chord;
         std::function<void(const Drop&)> drop;
         std::function<void()> close;
     };
@@ -25,8 +29,8 @@ class InputQueue {
     bool empty() const { return waiting_.empty(); }
     bool any_button_down() const;
 
-    /// Hands over as much as one frame can see: each button and key changes at most once, and nothing overtakes
-    /// anything.
+    /// Hands over as much as one frame can see: each button and each key that is no command's changes at most once, and
+    /// nothing overtakes anything.
     void feed(ImGuiIO& io, const Others& others);
 
     /// Where Dear ImGui finds the keys that it knows (ImGuiIO::KeyMap).
@@ -42,7 +46,8 @@ class InputQueue {
     std::deque<InputEvent> waiting_;
     std::array<bool, 3> buttons_{};
     std::array<bool, static_cast<std::size_t>(Key::count)> keys_{};
-    bool typed_by_command_ = false;  ///< the last key did something, so the letter that follows means nothing
+    std::array<bool, static_cast<std::size_t>(Key::count)> commands_{};  ///< keys that are down and were a command's
+    bool typed_by_command_ = false;  ///< the last key was one, so the letter that follows means nothing
 };
 
 }  // namespace mobbscope::app

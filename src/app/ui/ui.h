@@ -28,10 +28,16 @@ class Painter {
   public:
     virtual ~Painter() = default;
     enum class Changed { nothing, highlights, all };  ///< each includes those before it
-    /// The texture of what the viewport at that place shows, upper row first at v = 1 (OpenGL's way up). What has
-    /// changed since the last call is painted anew when a frame is next looked at. `still`: it will stay a while, so it
-    /// is worth smooth edges.
-    virtual ImTextureID picture(std::size_t place, Changed changed, bool still) = 0;
+    /// Of the person: none is there, and only the fine picture counts; at rest; in the midst of a drag, whose pictures
+    /// all are as coarse as they must be.
+    enum class Hand { away, rests, drags };
+    struct Shown {
+        ImTextureID texture;  ///< upper row first at v = 1 (OpenGL's way up)
+        double coarse_for;    ///< seconds that the fine picture has not come
+    };
+    /// What the viewport at that place shows. What has changed since the last call is painted anew when a frame is next
+    /// looked at. `now`: seconds.
+    virtual Shown picture(std::size_t place, Changed changed, Hand hand, double now) = 0;
 };
 
 /// All that a panel gets.

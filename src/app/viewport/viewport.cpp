@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -24,9 +25,10 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kRest = 0.2;        // seconds without change after which smooth edges are worth their time
+constexpr double kSignAfter = 0.15;  // seconds that the picture is not yet what it will be
 constexpr float kClickReach = 4;     // pixels at scale 1 that a click may slip
 constexpr double kWheelZoom = 1.15;  // a notch of the wheel
+constexpr float kPi = std::numbers::pi_v<float>;
 
 glm::vec2 mouse_pixel(const ShownPicture& picture) { return picture.pixel(ImGui::GetIO().MousePos); }
 
@@ -188,7 +190,6 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
     settle(ui, next);
     if (key_ && *key_ == next && !flight_) return;
     if (!(key_ && *key_ == next)) take_off(ui, next);
-    changed_at_ = ui.now;
     key_ = next;
     if (flight_ && !flight_->over(ui.now)) {
         Key on_the_way = next;
@@ -231,16 +232,29 @@ void Viewport::update_highlights(const Ui& ui) {
 }
 
 void Viewport::show(Ui& ui, ImVec2 corner) {
-    const bool still = !ui.session.attended() || ui.now - changed_at_ >= kRest;
-    if (still && !shown_still_) unpainted_ = Changed::all;
-    if (unpainted_ != Changed::nothing) {
-        shown_still_ = still;
-        texture_ = ui.painter.picture(view_place_, std::exchange(unpainted_, Changed::nothing), still);
-    }
-    if (!shown_still_) ui.want_frame_in(kRest);
+    const Painter::Hand hand = !ui.session.attended() ? Painter::Hand::away
+                               : drag_ == Drag::none  ? Painter::Hand::rests
+                                                      : Painter::Hand::drags;
+    const Painter::Shown shown =
+        ui.painter.picture(view_place_, std::exchange(unpainted_, Changed::nothing), hand, ui.now);
     const ImVec2 end{corner.x + static_cast<float>(list_->size.width),
                      corner.y + static_cast<float>(list_->size.height)};
-    ImGui::GetWindowDrawList()->AddImage(texture_, corner, end, {0, 1}, {1, 0});
+    ImGui::GetWindowDrawList()->AddImage(shown.texture, corner, end, {0, 1}, {1, 0});
+    if (shown.coarse_for > kSignAfter && hand == Painter::Hand::rests) sign_of_work(ui, end);
+}
+
+/// In the lower right corner: an arc that goes round while the fine picture is being painted.
+void Viewport::sign_of_work(Ui& ui, ImVec2 end) const {
+    const ImVec2 middle{end.x - ui.px(20), end.y - ui.px(20)};
+    const float radius = ui.px(6);
+    const float begin = static_cast<float>(std::fmod(ui.now, 1.0) * 2 * kPi);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddCircleFilled(middle, ui.px(12), ui.style.panel);
+    draw.AddCircle(middle, ui.px(12), ui.style.border);
+    draw.PathArcTo(middle, radius, begin, begin + 1.5f * kPi);
+    draw.PathStroke(ui.style.accent, 0, ui.px(2));
+    ui.marks.add(is_active(ui) ? "viewport.working" : "viewport.working." + std::to_string(view_place_),
+                 {{middle.x - radius, middle.y - radius}, {middle.x + radius, middle.y + radius}});
 }
 
 void Viewport::draw(Ui& ui, std::size_t place) {

@@ -47,6 +47,7 @@ class Viewport {
     void take_off(Ui& ui, const Key& next);
     void update_highlights(const Ui& ui);
     void show(Ui& ui, ImVec2 corner);
+    void sign_of_work(Ui& ui, ImVec2 end) const;
     void mouse(Ui& ui, const ShownPicture& picture);
     void wheel(Ui& ui, glm::vec2 pixel);
     void press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel);
@@ -78,9 +79,6 @@ class Viewport {
     using Changed = Painter::Changed;
     Changed unpainted_ = Changed::nothing;                ///< what has changed since the painter was told
     std::optional<std::pair<int, int>> test_looked_for_;  ///< query and step whose test the camera has followed to
-    bool shown_still_ = false;
-    double changed_at_ = 0;
-    ImTextureID texture_ = nullptr;
 
     Drag drag_ = Drag::none;
     HandleDrag handle_drag_;

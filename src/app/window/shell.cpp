@@ -1,6 +1,7 @@
 #include <app/commands/command.h>
 #include <app/input/input_queue.h>
 #include <app/panels/panels.h>
+#include <app/window/answer_pace.h>
 #include <app/window/shell.h>
 #include <app/window/window_gl.h>
 #include <base/file.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <deque>
 #include <limits>
 #include <optional>
@@ -29,6 +31,8 @@ constexpr int kFramesToFocus = 8;
 constexpr double kBlink = 0.4;
 /// Playing goes on where it was, however long the machine was busy.
 constexpr double kLongestStep = 0.25;
+/// While a fine picture is painted, seconds between frames in which the sign of it moves.
+constexpr double kSignFrame = 0.1;
 
 struct ImGuiContextDeleter {
     void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
@@ -70,17 +74,19 @@ bool opened_by_person(const Session& session) {
     }
 }
 
-/// Has textures of its own: the renderer's holds what else it draws soon.
+/// Has textures of its own: the renderer's holds what else it draws soon. Where the fine picture takes long, a coarse
+/// one stands in for it, and it is painted in parts while nothing changes.
 class TexturePainter final : public Painter {
   public:
-    explicit TexturePainter(Renderer& renderer) : renderer_(renderer) {}
+    TexturePainter(Renderer& renderer, const Shell::Clock& clock) : renderer_(renderer), clock_(clock) {}
 
-    ImTextureID picture(std::size_t place, Changed changed, bool still) override {
-        while (pictures_.size() <= place) pictures_.emplace_back();
+    Shown picture(std::size_t place, Changed changed, Hand hand, double now) override {
+        while (pictures_.size() <= place) pictures_.emplace_back(renderer_.is_software());
         Picture& asked = pictures_[place];
         asked.changed = std::max(asked.changed, changed);
-        asked.samples = still || !renderer_.is_software() ? kPictureSamples : 1;
-        return texture_id(asked.copy.texture());
+        asked.hand = hand;
+        if (changed != Changed::nothing) asked.changed_at = now;
+        return {texture_id(asked.copy.texture()), asked.is_fine ? 0 : now - asked.changed_at};
     }
 
     /// Paints what has changed since the last time.
@@ -90,28 +96,99 @@ class TexturePainter final : public Painter {
         const Changed changed = std::exchange(asked.changed, Changed::nothing);
         if (changed == Changed::nothing) return;
         const bool all = changed == Changed::all;
-        asked.copy.take(all ? renderer_.paint(list, asked.samples) : renderer_.paint_highlights(list, asked.samples),
-                        list.size);
+        if (asked.hand == Hand::away) {
+            take(asked,
+                 all ? renderer_.paint(list, kPictureSamples) : renderer_.paint_highlights(list, kPictureSamples),
+                 list);
+        } else if (!all && asked.is_fine && renderer_.has_scene(list, kPictureSamples)) {
+            take(asked, renderer_.paint_highlights(list, kPictureSamples), list);
+        } else if (asked.pace.coarse_first() || !paint_fine_at_once(asked, list)) {
+            paint_coarse(asked, list);
+        }
     }
+
+    /// Seconds until the fine picture of what a place shows is to be gone on with; infinity: never.
+    double fine_due_in(std::size_t place, double now) const {
+        if (place >= pictures_.size()) return kNever;
+        const Picture& asked = pictures_[place];
+        if (asked.is_fine || asked.hand != Hand::rests || asked.changed != Changed::nothing) return kNever;
+        return std::max(asked.changed_at + AnswerPace::kRest - now, 0.0);
+    }
+
+    /// Goes on with it.
+    void paint_on(std::size_t place, const DrawList& list) {
+        Picture& asked = pictures_[place];
+        const double begun = clock_();
+        if (!renderer_.is_painting(list)) {
+            renderer_.begin_paint(list, kPictureSamples);
+            asked.seconds = 0;
+        }
+        const Texture* fine = renderer_.paint_more(list, {clock_, AnswerPace::kSlice});
+        asked.seconds += clock_() - begun;
+        if (!fine) return;
+        take(asked, *fine, list);
+        asked.pace.painted_fine(asked.seconds);
+    }
+
+    Shell::Painted painted() const { return painted_; }
 
   private:
     struct Picture {
+        explicit Picture(bool slow) : pace(slow) {}
+
         PictureCopy copy;
         Changed changed = Changed::nothing;
-        int samples = kPictureSamples;
+        Hand hand = Hand::away;
+        AnswerPace pace;
+        bool is_fine = true;
+        double changed_at = 0;
+        double seconds = 0;  ///< that the fine one has taken so far
     };
+
+    void take(Picture& asked, const Texture& fine, const DrawList& list) {
+        asked.copy.take(fine, list.size);
+        asked.is_fine = true;
+        ++painted_.fine;
+    }
+
+    bool paint_fine_at_once(Picture& asked, const DrawList& list) {
+        const double begun = clock_();
+        renderer_.begin_paint(list, kPictureSamples);
+        const Texture* fine = renderer_.paint_more(list, {clock_, 1.5 * AnswerPace::kAtOnce});
+        const double seconds = clock_() - begun;
+        if (!fine) {
+            asked.pace.gave_up_fine(seconds);
+            return false;
+        }
+        take(asked, *fine, list);
+        asked.pace.painted_fine(seconds);
+        return true;
+    }
+
+    void paint_coarse(Picture& asked, const DrawList& list) {
+        const double begun = clock_();
+        asked.copy.take(renderer_.paint_coarse(list, asked.pace.divisor()), list.size);
+        renderer_.wait();
+        asked.pace.painted_coarse(clock_() - begun);
+        asked.is_fine = false;
+        ++painted_.coarse;
+    }
+
     Renderer& renderer_;
+    const Shell::Clock& clock_;
     std::deque<Picture> pictures_;  ///< by place
+    Shell::Painted painted_;
 };
 
 }  // namespace
 
 struct Shell::State {
-    State(std::unique_ptr<GlContext> context, Session& of, double wanted_scale)
+    State(std::unique_ptr<GlContext> context, Session& of, double wanted_scale, Clock measures)
         : session(of),
+          clock(std::move(measures)),
           imgui(make_imgui()),
           renderer(std::move(context)),
-          drawn(std::make_unique<Drawn>(renderer)),
+          drawn(std::make_unique<Drawn>(renderer, clock)),
           own_scale(wanted_scale) {
         ImGuiIO& io = ImGui::GetIO();
         io.UserData = this;
@@ -127,7 +204,7 @@ struct Shell::State {
 
     /// What is made in the context.
     struct Drawn {
-        explicit Drawn(Renderer& renderer) : painter(renderer), ui(renderer.context()) {}
+        Drawn(Renderer& renderer, const Clock& clock) : painter(renderer, clock), ui(renderer.context()) {}
         TexturePainter painter;
         UiPass ui;
         std::optional<WindowTarget> target;
@@ -142,22 +219,25 @@ struct Shell::State {
         return clipboard.c_str();
     }
 
-    /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
-    bool press(const Chord& chord, bool repeated) {
+    /// Runs the command of a chord, unless the keys are somebody else's.
+    InputQueue::Taken press(const Chord& chord, bool repeated) {
+        using Taken = InputQueue::Taken;
         const Command* command = command_for(chord);
         if (!command || (repeated && !command->repeats) || session.dialog != Dialog::none) {
-            return false;
+            return Taken::nobodys;
         }
         // A drag ends on what it began on.
-        if (input.any_button_down()) return false;
-        if (ImGui::GetIO().WantTextInput && edits_text(chord)) return false;
+        if (input.any_button_down()) return Taken::nobodys;
+        if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-        if (busy && !chord.ctrl && edits_text(chord)) return false;
+        if (busy && !chord.ctrl && edits_text(chord)) return Taken::nobodys;
+        // Each press is undone by itself, also of those that one frame takes in.
+        if (!ImGui::IsAnyItemActive()) session.close_group();
         // A key that has nothing to do now says nothing.
         if (command->enabled(session)) invoke(session, command->id);
         // No panel is being drawn: what comes next from the keyboard meets what this one has done.
         session.run_queue();
-        return true;
+        return session.dialog == Dialog::none ? Taken::command : Taken::opened;
     }
 
     void drop(const Drop& dropped) {
@@ -226,15 +306,34 @@ struct Shell::State {
         return ui.next_frame;
     }
 
+    /// Seconds until a fine picture is to be gone on with, and of which place.
+    std::pair<double, std::size_t> fine_due(double now) const {
+        std::pair<double, std::size_t> out{kNever, 0};
+        for (std::size_t place = 0; place < viewports.size(); ++place) {
+            if (!viewports[place].shown()) continue;
+            out = std::min(out, {drawn->painter.fine_due_in(place, now), place});
+        }
+        return out;
+    }
+
+    /// Whether another frame would show nothing new, but for what is being painted.
+    bool only_paints(PictureSize wanted_size, double now) const {
+        return fine_due(now).first <= 0 && now < laid_out_until && input.empty() && settling == 0 &&
+               wanted_size == size && !session.playing() && !session.job();
+    }
+
     /// The last frame, once somebody looks at it.
     void draw() {
         ImGui::SetCurrentContext(imgui.get());
         renderer.context().make_current();
         if (!std::exchange(undrawn, false)) return;
-        ++frames_drawn;
         for (std::size_t place = 0; place < viewports.size(); ++place) {
             if (const DrawList* picture = viewports[place].shown()) drawn->painter.paint_changes(place, *picture);
         }
+        const auto [due, of] = fine_due(*time);
+        if (due <= 0) drawn->painter.paint_on(of, *viewports[of].shown());
+        if (!std::exchange(laid_out, false)) return;
+        ++frames_drawn;
         if (!drawn->target || drawn->target->size() != size) drawn->target.emplace(size);
         const ImVec4 ground = ImGui::ColorConvertU32ToFloat4(style.window);
         drawn->target->clear({ground.x, ground.y, ground.z, 1});
@@ -243,6 +342,7 @@ struct Shell::State {
     }
 
     Session& session;
+    Clock clock;
     std::unique_ptr<ImGuiContext, ImGuiContextDeleter> imgui;
     Renderer renderer;
     std::unique_ptr<Drawn> drawn;
@@ -250,6 +350,8 @@ struct Shell::State {
     QueryPictures pictures;
     PictureSize size;  ///< of the last frame
     bool undrawn = false;
+    bool laid_out = false;      ///< since the last was drawn: more than a picture has changed
+    double laid_out_until = 0;  ///< the time at which another frame may show something new
     int frames_drawn = 0;
     InputQueue input;
     Marks marks;
@@ -265,8 +367,12 @@ struct Shell::State {
     ImGuiMouseCursor cursor = ImGuiMouseCursor_Arrow;
 };
 
-Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale)
-    : state_(std::make_unique<State>(std::move(context), session, scale)) {
+double Shell::steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale, Clock clock)
+    : state_(std::make_unique<State>(std::move(context), session, scale, std::move(clock))) {
     session.hooks.export_picture = [this](const std::filesystem::path& file) { write_png(file, viewport_picture()); };
     session.hooks.ui_scale = [this] { return state_->scale(); };
 }
@@ -285,6 +391,9 @@ double Shell::frame(PictureSize size, double now) {
     State& s = *state_;
     ImGui::SetCurrentContext(s.imgui.get());
     s.renderer.context().make_current();
+    s.undrawn = true;
+    if (s.only_paints(size, now)) return 0;
+    s.laid_out = true;
     ImGuiIO& io = ImGui::GetIO();
     if (io.DisplaySize.x != static_cast<float>(size.width) || io.DisplaySize.y != static_cast<float>(size.height)) {
         io.DisplaySize = {static_cast<float>(size.width), static_cast<float>(size.height)};
@@ -298,18 +407,20 @@ double Shell::frame(PictureSize size, double now) {
     s.follow_look();
     const double wanted = s.lay_out(now);
     s.size = size;
-    s.undrawn = true;
+    s.laid_out_until = now + std::min(wanted, kSignFrame);
     if (s.session.run_queue()) s.settling = kFramesToSettle;
     if (!ImGui::IsAnyItemActive() && !s.input.any_button_down()) s.session.close_group();
     s.cursor = ImGui::GetMouseCursor();
     if (s.settling > 0) --s.settling;
     s.settled = s.input.empty() && s.settling == 0 && wanted > 0;
-    return s.session.playing() || !s.settled ? 0 : wanted;
+    return s.session.playing() || !s.settled ? 0 : std::min(wanted, s.fine_due(now).first);
 }
 
 bool Shell::settled() const { return state_->settled; }
 
 int Shell::frames_drawn() const { return state_->frames_drawn; }
+
+Shell::Painted Shell::painted() const { return state_->drawn->painter.painted(); }
 
 Image Shell::read_back() {
     State& s = *state_;

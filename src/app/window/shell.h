@@ -9,6 +9,7 @@
 #include <render/gl/gl_context.h>
 #include <render/image/image.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -24,9 +25,13 @@ inline constexpr double kMostUiScale = 4;
 
 class Shell {
   public:
+    /// Seconds, never less than before: what painting takes is measured by it.
+    using Clock = std::function<double()>;
+    static double steady_seconds();
+
     /// `scale`: of text and panels where the settings say none; either is brought within kLeastUiScale..kMostUiScale.
     /// Takes over the session's hooks about the picture and the scale. Throws MachineError if OpenGL fails.
-    Shell(std::unique_ptr<GlContext> context, Session& session, double scale);
+    Shell(std::unique_ptr<GlContext> context, Session& session, double scale, Clock clock = steady_seconds);
     ~Shell();
     Shell(const Shell&) = delete;
     Shell& operator=(const Shell&) = delete;
@@ -34,14 +39,20 @@ class Shell {
     void feed(const InputEvent& event);
 
     /// One frame; it is drawn when it is read back or presented. `size`: at least 1x1. `now`: seconds, never less than
-    /// before. Returns in how many seconds the next one is wanted if nothing happens; infinity: never.
+    /// before. Returns in how many seconds the next one is wanted if nothing happens; infinity: never. While a fine
+    /// picture is being painted that is at once: each drawing goes on with it for a moment.
     double frame(PictureSize size, double now);
 
-    /// Whether the last frame has taken in all input, and nothing but playback still changes.
+    /// Whether the last frame has taken in all input, and nothing but playback and how fine pictures are still changes.
     bool settled() const;
 
     /// How many frames were looked at, and so drawn.
     int frames_drawn() const;
+    /// How many pictures of viewports were painted whole: those that stay, and those that stood in for one.
+    struct Painted {
+        int fine = 0, coarse = 0;
+    };
+    Painted painted() const;
 
     /// The last frame; there must have been one. Throws MachineError if OpenGL reports an error.
     Image read_back();

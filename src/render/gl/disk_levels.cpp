@@ -117,6 +117,10 @@ bool is_straight(const std::vector<DiskInstance>& disks, std::size_t first, std:
     return true;
 }
 
+DiskPiece piece_of(const DiskInstance& disk) {
+    return {disk.base, disk.radius, disk.base + glm::vec3(0, 0, disk.height), disk.radius, {disk.id.r(), disk.id.g()}};
+}
+
 bool differ_in_shape(const DiskInstance& a, const DiskInstance& b) {
     return a.base != b.base || a.radius != b.radius || a.height != b.height || a.id != b.id;
 }
@@ -132,8 +136,17 @@ float PixelScale::at_depth(float depth) const {
     return projection_->perspective ? scale_ / std::max(depth, projection_->near_depth) : scale_;
 }
 
-DiskPiece piece_of(const DiskInstance& disk) {
-    return {disk.base, disk.radius, disk.base + glm::vec3(0, 0, disk.height), disk.radius, {disk.id.r(), disk.id.g()}};
+std::vector<DiskPiece> pieces_of(const std::vector<DiskInstance>& disks) {
+    std::vector<DiskPiece> out;
+    out.reserve(disks.size());
+    for (std::size_t i = 0; i < disks.size(); ++i) {
+        out.push_back(piece_of(disks[i]));
+        if (i == 0 || !follows(disks[i], disks[i - 1])) continue;
+        const glm::vec2 step = ground(disks[i].base - disks[i - 1].base);
+        out[i - 1].above = glm::vec3(step, disks[i].radius);
+        out[i].below = glm::vec3(-step, disks[i - 1].radius);
+    }
+    return out;
 }
 
 float DiskLevels::tolerance(int level) {
@@ -171,6 +184,8 @@ const DiskLevels::Level& DiskLevels::level(int index) {
     made.emplace();
     std::vector<DiskPiece> single;
     std::vector<std::size_t> of_single;
+    // Where all are drawn one by one, each hides much of the next.
+    const std::vector<DiskPiece> covered = index == 0 ? pieces_of(disks_) : std::vector<DiskPiece>();
     const float most = tolerance(index);
     for (const DiskBlock& block : blocks_) {
         made->tubes.push_back({made->pieces.size(), 0});
@@ -187,7 +202,7 @@ const DiskLevels::Level& DiskLevels::level(int index) {
                 ++last;
             }
             if (last < first + 2) {
-                single.push_back(piece_of(disks_[first]));
+                single.push_back(index == 0 ? covered[first] : piece_of(disks_[first]));
                 of_single.push_back(first++);
                 continue;
             }

@@ -33,10 +33,13 @@ struct DiskPiece {
     glm::vec3 top{0};   ///< centre above
     float top_radius = 0;
     std::array<std::uint32_t, 2> id{0, 0};  ///< of a disk; (0, 0): a tube, which has no upper face
+    /// Of the disks that stand on it and that it stands on: how far from its own the centre lies, and the radius; what
+    /// they hide of its faces need not be drawn. Radius 0: there is none.
+    glm::vec3 above{0}, below{0};
 };
 
-/// A disk as a piece.
-DiskPiece piece_of(const DiskInstance& disk);
+/// Disks in drawing order as pieces.
+std::vector<DiskPiece> pieces_of(const std::vector<DiskInstance>& disks);
 
 /// Successive disks of a path. Far away they are drawn as tubes, as many as keep within a tolerance.
 struct DiskBlock {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -165,9 +166,7 @@ const DiskPass::Stored& DiskPass::store(int level, DrawStatistics& statistics) {
 const DiskPass::Stored& DiskPass::store_fine(DrawStatistics& statistics) {
     const std::vector<DiskInstance>& disks = levels_->disks();
     if (!fine_.has_pieces) {
-        std::vector<DiskPiece> pieces(disks.size());
-        std::transform(disks.begin(), disks.end(), pieces.begin(), piece_of);
-        statistics.world_bytes += upload(fine_.pieces, pieces);
+        statistics.world_bytes += upload(fine_.pieces, pieces_of(disks));
     }
     if (!fine_.has_colors) {
         std::vector<ColorBytes> colors(disks.size());
@@ -262,7 +261,8 @@ std::vector<DiskPass::Batch> DiskPass::coarse_batches(const ViewProjection& proj
     return out;
 }
 
-void DiskPass::draw(const Batch& batch, const Stored& stored, DrawStatistics& statistics) {
+void DiskPass::draw(const Batch& batch, DrawStatistics& statistics) {
+    const Stored& stored = detail_ == Detail::coarse ? store(batch.level, statistics) : store_fine(statistics);
     const Cylinder& shape = cylinder(batch.sides);
     glBindVertexArray(shape.array.name());
     // OpenGL 3.3 has no first instance: the attributes begin there instead.
@@ -272,6 +272,11 @@ void DiskPass::draw(const Batch& batch, const Stored& stored, DrawStatistics& st
     piece.floats(2, 4, begin + offsetof(DiskPiece, base));
     piece.floats(3, 4, begin + offsetof(DiskPiece, top));
     piece.integers(5, 2, begin + offsetof(DiskPiece, id));
+    piece.floats(6, 3, begin + offsetof(DiskPiece, above));
+    piece.floats(7, 3, begin + offsetof(DiskPiece, below));
+    const glm::vec2 next_corner(on_circle<double>(1, batch.sides));
+    glUniform2fv(program_.uniform("next_corner"), 1, glm::value_ptr(next_corner));
+    glUniform1f(program_.uniform("inner"), std::cos(std::numbers::pi_v<float> / static_cast<float>(batch.sides)));
     glBindBuffer(GL_ARRAY_BUFFER, stored.colors.name());
     VertexLayout(sizeof(ColorBytes), 1).bytes(4, 4, batch.range.first * sizeof(ColorBytes));
     const std::size_t face = 3 * static_cast<std::size_t>(batch.sides);
@@ -286,22 +291,37 @@ void DiskPass::draw(const Batch& batch, const Stored& stored, DrawStatistics& st
 }
 
 void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statistics) {
+    begin(list, detail, statistics);
+    draw_more(list, std::numeric_limits<std::size_t>::max(), statistics);
+}
+
+void DiskPass::begin(const DrawList& list, Detail detail, DrawStatistics& statistics) {
     keep(list);
+    detail_ = detail;
+    undrawn_.clear();
     if (list.disks.empty()) return;
     const bool coarse = detail == Detail::coarse;
-    const std::vector<Batch> batches = coarse ? coarse_batches(list.projection) : fine_batches(list.projection);
+    undrawn_ = coarse ? coarse_batches(list.projection) : fine_batches(list.projection);
+    std::ranges::reverse(undrawn_);
     if (coarse && stays_) {
         for (int level = 0; level < DiskLevels::kLevels; ++level) store_shapes(level, statistics);
     }
+}
 
+bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics) {
+    if (undrawn_.empty()) return true;
     program_.use();
     glUniformMatrix4fv(program_.uniform("clip_from_world"), 1, GL_FALSE,
                        glm::value_ptr(list.projection.clip_from_world));
     glUniform3fv(program_.uniform("light"), 1, glm::value_ptr(towards_light(list.projection)));
     glUniform1f(program_.uniform("scale"), PixelScale(list.projection).near());
+    // Without perspective nothing is too near to be drawn.
+    const float near_depth =
+        list.projection.perspective ? list.projection.near_depth : std::numeric_limits<float>::lowest();
+    glUniform1f(program_.uniform("near_depth"), near_depth);
     glUniform3fv(program_.uniform("back"), 1, glm::value_ptr(list.projection.back));
     // With two corners at the sides the outline is right, however few the others are.
-    const glm::vec2 across = coarse ? glm::vec2(list.projection.right) : glm::vec2(1, 0);
+    const glm::vec2 across = detail_ == Detail::coarse ? glm::vec2(list.projection.right) : glm::vec2(1, 0);
     glUniform2fv(program_.uniform("across"), 1, glm::value_ptr(across));
     glUniform3fv(program_.uniform("background"), 1, glm::value_ptr(list.palette.background));
     glEnable(GL_DEPTH_TEST);
@@ -309,10 +329,18 @@ void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statist
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
-    for (const Batch& batch : batches) {
-        draw(batch, coarse ? store(batch.level, statistics) : store_fine(statistics), statistics);
+    while (most > 0 && !undrawn_.empty()) {
+        Batch& batch = undrawn_.back();
+        Batch now = batch;
+        now.range.count = std::min(now.range.count, most);
+        draw(now, statistics);
+        most -= now.range.count;
+        batch.range.first += now.range.count;
+        batch.range.count -= now.range.count;
+        if (batch.range.count == 0) undrawn_.pop_back();
     }
     glDisable(GL_CULL_FACE);
+    return undrawn_.empty();
 }
 
 }  // namespace mobbscope

@@ -21,6 +21,10 @@ class DiskPass {
 
     /// Into the bound framebuffer: colours to output 0 and, of fine disks, ids to output 1.
     void draw(const DrawList& list, Detail detail, DrawStatistics& statistics);
+    /// The same in parts: finds out what is to be drawn; draws at most so many disks and tubes more (> 0) of the same
+    /// list, true once that was all.
+    void begin(const DrawList& list, Detail detail, DrawStatistics& statistics);
+    bool draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics);
 
   private:
     /// What is drawn of instances: faces that cannot be seen are left out.
@@ -53,7 +57,7 @@ class DiskPass {
     const Stored& store_fine(DrawStatistics& statistics);
     std::vector<Batch> fine_batches(const ViewProjection& projection) const;
     std::vector<Batch> coarse_batches(const ViewProjection& projection);
-    void draw(const Batch& batch, const Stored& stored, DrawStatistics& statistics);
+    void draw(const Batch& batch, DrawStatistics& statistics);
 
     ShaderProgram program_;
     std::map<int, Cylinder> cylinders_;  ///< by the number of sides; made when first needed
@@ -62,6 +66,8 @@ class DiskPass {
     bool stays_ = false;                 ///< they were drawn before: all levels are worth their while
     Stored fine_;                        ///< all disks in drawing order, on which depends who wins where two are equal
     std::vector<Stored> coarse_{DiskLevels::kLevels};
+    Detail detail_ = Detail::fine;
+    std::vector<Batch> undrawn_;  ///< what is left to be drawn, the last first
 };
 
 }  // namespace mobbscope

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -41,6 +42,14 @@ Rgba ground_of(const DrawList& list) { return list.background.value_or(list.pale
 
 bool is_seen_through(const DrawList& list) { return ground_of(list).a < 1; }
 
+Rgba opaque_ground_of(const DrawList& list) {
+    return is_seen_through(list) ? list.palette.background : ground_of(list);
+}
+
+// Of a picture that is painted in parts.
+constexpr std::size_t kDisksAtFirst = 32;
+constexpr double kPartSeconds = 0.01;
+
 std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
     context->make_current();
     return context;
@@ -62,69 +71,202 @@ struct Renderer::State {
         context->check("compiling shaders");
     }
 
+    /// Another picture: what was painted in parts is given up, and what stands is no longer taken for that of a list.
     void begin(PictureSize size) {
         statistics = {};
+        work.reset();
+        painted = {};
+        resume(size);
+    }
+
+    void resume(PictureSize size) {
         context->make_current();
         reset_state();
         glViewport(0, 0, size.width, size.height);
     }
 
+    /// What draw_disks drew last.
+    struct GroundAndDisks {
+        SharedValues<DiskInstance> disks;
+        ViewProjection projection;
+        Rgba background{0}, ground{0};
+
+        bool shows(const DrawList& list, Rgba on) const {
+            return disks.shares_with(list.disks) && projection.clip_from_world == list.projection.clip_from_world &&
+                   projection.right == list.projection.right && projection.back == list.projection.back &&
+                   background == list.palette.background && ground == on;
+        }
+    };
+
+    /// Where pictures of one kind are made.
+    struct Canvas {
+        std::optional<Targets> targets;
+        std::optional<GroundAndDisks> ground_and_disks;
+        bool kept = false;  ///< the targets have those
+
+        void prepare(PictureSize size, int samples) {
+            if (targets && targets->size() == size && targets->samples() == samples) return;
+            targets.reset();
+            targets.emplace(size, samples);
+            ground_and_disks.reset();
+        }
+    };
+
+    /// What is left of a picture that is painted in parts.
+    enum class Part { disks, faces, lines, words };
+    struct Work {
+        const DrawList* list = nullptr;
+        Canvas* canvas = nullptr;
+        Part next = Part::disks;
+        bool again = false;  ///< the picture before had the same disks
+        std::size_t disks_at_once = kDisksAtFirst;
+    };
+
     /// The ground and the disks: the dearest part of a picture. Where the one before had the same they are taken from
     /// it: a time cursor moves through them. A camera that moves pays nothing for that.
-    void draw_disks(const DrawList& list, Rgba ground) {
-        const bool again = ground_and_disks && ground_and_disks->shows(list, ground);
-        if (again && kept) return targets->restore_scene();
-        kept = false;
-        ground_and_disks = GroundAndDisks{list.disks, list.projection, list.palette.background, ground};
-        glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
+    void begin_disks(Work& on, const DrawList& list, Rgba ground) {
+        Canvas& canvas = *on.canvas;
+        on.again = canvas.ground_and_disks && canvas.ground_and_disks->shows(list, ground);
+        if (on.again && canvas.kept) {
+            canvas.targets->restore_scene();
+            on.next = Part::faces;
+            return;
+        }
+        canvas.kept = false;
+        canvas.ground_and_disks.reset();
+        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->scene().name());
         glClearColor(ground.r, ground.g, ground.b, 1);
         glClearDepth(1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        disks.draw(list, targets->samples() > 1 ? Detail::fine : Detail::coarse, statistics);
-        if (!again) return;
-        targets->keep_scene();
-        kept = true;
+        disks.begin(list, canvas.targets->samples() > 1 ? Detail::fine : Detail::coarse, statistics);
+        drawn_on = {list.disks, list.projection, list.palette.background, ground};
     }
 
-    void draw_scene(const DrawList& list, Rgba ground) {
-        boxes.keep(list, statistics);
-        draw_disks(list, ground);
-        if (FacePass::needed(list)) {
-            targets->share_depth();
-            glBindFramebuffer(GL_FRAMEBUFFER, targets->faces().name());
-            faces.accumulate(list, statistics);
-            glBindFramebuffer(GL_FRAMEBUFFER, targets->scene().name());
-            faces.composite(targets->sums(), targets->weights(), list.size, statistics);
-        }
-        lines.draw_scene(list, statistics);
+    void end_disks(Work& on) {
+        Canvas& canvas = *on.canvas;
+        canvas.ground_and_disks = std::move(drawn_on);
+        if (!on.again) return;
+        canvas.targets->keep_scene();
+        canvas.kept = true;
+    }
+
+    void draw_faces(const Targets& targets, const DrawList& list) {
+        if (!FacePass::needed(list)) return;
+        targets.share_depth();
+        glBindFramebuffer(GL_FRAMEBUFFER, targets.faces().name());
+        faces.accumulate(list, statistics);
+        glBindFramebuffer(GL_FRAMEBUFFER, targets.scene().name());
+        faces.composite(targets.sums(), targets.weights(), list.size, statistics);
     }
 
     /// Into the result's framebuffer, on a ground that is taken for opaque.
-    void paint(const DrawList& list, int samples, Rgba ground) {
-        painted = nullptr;
+    void begin_paint(const DrawList& list, int samples, Rgba ground) {
         begin(list.size);
         check_samples(samples);
-        if (!targets || targets->size() != list.size || targets->samples() != samples) {
-            targets.reset();
-            targets.emplace(list.size, samples);
-            ground_and_disks.reset();
+        Canvas& canvas = samples > 1 ? fine : coarse;
+        canvas.prepare(list.size, samples);
+        boxes.keep(list, statistics);
+        work = Work{&list, &canvas};
+        begin_disks(*work, list, ground);
+    }
+
+    /// Draws the next part; true once the picture stands.
+    bool draw_part(const DrawList& list, std::size_t most_disks) {
+        const Targets& targets = *work->canvas->targets;
+        glBindFramebuffer(GL_FRAMEBUFFER, targets.scene().name());
+        switch (work->next) {
+            case Part::disks:
+                if (!disks.draw_more(list, most_disks, statistics)) return false;
+                end_disks(*work);
+                work->next = Part::faces;
+                return false;
+            case Part::faces:
+                draw_faces(targets, list);
+                work->next = Part::lines;
+                return false;
+            case Part::lines:
+                lines.draw_scene(list, statistics);
+                work->next = Part::words;
+                return false;
+            case Part::words:
+                keep_words(list);
+                finish(targets, list);
+                painted = {&list, work->canvas};
+                work.reset();
+                return true;
         }
-        draw_scene(list, ground);
-        overlay.keep(list, statistics);
-        lines.keep_overlay(list, statistics);
-        finish(list);
-        painted = &list;
+        return true;
+    }
+
+    void paint(const DrawList& list, int samples, Rgba ground) {
+        begin_paint(list, samples, ground);
+        while (!draw_part(list, std::numeric_limits<std::size_t>::max())) {
+        }
+    }
+
+    /// For about so long; whether the picture stands.
+    bool go_on(const DrawList& list, const PaintPace& pace) {
+        resume(list.size);
+        const double end = pace.clock() + pace.seconds;
+        for (;;) {
+            const double begun = pace.clock();
+            const bool disks_drawn = work->next == Part::disks;
+            if (draw_part(list, work->disks_at_once)) return true;
+            // What was drawn is done when it is asked for, and its time is known then.
+            glFinish();
+            const double now = pace.clock();
+            if (disks_drawn && now - begun < kPartSeconds / 2) work->disks_at_once *= 2;
+            if (disks_drawn && now - begun > kPartSeconds)
+                work->disks_at_once = std::max<std::size_t>(1, work->disks_at_once / 2);
+            if (now >= end) return false;
+        }
+    }
+
+    /// Disks and faces on fewer pixels; lines and words, which are narrow, on all.
+    void paint_coarse(const DrawList& list, int divisor, Rgba ground) {
+        const auto part = [&](int side) { return (side + divisor - 1) / divisor; };
+        DrawList small;
+        static_cast<PictureFrame&>(small) = list;
+        static_cast<DrawnWorld&>(small) = list;
+        small.palette = list.palette;
+        small.size = small.projection.size = {part(list.size.width), part(list.size.height)};
+        begin(small.size);
+        low.prepare(small.size, 1);
+        boxes.keep(small, statistics);
+        Work on{&small, &low};
+        begin_disks(on, small, ground);
+        if (on.next == Part::disks) {
+            disks.draw_more(small, std::numeric_limits<std::size_t>::max(), statistics);
+            end_disks(on);
+        }
+        glBindFramebuffer(GL_FRAMEBUFFER, low.targets->scene().name());
+        draw_faces(*low.targets, small);
+
+        resume(list.size);
+        coarse.prepare(list.size, 1);
+        coarse.ground_and_disks.reset();
+        coarse.targets->enlarge(*low.targets);
+        glBindFramebuffer(GL_FRAMEBUFFER, coarse.targets->scene().name());
+        lines.draw_scene(list, statistics);
+        keep_words(list);
+        finish(*coarse.targets, list);
+        painted = {&list, &coarse};
     }
 
     /// Whether the targets have the scene of a list by itself, without what lies over it.
     bool has_scene(const DrawList& list, int samples) const {
-        return painted == &list && samples > 1 && targets->samples() == samples;
+        return painted.list == &list && samples > 1 && painted.canvas->targets->samples() == samples;
+    }
+
+    void keep_words(const DrawList& list) {
+        overlay.keep(list, statistics);
+        lines.keep_overlay(list, statistics);
     }
 
     /// The picture out of the scene in the targets, its highlights and its words.
-    void finish(const DrawList& list) {
-        targets->resolve();
-        glBindFramebuffer(GL_FRAMEBUFFER, targets->result().name());
+    void finish(const Targets& targets, const DrawList& list) {
+        targets.resolve();
+        glBindFramebuffer(GL_FRAMEBUFFER, targets.result().name());
         lines.draw_highlights(list, statistics);
         overlay.draw_panels(list.size, statistics);
         lines.draw_overlay(list.size, statistics);
@@ -138,7 +280,7 @@ struct Renderer::State {
         glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
         context->check("reading the picture");
         flip_rows(image.rgba, image.width, image.height, 4);
-        painted = nullptr;
+        painted = {};
         return image;
     }
 
@@ -154,29 +296,21 @@ struct Renderer::State {
     std::string device;
     std::string version;
     bool software;
-    /// What draw_disks drew last.
-    struct GroundAndDisks {
-        SharedValues<DiskInstance> disks;
-        ViewProjection projection;
-        Rgba background{0}, ground{0};
-
-        bool shows(const DrawList& list, Rgba on) const {
-            return disks.shares_with(list.disks) && projection.clip_from_world == list.projection.clip_from_world &&
-                   projection.right == list.projection.right && projection.back == list.projection.back &&
-                   background == list.palette.background && ground == on;
-        }
-    };
-
     DrawStatistics statistics;
-    std::optional<GroundAndDisks> ground_and_disks;
-    bool kept = false;                  ///< the targets have those
-    const DrawList* painted = nullptr;  ///< what they show, by its address alone; null after a picture was read back
+    /// What stands where: the list by its address alone; null after a picture was read back.
+    struct Painted {
+        const DrawList* list = nullptr;
+        Canvas* canvas = nullptr;
+    };
+    Painted painted;
+    std::optional<Work> work;
+    GroundAndDisks drawn_on;  ///< what is being drawn
     BoxBuffer boxes;
     DiskPass disks;
     FacePass faces;
     LinePass lines;
     OverlayPass overlay;
-    std::optional<Targets> targets;
+    Canvas fine, coarse, low;  ///< multisampled; without that; that and smaller
 };
 
 Renderer::Renderer(Backend backend) : Renderer(GlContext::open(backend)) {}
@@ -210,15 +344,37 @@ void Renderer::check_samples(int samples) {
 }
 
 const Texture& Renderer::paint(const DrawList& list, int samples) {
-    state_->paint(list, samples, is_seen_through(list) ? list.palette.background : ground_of(list));
-    return state_->targets->picture();
+    state_->paint(list, samples, opaque_ground_of(list));
+    return state_->painted.canvas->targets->picture();
 }
+
+const Texture& Renderer::paint_coarse(const DrawList& list, int divisor) {
+    if (divisor == 1) return paint(list, 1);
+    state_->paint_coarse(list, divisor, opaque_ground_of(list));
+    return state_->painted.canvas->targets->picture();
+}
+
+void Renderer::begin_paint(const DrawList& list, int samples) {
+    state_->begin_paint(list, samples, opaque_ground_of(list));
+}
+
+bool Renderer::is_painting(const DrawList& list) const { return state_->work && state_->work->list == &list; }
+
+const Texture* Renderer::paint_more(const DrawList& list, const PaintPace& pace) {
+    return state_->go_on(list, pace) ? &state_->painted.canvas->targets->picture() : nullptr;
+}
+
+void Renderer::wait() const { glFinish(); }
+
+bool Renderer::has_scene(const DrawList& list, int samples) const { return state_->has_scene(list, samples); }
 
 const Texture& Renderer::paint_highlights(const DrawList& list, int samples) {
     if (!state_->has_scene(list, samples)) return paint(list, samples);
+    const State::Painted painted = state_->painted;
     state_->begin(list.size);
-    state_->finish(list);
-    return state_->targets->picture();
+    state_->finish(*painted.canvas->targets, list);
+    state_->painted = painted;
+    return painted.canvas->targets->picture();
 }
 
 Image Renderer::draw(const DrawList& list, int samples) {

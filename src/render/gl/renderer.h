@@ -7,12 +7,19 @@
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace mobbscope {
+
+/// For how long to paint, by which clock (seconds).
+struct PaintPace {
+    const std::function<double()>& clock;
+    double seconds;
+};
 
 /// Holds a context and what it keeps between pictures. Pictures depend on the draw list alone, and not on what others
 /// left switched on in the context; they leave it with a framebuffer of their own bound, and with state of their own.
@@ -50,6 +57,23 @@ class Renderer {
     /// or draw. A background that is seen through is drawn as the palette's. Throws MachineError if OpenGL reports an
     /// error or cannot do the samples.
     const Texture& paint(const DrawList& list, int samples);
+
+    /// As paint with one sample, but for disks and faces, which are drawn on every `divisor`-th (>= 1) pixel across and
+    /// down, and enlarged.
+    const Texture& paint_coarse(const DrawList& list, int divisor);
+
+    /// As paint, in parts: paint_more goes on for about so long, and returns the picture once it stands, else null.
+    /// Until then the list stays as it is, but for its highlights; another picture ends it.
+    void begin_paint(const DrawList& list, int samples);
+    const Texture* paint_more(const DrawList& list, const PaintPace& pace);
+    /// Whether paint_more may be called.
+    bool is_painting(const DrawList& list) const;
+
+    /// Until all that was drawn stands.
+    void wait() const;
+
+    /// Whether paint_highlights has less to do than paint.
+    bool has_scene(const DrawList& list, int samples) const;
 
     /// The same for a list of which nothing but the highlights has changed since it was painted: if that was the last
     /// picture and is multisampled, the highlights' lines are all that is uploaded and drawn of the scene.

@@ -75,6 +75,16 @@ void Targets::resolve() const {
     if (samples_ > 1) blit(scene_, result_, size_, GL_COLOR_BUFFER_BIT);
 }
 
+void Targets::enlarge(const Targets& other) const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, other.scene_.name());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, scene_.name());
+    const auto enlarged = [&](GLbitfield what, GLenum filter) {
+        glBlitFramebuffer(0, 0, other.size_.width, other.size_.height, 0, 0, size_.width, size_.height, what, filter);
+    };
+    enlarged(GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    enlarged(GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
 void Targets::keep_scene() {
     if (!kept_) {
         kept_.emplace();

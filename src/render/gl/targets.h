@@ -31,6 +31,9 @@ class Targets {
     /// Brings the scene into the result: averages its samples.
     void resolve() const;
 
+    /// The colours and the depth of another scene, drawn smoothly over all of this one; neither is multisampled.
+    void enlarge(const Targets& other) const;
+
     /// Keeps the colours and the depth of the scene as they are now; brings them back.
     void keep_scene();
     void restore_scene() const;

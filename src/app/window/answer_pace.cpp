@@ -1,0 +1,33 @@
+#include <app/window/answer_pace.h>
+
+#include <algorithm>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// The least that keeps within kCoarse if one by `divisor` took so long: pixels are what it costs.
+int divisor_for(double seconds, int divisor) {
+    int out = 1;
+    const double all = seconds * divisor * divisor;
+    while (out < AnswerPace::kCoarsest && all / (out * out) > AnswerPace::kCoarse) ++out;
+    return out;
+}
+
+}  // namespace
+
+void AnswerPace::painted_fine(double seconds) {
+    fine_seconds_ = seconds;
+    coarse_shown_ = false;
+}
+
+void AnswerPace::painted_coarse(double seconds) {
+    const int wanted = divisor_for(seconds, divisor_);
+    // Within a drag pictures become coarser if they must, but not finer again: that would flicker.
+    divisor_ = coarse_shown_ ? std::max(divisor_, wanted) : wanted;
+    coarse_shown_ = true;
+}
+
+void AnswerPace::gave_up_fine(double seconds) { fine_seconds_ = std::max(fine_seconds_, seconds); }
+
+}  // namespace mobbscope::app

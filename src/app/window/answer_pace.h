@@ -1,0 +1,40 @@
+/// How well a picture is painted while somebody works, and how well once the hand rests.
+#pragma once
+
+#include <limits>
+
+namespace mobbscope::app {
+
+/// Decides by what earlier pictures took: where the fine one takes long, a coarse one comes first.
+class AnswerPace {
+  public:
+    /// A fine picture that takes no longer comes at once, seconds.
+    static constexpr double kAtOnce = 0.04;
+    /// What a coarse one may take.
+    static constexpr double kCoarse = 0.05;
+    /// Without a change after which the fine picture is begun.
+    static constexpr double kRest = 0.12;
+    /// It is painted for so long between looks at what has come from mouse and keys.
+    static constexpr double kSlice = 0.03;
+    static constexpr int kCoarsest = 4;
+
+    /// `slow`: nothing is known yet, and the fine picture is expected to take long.
+    explicit AnswerPace(bool slow) : fine_seconds_(slow ? std::numeric_limits<double>::infinity() : 0) {}
+
+    /// Whether the next picture is to be a coarse one. After a coarse one it is, so that a drag does not flicker.
+    bool coarse_first() const { return coarse_shown_ || fine_seconds_ > kAtOnce; }
+    /// Of the next coarse one: it has every so many pixels across and down.
+    int divisor() const { return divisor_; }
+
+    void painted_fine(double seconds);
+    void painted_coarse(double seconds);
+    /// The fine picture was tried at once and given up after so long.
+    void gave_up_fine(double seconds);
+
+  private:
+    double fine_seconds_;
+    int divisor_ = 2;
+    bool coarse_shown_ = false;
+};
+
+}  // namespace mobbscope::app

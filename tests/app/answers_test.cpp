@@ -1,0 +1,222 @@
+// How the window answers: coarse pictures while keys come, the fine one once the hand rests. By a clock that the tests
+// turn: nothing here is timed.
+#include <app/commands/command.h>
+#include <app/window/answer_pace.h>
+#include <app/window/shell.h>
+#include <render/drawlist/picture_options.h>
+#include <render/gl/gl_context.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mobbscope::app {
+namespace {
+
+constexpr PictureSize kWindow{800, 500};
+
+/// Somebody in front of the demo's first query at its last step. `part`: seconds that each part of a picture takes.
+struct AnswersTest : ::testing::Test {
+    double measured = 0, part = 0.05;
+    double now = 0;
+    Session session{true};
+    Shell shell{GlContext::open(Backend::automatic), session, 1, [this] { return measured += part; }};
+    double wanted = 0;
+
+    void SetUp() override {
+        session.open_demo();
+        do {
+            frame();
+        } while (session.job());
+        run_command(session, "query.select", "0");
+        run_command(session, "step.last");
+        rest();
+        ASSERT_GT(session.step(), 12);
+    }
+
+    Image frame() {
+        wanted = shell.frame(kWindow, now);
+        now += 0.01;
+        return shell.read_back();
+    }
+    void rest() {
+        int frames = 0;
+        do {
+            frame();
+            if (!std::isinf(wanted)) now += wanted;
+            ASSERT_LT(++frames, 2000);
+        } while (!std::isinf(wanted));
+    }
+    void key(Key key) {
+        for (const bool down : {true, false}) shell.feed(KeyPress{key, down});
+    }
+    bool works() const { return shell.marks().all().contains("viewport.working"); }
+    /// Of the window the picture alone.
+    Image picture() {
+        const Image all = shell.read_back();
+        const Rect& rect = shell.marks().all().at("viewport");
+        Image out(static_cast<int>(rect.size().x), static_cast<int>(rect.size().y));
+        for (int y = 0; y < out.height; ++y) {
+            std::copy_n(all.at(static_cast<int>(rect.min.x), static_cast<int>(rect.min.y) + y), 4 * out.width,
+                        out.at(0, y));
+        }
+        return out;
+    }
+};
+
+TEST_F(AnswersTest, TenPressesThatCameTogetherAreOneCoarsePictureAndThenTheFineOne) {
+    const int step = session.step();
+    const Shell::Painted before = shell.painted();
+    for (int i = 0; i < 10; ++i) key(Key::left);
+    frame();
+    EXPECT_EQ(session.step(), step - 10) << "a step for each";
+    EXPECT_EQ(shell.painted().coarse, before.coarse + 1);
+    EXPECT_EQ(shell.painted().fine, before.fine);
+    EXPECT_NE(picture().rgba, shell.viewport_picture().rgba);
+    rest();
+    EXPECT_EQ(session.step(), step - 10);
+    EXPECT_EQ(shell.painted().coarse, before.coarse + 1);
+    EXPECT_EQ(shell.painted().fine, before.fine + 1);
+    EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
+}
+
+TEST_F(AnswersTest, PressesWithinASecondAreCoarseEachAndFineAtTheEndAlone) {
+    const int step = session.step();
+    const Shell::Painted before = shell.painted();
+    for (int i = 0; i < 10; ++i) {
+        key(Key::left);
+        for (int k = 0; k < 10; ++k) frame();
+    }
+    EXPECT_EQ(session.step(), step - 10);
+    EXPECT_EQ(shell.painted().coarse, before.coarse + 10);
+    EXPECT_EQ(shell.painted().fine, before.fine);
+    rest();
+    EXPECT_EQ(shell.painted().fine, before.fine + 1);
+    EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
+}
+
+TEST_F(AnswersTest, EachPressIsUndoneByItselfAlsoOfThoseThatCameTogether) {
+    run_command(session, "view.disks");
+    rest();
+    key(Key::n2);
+    key(Key::b);
+    frame();
+    ASSERT_FALSE(session.view().boxes);
+    session.undo();
+    EXPECT_TRUE(session.view().boxes);
+    EXPECT_EQ(session.view().camera.preset, CameraPreset::top);
+}
+
+TEST_F(AnswersTest, AKeyIsAnsweredInTheMidstOfTheFinePicture) {
+    key(Key::left);
+    frame();
+    now += AnswerPace::kRest;
+    const Shell::Painted before = shell.painted();
+    for (int i = 0; i < 3; ++i) frame();
+    ASSERT_EQ(shell.painted().fine, before.fine) << "it takes more than three parts";
+    EXPECT_EQ(wanted, 0) << "there is more to do";
+    const int step = session.step();
+    key(Key::left);
+    frame();
+    EXPECT_EQ(session.step(), step - 1);
+    EXPECT_EQ(shell.painted().coarse, before.coarse + 1);
+    EXPECT_EQ(shell.painted().fine, before.fine);
+    rest();
+    EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
+}
+
+TEST_F(AnswersTest, WhereTheFinePictureIsQuickNoCoarseOneIsShown) {
+    part = 0;
+    key(Key::left);
+    rest();
+    const Shell::Painted before = shell.painted();
+    for (int i = 0; i < 5; ++i) {
+        key(Key::left);
+        frame();
+        EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
+    }
+    EXPECT_EQ(shell.painted().coarse, before.coarse);
+    EXPECT_EQ(shell.painted().fine, before.fine + 5);
+    EXPECT_FALSE(works());
+    part = 0.05;
+    key(Key::left);
+    frame();
+    EXPECT_EQ(shell.painted().coarse, before.coarse + 1) << "one that takes long after all is given up";
+    rest();
+    EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
+}
+
+TEST_F(AnswersTest, ADragIsCoarseUntilTheButtonIsUp) {
+    const glm::vec2 middle = shell.marks().all().at("viewport").center();
+    shell.feed(MouseMove{middle});
+    frame();
+    shell.feed(MouseButton{0, true});
+    frame();
+    rest();
+    const Shell::Painted before = shell.painted();
+    for (int i = 1; i <= 5; ++i) {
+        shell.feed(MouseMove{middle + glm::vec2(20 * i, 0)});
+        frame();
+        frame();
+        now += 1;  // a hand that thinks
+        for (int k = 0; k < 3; ++k) frame();
+    }
+    EXPECT_EQ(shell.painted().coarse, before.coarse + 5);
+    EXPECT_EQ(shell.painted().fine, before.fine);
+    EXPECT_FALSE(works()) << "nothing is under way";
+    shell.feed(MouseButton{0, false});
+    rest();
+    EXPECT_EQ(shell.painted().fine, before.fine + 1);
+}
+
+TEST_F(AnswersTest, ASignOfWorkComesAfterAWhileAndGoesWithTheFinePicture) {
+    key(Key::left);
+    frame();
+    EXPECT_FALSE(works());
+    now += 0.14;
+    frame();
+    EXPECT_FALSE(works());
+    now += 0.1;
+    frame();
+    EXPECT_TRUE(works());
+    rest();
+    EXPECT_FALSE(works());
+}
+
+TEST_F(AnswersTest, WhereNobodyLooksEveryPictureIsFine) {
+    Session alone(false);
+    Shell window(GlContext::open(Backend::automatic), alone, 1, [this] { return measured += part; });
+    alone.open_demo();
+    for (int i = 0; i < 5; ++i) {
+        window.frame(kWindow, 0.01 * i);
+        window.read_back();
+    }
+    EXPECT_EQ(window.painted().coarse, 0);
+    EXPECT_GT(window.painted().fine, 0);
+}
+
+TEST(AnswerPace, ADragBecomesCoarserIfItMustButNotFinerAgain) {
+    AnswerPace pace(true);
+    EXPECT_TRUE(pace.coarse_first()) << "until it is known that this is not needed";
+    pace.painted_coarse(0.010);
+    EXPECT_EQ(pace.divisor(), 1);
+    pace.painted_coarse(0.180);
+    EXPECT_EQ(pace.divisor(), 2);
+    pace.painted_coarse(0.010);
+    EXPECT_EQ(pace.divisor(), 2);
+    pace.painted_coarse(3);
+    EXPECT_EQ(pace.divisor(), AnswerPace::kCoarsest);
+    pace.painted_fine(0.5);
+    EXPECT_TRUE(pace.coarse_first());
+    pace.painted_coarse(0.010);
+    EXPECT_EQ(pace.divisor(), 2) << "a new drag may be finer";
+    pace.painted_fine(0.01);
+    EXPECT_FALSE(pace.coarse_first());
+    pace.gave_up_fine(0.06);
+    EXPECT_TRUE(pace.coarse_first());
+}
+
+}  // namespace
+}  // namespace mobbscope::app
