@@ -59,6 +59,7 @@ bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) const {
 
 void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const Others& others) {
     const bool after_key = std::exchange(frame.after_key, false);
+    const bool alone = std::holds_alternative<MouseMove>(event) ? alt_alone_ : std::exchange(alt_alone_, false);
     if (const auto* move = std::get_if<MouseMove>(&event)) {
         io.MousePos = {move->at.x, move->at.y};
         frame.moved = true;
@@ -81,7 +82,14 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
         io.KeySuper = keys_[index_of(Key::super)];
         frame.after_key = true;
         if (!is_letter(*key, frame)) frame.keys[index_of(key->key)] = frame.any_key = true;
-        typed_by_command_ = key->down && others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated);
+        typed_by_command_ = false;
+        if (key->key == Key::alt) {
+            if (!key->down && alone) typed_by_command_ = others.chord({Key::alt}, false);
+            alt_alone_ = key->down && (alone || !repeated);
+        } else if (key->down) {
+            typed_by_command_ = others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated);
+            if (typed_by_command_) io.KeysDown[index_of(key->key)] = false;
+        }
     } else if (const auto* text = std::get_if<TypedText>(&event)) {
         // Not through AddInputCharacter: from 1.87 on it has a queue of its own, a frame behind the keys of this one.
         if (!typed_by_command_) io.InputQueueCharacters.push_back(typed_letter(text->code));
@@ -90,7 +98,7 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
         frame.after_key = after_key;
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         others.drop(*drop);
-    } else {
+    } else if (std::holds_alternative<CloseRequest>(event)) {
         others.close();
     }
 }

@@ -15,7 +15,8 @@ class InputQueue {
   public:
     /// What is not for Dear ImGui. Called in the order of the events.
     struct Others {
-        /// A key went down, or repeats; true if it did something: then it types nothing.
+        /// A key went down, or repeats; true if it did something: then Dear ImGui does not see it, and it types
+        /// nothing. Alt is told once it is up again, if nothing else happened meanwhile.
         std::function<bool(const Chord& chord, bool repeated)> chord;
         std::function<void(const Drop&)> drop;
         std::function<void()> close;
@@ -42,6 +43,7 @@ class InputQueue {
     std::deque<InputEvent> waiting_;
     std::array<bool, 3> buttons_{};
     std::array<bool, static_cast<std::size_t>(Key::count)> keys_{};
+    bool alt_alone_ = false;         ///< nothing else was pressed since Alt went down
     bool typed_by_command_ = false;  ///< the last key did something, so the letter that follows means nothing
 };
 
