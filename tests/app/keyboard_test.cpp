@@ -153,6 +153,20 @@ TEST(Keyboard, TheMouseTakesTheKeysBack) {
     EXPECT_EQ(w.session.focus, "scene.add_files") << "it goes on from what was clicked";
 }
 
+TEST(Keyboard, TabGoesOnWhereWhatHadTheFocusIsGone) {
+    KeyboardWindow w;
+    run_command(w.session, "go.agent", "A");
+    w.window.settle();
+    w.key("Tab", 10);
+    ASSERT_EQ(w.session.focus, "agent.remove");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().agents.size(), 2u);
+    EXPECT_EQ(w.session.focus, "") << "the viewport has the keys";
+    w.key("Tab");
+    EXPECT_NE(w.session.focus, "");
+    EXPECT_NE(w.session.focus, "agent.0") << "not all over again";
+}
+
 TEST(Keyboard, EscapeClosesOneThingAfterTheOther) {
     KeyboardWindow w;
     run_command(w.session, "query.select", "0");

@@ -192,6 +192,7 @@ void level_bars(Ui& ui, int clip) {
         const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
         const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
         ui.mark("level." + std::to_string(i));
+        if (session.view().levels.first == level.level) ui.focus.begin_here();
         const bool over = ImGui::IsItemHovered();
         const LevelRange shown = session.view().levels;
         const bool drawn =

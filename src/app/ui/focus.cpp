@@ -324,7 +324,9 @@ void Focus::tab(bool back) {
         if (const Stop* before = find(left_)) return go(*before);
     }
     const std::size_t count = stops_.size();
-    const std::size_t at = now ? static_cast<std::size_t>(now - stops_.data()) : (back ? 0 : count - 1);
+    // From what is gone it goes on where that stood.
+    const std::size_t gone = std::min(order_, count);
+    const std::size_t at = now ? static_cast<std::size_t>(now - stops_.data()) : (back ? gone : gone + count - 1);
     if (const Stop* next = from_order(back ? at + count - 1 : at + 1, back, now)) go(*next);
 }
 
@@ -519,9 +521,11 @@ void Focus::end_frame(const Style& style) {
         close_popups_from(0);
         at_ = {""};
         left_.clear();
+        order_ = 0;
         visible_ = false;
     }
     const bool shown = (visible_ || typing_) && here();
+    if (const Stop* stop = here(); stop && stop->level == 0) order_ = static_cast<std::size_t>(stop - stops_.data());
     session_.focus = shown ? at_.back() : "";
     reveals_ = false;
     // A widget that is not drawn any more takes no keys.
@@ -547,6 +551,7 @@ void Focus::follow_dialog() {
     const Dialog before = std::exchange(dialog_, session_.dialog);
     if (before == dialog_) return;
     if (before == Dialog::none) behind_dialog_ = {at_.front(), visible_};
+    order_ = 0;
     std::tie(at_.front(), visible_) = dialog_ == Dialog::none ? behind_dialog_ : std::pair(std::string(), false);
 }
 

@@ -113,9 +113,10 @@ class Focus {
     std::vector<Stop> added_;  ///< of this one
     /// Where the focus is: in the window, and in each popup over it.
     std::vector<std::string> at_{""};
-    std::string left_;      ///< from where it went back to the viewport
-    bool visible_ = false;  ///< the last thing used was a key, not the mouse
-    bool typing_ = false;   ///< a field is typed into
+    std::size_t order_ = 0;  ///< of the last one in the window, among all
+    std::string left_;       ///< from where it went back to the viewport
+    bool visible_ = false;   ///< the last thing used was a key, not the mouse
+    bool typing_ = false;    ///< a field is typed into
     bool ends_typing_ = false;
     bool reveals_ = false;  ///< what has the focus is scrolled to
     std::optional<WantedRow> wanted_;
