@@ -50,7 +50,7 @@ class Worked {
         session.may_write = false;
         session.open({file});
         settle();
-        begun_ = session.document();
+        follow_opening();
     }
 
     void work(int statements) {
@@ -59,13 +59,11 @@ class Worked {
             done += lines + '\n';
             std::istringstream in(lines);
             for (std::string line; std::getline(in, line);) run(line);
-            // Another file was opened: what was done before is no past of it.
-            const History& history = session.history();
-            const bool fresh = !history.can_undo() && !history.can_redo();
-            if (fresh && session.document().fitted != begun_.fitted) begun_ = session.document();
+            follow_opening();
         }
         session.stop();
         settle();
+        follow_opening();
     }
 
     const Document& begun() const { return begun_; }
@@ -76,6 +74,15 @@ class Worked {
 
   private:
     static PictureSize size_of(int seed) { return seed % 3 == 0 ? kLeast : kMost; }
+
+    /// Another file was opened: what was done before is no past of it.
+    void follow_opening() {
+        if (session.in_excerpt() || session.opening() == opening_) return;
+        opening_ = session.opening();
+        History history = session.history();
+        while (history.can_undo()) history.undo();
+        begun_ = history.now();
+    }
 
     void run(const std::string& line) {
         try {
@@ -95,6 +102,7 @@ class Worked {
 
     test::RandomScript script_;
     Document begun_ = session.document();
+    int opening_ = session.opening();
 };
 
 TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {
