@@ -389,7 +389,6 @@ std::vector<Case> cases() {
              EXPECT_FALSE(w.view().query);
              EXPECT_EQ(w.session.selection.kind, Selection::Kind::path) << "one thing after the other";
          }});
-    add({"query.none", "", {kSelectB}, [](CommandWorld& w) { EXPECT_EQ(w.session.selection, Selection{}); }});
     // Asked already, as all pairs are: only shown.
     add({"query.add", "C", {kSelectB}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().query, 2);
@@ -506,7 +505,13 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.view().time, w.session.recorded()->contact->time);
         EXPECT_EQ(outcome_now(w), mobb::Outcome::hit);
     });
-    add({"go.none", "", {kSelectB}, [](CommandWorld& w) { EXPECT_EQ(w.session.selection, Selection{}); }});
+    add({"go.none", "", {kSelectB, kFirstQuery}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.selection, Selection{});
+             EXPECT_EQ(w.view().query, 0) << "the query stays";
+         }});
+    look("go.next_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::next_panel); });
+    look("go.previous_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::previous_panel); });
+    look("go.menu", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::menu_bar); });
 
     // Help
     look("help.shortcuts", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::help); });

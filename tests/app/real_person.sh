@@ -85,8 +85,8 @@ click box.txt tree.kind 0 0
 reached kinds.txt
 click kinds.txt tree.kind.umobb 0 0
 reached kind.txt
-click kind.txt tree.leaf -40 0
-xdotool key ctrl+a type 6
+to kind.txt tree.leaf 0 0
+xdotool click --repeat 2 --delay 100 1 sleep 0.5 type 6
 xdotool key Return
 reached leaf.txt
 

@@ -108,5 +108,15 @@ TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
     EXPECT_EQ(document(state(folder / "anew.json")), document(saved));
 }
 
+// Menus, a dropdown and Escape by the keys of the display; real_keys.script asserts each state.
+TEST(RealWindow, APersonWorksByKeysAlone) {
+    const TempFolder folder;
+    const int status =
+        under_xvfb("'" + kHere + "real_keys.sh' '" MOBBSCOPE_PROGRAM "' '" MOBBSCOPE_SOURCE_DIR "/assets' '" + kHere +
+                   "real_keys.script' '" + folder.path().string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    EXPECT_EQ(status, 0);
+}
+
 }  // namespace
 }  // namespace mobbscope

@@ -55,7 +55,7 @@ class Worked {
           script_(static_cast<std::uint64_t>(seed), size_of(seed), kLeast, kMost) {
         session.may_write = false;
         session.open({file});
-        begin();
+        follow_opening();
         window.resize(size_of(seed));
         settle();
     }
@@ -66,13 +66,11 @@ class Worked {
             done += lines + '\n';
             std::istringstream in(lines);
             for (std::string line; std::getline(in, line);) run(line);
-            // Another file was opened: what was done before is no past of it.
-            const History& history = session.history();
-            const bool fresh = !history.can_undo() && !history.can_redo();
-            if (fresh && session.document().fitted != begun_in_) begin();
+            follow_opening();
         }
         session.stop();
         settle();
+        follow_opening();
     }
 
     /// The document as text.
@@ -86,12 +84,16 @@ class Worked {
   private:
     static PictureSize size_of(int seed) { return seed % 3 == 0 ? kLeast : kMost; }
 
-    /// In a window where the camera has something to frame the scene in.
-    void begin() {
+    /// Another file was opened: what was done before is no past of it.
+    void follow_opening() {
+        if (session.in_excerpt() || session.opening() == opening_) return;
+        opening_ = session.opening();
+        // In a window where the camera has something to frame the scene in.
         window.resize(kMost);
         settle();
-        begun_ = now();
-        begun_in_ = session.document().fitted;
+        History history = session.history();
+        while (history.can_undo()) history.undo();
+        begun_ = as_json(history.now(), viewport_size(session).height);
     }
 
     void run(const std::string& line) {
@@ -112,7 +114,7 @@ class Worked {
 
     test::RandomScript script_;
     std::string begun_;
-    std::shared_ptr<const FittedScene> begun_in_;
+    int opening_ = -1;
 };
 
 TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {

@@ -12,8 +12,9 @@ namespace {
 
 std::vector<Command> help_commands() {
     const std::vector<Command> rows{
-        Command("help.shortcuts", "Shortcuts", "Lists all shortcuts and what the mouse does.",
-                [](Session& session) { session.open_dialog(Dialog::help); }, {.shortcut = "F1", .enabled = always}),
+        Command("help.shortcuts", "Help",
+                "Says what can be done now, then lists all keys and what the mouse does; a search finds commands.",
+                &Session::open_help, {.shortcut = "F1", .enabled = always}),
         Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
                 [](Session& session) { session.open_dialog(Dialog::about); }, {.enabled = always}),
     };

@@ -114,6 +114,21 @@ void go_to_found(Session& session) {
 
 // --- the rest
 
+template <FocusMove move>
+void move_focus(Session& session) {
+    session.focus_move = move;
+}
+
+bool stays(const Message& message) { return message.level != Message::Level::info; }
+
+/// One thing after the other, what lies in front first.
+void put_away(Session& session) {
+    const auto& messages = session.messages();
+    const auto last = std::find_if(messages.rbegin(), messages.rend(), stays);
+    if (last != messages.rend()) return session.dismiss(static_cast<std::size_t>(messages.rend() - last) - 1);
+    session.select({});
+}
+
 void go_clip(Session& session, const std::string& name) {
     session.select({Selection::Kind::clip, {}, index_of_name(clip_names(session), name, "clip")});
 }
@@ -161,8 +176,20 @@ std::vector<Command> go_commands() {
         Command("go.contact", "Contact",
                 "Goes to the moment and the step at which the two of the query in view first touch.", go_contact,
                 {.enabled = {has_contact, why_no_step}}),
-        Command("go.none", "Select nothing", "Selects nothing.", [](Session& session) { session.select({}); },
-                {.enabled = [](const Session& session) { return session.selection.kind != Selection::Kind::none; }}),
+        Command("go.next_panel", "Next panel", "Gives the keys to the next panel; behind the last to the viewport.",
+                move_focus<FocusMove::next_panel>, {.shortcut = "Ctrl+F6", .enabled = always}),
+        Command("go.previous_panel", "Previous panel", "Gives the keys to the panel before.",
+                move_focus<FocusMove::previous_panel>, {.shortcut = "Ctrl+Shift+F6", .enabled = always}),
+        Command("go.menu", "Menus", "Opens the menus; arrows and letters go through them.",
+                move_focus<FocusMove::menu_bar>, {.shortcut = "F10 Alt", .enabled = always}),
+        Command("go.none", "Select nothing",
+                "Dismisses the last message that stays; else selects nothing. The query in view stays.", put_away,
+                {.shortcut = "Escape",
+                 .enabled =
+                     [](const Session& session) {
+                         return session.selection.kind != Selection::Kind::none ||
+                                std::any_of(session.messages().begin(), session.messages().end(), stays);
+                     }}),
     };
     return in_menu("Go", rows);
 }

@@ -27,14 +27,7 @@ void select(Session& session, const std::string& text) {
     show_query(session, whole_number_in(text, "the query", 0, query_total(session) - 1));
 }
 
-bool stays(const Message& message) { return message.level != Message::Level::info; }
-
-/// One thing after the other, what lies in front first.
 void leave(Session& session) {
-    const auto& messages = session.messages();
-    const auto last = std::find_if(messages.rbegin(), messages.rend(), stays);
-    if (last != messages.rend()) return session.dismiss(static_cast<std::size_t>(messages.rend() - last) - 1);
-    if (!in_query(session)) return session.select({});
     session.change_view([](ViewState& view) { view.query.reset(); });
 }
 
@@ -191,15 +184,8 @@ std::vector<Command> query_commands() {
                  .repeats = true,
                  .enabled =
                      [](const Session& session) { return session.view().query.value_or(query_total(session)) > 0; }}),
-        Command("query.none", "Back",
-                "Dismisses a message; else leaves the query in view for the levels of all trees; else selects nothing.",
-                leave,
-                {.shortcut = "Escape",
-                 .enabled =
-                     [](const Session& session) {
-                         return in_query(session) || session.selection.kind != Selection::Kind::none ||
-                                std::any_of(session.messages().begin(), session.messages().end(), stays);
-                     }}),
+        Command("query.none", "Close the query", "Leaves the query in view for the levels of all trees.", leave,
+                {.shortcut = "Q", .enabled = {in_query, why_no_step}}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
                 {.argument = "AGENT", .enabled = {has_selected_of_several, why_no_agent}, .choices = others}),
         Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,

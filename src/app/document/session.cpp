@@ -283,6 +283,12 @@ void Session::step_in_history(void (History::*undo_or_redo)()) {
     changed();
 }
 
+void Session::restore(BeforeDrag before) {
+    history_ = std::move(before.history);
+    settings = std::move(before.settings);
+    changed();
+}
+
 /// After every change of the document: nothing points at what is gone, and the step is one of the trace.
 void Session::changed() {
     share_time_and_camera();
@@ -586,7 +592,23 @@ void Session::open_dialog(Dialog which, DialogInput with) {
     ask_anew(std::move(with));
 }
 
+void Session::open_help() {
+    if (dialog == Dialog::help) return;
+    behind_help_ = {dialog, std::move(input)};
+    dialog = Dialog::help;
+    input = {.text = "", .opening = behind_help_.second.opening};
+    ask_anew({});
+}
+
 void Session::close_dialog() {
+    if (dialog == Dialog::help && behind_help_.first != Dialog::none) {
+        dialog = std::exchange(behind_help_.first, Dialog::none);
+        const int opening = input.opening;
+        input = std::move(behind_help_.second);
+        input.fresh = true;
+        input.opening = opening + 1;
+        return;
+    }
     dialog = Dialog::none;
     ask_anew({});
     pending_ = nullptr;

@@ -37,6 +37,9 @@ struct Message {
     std::optional<double> shown_at{};  ///< when the window showed it first
 };
 
+/// Where a command sends the keys.
+enum class FocusMove { none, next_panel, previous_panel, menu_bar };
+
 /// How the window's surroundings are reached; all may be empty.
 struct Hooks {
     std::function<void()> wake;                             ///< from any thread: there is news, draw a frame
@@ -197,10 +200,28 @@ class Session {
     enum class Unsaved { save, discard, cancel };
     void answer_unsaved(Unsaved choice);
 
+    // The keys.
+    std::string focus;                       ///< the widget that has them, by its mark; empty: the viewport
+    FocusMove focus_move = FocusMove::none;  ///< asked for, and done in the next frame
+
+    // A drag that is broken off.
+    /// What a drag may change, as it is now.
+    struct BeforeDrag {
+        History history;
+        Settings settings;
+    };
+    BeforeDrag before_drag() const { return {history_, settings}; }
+    /// Brings it back, as if nothing had been dragged.
+    void restore(BeforeDrag before);
+
     // Dialogs and messages.
     Dialog dialog = Dialog::none;  ///< the open one
     DialogInput input;             ///< ... and what was put into it
     void open_dialog(Dialog which, DialogInput with = {});
+    /// Shows the help, over the open dialog if there is one: closing it leads back there.
+    void open_help();
+    /// What the help lies over.
+    Dialog behind_help() const { return behind_help_.first; }
     /// Nothing comes of it: what waited for its answer is forgotten.
     void close_dialog();
     void tell(Message::Level level, const std::string& text);
@@ -280,7 +301,8 @@ class Session {
     };
     std::vector<Running> jobs_;
     bool playing_ = false;
-    bool has_played_ = false;        ///< since play(): the time that passes has a state
+    bool has_played_ = false;  ///< since play(): the time that passes has a state
+    std::pair<Dialog, DialogInput> behind_help_{Dialog::none, {}};
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes
     bool closed_ = false;
 

@@ -35,7 +35,9 @@ struct Drop {
 };
 /// The window manager's close button.
 struct CloseRequest {};
+/// Another window has the keys now; those that are held go up.
+struct KeysLost {};
 
-using InputEvent = std::variant<MouseMove, MouseButton, Wheel, KeyPress, TypedText, Drop, CloseRequest>;
+using InputEvent = std::variant<MouseMove, MouseButton, Wheel, KeyPress, TypedText, Drop, CloseRequest, KeysLost>;
 
 }  // namespace mobbscope::app

@@ -62,6 +62,7 @@ bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) const {
 
 void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const Others& others) {
     const bool after_key = std::exchange(frame.after_key, false);
+    const bool alone = std::holds_alternative<MouseMove>(event) ? alt_alone_ : std::exchange(alt_alone_, false);
     if (const auto* move = std::get_if<MouseMove>(&event)) {
         io.MousePos = {move->at.x, move->at.y};
         frame.moved = true;
@@ -82,8 +83,13 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
         io.KeyAlt = keys_[index_of(Key::alt)];
         io.KeySuper = keys_[index_of(Key::super)];
         frame.after_key = true;
-        const Taken taken =
-            key->down ? others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated) : Taken::nobodys;
+        Taken taken = Taken::nobodys;
+        if (key->key == Key::alt) {
+            if (!key->down && alone) taken = others.chord({Key::alt}, false);
+            alt_alone_ = key->down && (alone || !repeated);
+        } else if (key->down) {
+            taken = others.chord({key->key, io.KeyCtrl, io.KeyShift, io.KeyAlt}, repeated);
+        }
         frame.opened = taken == Taken::opened;
         bool& commands = commands_[index_of(key->key)];
         // A command's key stays that until it goes up, even where the command does not repeat.
@@ -102,7 +108,7 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
         frame.typed = true;
     } else if (const auto* drop = std::get_if<Drop>(&event)) {
         others.drop(*drop);
-    } else {
+    } else if (std::holds_alternative<CloseRequest>(event)) {
         others.close();
     }
 }

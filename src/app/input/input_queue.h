@@ -19,7 +19,7 @@ class InputQueue {
     enum class Taken { nobodys, command, opened };
     /// What is not for Dear ImGui. Called in the order of the events.
     struct Others {
-        /// A key went down, or repeats.
+        /// A key went down, or repeats. Alt is told once it is up again, if nothing else happened meanwhile.
         std::function<Taken(const Chord& chord, bool repeated)> chord;
         std::function<void(const Drop&)> drop;
         std::function<void()> close;
@@ -47,6 +47,7 @@ class InputQueue {
     std::array<bool, 3> buttons_{};
     std::array<bool, static_cast<std::size_t>(Key::count)> keys_{};
     std::array<bool, static_cast<std::size_t>(Key::count)> commands_{};  ///< keys that are down and were a command's
+    bool alt_alone_ = false;         ///< nothing else was pressed since Alt went down
     bool typed_by_command_ = false;  ///< the last key was one, so the letter that follows means nothing
 };
 

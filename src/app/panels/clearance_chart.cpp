@@ -94,7 +94,7 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
     if (width < 8) return;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("clearance", {static_cast<float>(width), height});
-    ui.mark("query.clearance");
+    ui.mark_only("query.clearance");
     const bool hovered = ImGui::IsItemHovered();
     const bool active = ImGui::IsItemActive();
 

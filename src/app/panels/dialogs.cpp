@@ -59,7 +59,8 @@ void dialogs(Ui& ui) {
             about(ui);
             break;
     }
-    if (pressed(ImGuiKey_Escape)) session.enqueue([&session] { session.close_dialog(); });
+    // A field in it that is typed into is left first.
+    if (pressed(ImGuiKey_Escape) && !ui.field.typing) session.enqueue([&session] { session.close_dialog(); });
 }
 
 void about(Ui& ui) {

@@ -106,7 +106,7 @@ void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, b
         ImGui::PushID(i);
         const bool clicked = ImGui::Selectable(name.c_str(), i == input.picked, ImGuiSelectableFlags_AllowDoubleClick);
         ImGui::PopID();
-        ui.mark(std::string(purpose.prefix) + ".entry." + entry.name);
+        ui.mark_only(std::string(purpose.prefix) + ".entry." + entry.name);
         if (moved && i == input.picked) ImGui::SetScrollHereY();
         if (!entry.folder) {
             const std::string size = size_text(entry.size);

@@ -1,10 +1,10 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
-#include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,20 +38,37 @@ void ask_argument(Session& session, const Command& command) {
     });
 }
 
+/// A menu that opens by mouse and keys.
+bool begin_menu(Ui& ui, const std::string& title, const std::string& mark, bool enabled = true) {
+    if (!ui.focus.take(mark).empty()) ImGui::OpenPopup(title.c_str());
+    const ImGuiID id = ImGui::GetID(title.c_str());
+    const std::optional<Rect> before = ui.focus.last_place(mark);
+    const bool open = ImGui::BeginMenu(title.c_str(), enabled);
+    // The last item of an open menu is the popup.
+    const Rect place = open && before ? *before : Ui::last_rect();
+    ui.marks.add(mark, place);
+    ui.focus.add_menu(mark, place, enabled ? id : 0, title, open);
+    return open;
+}
+
 void choices(Ui& ui, const Command& command) {
     Session& session = ui.session;
     const std::vector<std::string> all = command.choices(session);
-    const bool open = ImGui::BeginMenu(title_of(session, command).c_str(), command.enabled(session) && !all.empty());
-    ui.mark(menu_mark(command));
+    const bool open =
+        begin_menu(ui, title_of(session, command), menu_mark(command), command.enabled(session) && !all.empty());
     if (!open) return;
     for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
         const bool chosen = command.chosen && command.chosen(session, all[i]);
         ImGui::PushID(static_cast<int>(i));
         if (ImGui::MenuItem(all[i].c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
         ImGui::PopID();
-        ui.mark(menu_mark(command) + '.' + all[i]);
+        ui.mark(menu_mark(command) + '.' + all[i], OwnKeys::none, all[i]);
+        if (chosen) ui.focus.begin_here();
     }
-    if (all.size() > kMostChoices && ImGui::MenuItem("More...")) ask_argument(session, command);
+    if (all.size() > kMostChoices) {
+        if (ImGui::MenuItem("More...")) ask_argument(session, command);
+        ui.mark(menu_mark(command) + "...", OwnKeys::none, "More");
+    }
     ImGui::EndMenu();
 }
 
@@ -63,7 +80,7 @@ void item(Ui& ui, const Command& command) {
     if (ImGui::MenuItem(title_of(session, command).c_str(), shortcut.c_str(), checked, command.enabled(session))) {
         command.needs_argument() ? ask_argument(session, command) : invoke(session, command.id);
     }
-    ui.mark(menu_mark(command));
+    ui.mark(menu_mark(command), OwnKeys::none, command.title);
 }
 
 std::string_view group_of(const Command& command) { return command.id.substr(0, command.id.find('.')); }
@@ -84,9 +101,7 @@ void items(Ui& ui, const std::string& menu) {
     if (!submenus.empty()) ImGui::Separator();
     for (const std::string_view submenu : submenus) {
         const std::string name(submenu.substr(menu.size() + 1));
-        const bool open = ImGui::BeginMenu(name.c_str());
-        ui.mark("menu." + lower_case(menu) + '.' + lower_case(name));
-        if (!open) continue;
+        if (!begin_menu(ui, name, "menu." + lower_case(menu) + '.' + lower_case(name))) continue;
         items(ui, std::string(submenu));
         ImGui::EndMenu();
     }
@@ -104,7 +119,7 @@ void search(Ui& ui, float left, float right) {
     const float height = ImGui::GetFrameHeight() - ui.px(4);
     ImGui::SetCursorPos({x, ui.px(2)});
     if (ImGui::InvisibleButton("##search", {width, height})) invoke(ui.session, "go.palette");
-    ui.mark("menu.search");
+    ui.mark_only("menu.search");
     const ImVec2 min = ImGui::GetItemRectMin();
     const ImVec2 max = ImGui::GetItemRectMax();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -136,7 +151,7 @@ float file_title(Ui& ui, float left) {
     if (session.modified()) draw.AddCircleFilled({x - dot + ui.px(4), middle}, ui.px(3.5f), ui.style.warning);
     ImGui::SetCursorPos({x - dot, 0});
     ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
-    ui.mark("menu.title");
+    ui.mark_only("menu.title");
     if (ImGui::IsItemHovered()) {
         const std::string file = session.file() ? session.file()->string() : title;
         ImGui::SetTooltip("%s%s", file.c_str(), session.modified() ? "\nnot saved" : "");
@@ -157,11 +172,8 @@ void menu_bar(Ui& ui) {
         if (!menu.empty() && std::find(menus.begin(), menus.end(), menu) == menus.end()) menus.push_back(menu);
     }
     for (const std::string& menu : menus) {
-        const bool open = ImGui::BeginMenu(menu.c_str());
-        ui.mark("menu." + lower_case(menu));
-        if (!open) continue;
+        if (!begin_menu(ui, menu, "menu." + lower_case(menu))) continue;
         items(ui, menu);
-        if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
         ImGui::EndMenu();
     }
     const float left = ImGui::GetCursorPosX();

@@ -18,7 +18,7 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
     ImGui::PushID(index);
     const bool clicked = ImGui::Selectable("##row", picked, 0, {0, height});
     ImGui::PopID();
-    ui.mark("palette." + std::to_string(index));
+    ui.mark_only("palette." + std::to_string(index));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float y = at.y + (height - ImGui::GetFontSize()) / 2;
     const float pad = ui.px(8);

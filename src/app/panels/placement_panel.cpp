@@ -3,36 +3,30 @@
 #include <app/ui/widgets.h>
 #include <scene/scene_edits.h>
 
-#include <imgui_stdlib.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace mobbscope::app {
 
 namespace {
 
-/// A number to type, or to drag; true when it has changed.
-bool placement_number(Ui& ui, const char* label, const char* name, double& value, float speed, const char* format,
-                      const char* help) {
+/// True when it has changed.
+bool placement_number(Ui& ui, const char* label, double& value, NumberField field, const char* help) {
     form_label(ui, label, help);
-    ImGui::PushFont(ui.style.mono);
-    const bool changed = ImGui::DragScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &value, speed,
-                                           nullptr, nullptr, format);
-    ImGui::PopFont();
-    ui.mark(name);
-    return changed && std::isfinite(value);
+    field.now = value;
+    const std::optional<double> wanted = number_field(ui, field);
+    value = wanted.value_or(value);
+    return wanted.has_value();
 }
 
 void rename_agent(Ui& ui, int agent, const std::string& name) {
     form_label(ui, "Name", "What the agent is called in queries and pictures");
-    std::string text = name;
-    ImGui::InputText("##agent.name", &text);
-    ui.mark("agent.name");
-    if (!ImGui::IsItemDeactivatedAfterEdit() || name == text) return;
-    ui.session.enqueue([&session = ui.session, name, agent, text] {
+    const std::optional<std::string> text = text_edit(ui, "agent.name", name);
+    if (!text) return;
+    ui.session.enqueue([&session = ui.session, name, agent, text = *text] {
         session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text); });
     });
 }
@@ -43,7 +37,10 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
     std::array<float, 3> rgb{now.r, now.g, now.b};
     const bool changed =
         ImGui::ColorEdit3("##agent.color", rgb.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
-    ui.mark("agent.color");
+    ui.mark_only("agent.color");
+    ImGui::PushID("##agent.color");
+    ui.focus.add("agent.color", Ui::last_rect(), ImGui::GetID("##ColorButton"), OwnKeys::none, "");
+    ImGui::PopID();
     if (!changed) return;
     const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
     const Color wanted{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
@@ -65,13 +62,35 @@ void placement_panel(Ui& ui) {
     heading(ui, "PLACEMENT");
     rename_agent(ui, who->agent, who->name);
     mobb::Placement placement = who->placement;
+    const auto metres = [](const char* mark, const char* what) {
+        return NumberField{.mark = mark,
+                           .what = what,
+                           .unit = "m",
+                           .decimals = 3,
+                           .step = 0.1,
+                           .least = -mobb::kMaxLength,
+                           .most = mobb::kMaxLength};
+    };
     bool changed =
-        placement_number(ui, "x", "agent.x", placement.translate.x, 0.01f, "%.3f m", "Where the clip's origin goes");
-    changed |=
-        placement_number(ui, "y", "agent.y", placement.translate.y, 0.01f, "%.3f m", "Where the clip's origin goes");
-    changed |= placement_number(ui, "turned", "agent.turn", placement.rotate_deg, 0.25f, "%.2f\u00B0",
+        placement_number(ui, "x", placement.translate.x, metres("agent.x", "x"), "Where the clip's origin goes");
+    changed |= placement_number(ui, "y", placement.translate.y, metres("agent.y", "y"), "Where the clip's origin goes");
+    changed |= placement_number(ui, "turned", placement.rotate_deg,
+                                {.mark = "agent.turn",
+                                 .what = "The angle",
+                                 .unit = "\u00B0",
+                                 .decimals = 2,
+                                 .step = 2.5,
+                                 .least = -1e9,
+                                 .most = 1e9},
                                 "About the clip's origin, counter-clockwise");
-    changed |= placement_number(ui, "starts at", "agent.start", placement.start, 0.01f, "%.3f s",
+    changed |= placement_number(ui, "starts at", placement.start,
+                                {.mark = "agent.start",
+                                 .what = "The start",
+                                 .unit = "s",
+                                 .decimals = 3,
+                                 .step = 0.1,
+                                 .least = -mobb::kMaxTime,
+                                 .most = mobb::kMaxTime},
                                 "Global time at which the clip begins");
     color_field(ui, *who, session.selection.path.agent);
     if (changed) {

@@ -165,13 +165,17 @@ void query_list(Ui& ui) {
     const int rows = static_cast<int>(count);
     const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostQueryRows)) + spacing;
     ImGui::BeginChild("queries", {0, room});
+    ui.focus.begin_list(ImGui::GetID("queries"), rows);
     ImGuiListClipper clipper;
     clipper.Begin(rows, height + spacing);
+    if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            ui.focus.row(i);
             query_row(ui, static_cast<std::size_t>(i), height);
         }
     }
+    ui.focus.end_list();
     ImGui::EndChild();
 }
 

@@ -124,7 +124,7 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
     if (size < 16) return;
     ImGui::SetCursorScreenPos(square.min);
     ImGui::InvisibleButton("square", {side, side});
-    ui.mark("query.square");
+    ui.mark_only("query.square");
     const bool hovered = ImGui::IsItemHovered();
     const bool clicked = ImGui::IsItemClicked();
 
@@ -180,7 +180,7 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("icicle", size);
-    ui.mark("query.icicle");
+    ui.mark_only("query.icicle");
     const bool hovered = ImGui::IsItemHovered();
     const bool clicked = ImGui::IsItemClicked();
     const int step = ui.session.step();
@@ -227,7 +227,7 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("strip", {width, height});
-    ui.mark("query.strip");
+    ui.mark_only("query.strip");
     const int step = ui.session.step();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);

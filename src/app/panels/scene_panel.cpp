@@ -22,7 +22,7 @@ void agent_menu(Ui& ui, const Selection& self) {
         const std::string title(command.title);
         const std::string shortcut(first_shortcut(command));
         const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));
-        ui.mark(std::string("agent.menu.") + id);
+        ui.mark(std::string("agent.menu.") + id, OwnKeys::none, title);
         if (chosen) invoke(ui.session, id);
     }
     ImGui::EndPopup();
@@ -71,6 +71,7 @@ void agents(Ui& ui) {
             ImGui::PushID(&clip);  // names may look alike to ImGui
             if (ImGui::MenuItem(clip.name.c_str())) invoke(session, "agent.add", clip.name);
             ImGui::PopID();
+            ui.mark("scene.add_agent." + clip.name, OwnKeys::none, clip.name);
         }
         ImGui::EndPopup();
     }
@@ -143,7 +144,7 @@ void selection_panel(Ui& ui) {
         words(ui.style.quiet,
               "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "
               "to move it, "
-              "roll the wheel to zoom. F1 lists all keys.");
+              "roll the wheel to zoom. F1 says what can be done.");
         return;
     }
     const Described what = describe(session.fitted(), session.selection);

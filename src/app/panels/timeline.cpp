@@ -81,7 +81,10 @@ void time_bars(Ui& ui, float width, float height) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ChartAxis axis = time_axis(span, corner.x, width);
     ImGui::InvisibleButton("##time", {width, height});
-    ui.mark("timeline.time");
+    ui.mark("timeline.time", OwnKeys::left_right);
+    for (const Chord& chord : ui.focus.take("timeline.time")) {
+        if (chord.key != Key::enter) invoke(session, chord.key == Key::right ? "time.forward" : "time.back");
+    }
     if (ImGui::IsItemActive()) {
         const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
         session.enqueue([&session, at] {
@@ -213,7 +216,6 @@ void timeline(Ui& ui, QueryPictures& pictures) {
 
 void step_transport(Ui& ui) {
     const int last = ui.session.recorded()->trace.size() - 1;
-    int step = ui.session.step();
     heading(ui, "STEPS");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(4), ui.px(4)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(4)});
@@ -234,21 +236,15 @@ void step_transport(Ui& ui) {
     text_button(ui, "hit", "step.next_hit");
     ImGui::PopStyleVar(2);
 
-    // With the number as a number, which is what a Ctrl+click edits.
-    const std::string number = std::to_string(step);
-    std::string words = step_of(step, ui.session.recorded()->trace);
-    words.replace(words.find(number), number.size(), "%d");
-    ImGui::PushFont(ui.style.mono);
-    // The number stays readable under the grab.
-    ImGui::PushStyleColor(ImGuiCol_SliderGrab, to_im(with_alpha(ui.style.palette.accent, 0.45f)));
-    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, to_im(with_alpha(ui.style.palette.accent, 0.6f)));
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderInt("##step", &step, 0, last, words.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
-        invoke(ui.session, "step.to", std::to_string(step));
-    }
-    ui.mark("query.step");
-    ImGui::PopStyleColor(2);
-    ImGui::PopFont();
+    const auto wanted = number_field(ui, {.mark = "query.step",
+                                          .what = "The step",
+                                          .now = static_cast<double>(ui.session.step()),
+                                          .before = "step ",
+                                          .unit = "of 0.." + std::to_string(last),
+                                          .least = 0,
+                                          .most = static_cast<double>(last)});
+    if (wanted) invoke(ui.session, "step.to", formatted("%.0f", *wanted));
 }
 
 }  // namespace mobbscope::app

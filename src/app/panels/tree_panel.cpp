@@ -6,7 +6,8 @@
 #include <scene/scene_json.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <optional>
 
 namespace mobbscope::app {
 
@@ -50,47 +51,66 @@ void choose(Ui& ui, const char* label, const char* id, Enum now, const char* hel
     const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
     const bool open = ImGui::BeginCombo((std::string("##") + id).c_str(), choice_words(now).label.c_str());
     // Once it is open the last item is of its list.
-    ui.marks.add(id, {{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}});
-    if (!open) return;
+    const Rect place{{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}};
+    ui.marks.add(id, place);
+    if (!open) {
+        ui.focus.add(id, place, ImGui::GetItemID(), OwnKeys::none, label);
+        return;
+    }
     int index = 0;
     for (const std::string& choice : find_command(id)->choices(ui.session)) {
         const auto value = static_cast<Enum>(index++);
         const ChoiceWords words = choice_words(value);
         if (ImGui::Selectable(words.label.c_str(), value == now)) invoke(ui.session, id, choice);
-        ui.mark(std::string(id) + "." + choice);
+        ui.mark(std::string(id) + "." + choice, OwnKeys::none, words.label);
+        if (value == now) ui.focus.begin_here();
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.help.c_str());
     }
     ImGui::EndCombo();
 }
 
-/// A whole number with buttons; what is typed counts when it is done.
-void whole(Ui& ui, const char* label, const char* command, int now, int least, const char* help) {
+/// A whole number. While fits take long it counts once the drag is over.
+void whole(Ui& ui, const char* label, const char* command, const char* what, int now, int least, const char* help) {
     form_label(ui, label, help);
-    ImGui::PushFont(ui.style.mono);
-    int value = now;
-    ImGui::InputInt((std::string("##") + command).c_str(), &value, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::PopFont();
-    ui.mark(command);
-    if (value != now && value >= least) invoke(ui.session, command, std::to_string(value));
+    const auto wanted = number_field(ui, {.mark = command,
+                                          .what = what,
+                                          .now = static_cast<double>(now),
+                                          .least = static_cast<double>(least),
+                                          .most = std::numeric_limits<int>::max(),
+                                          .live = !ui.session.job()});
+    if (wanted) invoke(ui.session, command, formatted("%.0f", *wanted));
 }
 
 void time_scale(Ui& ui) {
     const mobb::FitOptions& fit = ui.session.fitted().options();
     form_label(ui, "Time scale", "Metres per second that mix time with space in free boxes (w); no other boxes use it");
     ImGui::BeginDisabled(!mobb::info(fit.tree).uses_time_scale());
-    ImGui::PushFont(ui.style.mono);
-    double value = fit.time_scale;
-    const double least = 1 / mobb::kMaxTimeScale;
-    const double most = mobb::kMaxTimeScale;
-    const bool changed = ImGui::DragScalar("##tree.time_scale", ImGuiDataType_Double, &value, 0.01f, &least, &most,
-                                           "%.3g m/s", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    ImGui::PopFont();
+    const auto wanted = number_field(ui, {.mark = "tree.time_scale",
+                                          .what = "The time scale",
+                                          .now = fit.time_scale,
+                                          .unit = "m/s",
+                                          .least = 1 / mobb::kMaxTimeScale,
+                                          .most = mobb::kMaxTimeScale,
+                                          .by_factors = true,
+                                          .live = !ui.session.job()});
     ImGui::EndDisabled();
-    ui.mark("tree.time_scale");
-    if (changed && std::isfinite(value)) invoke(ui.session, "tree.time_scale", short_double(value));
+    if (wanted) invoke(ui.session, "tree.time_scale", short_double(*wanted));
 }
 
 constexpr float kLeastCell = 10.5f;  // pixels at scale 1: a level's number
+
+/// Left and Right go to the next level; with Shift they make a range longer or shorter.
+void level_keys(Ui& ui, int depth) {
+    LevelRange wanted = ui.session.view().levels;
+    for (const Chord& chord : ui.focus.take("view.level")) {
+        if (chord.key == Key::enter) continue;
+        const int way = chord.key == Key::right ? 1 : -1;
+        const int last = wanted.leaves ? depth : std::min(wanted.last, depth - 1);
+        const int next = std::clamp(last + way, 0, depth - 1);
+        wanted = {chord.shift && !wanted.leaves ? std::min(wanted.first, next) : next, next, false};
+    }
+    if (wanted != ui.session.view().levels) invoke(ui.session, "view.level", to_string(wanted));
+}
 
 /// Which levels are drawn: a cell for each, lit where it is. A click shows one level, a drag or Shift a range.
 void shown_levels(Ui& ui, int depth) {
@@ -104,7 +124,8 @@ void shown_levels(Ui& ui, int depth) {
     const bool beside = (room - leaves - ui.px(6)) / static_cast<float>(depth) >= ui.px(kLeastCell);
     const ImVec2 size{beside ? room - leaves - ui.px(6) : room, ImGui::GetFrameHeight()};
     ImGui::InvisibleButton("##levels", size);
-    ui.mark("view.level");
+    ui.mark("view.level", OwnKeys::left_right);
+    level_keys(ui, depth);
     const float cell = size.x / static_cast<float>(depth);
     const auto level_at = [&](float x) { return std::clamp(static_cast<int>((x - corner.x) / cell), 0, depth - 1); };
     const ImGuiIO& io = ImGui::GetIO();
@@ -171,6 +192,7 @@ void level_bars(Ui& ui, int clip) {
         const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x);
         const bool clicked = ImGui::InvisibleButton(("level" + std::to_string(i)).c_str(), {width, height});
         ui.mark("level." + std::to_string(i));
+        if (session.view().levels.first == level.level) ui.focus.begin_here();
         const bool over = ImGui::IsItemHovered();
         const LevelRange shown = session.view().levels;
         const bool drawn =
@@ -208,7 +230,12 @@ void level_bars(Ui& ui, int clip) {
         }
     };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-    for (int i = 0; i < static_cast<int>(figures.size()); ++i) draw_row(i);
+    ui.focus.begin_list(ImGui::GetID("levels"), static_cast<int>(figures.size()));
+    for (int i = 0; i < static_cast<int>(figures.size()); ++i) {
+        ui.focus.row(i);
+        draw_row(i);
+    }
+    ui.focus.end_list();
     ImGui::PopStyleVar();
     words(ui.style.quiet, "m\u00B2\u00B7s, and how full of disks");
 }
@@ -222,11 +249,13 @@ void tree_panel(Ui& ui) {
     heading(ui, "TREE");
     const mobb::FitOptions fit = session.fitted().options();
     choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
-    whole(ui, "Leaf samples", "tree.leaf", fit.leaf, 1, "n_min: a node of at most so many samples is a leaf");
+    whole(ui, "Leaf samples", "tree.leaf", "The number of samples of a leaf", fit.leaf, 1,
+          "n_min: a node of at most so many samples is a leaf");
     ImGui::BeginDisabled(!mobb::info(fit.tree).chooses_axes());
     choose(ui, "Axes", "tree.axes", fit.axes, "How boxes are turned");
     ImGui::EndDisabled();
-    whole(ui, "Levels", "tree.levels", fit.levels, 0, "0: all; 1 is the paper's \"1 level\" tree");
+    whole(ui, "Levels", "tree.levels", "The number of levels", fit.levels, 0,
+          "0: all; 1 is the paper's \"1 level\" tree");
     time_scale(ui);
     const int clip = clip_in_focus(session);
     shown_levels(ui, session.fitted().tree(clip).depth());

@@ -16,7 +16,7 @@ constexpr float kLeastView = 240;
 /// An invisible bar between two panels; returns how far it was dragged in pixels.
 float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
     ImGui::InvisibleButton(name, size);
-    ui.mark(name);
+    ui.mark_only(name);
     const bool active = ImGui::IsItemActive();
     if (active || ImGui::IsItemHovered()) {
         ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
@@ -29,13 +29,14 @@ float splitter(Ui& ui, const char* name, ImVec2 size, bool upright) {
 /// A newly opened scene's begins at its top; an excerpt has panels of its own, so that those of the whole stay where
 /// they were scrolled to.
 template <class Draw>
-void panel(const Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
+void panel(Ui& ui, const std::string& name, ImVec2 size, const Draw& draw) {
     const Session& session = ui.session;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(5)});
     ImGui::BeginChild((session.in_excerpt() ? name + " of excerpt" : name).c_str(), size, false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding);
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("opening"));
     if (std::exchange(shown, session.opening()) != session.opening()) ImGui::SetScrollY(0);
+    ui.focus.panel(name);
     draw();
     ImGui::EndChild();
     ImGui::PopStyleVar();
@@ -62,6 +63,7 @@ void draw_views(Ui& ui, std::vector<Viewport>& viewports) {
 
 void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures) {
     const ImGuiIO& io = ImGui::GetIO();
+    ui.focus.panel("menu");
     menu_bar(ui);
     const float top = ImGui::GetFrameHeight();
     ImGui::SetNextWindowPos({0, top});
@@ -101,6 +103,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const float middle = room.x - left - right - 2 * bar;
     // Up to its borders.
     ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
+    ui.focus.panel("view");
     viewport_toolbar(ui);
     draw_views(ui, viewports);
     ImGui::EndChild();
@@ -125,7 +128,9 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     settings.right_width = std::clamp(settings.right_width, 180.0, 900.0);
     settings.bottom_height = std::clamp(settings.bottom_height, 90.0, 900.0);
 
+    ui.focus.panel("dialog");
     dialogs(ui);
+    ui.focus.panel("messages");
     messages(ui);
 }
 

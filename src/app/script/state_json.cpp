@@ -224,6 +224,7 @@ Json state_json(const Session& session) {
     json["time"] = or_null(session.view().time);
     json["playing"] = session.playing();
     json["dialog"] = kind_name(session.dialog);
+    if (!session.focus.empty()) json["focus"] = session.focus;
     json["messages"] = messages_json(session);
     json["undo"] = text_or_null(session.history().undo_title());
     json["redo"] = text_or_null(session.history().redo_title());

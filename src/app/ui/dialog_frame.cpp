@@ -103,7 +103,11 @@ FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string
     DialogInput& input = ui.session.input;
     FieldWithCompletion field{input, complete};
     ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_EnterReturnsTrue;
-    if (complete) flags |= ImGuiInputTextFlags_CallbackCompletion;
+    // Where there is nothing to complete Tab goes on to the next widget.
+    if (complete && complete(input.text) != input.text) {
+        flags |= ImGuiInputTextFlags_CallbackCompletion;
+        ui.focus.keep_tab();
+    }
     if (input.fresh) {
         // ImGui 1.90 gives the keys to items of the focused window alone.
         if (!ImGui::IsWindowFocused()) ImGui::SetWindowFocus();

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <app/document/session.h>
+#include <app/ui/focus.h>
 #include <app/ui/style.h>
 #include <render/drawlist/draw_list.h>
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <map>
 #include <string>
@@ -40,21 +42,41 @@ class Painter {
     virtual Shown picture(std::size_t place, Changed changed, Hand hand, double now) = 0;
 };
 
+/// What is under way in a field of a panel: a text that is typed, or a number that is dragged.
+struct FieldInput {
+    std::string mark;  ///< of the field; empty: nothing is
+    std::string text{}, before{};
+    double value = 0;     ///< of the number, before it is rounded
+    double given = 0;     ///< what the field has given last
+    bool fresh = false;   ///< the field does not have the keys yet
+    int waits = 2;        ///< frames until it must have them
+    bool typing = false;  ///< else it is dragged
+};
+
 /// All that a panel gets.
 struct Ui {
     Session& session;
     const Style& style;
     Marks& marks;
+    Focus& focus;
+    FieldInput& field;
     Painter& painter;
     double now = 0;  ///< seconds, only ever more
     double next_frame =
         0;  ///< in so many seconds another frame is wanted, whatever happens; infinity: none. Panels lower it
 
     /// Names the last widget for scripts.
-    void mark(const std::string& name) const {
+    void mark_only(const std::string& name) const { marks.add(name, last_rect()); }
+    /// ... and for the keys: they come to it where it can be pressed.
+    void mark(const std::string& name, OwnKeys own = OwnKeys::none, std::string_view label = {}) const {
+        mark_only(name);
+        focus.add(name, last_rect(), ImGui::GetItemID(), own, label);
+    }
+    /// Where the last widget stands.
+    static Rect last_rect() {
         const ImVec2 min = ImGui::GetItemRectMin();
         const ImVec2 max = ImGui::GetItemRectMax();
-        marks.add(name, {{min.x, min.y}, {max.x, max.y}});
+        return {{min.x, min.y}, {max.x, max.y}};
     }
     void want_frame_in(double seconds) { next_frame = next_frame < seconds ? next_frame : seconds; }
     float px(float at_scale_1) const { return at_scale_1 * style.scale; }

@@ -4,10 +4,14 @@
 #include <base/text.h>
 
 #include <imgui_internal.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cfloat>
+#include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -179,6 +183,174 @@ std::string fitted_text(const std::string& text, float room) {
     return line.substr(0, static_cast<std::size_t>(end - line.c_str())) + "\u2026";
 }
 
+std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std::string& now) {
+    FieldInput& input = ui.field;
+    const bool own = input.typing && input.mark == mark;
+    std::string shown = now;
+    ImGui::InputText(("##" + mark).c_str(), own ? &input.text : &shown);
+    ui.mark(mark);
+    if (ImGui::IsItemActivated()) input = {.mark = mark, .text = shown, .before = now, .typing = true};
+    if (!own || ImGui::IsItemActive()) return std::nullopt;
+    const FieldInput done = std::exchange(input, {});
+    if (!ImGui::IsItemDeactivated() || done.text == done.before) return std::nullopt;
+    return done.text;
+}
+
+namespace {
+
+std::string number_text(const NumberField& field, double value) {
+    return field.by_factors ? formatted("%.3g", value) : formatted("%.*f", field.decimals, value);
+}
+
+/// The number so many steps on. Whole numbers go by one at least.
+double stepped(const NumberField& field, double value, double steps) {
+    if (field.by_factors) return value * std::pow(1.1, steps);
+    return value + steps * field.step;
+}
+
+double whole_or_not(const NumberField& field, double value) {
+    if (field.decimals == 0 && !field.by_factors) value = std::round(value);
+    return std::clamp(value, field.least, field.most);
+}
+
+/// What was typed, with or without its unit; a number that is out of range is brought into it, and that is said.
+std::optional<double> typed_number(Ui& ui, const NumberField& field, std::string text) {
+    text = std::string(trimmed(text));
+    if (!field.unit.empty() && text.ends_with(field.unit)) {
+        text = std::string(trimmed(std::string_view(text).substr(0, text.size() - field.unit.size())));
+    }
+    const std::optional<double> value = parse_double(text);
+    const std::string unit = field.unit.empty() ? "" : (field.unit == "\u00B0" ? "" : " ") + field.unit;
+    if (!value || !std::isfinite(*value)) {
+        ui.session.tell(Message::Level::warning, in_quotes(text) + " is no number; " + field.what + " stays " +
+                                                     number_text(field, field.now) + unit);
+        return std::nullopt;
+    }
+    const double within = whole_or_not(field, *value);
+    if (*value < field.least || *value > field.most) {
+        const bool low = *value < field.least;
+        ui.session.tell(Message::Level::info, field.what + (low ? " is at least " : " is at most ") +
+                                                  number_text(field, low ? field.least : field.most) + unit);
+    }
+    return within;
+}
+
+/// Two arrow heads that point apart: this can be dragged.
+void drag_grip(Ui& ui, ImVec2 middle, ImU32 color) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float h = ui.px(3.5f);
+    const float from = ui.px(2);
+    const float to = ui.px(5.5f);
+    draw.AddTriangleFilled({middle.x + from, middle.y - h}, {middle.x + to, middle.y}, {middle.x + from, middle.y + h},
+                           color);
+    draw.AddTriangleFilled({middle.x - to, middle.y}, {middle.x - from, middle.y - h}, {middle.x - from, middle.y + h},
+                           color);
+}
+
+std::optional<double> type_number(Ui& ui, const NumberField& field) {
+    FieldInput& input = ui.field;
+    ImGui::PushFont(ui.style.mono);
+    ImGui::InputText(("##typed " + field.mark).c_str(), &input.text, ImGuiInputTextFlags_AutoSelectAll);
+    ImGui::PopFont();
+    ui.mark(field.mark, OwnKeys::up_down);
+    if (std::exchange(input.fresh, false)) {
+        ui.focus.activate(ImGui::GetItemID());
+        ui.want_frame_in(0);
+        return std::nullopt;
+    }
+    if (ImGui::IsItemActive()) {
+        input.waits = 0;
+        return std::nullopt;
+    }
+    // It has the keys a frame after it asked for them.
+    if (input.waits-- > 0) return std::nullopt;
+    const FieldInput done = std::exchange(input, {});
+    if (!ImGui::IsItemDeactivated() || done.text == done.before) return std::nullopt;
+    return typed_number(ui, field, done.text);
+}
+
+std::optional<double> drag_number(Ui& ui, const NumberField& field, double per_pixel) {
+    FieldInput& input = ui.field;
+    if (ImGui::IsItemActivated()) input = {.mark = field.mark, .value = field.now, .given = field.now};
+    if (input.typing || input.mark != field.mark) return std::nullopt;
+    const bool held = ImGui::IsItemActive();
+    if (held)
+        input.value =
+            std::clamp(stepped(field, input.value, per_pixel * ImGui::GetIO().MouseDelta.x), field.least, field.most);
+    const double wanted = whole_or_not(field, input.value);
+    const bool gives = wanted != input.given && (field.live || !held);
+    input.given = gives ? wanted : input.given;
+    if (!held) input = {};
+    return gives ? std::optional(wanted) : std::nullopt;
+}
+
+/// Up and Down, and Enter, which begins to type.
+std::optional<double> number_keys(Ui& ui, const NumberField& field) {
+    double value = field.now;
+    for (const Chord& chord : ui.focus.take(field.mark)) {
+        if (chord.key == Key::enter) {
+            const std::string text = number_text(field, value);
+            ui.field = {.mark = field.mark, .text = text, .before = text, .fresh = true, .typing = true};
+            ui.want_frame_in(0);
+            continue;
+        }
+        const double size = chord.shift ? 0.1 : chord.ctrl ? 10 : 1;
+        const bool whole = field.decimals == 0 && !field.by_factors;
+        const double steps = whole ? std::max(size, 1 / field.step) : size;
+        const double next = whole_or_not(field, stepped(field, value, chord.key == Key::up ? steps : -steps));
+        if (next == value) {
+            const bool low = chord.key == Key::down;
+            ui.session.tell(Message::Level::info,
+                            field.what + (low ? " is at least " : " is at most ") + number_text(field, next));
+        }
+        value = next;
+    }
+    return value != field.now ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> number_field(Ui& ui, const NumberField& field) {
+    const std::optional<double> stepped_to = number_keys(ui, field);
+    if (ui.field.typing && ui.field.mark == field.mark) return type_number(ui, field);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{std::max(1.0f, ImGui::CalcItemWidth()), ImGui::GetFrameHeight()};
+    ImGui::InvisibleButton(("##" + field.mark).c_str(), size);
+    ui.mark(field.mark, OwnKeys::up_down);
+    const ImGuiIO& io = ImGui::GetIO();
+    const double factor = io.KeyShift ? 0.1 : io.KeyCtrl ? 10 : 1;
+    std::optional<double> wanted = drag_number(ui, field, 0.1 * factor);
+    const bool held = ui.field.mark == field.mark;
+    const bool over = ImGui::IsItemHovered();
+    const bool enabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) == 0;
+    if (over && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        const std::string text = number_text(field, field.now);
+        ui.field = {.mark = field.mark, .text = text, .before = text, .fresh = true, .typing = true};
+        ui.want_frame_in(0);
+    }
+    if (over || held) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const ImVec2 end{corner.x + size.x, corner.y + size.y};
+    draw.AddRectFilled(corner, end, ImGui::GetColorU32(over || held ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg),
+                       style.FrameRounding);
+    draw.AddRect(corner, end, ImGui::GetColorU32(ImGuiCol_Border), style.FrameRounding, 0, style.FrameBorderSize);
+    const float grip = ui.px(16);
+    drag_grip(ui, {end.x - 0.5f * grip - ui.px(2), corner.y + 0.5f * size.y},
+              ImGui::GetColorU32(held   ? ImGuiCol_SliderGrab
+                                 : over ? ImGuiCol_Text
+                                        : ImGuiCol_TextDisabled));
+    const double shown = held ? whole_or_not(field, ui.field.value) : field.now;
+    const std::string gap = field.unit.empty() || field.unit == "\u00B0" ? "" : " ";
+    const std::string text = field.before + number_text(field, shown) + gap + field.unit;
+    ImGui::PushFont(ui.style.mono);
+    const std::string fits = fitted_text(text, size.x - style.FramePadding.x - grip);
+    draw_text(draw, *ui.style.mono, {corner.x + style.FramePadding.x, corner.y + style.FramePadding.y},
+              ImGui::GetColorU32(enabled ? ImGuiCol_Text : ImGuiCol_TextDisabled), fits);
+    ImGui::PopFont();
+    return wanted ? wanted : stepped_to;
+}
+
 void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw) {
     const float height = ImGui::GetFrameHeight();
     const bool scrolls = count > most_rows;
@@ -186,11 +358,17 @@ void rows(Ui& ui, const char* name, int count, int most_rows, const std::functio
     if (scrolls)
         ImGui::BeginChild(name, {0, height * (static_cast<float>(most_rows) + 0.5f)}, false,
                           ImGuiWindowFlags_NoBackground);
+    ui.focus.begin_list(ImGui::GetID(name), count);
     ImGuiListClipper clipper;
     clipper.Begin(count, height);
+    if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
     while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw(i);
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            ui.focus.row(i);
+            draw(i);
+        }
     }
+    ui.focus.end_list();
     if (scrolls) ImGui::EndChild();
     ImGui::PopStyleVar();
 }
@@ -203,6 +381,7 @@ bool row(Ui& ui, const Row& row) {
     const bool clicked = ImGui::InvisibleButton("##row", {width, height});
     ImGui::PopID();
     ui.mark(row.mark);
+    if (row.selected) ui.focus.begin_here();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + width, corner.y + height};
     if (row.selected || row.hovered || ImGui::IsItemHovered()) {

@@ -4,6 +4,8 @@
 #include <app/ui/ui.h>
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 
 namespace mobbscope::app {
@@ -63,6 +65,27 @@ float button_width(const char* label);
 
 /// A text on one line that fits `room` pixels in the present font: its end becomes an ellipsis.
 std::string fitted_text(const std::string& text, float room);
+
+/// A text to edit in place. Returns what was typed once that is done, by Enter, Tab or a click elsewhere, and it is
+/// another text; Escape takes it back.
+std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std::string& now);
+
+/// A number that is dragged, stepped with Up and Down, and typed after Enter or a double click. Shift makes steps and
+/// drags finer, Ctrl coarser.
+struct NumberField {
+    std::string mark;  ///< its name for scripts
+    std::string what;  ///< "The samples of a leaf", for what is said of a number that is out of range
+    double now = 0;
+    std::string before{};  ///< shown in front of it
+    std::string unit{};    ///< ... and behind it, as "m" or "\u00B0"
+    int decimals = 0;      ///< shown; of a whole number 0
+    double step = 1;       ///< of an arrow key; a pixel of a drag is a tenth of it
+    double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
+    bool by_factors = false;  ///< steps are of a tenth of the number, which is shown with three digits
+    bool live = true;         ///< the number follows a drag, not only where it ends
+};
+/// As wide as the next item is to be. Returns the number that is wanted now, within its range, where it is another.
+std::optional<double> number_field(Ui& ui, const NumberField& field);
 
 /// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.
 void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw);

@@ -283,7 +283,7 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     ImGui::InvisibleButton(
         "##picture", room,
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
-    ui.mark(is_active(ui) ? "viewport" : "viewport." + std::to_string(place));
+    ui.mark_only(is_active(ui) ? "viewport" : "viewport." + std::to_string(place));
     mouse(ui, picture);
     update_highlights(ui);
     show(ui, corner);
@@ -432,7 +432,8 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
 }
 
 void Viewport::release(Ui& ui, glm::vec2 pixel) {
-    const bool was_click = !moved_ && drag_ != Drag::pan;
+    // With a button still down it was broken off.
+    const bool was_click = !moved_ && drag_ != Drag::pan && !ImGui::IsAnyMouseDown();
     drag_ = Drag::none;
     ui.session.enqueue([&session = ui.session] { session.close_group(); });
     if (was_click && list_ && is_active(ui)) click(ui, pixel);

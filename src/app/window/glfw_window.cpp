@@ -263,6 +263,9 @@ struct GlfwWindow::State {
         glfwSetDropCallback(window, [](GLFWwindow* of, int count, const char** paths) {
             shell_of(of).feed(Drop{{paths, paths + count}});
         });
+        glfwSetWindowFocusCallback(window, [](GLFWwindow* of, int focused) {
+            if (!focused) shell_of(of).feed(KeysLost{});
+        });
         glfwSetWindowCloseCallback(window, [](GLFWwindow* of) {
             glfwSetWindowShouldClose(of, GLFW_FALSE);
             // No frame is drawn of a minimised window, and it may have to ask about unsaved changes.

@@ -9,6 +9,8 @@
 #include <render/image/png.h>
 #include <scene/load_files.h>
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -222,12 +224,16 @@ struct Shell::State {
     /// Runs the command of a chord, unless the keys are somebody else's.
     InputQueue::Taken press(const Chord& chord, bool repeated) {
         using Taken = InputQueue::Taken;
-        const Command* command = command_for(chord);
-        if (!command || (repeated && !command->repeats) || session.dialog != Dialog::none) {
-            return Taken::nobodys;
+        // A drag ends on what it began on, or is broken off.
+        if (input.any_button_down()) {
+            if (chord.key == Key::escape && before_drag) break_off();
+            return chord.key == Key::escape ? Taken::opened : Taken::nobodys;
         }
-        // A drag ends on what it began on.
-        if (input.any_button_down()) return Taken::nobodys;
+        if (focus.press(chord, repeated)) return Taken::opened;
+        const Command* command = command_for(chord);
+        if (!command || (repeated && !command->repeats)) return Taken::nobodys;
+        // A dialog takes all keys but the one that explains it.
+        if (session.dialog != Dialog::none && command->id != "help.shortcuts") return Taken::nobodys;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return Taken::nobodys;
@@ -237,7 +243,22 @@ struct Shell::State {
         if (command->enabled(session)) invoke(session, command->id);
         // No panel is being drawn: what comes next from the keyboard meets what this one has done.
         session.run_queue();
-        return session.dialog == Dialog::none ? Taken::command : Taken::opened;
+        const bool opened = session.dialog != Dialog::none || session.focus_move != FocusMove::none;
+        return opened ? Taken::opened : Taken::command;
+    }
+
+    void break_off() {
+        ImGui::ClearActiveID();
+        field = {};
+        session.restore(*std::exchange(before_drag, std::nullopt));
+    }
+
+    /// Remembers how all was before a button went down.
+    void follow_drag() {
+        const bool down = input.any_button_down();
+        if (down && !was_down) before_drag = session.before_drag();
+        if (!down) before_drag.reset();
+        was_down = down;
     }
 
     void drop(const Drop& dropped) {
@@ -254,7 +275,7 @@ struct Shell::State {
     bool waits_for_field() {
         const Dialog open = session.dialog;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
-                               open == Dialog::export_picture || open == Dialog::palette;
+                               open == Dialog::export_picture || open == Dialog::palette || open == Dialog::help;
         if (!has_field || !session.input.fresh || ImGui::GetIO().WantTextInput)
             waited = 0;
         else if (++waited <= kFramesToFocus)
@@ -268,6 +289,7 @@ struct Shell::State {
         input.feed(ImGui::GetIO(),
                    {[this](const Chord& chord, bool repeated) { return press(chord, repeated); },
                     [this](const Drop& dropped) { drop(dropped); }, [this] { session.request_close(); }});
+        follow_drag();
     }
 
     void follow_time(double now) {
@@ -296,10 +318,13 @@ struct Shell::State {
 
     double lay_out(double now) {
         marks.clear();
-        Ui ui{session, style, marks, drawn->painter, now, kNever};
+        Ui ui{session, style, marks, focus, field, drawn->painter, now, kNever};
+        focus.follow_commands();
         ImGui::NewFrame();
+        focus.begin_frame();
         viewports.resize(session.view_count());
         window_layout(ui, viewports, pictures);
+        focus.end_frame(style);
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);
         ImGui::Render();
@@ -354,6 +379,10 @@ struct Shell::State {
     double laid_out_until = 0;  ///< the time at which another frame may show something new
     int frames_drawn = 0;
     InputQueue input;
+    Focus focus{session};
+    FieldInput field;
+    std::optional<Session::BeforeDrag> before_drag;
+    bool was_down = false;  ///< a button of the mouse
     Marks marks;
     Style style{};
     std::optional<std::pair<Theme, float>> look_made_for;

@@ -1,0 +1,402 @@
+// The keyboard in panels, lists, menus and dialogs, and Escape, by keys pushed into the window.
+#include <app/commands/command.h>
+#include <app/commands/situations.h>
+#include <app/window/headless_window.h>
+#include <base/file.h>
+#include <render/gl/gl_context.h>
+
+#include "app/crossing_folder.h"
+
+#include <support/temp_folder.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::all_messages;
+using testing::CrossingFolder;
+
+struct KeyboardWindow {
+    CrossingFolder folder;
+    Session session{false};
+    HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1};
+
+    KeyboardWindow() { open(folder.scene); }
+
+    void open(const std::filesystem::path& file) {
+        session.open({file});
+        window.settle();
+    }
+    void send(const InputEvent& event) {
+        window.shell().feed(event);
+        window.settle();
+    }
+    void key(const std::string& name, int times = 1) {
+        const Chord chord = *chord_from_name(name);
+        for (int i = 0; i < times; ++i) {
+            for (const bool down : {true, false}) {
+                if (chord.ctrl) window.shell().feed(KeyPress{Key::ctrl, down});
+                if (chord.alt) window.shell().feed(KeyPress{Key::alt, down});
+                if (chord.shift) window.shell().feed(KeyPress{Key::shift, down});
+                window.shell().feed(KeyPress{chord.key, down});
+            }
+            window.settle();
+        }
+    }
+    glm::vec2 at(const std::string& mark) {
+        const auto& all = window.shell().marks().all();
+        const auto found = all.find(mark);
+        EXPECT_NE(found, all.end()) << mark;
+        return found == all.end() ? glm::vec2(0) : found->second.center();
+    }
+    void click(const std::string& mark) {
+        send(MouseMove{at(mark)});
+        send(MouseButton{0, true});
+        send(MouseButton{0, false});
+    }
+    /// Takes hold of a widget and drags it, without letting go.
+    void hold(const std::string& mark, glm::vec2 by) {
+        const glm::vec2 from = at(mark);
+        send(MouseMove{from});
+        send(MouseButton{0, true});
+        for (int i = 1; i <= 4; ++i) send(MouseMove{from + by * (static_cast<float>(i) / 4)});
+    }
+};
+
+TEST(Keyboard, TabGoesThroughAllWidgetsAndAround) {
+    KeyboardWindow w;
+    std::set<std::string> seen;
+    for (int i = 0; i < 100; ++i) {
+        w.key("Tab");
+        ASSERT_NE(w.session.focus, "");
+        if (!seen.insert(w.session.focus).second) break;
+    }
+    for (const char* mark : {"agent.0", "clip.0", "query.0", "scene.add_agent", "tree.kind", "tree.leaf", "view.level",
+                             "view.leaves", "toolbar.view.top", "timeline.time.play", "query.row.0"}) {
+        EXPECT_TRUE(seen.contains(mark)) << mark;
+    }
+    for (const char* mark : {"viewport", "splitter.left", "agent.1", "menu.file", "tree.time_scale"}) {
+        EXPECT_FALSE(seen.contains(mark)) << mark;
+    }
+    const std::size_t count = seen.size();
+    std::set<std::string> back;
+    for (std::size_t i = 0; i < count; ++i) {
+        w.key("Shift+Tab");
+        back.insert(w.session.focus);
+    }
+    EXPECT_EQ(back, seen);
+}
+
+TEST(Keyboard, ArrowsStepWhileNothingHasTheFocus) {
+    KeyboardWindow w;
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "step.first");
+    w.window.settle();
+    w.key("Right", 2);
+    EXPECT_EQ(w.session.step(), 2);
+    w.key("Tab");
+    w.key("Ctrl+F6");
+    EXPECT_EQ(w.session.focus, "toolbar.view.iso");
+    w.key("Right");
+    EXPECT_EQ(w.session.focus, "toolbar.view.top");
+    EXPECT_EQ(w.session.step(), 2) << "the arrow was for the focus";
+    w.key("Space");
+    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
+    EXPECT_FALSE(w.session.playing()) << "and so was the blank";
+    w.key("Escape");
+    w.key("Right");
+    EXPECT_EQ(w.session.step(), 3);
+}
+
+TEST(Keyboard, AListIsGoneThroughBeyondWhatIsDrawn) {
+    KeyboardWindow w;
+    std::string agents;
+    for (int i = 0; i < 60; ++i) {
+        agents += std::string(i > 0 ? "," : "") + R"({"name":"P)" + std::to_string(i) + R"(","clip":"walk"})";
+    }
+    w.folder.write("many.json", R"({"clips":{"walk":{"source":"walk.csv"}},"agents":[)" + agents +
+                                    R"(],"queries":[{"a":"P0","b":"P1"}]})");
+    w.open(w.folder.file("many.json"));
+    ASSERT_EQ(all_messages(w.session), "");
+    w.key("Tab");
+    EXPECT_EQ(w.session.focus, "agent.0");
+    w.key("Down", 30);
+    EXPECT_EQ(w.session.focus, "agent.30");
+    w.key("End");
+    EXPECT_EQ(w.session.focus, "agent.59");
+    w.key("Down");
+    EXPECT_EQ(w.session.focus, "agent.59");
+    w.key("Enter");
+    EXPECT_EQ(w.session.selection.path.agent, 59);
+    w.key("PageUp");
+    EXPECT_EQ(w.session.focus, "agent.51");
+    w.key("Home");
+    EXPECT_EQ(w.session.focus, "agent.0");
+    w.key("Tab");
+    EXPECT_EQ(w.session.focus, "scene.add_agent") << "a list is one stop";
+    w.key("Shift+Tab");
+    EXPECT_TRUE(w.session.focus.starts_with("agent.")) << w.session.focus;
+}
+
+TEST(Keyboard, TheMouseTakesTheKeysBack) {
+    KeyboardWindow w;
+    w.key("Tab");
+    EXPECT_EQ(w.session.focus, "agent.0");
+    w.click("clip.0");
+    EXPECT_EQ(w.session.focus, "");
+    w.key("Tab");
+    EXPECT_EQ(w.session.focus, "scene.add_files") << "it goes on from what was clicked";
+}
+
+TEST(Keyboard, TabGoesOnWhereWhatHadTheFocusIsGone) {
+    KeyboardWindow w;
+    run_command(w.session, "go.agent", "A");
+    w.window.settle();
+    w.key("Tab", 10);
+    ASSERT_EQ(w.session.focus, "agent.remove");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().agents.size(), 2u);
+    EXPECT_EQ(w.session.focus, "") << "the viewport has the keys";
+    w.key("Tab");
+    EXPECT_NE(w.session.focus, "");
+    EXPECT_NE(w.session.focus, "agent.0") << "not all over again";
+}
+
+TEST(Keyboard, EscapeClosesOneThingAfterTheOther) {
+    KeyboardWindow w;
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "go.agent", "A");
+    w.session.tell(Message::Level::error, "This went wrong");
+    w.window.settle();
+    w.key("Tab");
+    const std::string focus = w.session.focus;
+    ASSERT_NE(focus, "");
+    w.key("F10");
+    w.key("Alt");
+    w.key("F10");
+    EXPECT_TRUE(w.session.focus.starts_with("menu.file.")) << w.session.focus;
+    w.key("Escape");
+    EXPECT_EQ(w.session.focus, focus) << "the menu is closed, the focus where it was";
+    EXPECT_EQ(w.session.messages().size(), 1u);
+    w.key("Escape");
+    EXPECT_EQ(w.session.focus, "");
+    EXPECT_EQ(w.session.messages().size(), 1u);
+    w.key("Escape");
+    EXPECT_EQ(w.session.messages().size(), 0u);
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::path);
+    w.key("Escape");
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::none);
+    w.key("Escape", 3);
+    EXPECT_EQ(w.session.view().query, 0) << "the query stays";
+    w.key("Q");
+    EXPECT_FALSE(w.session.view().query);
+}
+
+TEST(Keyboard, EscapePutsBackWhatIsDragged) {
+    KeyboardWindow w;
+    run_command(w.session, "go.agent", "A");
+    w.window.settle();
+    const auto x = [&] { return w.session.scene().agents[0].placement.translate.x; };
+    const double before = x();
+    for (const char* held : {"agent.x", "handle.move"}) {
+        SCOPED_TRACE(held);
+        w.hold(held, {60, 10});
+        EXPECT_NE(x(), before);
+        w.key("Escape");
+        EXPECT_EQ(x(), before);
+        EXPECT_FALSE(w.session.history().can_undo()) << w.session.history().undo_title();
+        w.send(MouseMove{{500, 300}});
+        EXPECT_EQ(x(), before) << "the hand has not let go yet, but the drag is over";
+        w.send(MouseButton{0, false});
+        EXPECT_EQ(x(), before);
+        EXPECT_EQ(w.session.selection.kind, Selection::Kind::path) << "and it was no click";
+    }
+    const Camera camera = w.session.view().camera;
+    w.hold("viewport", {80, 0});
+    EXPECT_FALSE(w.session.view().camera == camera);
+    w.key("Escape");
+    EXPECT_EQ(w.session.view().camera, camera);
+    w.send(MouseButton{0, false});
+    const double width = w.session.settings.left_width;
+    w.hold("splitter.left", {40, 0});
+    EXPECT_NE(w.session.settings.left_width, width);
+    w.key("Escape");
+    EXPECT_EQ(w.session.settings.left_width, width);
+    w.send(MouseButton{0, false});
+}
+
+TEST(Keyboard, AltAloneOpensTheMenus) {
+    KeyboardWindow w;
+    w.key("Alt");
+    EXPECT_EQ(w.session.focus, "menu.file.open");
+    w.key("Alt");
+    EXPECT_EQ(w.session.focus, "");
+    // Another window got the keys while it was down, or it was for something else.
+    w.send(KeyPress{Key::alt, true});
+    w.send(KeysLost{});
+    w.send(KeyPress{Key::alt, false});
+    EXPECT_EQ(w.session.focus, "");
+    w.send(KeyPress{Key::alt, true});
+    w.send(MouseButton{0, true});
+    w.send(MouseButton{0, false});
+    w.send(KeyPress{Key::alt, false});
+    EXPECT_EQ(w.session.focus, "");
+}
+
+TEST(Keyboard, AMenuGoesAsTheKeysSayWhereverTheMouseRests) {
+    KeyboardWindow w;
+    w.send(MouseMove{w.at("menu.view")});
+    w.key("Alt+F");
+    EXPECT_EQ(w.session.focus, "menu.file.open");
+    w.key("End");
+    EXPECT_EQ(w.session.focus, "menu.file.quit");
+    w.key("Down");
+    EXPECT_EQ(w.session.focus, "menu.file.open") << "around";
+    w.key("S");
+    EXPECT_EQ(w.session.focus, "menu.file.save");
+    w.key("Escape");
+    // Opened by the mouse, gone on with by keys.
+    w.click("menu.tree");
+    EXPECT_EQ(w.session.focus, "");
+    w.key("Down", 2);
+    EXPECT_EQ(w.session.focus, "menu.tree.axes");
+    w.key("Right");
+    w.key("Down");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().fit.axes, mobb::Axes::covariance);
+    EXPECT_EQ(w.session.focus, "");
+}
+
+TEST(Keyboard, TextEditsKeepTheirChords) {
+    KeyboardWindow w;
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.nudge", "1 0");
+    w.window.settle();
+    w.click("agent.name");
+    for (const char c : std::string("xy")) w.send(TypedText{static_cast<char32_t>(c)});
+    w.key("Ctrl+A");
+    w.key("Ctrl+X");
+    w.key("Ctrl+V");
+    w.key("Ctrl+V");
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.session.history().undo_title(), "moving A") << "nothing of the scene was undone";
+    EXPECT_EQ(w.session.focus, "agent.name");
+    w.key("Tab");
+    EXPECT_EQ(w.session.scene().agents[0].name, "Axy") << "Tab takes what was typed";
+    EXPECT_EQ(w.session.focus, "agent.x");
+}
+
+TEST(Keyboard, NumbersAreTypedWithTheirUnitAndBroughtIntoRange) {
+    KeyboardWindow w;
+    w.click("tree.leaf");
+    EXPECT_EQ(w.session.scene().fit.leaf, 4) << "a click alone changes nothing";
+    const auto type = [&](const std::string& text) {
+        w.send(MouseMove{w.at("tree.leaf")});
+        w.window.run_for(1);
+        for (int i = 0; i < 2; ++i) {
+            w.window.shell().feed(MouseButton{0, true});
+            w.window.shell().feed(MouseButton{0, false});
+        }
+        w.window.settle();
+        EXPECT_EQ(w.session.focus, "tree.leaf");
+        for (const char c : text) w.send(TypedText{static_cast<char32_t>(c)});
+        w.key("Enter");
+    };
+    type("12");
+    EXPECT_EQ(w.session.scene().fit.leaf, 12);
+    type("0");
+    EXPECT_EQ(w.session.scene().fit.leaf, 1);
+    EXPECT_EQ(all_messages(w.session), "The number of samples of a leaf is at least 1\n");
+    w.session.dismiss(0);
+    type("many");
+    EXPECT_EQ(w.session.scene().fit.leaf, 1);
+    EXPECT_NE(all_messages(w.session).find("no number"), std::string::npos) << all_messages(w.session);
+    EXPECT_EQ(w.session.focus, "") << "the mouse had begun";
+}
+
+TEST(Keyboard, ADialogGivesTheFocusBack) {
+    KeyboardWindow w;
+    w.key("Tab", 2);
+    const std::string before = w.session.focus;
+    w.key("Ctrl+P");
+    EXPECT_EQ(w.session.focus, "palette.input");
+    w.key("Escape");
+    EXPECT_EQ(w.session.focus, before);
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.nudge", "1 0");
+    w.key("Ctrl+Q");
+    ASSERT_EQ(w.session.dialog, Dialog::unsaved);
+    w.key("Tab", 3);
+    EXPECT_EQ(w.session.focus, "unsaved.cancel");
+    w.key("Right");
+    w.key("Left");
+    EXPECT_EQ(w.session.focus, "unsaved.discard");
+    w.key("Tab");
+    w.key("Enter");
+    EXPECT_EQ(w.session.dialog, Dialog::none) << "the button with the focus, not the usual one";
+    EXPECT_FALSE(w.session.closed());
+}
+
+TEST(Keyboard, NoPanelHasAnotherKindOfNumber) {
+    for (const char* folder : {"panels", "viewport"}) {
+        for (const auto& file :
+             std::filesystem::directory_iterator(std::string(MOBBSCOPE_SOURCE_DIR "/src/app/") + folder)) {
+            const std::string text = mobbscope::testing::slurp(file.path());
+            for (const char* other : {"ImGui::Drag", "ImGui::Slider", "ImGui::VSlider", "ImGui::InputInt",
+                                      "ImGui::InputFloat", "ImGui::InputDouble", "ImGui::InputScalar"}) {
+                EXPECT_EQ(text.find(other), std::string::npos) << file.path() << ": " << other;
+            }
+        }
+    }
+}
+
+TEST(Help, BeginsWithThePresentSituation) {
+    Session empty(false);
+    EXPECT_EQ(present_situation(empty).title, "Nothing is open");
+    KeyboardWindow w;
+    EXPECT_EQ(present_situation(w.session).title, "You look at a scene");
+    run_command(w.session, "go.agent", "A");
+    EXPECT_EQ(present_situation(w.session).title, "An agent is selected");
+    run_command(w.session, "query.select", "0");
+    EXPECT_EQ(present_situation(w.session).title, "You look at a query");
+    run_command(w.session, "view.moment");
+    EXPECT_EQ(present_situation(w.session).title, "You look at one moment");
+    w.key("Ctrl+O");
+    w.key("F1");
+    ASSERT_EQ(w.session.dialog, Dialog::help);
+    EXPECT_EQ(present_situation(w.session).title, "A file is asked for");
+    w.key("Escape");
+    EXPECT_EQ(w.session.dialog, Dialog::open) << "back to where it was asked for";
+    for (const Situation& situation : situations()) {
+        for (const std::string_view id : situation.commands) EXPECT_NE(find_command(id), nullptr) << id;
+    }
+}
+
+TEST(Help, RunsWhatIsPicked) {
+    KeyboardWindow w;
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "step.first");
+    w.window.settle();
+    w.key("F1");
+    w.key("Enter");
+    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.step(), 1) << "the first of what can be done with a query: step forward";
+    w.key("F1");
+    for (const char c : std::string("theme")) w.send(TypedText{static_cast<char32_t>(c)});
+    w.key("Enter");
+    EXPECT_EQ(w.session.dialog, Dialog::palette);
+    EXPECT_EQ(w.session.input.command, "view.theme");
+    w.key("Escape");
+    w.key("F1");
+    for (const char c : std::string("next node")) w.send(TypedText{static_cast<char32_t>(c)});
+    w.key("Enter");
+    EXPECT_EQ(w.session.dialog, Dialog::help) << "it cannot be done without a node";
+}
+
+}  // namespace
+}  // namespace mobbscope::app
