@@ -501,6 +501,10 @@ std::vector<Case> cases() {
 
     // Help
     look("help.shortcuts", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::help); });
+    look("help.messages", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::messages); });
+    add({"help.clear_messages", "", {{"file.export_picture", "@p.png"}}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.session.messages().empty());
+         }});
     look("help.about", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::about); });
     return out;
 }

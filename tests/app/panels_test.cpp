@@ -276,16 +276,72 @@ TEST(Panels, UnsavedChangesAreAskedAbout) {
     EXPECT_FALSE(w.session.modified());
 }
 
-TEST(Panels, InfoGoesByItselfAndErrorsStay) {
+TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     Window w;
     w.session.tell(Message::Level::info, "Saved it");
     w.session.tell(Message::Level::error, "This went wrong");
+    const auto up = [&] { return std::ranges::count(w.session.messages(), true, &Message::up); };
     w.window.run_for(3.5);
-    EXPECT_EQ(w.session.messages().size(), 2u);
+    EXPECT_EQ(up(), 2);
     w.window.run_for(1);
-    ASSERT_EQ(w.session.messages().size(), 1u);
-    w.key("Escape");
+    EXPECT_EQ(up(), 1) << "what was only done goes first";
+    w.change_view("bell");
+    w.window.run_for(6.5);
+    EXPECT_EQ(up(), 0);
+    EXPECT_FALSE(w.has("message.1"));
+    EXPECT_EQ(w.session.unread(), 1u) << "nobody has opened the list";
+    w.click("menu.bell");
+    EXPECT_EQ(w.session.dialog, Dialog::messages);
+    EXPECT_EQ(w.session.unread(), 0u);
+    w.change_view("message_list");
+    std::string copied;
+    w.session.hooks.set_clipboard = [&](const std::string& text) { copied = text; };
+    w.click("messages.0.copy");
+    EXPECT_EQ(copied, "This went wrong") << "the latest stands first";
+    w.click("messages.0.dismiss");
+    ASSERT_EQ(all_messages(w.session), "Saved it\n");
+    w.key("Delete");
     EXPECT_TRUE(w.session.messages().empty());
+    w.key("Escape");
+    EXPECT_EQ(w.session.dialog, Dialog::none);
+}
+
+TEST(Panels, MessagesStayWhileTheMouseIsOnThem) {
+    Window w;
+    w.session.tell(Message::Level::info, "Saved it");
+    w.window.run_for(0.2);
+    w.window.shell().feed(MouseMove{w.window.shell().marks().all().at("message.0").center()});
+    w.window.run_for(8);
+    EXPECT_TRUE(w.has("message.0"));
+    w.window.shell().feed(MouseMove{{300, 200}});
+    w.window.run_for(2.5);
+    EXPECT_FALSE(w.has("message.0"));
+}
+
+TEST(Panels, EscapePutsErrorsAwayBeforeItLeavesTheQuery) {
+    Window w;
+    run_command(w.session, "query.select", "0");
+    w.session.tell(Message::Level::error, "This went wrong");
+    w.window.settle();
+    w.key("Escape");
+    EXPECT_FALSE(w.has("message.0"));
+    EXPECT_EQ(w.session.view().query, 0);
+    EXPECT_EQ(w.session.unread(), 1u);
+}
+
+TEST(Panels, WhatAMessageOffersIsAButton) {
+    Window w;
+    w.session.tell(Message::Level::warning, "The unit was guessed", MessageOffer{"view.top", "", "Look from above"});
+    w.window.run_for(0.2);
+    w.change_view("offer");
+    w.click("message.0.offer");
+    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
+    EXPECT_FALSE(w.has("message.0"));
+    w.key("F8");
+    w.click("messages.0.offer");
+    EXPECT_EQ(w.session.dialog, Dialog::none);
+    run_command(w.session, "file.demo");
+    EXPECT_FALSE(w.session.messages()[0].offer) << "it was about what was open";
 }
 
 TEST(Panels, TheHelpSheetOpensAndCloses) {
@@ -305,7 +361,8 @@ TEST(Panels, TheHelpSheetOpensAndCloses) {
 TEST(Panels, NothingIsCutOffAtAnySize) {
     for (const auto& [size, scale] :
          {std::pair{PictureSize{1024, 640}, 1.0}, {{1024, 640}, 2.0}, {{2560, 1440}, 2.0}}) {
-        for (const char* command : {"", "help.shortcuts", "help.about", "file.open", "file.save_as", "go.palette"}) {
+        for (const char* command :
+             {"", "help.shortcuts", "help.about", "help.messages", "file.open", "file.save_as", "go.palette"}) {
             SCOPED_TRACE(std::string(command) + " at " + std::to_string(size.width) + ", scale " +
                          std::to_string(scale));
             Window w(size, scale);

@@ -683,15 +683,27 @@ TEST(Jobs, UnattendedTheyAreWaitedFor) {
 
 // --- messages
 
-TEST(Messages, AreFewAndSaidOnce) {
+TEST(Messages, AreFiftyAtMostAndSaidOnce) {
     Session session(false);
-    for (int i = 0; i < 9; ++i) session.tell(Message::Level::info, std::to_string(i % 7));
-    ASSERT_EQ(session.messages().size(), 5u);
+    for (int i = 0; i < 62; ++i) session.tell(Message::Level::info, std::to_string(i % 60));
+    ASSERT_EQ(session.messages().size(), 50u);
     EXPECT_EQ(session.messages().back().text, "1");
-    session.dismiss(4);
+    session.dismiss(49);
     EXPECT_EQ(session.messages().back().text, "0");
-    session.dismiss(17);
-    EXPECT_EQ(session.messages().size(), 4u);
+    session.dismiss(170);
+    EXPECT_EQ(session.messages().size(), 49u);
+}
+
+TEST(Messages, OfTheLastDocumentGoBehindTheBell) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.file("none.csv")});
+    EXPECT_TRUE(session.messages().front().up);
+    session.open({folder.scene});
+    EXPECT_FALSE(session.messages().front().up);
+    EXPECT_EQ(session.unread(), 1u) << "but it can still be read";
+    session.open_messages();
+    EXPECT_EQ(session.unread(), 0u);
 }
 
 }  // namespace

@@ -14,6 +14,11 @@ std::vector<Command> help_commands() {
     const std::vector<Command> rows{
         Command("help.shortcuts", "Shortcuts", "Lists all shortcuts and what the mouse does.",
                 [](Session& session) { session.open_dialog(Dialog::help); }, {.shortcut = "F1", .enabled = always}),
+        Command("help.messages", "Messages", "Lists what was said: what went wrong, what to do, and what was done.",
+                &Session::open_messages, {.shortcut = "F8", .enabled = always}),
+        Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Session::clear_messages,
+                {.enabled = {[](const Session& session) { return !session.messages().empty(); },
+                             [](const Session&) -> std::string_view { return "there are none"; }}}),
         Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
                 [](Session& session) { session.open_dialog(Dialog::about); }, {.enabled = always}),
     };

@@ -27,13 +27,15 @@ void select(Session& session, const std::string& text) {
     show_query(session, whole_number_in(text, "the query", 0, query_total(session) - 1));
 }
 
-bool stays(const Message& message) { return message.level != Message::Level::info; }
+/// A warning or an error lies over the picture: what was only done goes by itself.
+bool has_message_up(const Session& session) {
+    return std::ranges::any_of(
+        session.messages(), [](const Message& message) { return message.up && message.level != Message::Level::info; });
+}
 
 /// One thing after the other, what lies in front first.
 void leave(Session& session) {
-    const auto& messages = session.messages();
-    const auto last = std::find_if(messages.rbegin(), messages.rend(), stays);
-    if (last != messages.rend()) return session.dismiss(static_cast<std::size_t>(messages.rend() - last) - 1);
+    if (has_message_up(session)) return session.put_messages_away();
     if (!in_query(session)) return session.select({});
     session.change_view([](ViewState& view) { view.query.reset(); });
 }
@@ -192,13 +194,13 @@ std::vector<Command> query_commands() {
                  .enabled =
                      [](const Session& session) { return session.view().query.value_or(query_total(session)) > 0; }}),
         Command("query.none", "Back",
-                "Dismisses a message; else leaves the query in view for the levels of all trees; else selects nothing.",
+                "Puts messages away; else leaves the query in view for the levels of all trees; else selects nothing.",
                 leave,
                 {.shortcut = "Escape",
                  .enabled =
                      [](const Session& session) {
                          return in_query(session) || session.selection.kind != Selection::Kind::none ||
-                                std::any_of(session.messages().begin(), session.messages().end(), stays);
+                                has_message_up(session);
                      }}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
                 {.argument = "AGENT", .enabled = {has_selected_of_several, why_no_agent}, .choices = others}),

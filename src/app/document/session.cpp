@@ -35,7 +35,13 @@ constexpr std::chrono::milliseconds kPatience(80);
 constexpr std::size_t kQuickSamples = 50'000;
 /// How much longer than the paper's axes those found by searching take.
 constexpr std::size_t kSearchFactor = 100;
-constexpr std::size_t kMostMessages = 5;
+constexpr std::size_t kMostMessages = 50;
+/// How long a message lies over the picture; one with an offer stays longer, and none goes sooner than this after the
+/// mouse has left it.
+constexpr double kInfoSeconds = 4;
+constexpr double kErrorSeconds = 10;
+constexpr double kOfferSeconds = 20;
+constexpr double kLeftSeconds = 2;
 constexpr std::size_t kLongestMessage = 500;  // characters; names of files may be longer
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
@@ -437,8 +443,11 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     point_at_nothing();
     candidate = -1;
     conflict = -1;
-    // What went wrong with the last document is over.
-    std::erase_if(messages_, [](const Message& message) { return message.level != Message::Level::info; });
+    // What went wrong with the last document is over, and what was offered for it.
+    for (Message& message : messages_) {
+        message.offer.reset();
+        if (message.level != Message::Level::info) message.up = false;
+    }
     history_.reset(std::move(document));
     changed();
 }
@@ -577,12 +586,43 @@ void Session::ask_anew(DialogInput with) {
 
 // --- messages, queue and jobs
 
-void Session::tell(Message::Level level, const std::string& text) {
+void Session::tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer) {
     const std::string said = shortened(text, kLongestMessage);
     // Twice the same says nothing new.
     std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
-    messages_.push_back({level, said, {}});
+    messages_.push_back({level, said, std::move(offer), {}, 0, true, level == Message::Level::info});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
+}
+
+std::size_t Session::unread() const {
+    return static_cast<std::size_t>(std::ranges::count(messages_, false, &Message::read));
+}
+
+void Session::open_messages() {
+    open_dialog(Dialog::messages);
+    put_messages_away();
+    for (Message& message : messages_) message.read = true;
+}
+
+void Session::put_messages_away() {
+    for (Message& message : messages_) message.up = false;
+}
+
+double Session::age_messages(double now, bool held) {
+    double next = std::numeric_limits<double>::infinity();
+    for (Message& message : messages_) {
+        if (!message.up) continue;
+        if (!message.shown_at) {
+            message.shown_at = now;
+            message.goes_at = now + (message.offer                           ? kOfferSeconds
+                                     : message.level == Message::Level::info ? kInfoSeconds
+                                                                             : kErrorSeconds);
+        }
+        if (held) message.goes_at = std::max(message.goes_at, now + kLeftSeconds);
+        message.up = now < message.goes_at;
+        if (message.up) next = std::min(next, message.goes_at - now);
+    }
+    return next;
 }
 
 void Session::dismiss(std::size_t message) {

@@ -27,14 +27,26 @@
 namespace mobbscope::app {
 
 /// What is asked or shown over the panels, one at a time.
-enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about };
+enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about, messages };
 
-/// A line for the person: what went wrong and what to do, or what was done.
+/// A command that a message offers; it is drawn as a button.
+struct MessageOffer {
+    std::string command;   ///< its id
+    std::string argument;  ///< empty: none
+    std::string label;     ///< "Mend unit..."
+};
+
+/// A line for the person: what went wrong and what to do, or what was done. It lies over the picture for some seconds,
+/// then it is kept in a list behind a bell.
 struct Message {
     enum class Level { info, warning, error };
     Level level = Level::info;
     std::string text;
-    std::optional<double> shown_at{};  ///< when the window showed it first
+    std::optional<MessageOffer> offer{};  ///< none once another document is open: it was about the last one
+    std::optional<double> shown_at{};     ///< seconds of the window's clock, when it was shown first
+    double goes_at = 0;                   ///< ... when it goes behind the bell; only once it was shown
+    bool up = true;                       ///< it lies over the picture
+    bool read = false;                    ///< the list was opened since, or it was only what was done (info)
 };
 
 /// How the window's surroundings are reached; all may be empty.
@@ -198,10 +210,21 @@ class Session {
     void open_dialog(Dialog which, DialogInput with = {});
     /// Nothing comes of it: what waited for its answer is forgotten.
     void close_dialog();
-    void tell(Message::Level level, const std::string& text);
+    void tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
+    /// The oldest first, at most 50; the list behind the bell.
     const std::vector<Message>& messages() const { return messages_; }
+    /// How many warnings and errors nobody has looked at in the list.
+    std::size_t unread() const;
+    /// Takes one out of the list.
     void dismiss(std::size_t message);
-    void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
+    void clear_messages() { messages_.clear(); }
+    /// Opens the list; all that is in it counts as read.
+    void open_messages();
+    /// The messages over the picture go behind the bell.
+    void put_messages_away();
+    /// The window shows its messages at this time of its clock: those whose time is over go behind the bell. `held`:
+    /// the mouse is on them, so none goes. Returns in how many seconds the next one goes; infinity: none is up.
+    double age_messages(double now, bool held);
 
     // The queue: the document changes between frames only, so panels may keep references into it while they draw.
     /// Does `something` once the frame is drawn. What it throws becomes a message.
