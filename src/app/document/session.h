@@ -27,7 +27,7 @@
 namespace mobbscope::app {
 
 /// What is asked or shown over the panels, one at a time.
-enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about, messages };
+enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about, messages, dropped };
 
 /// A command that a message offers; it is drawn as a button.
 struct MessageOffer {
@@ -63,12 +63,13 @@ struct Hooks {
 /// What was put into the open dialog so far; the dialog says what it means by it.
 struct DialogInput {
     std::string text;
-    std::string command{};    ///< the palette asks for the argument of this one; empty: it lists all
-    int picked = 0;           ///< of a list
-    bool confirming = false;  ///< asks whether to overwrite
-    int generation = 0;       ///< the field shows another text from without: see set_text
-    int opening = 0;          ///< counts dialogs: the undo of a field must not reach the text of an earlier one
-    bool fresh = true;        ///< the field waits for the keyboard
+    std::string command{};                       ///< the palette asks for the argument of this one; empty: it lists all
+    std::vector<std::filesystem::path> files{};  ///< that were dropped
+    int picked = 0;                              ///< of a list
+    bool confirming = false;                     ///< asks whether to overwrite
+    int generation = 0;                          ///< the field shows another text from without: see set_text
+    int opening = 0;    ///< counts dialogs: the undo of a field must not reach the text of an earlier one
+    bool fresh = true;  ///< the field waits for the keyboard
 
     void set_text(std::string to) {
         text = std::move(to);
@@ -190,6 +191,16 @@ class Session {
     const std::vector<std::filesystem::path>& opened() const { return opened_; }
     /// Adds clips, or whole scenes, to the document.
     void add(const std::vector<std::filesystem::path>& files);
+    /// Opens what was dropped on the window; asks whether to add it where the person has something open.
+    void drop(const std::vector<std::filesystem::path>& files);
+    /// What is open is that of the next time's settings.last.
+    void note_session();
+    /// Opens settings.last, seen as it was.
+    void reopen_last();
+    /// Whether there is anything to reopen that is still there.
+    bool has_last() const;
+    /// "crossing.json", or "3 files"; requires has_last().
+    std::string last_title() const;
     /// Throws MachineError if it cannot be written; without a file asks for one. What waits for the answer about
     /// unsaved changes goes on when they are saved.
     void save();
@@ -268,7 +279,15 @@ class Session {
                         const FittedScene* fitted_beside);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     /// Replaces the document by what `load_all` gives, after asking if there are unsaved changes.
-    void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
+    /// ... seen as the scene says, or as `view`.
+    void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
+              const std::optional<ViewState>& view = std::nullopt);
+    /// Says so if one of them is not there; whether it did.
+    bool complain_of_missing(const std::vector<std::filesystem::path>& files);
+    /// They are the latest of the recent ones.
+    void remember(const std::vector<std::filesystem::path>& files);
+    /// Whether something is open that is not the demo as it comes.
+    bool opened_by_person() const;
     /// Changes the present state in place: no step of its own for undo.
     void amend(const std::function<void(Document&)>& change);
     /// For another document: stops playing; nothing is selected or hovered.

@@ -25,6 +25,7 @@ std::string lower_case(std::string_view text) {
 /// "Undo moving A".
 std::string title_of(const Session& session, const Command& command) {
     std::string title(command.title);
+    if (command.id == "file.reopen_last" && session.has_last()) title += ": " + session.last_title();
     if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
     if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
     return title;

@@ -134,8 +134,9 @@ Json messages_json(const Session& session) {
 }
 
 std::string_view kind_name(Dialog dialog) {
-    constexpr std::array<std::string_view, 10> kNames{"none",    "open",    "add",  "save_as", "export_picture",
-                                                      "unsaved", "palette", "help", "about",   "messages"};
+    constexpr std::array<std::string_view, 11> kNames{"none",           "open",     "add",     "save_as",
+                                                      "export_picture", "unsaved",  "palette", "help",
+                                                      "about",          "messages", "dropped"};
     return kNames[static_cast<std::size_t>(dialog)];
 }
 
