@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include <cstdlib>
 
 namespace mobbscope::app {
@@ -214,11 +216,11 @@ TEST(Panels, OpeningByKeysAlone) {
     Window w;
     w.key("Ctrl+O");
     ASSERT_EQ(w.session.dialog, Dialog::open);
-    EXPECT_EQ(w.session.input.text, w.folder.scene.parent_path().string() + "/");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path()) << "where one was last";
     w.change_view("open");
     w.type("wa");
     w.key("Tab");
-    EXPECT_TRUE(w.session.input.text.ends_with("/walk.csv")) << w.session.input.text;
+    EXPECT_EQ(w.session.input.text, "walk.csv");
     w.key("Enter");
     EXPECT_EQ(w.session.dialog, Dialog::none);
     EXPECT_EQ(w.session.title(), "walk");
@@ -231,6 +233,98 @@ TEST(Panels, OpeningByTheList) {
     w.key("Down");
     w.key("Enter");
     EXPECT_EQ(w.session.title(), "stand") << "scene.json, stand.csv, walk.csv";
+}
+
+TEST(Panels, SeveralAreOpenedByTheDialogAlone) {
+    Window w;
+    w.key("Ctrl+O");
+    w.key("Down");
+    w.key("Shift+Down");
+    EXPECT_EQ(w.session.browser.chosen_count(), 2u);
+    w.change_view("open_several");
+    w.key("Enter");
+    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.scene().clips.size(), 2u);
+    EXPECT_TRUE(w.session.scene().agents.empty());
+    // And by the mouse: a click keeps the list, one with Ctrl adds to what is chosen.
+    w.key("Ctrl+O");
+    w.click("open.entry.stand.csv");
+    EXPECT_TRUE(w.has("open.entry.walk.csv"));
+    EXPECT_EQ(w.session.browser.entries().size(), 3u);
+    w.window.shell().feed(KeyPress{Key::ctrl, true});
+    w.click("open.entry.scene.json");
+    w.window.shell().feed(KeyPress{Key::ctrl, false});
+    EXPECT_EQ(w.session.browser.chosen_count(), 2u);
+    w.click("open.ok");
+    EXPECT_EQ(w.session.scene().clips.size(), 3u);
+    // In a folder that was typed too.
+    w.key("Ctrl+O");
+    w.type(w.folder.scene.parent_path().string() + "/");
+    w.key("Down");
+    w.key("Shift+Down");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().clips.size(), 2u);
+    w.key("Ctrl+O");
+    w.key("Ctrl+A");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().clips.size(), 4u) << "all that is listed";
+}
+
+TEST(Panels, TheDialogGoesUpAndIntoFolders) {
+    Window w;
+    std::filesystem::create_directory(w.folder.file("deep"));
+    w.folder.write("deep/other.csv", mobbscope::testing::slurp(w.folder.file("walk.csv")));
+    w.key("Ctrl+O");
+    w.type("deep");
+    w.key("Enter");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.file("deep"));
+    EXPECT_EQ(w.session.input.text, "");
+    w.key("Backspace");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path());
+    w.key("Enter");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.file("deep")) << "the cursor was on where one came from";
+    w.click("open.up");
+    w.click("open.crumb.1");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path().parent_path());
+    w.key("Escape");
+    w.key("Ctrl+O");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path().parent_path()) << "where one was";
+    w.type(w.folder.file("deep").string());
+    w.key("Enter");
+    w.click("open.folder");
+    EXPECT_EQ(w.session.scene().clips.size(), 1u);
+    EXPECT_EQ(w.session.scene().clips[0].name, "other");
+}
+
+TEST(Panels, TheHeadsOfTheListOrderIt) {
+    Window w;
+    std::filesystem::last_write_time(w.folder.file("walk.csv"),
+                                     std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+    w.key("Ctrl+O");
+    w.click("open.order.date");
+    EXPECT_EQ(w.session.browser.entries().front().name, "walk.csv") << "the latest first";
+    w.click("open.order.date");
+    EXPECT_EQ(w.session.browser.entries().back().name, "walk.csv");
+    w.key("Ctrl+1");
+    EXPECT_EQ(w.session.browser.entries().front().name, "scene.json");
+    w.key("Ctrl+3");
+    EXPECT_EQ(w.session.settings.file_order, "-date");
+}
+
+TEST(Panels, AClickOnAFileNamesTheOneToBeWritten) {
+    Window w;
+    w.key("Ctrl+Shift+S");
+    EXPECT_EQ(w.session.input.text, "scene.json");
+    w.folder.write("there.json", "old");
+    w.key("Escape");
+    w.key("Ctrl+Shift+S");
+    w.click("save.entry.there.json");
+    EXPECT_EQ(w.session.input.text, "there.json");
+    EXPECT_TRUE(w.has("save.entry.scene.json")) << "the list stays";
+    w.click("save.ok");
+    EXPECT_TRUE(w.session.input.confirming);
+    w.key("Escape");
+    EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
 }
 
 TEST(Panels, WhatCannotBeOpenedIsSaidOverTheDialog) {

@@ -481,7 +481,7 @@ void Session::load(const std::string& title, const LoadAll& load_all, const std:
 namespace {
 
 /// "crossing.json", or "3 files".
-std::string title_of(const std::vector<std::filesystem::path>& files) {
+std::string title_of_files(const std::vector<std::filesystem::path>& files) {
     if (files.size() != 1) return counted(files.size(), "file", "files");
     // A folder may end in a slash.
     const std::filesystem::path& only = files.front();
@@ -509,7 +509,7 @@ void Session::open(const std::vector<std::filesystem::path>& files) {
     // Nobody is asked about unsaved changes for nothing.
     if (complain_of_missing(files)) return;
     load(
-        "Opening " + title_of(files),
+        "Opening " + title_of_files(files),
         [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
 }
 
@@ -521,7 +521,8 @@ void Session::remember(const std::vector<std::filesystem::path>& files) {
     }
     std::error_code error;
     const std::filesystem::path& first = files.front();
-    const std::filesystem::path folder = std::filesystem::is_directory(first, error) ? first : first.parent_path();
+    std::filesystem::path folder = std::filesystem::is_directory(first, error) ? first : first.parent_path();
+    if (folder.empty()) folder = ".";
     // Scripts and pictures find the same wherever they run.
     settings.folder = attended_ ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
 }
@@ -554,7 +555,7 @@ void Session::note_session() {
 
 bool Session::has_last() const { return !settings.last.files.empty() && !missing_of(settings.last.files); }
 
-std::string Session::last_title() const { return title_of(settings.last.files); }
+std::string Session::last_title() const { return title_of_files(settings.last.files); }
 
 void Session::reopen_last() {
     const LastSession last = settings.last;

@@ -2,6 +2,8 @@
 /// it; it knows neither.
 #pragma once
 
+#include <app/document/file_browser.h>
+#include <app/document/file_preview.h>
 #include <app/document/history.h>
 #include <app/document/job.h>
 #include <app/document/selection.h>
@@ -218,6 +220,8 @@ class Session {
     // Dialogs and messages.
     Dialog dialog = Dialog::none;  ///< the open one
     DialogInput input;             ///< ... and what was put into it
+    FileBrowser browser;           ///< what a dialog for files looks at
+    FilePreview preview;           ///< ... and into
     void open_dialog(Dialog which, DialogInput with = {});
     /// Nothing comes of it: what waited for its answer is forgotten.
     void close_dialog();

@@ -47,7 +47,7 @@ Json read_object(const std::filesystem::path& file) {
     return Json::object();
 }
 
-std::string text_at(const Json& json, const char* key) {
+std::string setting_text(const Json& json, const char* key) {
     const auto at = json.find(key);
     return at != json.end() && at->is_string() ? at->get<std::string>() : "";
 }
@@ -164,16 +164,16 @@ Settings load_settings(const std::filesystem::path& file) {
         if (read >= number.least && read <= number.most) settings.*number.value = read;
     }
     settings.recent = paths_at(json, "recent", kMostRecent);
-    const std::filesystem::path folder = text_at(json, "folder");
+    const std::filesystem::path folder = setting_text(json, "folder");
     if (folder.is_absolute()) settings.folder = folder;
-    settings.theme = theme_from_name(text_at(json, "theme"));
+    settings.theme = theme_from_name(setting_text(json, "theme"));
     settings.window = read_window(json);
     if (const auto folded = json.find("folded"); folded != json.end() && folded->is_object()) {
         for (const auto& [name, is] : folded->items()) {
             if (is.is_boolean()) settings.folded[name] = is.get<bool>();
         }
     }
-    const std::string order = text_at(json, "file_order");
+    const std::string order = setting_text(json, "file_order");
     if (std::ranges::find(kFileOrders, order) != kFileOrders.end()) settings.file_order = order;
     settings.last = read_last(json);
     return settings;

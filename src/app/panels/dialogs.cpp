@@ -43,7 +43,7 @@ void dropped(Ui& ui) {
     constexpr std::size_t kMostNames = 6;
     Session& session = ui.session;
     const std::vector<std::filesystem::path>& files = session.input.files;
-    begin_dialog(ui, "dropped", {480, 230});
+    begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
     dialog_title(ui, "Add to this scene, or open instead?");
     for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
         const std::filesystem::path& file = files[i];
