@@ -570,7 +570,7 @@ void file_dialog(Ui& ui) {
                              : purpose.writes() ? ""
                                                 : in_a_line(ui, has_preview);
     if (!line.empty()) {
-        ImGui::SameLine();
+        if (one_line) ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
         text_line(input.confirming ? ui.style.warning : ui.style.quiet,
                   fitted_text(line, ImGui::GetContentRegionAvail().x));

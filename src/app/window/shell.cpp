@@ -157,7 +157,7 @@ struct Shell::State {
         const Dialog open = session.dialog;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
                                open == Dialog::export_picture || open == Dialog::palette;
-        if (!has_field || !session.input.fresh || ImGui::GetIO().WantTextInput)
+        if (!has_field || !session.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)
             return true;
