@@ -4,7 +4,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <import/import.h>
-#include <mobb/predicate.h>
+#include <scene/file_summary.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,33 +22,6 @@ struct InfoCommandArguments {
     bool json = false;
     ImportOptions import_options;
 };
-
-/// What a clip's samples say, in metres and m/s.
-struct PathFigures {
-    double length = 0;
-    double mean_speed = 0;  ///< between the first sample and the last; 0 for one sample
-    double min_radius = 0;
-    double mean_radius = 0;
-    double max_radius = 0;
-};
-
-PathFigures figures_of(const mobb::Clip& clip) {
-    PathFigures figures;
-    double radii = 0;
-    figures.min_radius = clip.samples().front().r;
-    const mobb::Disk* before = nullptr;
-    for (const mobb::Disk& disk : clip.samples()) {
-        if (before) figures.length += std::sqrt(mobb::squared_distance(*before, disk));
-        figures.min_radius = std::min(figures.min_radius, disk.r);
-        figures.max_radius = std::max(figures.max_radius, disk.r);
-        radii += disk.r;
-        before = &disk;
-    }
-    // Rounding must not push the mean of equal radii off them.
-    figures.mean_radius = std::clamp(radii / clip.count(), figures.min_radius, figures.max_radius);
-    if (clip.count() > 1) figures.mean_speed = figures.length / ((clip.count() - 1) * clip.dt());
-    return figures;
-}
 
 /// Of a clip with its samples in the scene, the scene is the file.
 SourceFacts facts_of(const SceneClip& clip) {
@@ -75,7 +48,7 @@ void write_skeleton(JsonWriter& out, const SourceFacts& facts) {
 
 void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     const SourceFacts facts = facts_of(clip);
-    const PathFigures figures = figures_of(*clip.clip);
+    const PathFigures figures = path_figures(*clip.clip);
     out.begin_object();
     out.member("file", file_of(scene, clip));
     out.member("name", clip.name);
@@ -125,7 +98,7 @@ void list_warnings(const Warnings& warnings, const Warnings& said) {
 
 void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said) {
     const SourceFacts facts = facts_of(clip);
-    const PathFigures figures = figures_of(*clip.clip);
+    const PathFigures figures = path_figures(*clip.clip);
     std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n";
     if (facts.joints > 0) {
         std::cout << "  skeleton     " << counted(facts.joints, "joint", "joints") << ", root " << in_quotes(facts.root)

@@ -70,7 +70,12 @@ void show_window(const Scene& scene, const WindowArguments& arguments) {
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
     session.open_scene(scene, arguments.files);
+    if (arguments.files.empty() && session.has_last()) {
+        session.tell(app::Message::Level::info, "Last time: " + session.last_title(),
+                     app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
+    }
     window.run();
+    session.note_session();
     // What the command line asked for holds this once.
     if (session.settings.ui_scale == arguments.ui_scale) session.settings.ui_scale = usual_scale;
     app::save_settings(file, session.settings);

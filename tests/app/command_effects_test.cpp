@@ -30,6 +30,7 @@ struct CommandWorld {
         session.hooks.export_picture = [this](const std::filesystem::path& file) { exported = file; };
         session.hooks.viewport_size = [] { return PictureSize{800, 600}; };
         session.settings.recent = {folder.file("walk.csv")};
+        session.settings.last.files = {folder.file("walk.csv"), folder.file("stand.csv")};
         session.open({folder.scene});
         EXPECT_EQ(all_messages(session), "");
     }
@@ -90,6 +91,7 @@ std::vector<Case> cases() {
          },
          true});
     look("file.recent", "@walk.csv", [](CommandWorld& w) { EXPECT_EQ(w.session.scene().clips.size(), 1u); });
+    look("file.reopen_last", "", [](CommandWorld& w) { EXPECT_EQ(w.session.title(), "2 files"); });
     look("file.demo", "", [](CommandWorld& w) {
         EXPECT_EQ(w.agent(0).name, "A");
         EXPECT_EQ(w.session.scene().agents.size(), 2u);
@@ -515,6 +517,10 @@ std::vector<Case> cases() {
 
     // Help
     look("help.shortcuts", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::help); });
+    look("help.messages", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::messages); });
+    add({"help.clear_messages", "", {{"file.export_picture", "@p.png"}}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.session.messages().empty());
+         }});
     look("help.about", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::about); });
     return out;
 }

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include <cstdlib>
 
 namespace mobbscope::app {
@@ -349,11 +351,11 @@ TEST(Panels, OpeningByKeysAlone) {
     Window w;
     w.key("Ctrl+O");
     ASSERT_EQ(w.session.dialog, Dialog::open);
-    EXPECT_EQ(w.session.input.text, w.folder.scene.parent_path().string() + "/");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path()) << "where one was last";
     w.change_view("open");
     w.type("wa");
     w.key("Tab");
-    EXPECT_TRUE(w.session.input.text.ends_with("/walk.csv")) << w.session.input.text;
+    EXPECT_EQ(w.session.input.text, "walk.csv");
     w.key("Enter");
     EXPECT_EQ(w.session.dialog, Dialog::none);
     EXPECT_EQ(w.session.title(), "walk");
@@ -366,6 +368,98 @@ TEST(Panels, OpeningByTheList) {
     w.key("Down");
     w.key("Enter");
     EXPECT_EQ(w.session.title(), "stand") << "scene.json, stand.csv, walk.csv";
+}
+
+TEST(Panels, SeveralAreOpenedByTheDialogAlone) {
+    Window w;
+    w.key("Ctrl+O");
+    w.key("Down");
+    w.key("Shift+Down");
+    EXPECT_EQ(w.session.browser.chosen_count(), 2u);
+    w.change_view("open_several");
+    w.key("Enter");
+    EXPECT_EQ(w.session.dialog, Dialog::none);
+    EXPECT_EQ(w.session.scene().clips.size(), 2u);
+    EXPECT_TRUE(w.session.scene().agents.empty());
+    // And by the mouse: a click keeps the list, one with Ctrl adds to what is chosen.
+    w.key("Ctrl+O");
+    w.click("open.entry.stand.csv");
+    EXPECT_TRUE(w.has("open.entry.walk.csv"));
+    EXPECT_EQ(w.session.browser.entries().size(), 3u);
+    w.window.shell().feed(KeyPress{Key::ctrl, true});
+    w.click("open.entry.scene.json");
+    w.window.shell().feed(KeyPress{Key::ctrl, false});
+    EXPECT_EQ(w.session.browser.chosen_count(), 2u);
+    w.click("open.ok");
+    EXPECT_EQ(w.session.scene().clips.size(), 3u);
+    // In a folder that was typed too.
+    w.key("Ctrl+O");
+    w.type(w.folder.scene.parent_path().string() + "/");
+    w.key("Down");
+    w.key("Shift+Down");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().clips.size(), 2u);
+    w.key("Ctrl+O");
+    w.key("Ctrl+A");
+    w.key("Enter");
+    EXPECT_EQ(w.session.scene().clips.size(), 4u) << "all that is listed";
+}
+
+TEST(Panels, TheDialogGoesUpAndIntoFolders) {
+    Window w;
+    std::filesystem::create_directory(w.folder.file("deep"));
+    w.folder.write("deep/other.csv", mobbscope::testing::slurp(w.folder.file("walk.csv")));
+    w.key("Ctrl+O");
+    w.type("deep");
+    w.key("Enter");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.file("deep"));
+    EXPECT_EQ(w.session.input.text, "");
+    w.key("Backspace");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path());
+    w.key("Enter");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.file("deep")) << "the cursor was on where one came from";
+    w.click("open.up");
+    w.click("open.crumb.1");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path().parent_path());
+    w.key("Escape");
+    w.key("Ctrl+O");
+    EXPECT_EQ(w.session.browser.way().back(), w.folder.scene.parent_path().parent_path()) << "where one was";
+    w.type(w.folder.file("deep").string());
+    w.key("Enter");
+    w.click("open.folder");
+    EXPECT_EQ(w.session.scene().clips.size(), 1u);
+    EXPECT_EQ(w.session.scene().clips[0].name, "other");
+}
+
+TEST(Panels, TheHeadsOfTheListOrderIt) {
+    Window w;
+    std::filesystem::last_write_time(w.folder.file("walk.csv"),
+                                     std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+    w.key("Ctrl+O");
+    w.click("open.order.date");
+    EXPECT_EQ(w.session.browser.entries().front().name, "walk.csv") << "the latest first";
+    w.click("open.order.date");
+    EXPECT_EQ(w.session.browser.entries().back().name, "walk.csv");
+    w.key("Ctrl+1");
+    EXPECT_EQ(w.session.browser.entries().front().name, "scene.json");
+    w.key("Ctrl+3");
+    EXPECT_EQ(w.session.settings.file_order, "-date");
+}
+
+TEST(Panels, AClickOnAFileNamesTheOneToBeWritten) {
+    Window w;
+    w.key("Ctrl+Shift+S");
+    EXPECT_EQ(w.session.input.text, "scene.json");
+    w.folder.write("there.json", "old");
+    w.key("Escape");
+    w.key("Ctrl+Shift+S");
+    w.click("save.entry.there.json");
+    EXPECT_EQ(w.session.input.text, "there.json");
+    EXPECT_TRUE(w.has("save.entry.scene.json")) << "the list stays";
+    w.click("save.ok");
+    EXPECT_TRUE(w.session.input.confirming);
+    w.key("Escape");
+    EXPECT_EQ(mobbscope::testing::slurp(w.folder.file("there.json")), "old");
 }
 
 TEST(Panels, WhatCannotBeOpenedIsSaidOverTheDialog) {
@@ -411,16 +505,72 @@ TEST(Panels, UnsavedChangesAreAskedAbout) {
     EXPECT_FALSE(w.session.modified());
 }
 
-TEST(Panels, InfoGoesByItselfAndErrorsStay) {
+TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     Window w;
     w.session.tell(Message::Level::info, "Saved it");
     w.session.tell(Message::Level::error, "This went wrong");
+    const auto up = [&] { return std::ranges::count(w.session.messages(), true, &Message::up); };
     w.window.run_for(3.5);
-    EXPECT_EQ(w.session.messages().size(), 2u);
+    EXPECT_EQ(up(), 2);
     w.window.run_for(1);
-    ASSERT_EQ(w.session.messages().size(), 1u);
-    w.key("Escape");
+    EXPECT_EQ(up(), 1) << "what was only done goes first";
+    w.change_view("bell");
+    w.window.run_for(6.5);
+    EXPECT_EQ(up(), 0);
+    EXPECT_FALSE(w.has("message.1"));
+    EXPECT_EQ(w.session.unread(), 1u) << "nobody has opened the list";
+    w.click("menu.bell");
+    EXPECT_EQ(w.session.dialog, Dialog::messages);
+    EXPECT_EQ(w.session.unread(), 0u);
+    w.change_view("message_list");
+    std::string copied;
+    w.session.hooks.set_clipboard = [&](const std::string& text) { copied = text; };
+    w.click("messages.0.copy");
+    EXPECT_EQ(copied, "This went wrong") << "the latest stands first";
+    w.click("messages.0.dismiss");
+    ASSERT_EQ(all_messages(w.session), "Saved it\n");
+    w.key("Delete");
     EXPECT_TRUE(w.session.messages().empty());
+    w.key("Escape");
+    EXPECT_EQ(w.session.dialog, Dialog::none);
+}
+
+TEST(Panels, MessagesStayWhileTheMouseIsOnThem) {
+    Window w;
+    w.session.tell(Message::Level::info, "Saved it");
+    w.window.run_for(0.2);
+    w.window.shell().feed(MouseMove{w.window.shell().marks().all().at("message.0").center()});
+    w.window.run_for(8);
+    EXPECT_TRUE(w.has("message.0"));
+    w.window.shell().feed(MouseMove{{300, 200}});
+    w.window.run_for(2.5);
+    EXPECT_FALSE(w.has("message.0"));
+}
+
+TEST(Panels, EscapePutsErrorsAwayBeforeItLeavesTheQuery) {
+    Window w;
+    run_command(w.session, "query.select", "0");
+    w.session.tell(Message::Level::error, "This went wrong");
+    w.window.settle();
+    w.key("Escape");
+    EXPECT_FALSE(w.has("message.0"));
+    EXPECT_EQ(w.session.view().query, 0);
+    EXPECT_EQ(w.session.unread(), 1u);
+}
+
+TEST(Panels, WhatAMessageOffersIsAButton) {
+    Window w;
+    w.session.tell(Message::Level::warning, "The unit was guessed", MessageOffer{"view.top", "", "Look from above"});
+    w.window.run_for(0.2);
+    w.change_view("offer");
+    w.click("message.0.offer");
+    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
+    EXPECT_FALSE(w.has("message.0"));
+    w.key("F8");
+    w.click("messages.0.offer");
+    EXPECT_EQ(w.session.dialog, Dialog::none);
+    run_command(w.session, "file.demo");
+    EXPECT_FALSE(w.session.messages()[0].offer) << "it was about what was open";
 }
 
 TEST(Panels, TheHelpSheetOpensAndCloses) {
@@ -440,7 +590,8 @@ TEST(Panels, TheHelpSheetOpensAndCloses) {
 TEST(Panels, NothingIsCutOffAtAnySize) {
     for (const auto& [size, scale] :
          {std::pair{PictureSize{1024, 640}, 1.0}, {{1024, 640}, 2.0}, {{2560, 1440}, 2.0}}) {
-        for (const char* command : {"", "help.shortcuts", "help.about", "file.open", "file.save_as", "go.palette"}) {
+        for (const char* command :
+             {"", "help.shortcuts", "help.about", "help.messages", "file.open", "file.save_as", "go.palette"}) {
             SCOPED_TRACE(std::string(command) + " at " + std::to_string(size.width) + ", scale " +
                          std::to_string(scale));
             Window w(size, scale);

@@ -118,5 +118,25 @@ TEST(RealWindow, APersonWorksByKeysAlone) {
     EXPECT_EQ(status, 0);
 }
 
+// Without a script, as only then settings are kept.
+TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
+    const TempFolder folder;
+    std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder.path() / "assets",
+                          std::filesystem::copy_options::recursive);
+    const int status =
+        under_xvfb("'" + kHere + "real_files.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    ASSERT_EQ(status, 0);
+    const Json settings = state(folder.path() / "config/mobbscope/settings.json");
+    const std::string clips = folder.path() / "assets/clips/";
+    const Json opened{clips + "bend.glb", clips + "circle.glb", clips + "run.glb"};
+    EXPECT_EQ(settings["last_session"]["files"], opened);
+    EXPECT_EQ((Json{settings["recent"][0], settings["recent"][1], settings["recent"][2]}), opened);
+    EXPECT_EQ(settings["folder"], clips.substr(0, clips.size() - 1));
+    EXPECT_EQ(settings["window"]["width"], 1100);
+    const std::string geometry = slurp(folder.path() / "geometry.txt");
+    EXPECT_NE(geometry.find("WIDTH=1100\nHEIGHT=720"), std::string::npos) << geometry;
+}
+
 }  // namespace
 }  // namespace mobbscope

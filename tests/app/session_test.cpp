@@ -291,6 +291,80 @@ TEST(Opening, OnlyWhatCouldBeOpenedIsRemembered) {
     EXPECT_EQ(session.settings.recent, std::vector{folder.scene});
 }
 
+TEST(Opening, AllThatWasOpenedBecomesRecent) {
+    CrossingFolder folder;
+    Session session(true);
+    const auto done = [&] {
+        while (session.job()) session.poll();
+    };
+    session.open({folder.file("walk.csv"), folder.file("stand.csv")});
+    done();
+    EXPECT_EQ(session.settings.recent, (std::vector{folder.file("walk.csv"), folder.file("stand.csv")}));
+    session.add({folder.scene});
+    done();
+    EXPECT_EQ(session.settings.recent.front(), folder.scene);
+    session.save_as(folder.file("mine.json"));
+    EXPECT_EQ(session.settings.recent.front(), folder.file("mine.json"));
+    EXPECT_EQ(session.settings.folder, folder.scene.parent_path());
+}
+
+TEST(Opening, TheLastSessionIsOpenedAgainAsItWasSeen) {
+    CrossingFolder folder;
+    Settings kept;
+    {
+        Session session(true);
+        EXPECT_FALSE(session.has_last());
+        session.open({folder.scene});
+        while (session.job()) session.poll();
+        session.change_view([](ViewState& view) {
+            view.query = 1;
+            view.camera.preset = CameraPreset::top;
+        });
+        session.note_session();
+        kept = session.settings;
+    }
+    Session next(true, kept);
+    ASSERT_TRUE(next.has_last());
+    EXPECT_EQ(next.last_title(), "scene.json");
+    run_command(next, "file.reopen_last");
+    while (next.job()) next.poll();
+    EXPECT_EQ(next.title(), "scene.json");
+    EXPECT_EQ(next.view().query, 1);
+    EXPECT_EQ(next.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(next.scene().view, ViewState{}) << "the file says nothing of it";
+    std::filesystem::remove(folder.scene);
+    EXPECT_FALSE(Session(true, kept).has_last()) << "what is gone is not offered";
+}
+
+TEST(Opening, TheThemeOfThePersonIsThatOfScenesThatSayNone) {
+    CrossingFolder folder;
+    Session session(true);
+    session.open({folder.scene});
+    while (session.job()) session.poll();
+    session.change_view([](ViewState& view) { view.theme = Theme::light; });
+    session.open({folder.file("walk.csv")});
+    while (session.job()) session.poll();
+    EXPECT_EQ(session.view().theme, Theme::light);
+    Session script(false, session.settings);
+    script.open({folder.scene});
+    EXPECT_EQ(script.view().theme, Theme::dark) << "scripts find the same everywhere";
+}
+
+TEST(Opening, WhatIsDroppedOnSomethingAsks) {
+    CrossingFolder folder;
+    Session session(false);
+    session.drop({folder.file("walk.csv")});
+    EXPECT_EQ(session.title(), "walk") << "nothing was open";
+    session.drop({folder.file("stand.csv"), folder.scene});
+    EXPECT_EQ(session.dialog, Dialog::dropped);
+    EXPECT_EQ(session.input.files.size(), 2u);
+    EXPECT_EQ(session.title(), "walk");
+    session.open_demo();
+    session.close_dialog();
+    session.drop({folder.scene});
+    EXPECT_EQ(session.title(), "scene.json") << "the demo is nobody's";
+}
+
 TEST(Opening, AnEmptyFolderIsRefused) {
     CrossingFolder folder;
     Session session(false);
@@ -683,15 +757,27 @@ TEST(Jobs, UnattendedTheyAreWaitedFor) {
 
 // --- messages
 
-TEST(Messages, AreFewAndSaidOnce) {
+TEST(Messages, AreFiftyAtMostAndSaidOnce) {
     Session session(false);
-    for (int i = 0; i < 9; ++i) session.tell(Message::Level::info, std::to_string(i % 7));
-    ASSERT_EQ(session.messages().size(), 5u);
+    for (int i = 0; i < 62; ++i) session.tell(Message::Level::info, std::to_string(i % 60));
+    ASSERT_EQ(session.messages().size(), 50u);
     EXPECT_EQ(session.messages().back().text, "1");
-    session.dismiss(4);
+    session.dismiss(49);
     EXPECT_EQ(session.messages().back().text, "0");
-    session.dismiss(17);
-    EXPECT_EQ(session.messages().size(), 4u);
+    session.dismiss(170);
+    EXPECT_EQ(session.messages().size(), 49u);
+}
+
+TEST(Messages, OfTheLastDocumentGoBehindTheBell) {
+    CrossingFolder folder;
+    Session session(false);
+    session.open({folder.file("none.csv")});
+    EXPECT_TRUE(session.messages().front().up);
+    session.open({folder.scene});
+    EXPECT_FALSE(session.messages().front().up);
+    EXPECT_EQ(session.unread(), 1u) << "but it can still be read";
+    session.open_messages();
+    EXPECT_EQ(session.unread(), 0u);
 }
 
 }  // namespace

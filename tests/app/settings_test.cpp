@@ -21,18 +21,27 @@ TEST(Settings, AreReadBackAsTheyWereWritten) {
     settings.left_width = 301.5;
     settings.remember(folder.path() / "a \"quoted\" näme.json");
     settings.remember(folder.path() / "b.json");
+    settings.folder = folder.path() / "clips";
+    settings.theme = Theme::light;
+    settings.window = WindowPlace{-12, 40, 1280, 800, true};
+    settings.folded = {{"clips", true}, {"tree", false}};
+    settings.file_order = "-date";
+    settings.last.files = {folder.path() / "b.json"};
+    settings.last.view.query = 2;
+    settings.last.view.camera.yaw_deg = 12.5;
+    settings.last.view.theme = Theme::light;
     save_settings(file, settings);
     EXPECT_EQ(load_settings(file), settings);
     EXPECT_EQ(settings.recent.front().filename(), "b.json");
 }
 
-TEST(Settings, RememberTwelveEachOnce) {
+TEST(Settings, RememberTwentyEachOnce) {
     Settings settings;
-    for (int i = 0; i < 20; ++i) settings.remember("/folder/" + std::to_string(i));
+    for (int i = 0; i < 30; ++i) settings.remember("/folder/" + std::to_string(i));
     settings.remember("/folder/15");
-    ASSERT_EQ(settings.recent.size(), 12u);
+    ASSERT_EQ(settings.recent.size(), 20u);
     EXPECT_EQ(settings.recent[0], "/folder/15");
-    EXPECT_EQ(settings.recent[1], "/folder/19");
+    EXPECT_EQ(settings.recent[1], "/folder/29");
     EXPECT_EQ(std::count(settings.recent.begin(), settings.recent.end(), "/folder/15"), 1);
 }
 
@@ -40,8 +49,13 @@ TEST(Settings, JunkIsPassedOver) {
     const TempFolder folder;
     EXPECT_EQ(load_settings(folder.path() / "none.json"), Settings{});
     EXPECT_EQ(load_settings(folder.path()), Settings{});
-    for (const char* text : {"", "{", "[1, 2]", "null", "\xff\xfe", R"({"ui_scale": "big", "left_width": -3})",
-                             R"({"ui_scale": 1e999})", R"({"recent": {"a": 1}})", R"({"recent": [1, null, "here"]})"}) {
+    for (const char* text :
+         {"", "{", "[1, 2]", "null", "\xff\xfe", R"({"ui_scale": "big", "left_width": -3})", R"({"ui_scale": 1e999})",
+          R"({"recent": {"a": 1}})", R"({"recent": [1, null, "here"]})", R"({"theme": "pink", "folder": "here"})",
+          R"({"window": {"x": 1}})", R"({"window": {"x": 0, "y": 0, "width": 0, "height": 5}})",
+          R"({"window": {"x": 1e300, "y": 0, "width": 9, "height": 5}})", R"({"folded": [true]})",
+          R"({"folded": {"clips": "yes"}})", R"({"file_order": "colour"})", R"({"last_session": [1]})",
+          R"({"last_session": {"files": "a", "view": {"query": -1}}})"}) {
         EXPECT_EQ(load_settings(folder.write("settings.json", text)), Settings{}) << text;
     }
     const Settings some =
@@ -49,6 +63,21 @@ TEST(Settings, JunkIsPassedOver) {
     EXPECT_EQ(some.ui_scale, 0);
     EXPECT_EQ(some.right_width, 400);
     EXPECT_EQ(some.recent, std::vector<std::filesystem::path>{"/a"});
+}
+
+TEST(Settings, OfAnotherVersionStay) {
+    const TempFolder folder;
+    const std::string file = folder.write(
+        "settings.json",
+        R"({"wings": {"left": [1, 2]}, "ui_scale": 2, "last_session": {"files": ["/a"], "view": {"wings": 1}}})");
+    Settings settings = load_settings(file);
+    EXPECT_EQ(settings.last.files, std::vector<std::filesystem::path>{"/a"});
+    EXPECT_EQ(settings.last.view, ViewState{}) << "a view that cannot be read is as usual";
+    settings.ui_scale = 3;
+    save_settings(file, settings);
+    EXPECT_EQ(load_settings(file), settings);
+    const std::string text = mobbscope::testing::slurp(file);
+    EXPECT_NE(text.find("wings"), std::string::npos) << text;
 }
 
 TEST(Settings, WhereNothingCanBeWrittenNothingHappens) {

@@ -269,7 +269,9 @@ TEST_P(ShellTest, WhatIsDroppedIsOpened) {
     EXPECT_EQ(session.scene().clips.size(), 1u) << "a clip replaces the demo";
     window->shell().feed(Drop{{folder.write("b.csv", "t,x,y,r\n0,0,0,0.3\n1,1,0,0.3\n")}});
     window->settle();
-    EXPECT_EQ(session.scene().clips.size(), 2u) << "and joins what a person opened";
+    EXPECT_EQ(session.dialog, Dialog::dropped) << "what a person opened is not replaced without asking";
+    run("key Enter");
+    EXPECT_EQ(session.scene().clips.size(), 2u) << "Enter adds";
     window->shell().feed(Drop{{demo_scene_file()}});
     window->shell().feed(Drop{{folder.path() / "none.csv"}});
     window->settle();

@@ -21,6 +21,44 @@ std::vector<std::string> words_of(std::string_view text) {
     return {std::istream_iterator<std::string>(in), {}};
 }
 
+std::vector<std::filesystem::path> paths_in(const std::string& text) {
+    if (!text.starts_with('"')) return {text};
+    std::vector<std::filesystem::path> out;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] == ' ') continue;
+        std::string one;
+        bool ended = false;
+        if (text[at] == '"') {
+            for (++at; at < text.size() && !ended; ++at) {
+                if (text[at] == '\\' && at + 1 < text.size()) {
+                    one += text[++at];
+                } else if (text[at] == '"') {
+                    ended = true;
+                } else {
+                    one += text[at];
+                }
+            }
+        }
+        if (!ended) refuse(text, "the files", "one, or several in double quotes: \"a.csv\" \"b.csv\"");
+        out.emplace_back(one);
+    }
+    return out;
+}
+
+std::string as_argument(const std::vector<std::filesystem::path>& files) {
+    if (files.size() == 1 && !files.front().native().starts_with('"')) return files.front().string();
+    std::string out;
+    for (const std::filesystem::path& file : files) {
+        out += out.empty() ? "\"" : " \"";
+        for (const char c : file.native()) {
+            if (c == '"' || c == '\\') out += '\\';
+            out += c;
+        }
+        out += '"';
+    }
+    return out;
+}
+
 double number_in(std::string_view text, std::string_view what, double low, double high) {
     const std::optional<double> value = parse_double(trimmed(text));
     if (!value || *value < low || *value > high) {

@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,12 @@ namespace mobbscope::app {
 
 /// The words of a text, apart from blanks; throws nothing.
 std::vector<std::string> words_of(std::string_view text);
+
+/// The files of an argument: the text as it stands, or several in double quotes with blanks between them; in quotes a
+/// backslash stands before a quote or a backslash that is meant.
+std::vector<std::filesystem::path> paths_in(const std::string& text);
+/// What paths_in reads.
+std::string as_argument(const std::vector<std::filesystem::path>& files);
 
 /// A finite number within [low, high]; `what` names it: "the step".
 double number_in(std::string_view text, std::string_view what, double low, double high);

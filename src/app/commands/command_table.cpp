@@ -15,6 +15,11 @@ std::vector<Command> help_commands() {
         Command("help.shortcuts", "Help",
                 "Says what can be done now, then lists all keys and what the mouse does; a search finds commands.",
                 &Session::open_help, {.shortcut = "F1", .enabled = always}),
+        Command("help.messages", "Messages", "Lists what was said: what went wrong, what to do, and what was done.",
+                &Session::open_messages, {.shortcut = "F8", .enabled = always}),
+        Command("help.clear_messages", "Clear messages", "Empties the list of messages.", &Session::clear_messages,
+                {.enabled = {[](const Session& session) { return !session.messages().empty(); },
+                             [](const Session&) -> std::string_view { return "there are none"; }}}),
         Command("help.about", "About Mobbscope", "Says which version this is and what it shows.",
                 [](Session& session) { session.open_dialog(Dialog::about); }, {.enabled = always}),
     };

@@ -1,3 +1,4 @@
+#include <app/commands/arguments.h>
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <base/file.h>
@@ -18,12 +19,12 @@ namespace {
 
 void open_file(Session& session, const std::string& file) {
     if (file.empty()) return session.open_dialog(Dialog::open);
-    session.open({file});
+    session.open(paths_in(file));
 }
 
 void add_file(Session& session, const std::string& file) {
     if (file.empty()) return session.open_dialog(Dialog::add);
-    session.add({file});
+    session.add(paths_in(file));
 }
 
 std::vector<std::string> recent_names(const Session& session) {
@@ -157,14 +158,21 @@ void copy_command(Session& session) {
 
 std::vector<Command> file_commands() {
     const std::vector<Command> rows{
-        Command("file.open", "Open...",
-                "Opens a scene, a capture, a clip, or a folder of clips, in place of what is open.", open_file,
-                {.shortcut = "Ctrl+O", .argument = "[FILE]", .enabled = always}),
+        Command(
+            "file.open", "Open...",
+            "Opens a scene, a capture, clips, or a folder of clips, in place of what is open. Several files stand in "
+            "quotes.",
+            open_file, {.shortcut = "Ctrl+O", .argument = "[FILE]", .enabled = always}),
         Command("file.add", "Add files...", "Adds clips, or the agents and clips of another scene, to what is open.",
                 add_file, {.argument = "[FILE]", .enabled = always}),
         Command("file.recent", "Open recent", "Opens a file that was open before.",
                 [](Session& session, const std::string& file) { session.open({file}); },
                 {.argument = "FILE", .enabled = always, .choices = recent_names}),
+        Command(
+            "file.reopen_last", "Reopen last session",
+            "Opens what was open when the window was closed last, as it was seen.", &Session::reopen_last,
+            {.enabled = {&Session::has_last,
+                         [](const Session&) -> std::string_view { return "there is none, or its files are gone"; }}}),
         Command("file.demo", "Open the demo",
                 "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
                 &Session::open_demo, {.enabled = always}),

@@ -119,13 +119,15 @@ void move_focus(Session& session) {
     session.focus_move = move;
 }
 
-bool stays(const Message& message) { return message.level != Message::Level::info; }
+/// A warning or an error lies over the picture: what was only done goes by itself.
+bool has_message_up(const Session& session) {
+    return std::ranges::any_of(
+        session.messages(), [](const Message& message) { return message.up && message.level != Message::Level::info; });
+}
 
 /// One thing after the other, what lies in front first.
 void put_away(Session& session) {
-    const auto& messages = session.messages();
-    const auto last = std::find_if(messages.rbegin(), messages.rend(), stays);
-    if (last != messages.rend()) return session.dismiss(static_cast<std::size_t>(messages.rend() - last) - 1);
+    if (has_message_up(session)) return session.put_messages_away();
     session.select({});
 }
 
@@ -183,12 +185,11 @@ std::vector<Command> go_commands() {
         Command("go.menu", "Menus", "Opens the menus; arrows and letters go through them.",
                 move_focus<FocusMove::menu_bar>, {.shortcut = "F10 Alt", .enabled = always}),
         Command("go.none", "Select nothing",
-                "Dismisses the last message that stays; else selects nothing. The query in view stays.", put_away,
+                "Puts messages away; else selects nothing. The query in view stays.", put_away,
                 {.shortcut = "Escape",
                  .enabled =
                      [](const Session& session) {
-                         return session.selection.kind != Selection::Kind::none ||
-                                std::any_of(session.messages().begin(), session.messages().end(), stays);
+                         return session.selection.kind != Selection::Kind::none || has_message_up(session);
                      }}),
     };
     return in_menu("Go", rows);

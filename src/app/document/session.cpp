@@ -36,7 +36,13 @@ constexpr std::chrono::milliseconds kPatience(80);
 constexpr std::size_t kQuickSamples = 50'000;
 /// How much longer than the paper's axes those found by searching take.
 constexpr std::size_t kSearchFactor = 100;
-constexpr std::size_t kMostMessages = 5;
+constexpr std::size_t kMostMessages = 50;
+/// How long a message lies over the picture; one with an offer stays longer, and none goes sooner than this after the
+/// mouse has left it.
+constexpr double kInfoSeconds = 4;
+constexpr double kErrorSeconds = 10;
+constexpr double kOfferSeconds = 20;
+constexpr double kLeftSeconds = 2;
 constexpr std::size_t kLongestMessage = 500;  // characters; names of files may be longer
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
@@ -171,6 +177,7 @@ void Session::change_view(const std::function<void(ViewState&)>& change) {
     change(next.view);
     next.view = fitting(next.view, *next.fitted);
     if (next.view == view()) return;
+    if (next.view.theme != view().theme) settings.theme = next.view.theme;
     history_.change_view(std::move(next));
     changed();
 }
@@ -460,23 +467,35 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     file_ = scene_file_of(opened);
     opened_ = opened;
     ++files_opened_;
-    if (attended_ && !opened.empty()) settings.remember(opened.front());
+    remember(opened);
+    // One that says no theme is seen in the person's.
+    if (attended_ && settings.theme && document.view.theme == Theme{}) document.view.theme = *settings.theme;
     point_at_nothing();
     candidate = -1;
     conflict = -1;
     cameras_aside.clear();
-    // What went wrong with the last document is over.
-    std::erase_if(messages_, [](const Message& message) { return message.level != Message::Level::info; });
+    // What went wrong with the last document is over, and what was offered for it.
+    for (Message& message : messages_) {
+        if (files_opened_ > 1) message.offer.reset();
+        if (message.level != Message::Level::info) message.up = false;
+    }
     history_.reset(std::move(document));
     changed();
 }
 
-void Session::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files) {
-    after_asking([this, title, load_all, files] {
+void Session::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
+                   const std::optional<ViewState>& view) {
+    after_asking([this, title, load_all, files, view] {
         // What is opened last is meant.
         std::erase_if(jobs_, [](const Running& running) { return running.opens; });
-        const auto work = [this, load_all, files, present = document().fitted](JobControl& control) -> Job::Finish {
+        const auto work = [this, load_all, files, view,
+                           present = document().fitted](JobControl& control) -> Job::Finish {
             Document document = document_of(load_all(control), nullptr, progress_of(control));
+            if (view) {
+                document.view = *view;
+                // The file may have changed since.
+                if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
+            }
             return [this, document = std::move(document), files, present] {
                 // Who edited meanwhile is asked again.
                 if (&scene() == &present->scene()) return replace(document, files);
@@ -487,16 +506,92 @@ void Session::load(const std::string& title, const LoadAll& load_all, const std:
     });
 }
 
-void Session::open(const std::vector<std::filesystem::path>& files) {
-    for (const std::filesystem::path& file : files) {
-        // Nobody is asked about unsaved changes for nothing.
+namespace {
+
+/// "crossing.json", or "3 files".
+std::string title_of_files(const std::vector<std::filesystem::path>& files) {
+    if (files.size() != 1) return counted(files.size(), "file", "files");
+    // A folder may end in a slash.
+    const std::filesystem::path& only = files.front();
+    return (only.has_filename() ? only : only.parent_path()).filename().string();
+}
+
+/// The first that is not there; null: all are.
+const std::filesystem::path* missing_of(const std::vector<std::filesystem::path>& files) {
+    const auto missing = std::ranges::find_if(files, [](const std::filesystem::path& file) {
         std::error_code ignored;
-        if (std::filesystem::exists(file, ignored)) continue;
-        return tell(Message::Level::error, file.string() + ": no such file; check the path");
-    }
+        return !std::filesystem::exists(file, ignored);
+    });
+    return missing == files.end() ? nullptr : &*missing;
+}
+
+}  // namespace
+
+bool Session::complain_of_missing(const std::vector<std::filesystem::path>& files) {
+    const std::filesystem::path* missing = missing_of(files);
+    if (missing) tell(Message::Level::error, missing->string() + ": no such file; check the path");
+    return missing;
+}
+
+void Session::open(const std::vector<std::filesystem::path>& files) {
+    // Nobody is asked about unsaved changes for nothing.
+    if (complain_of_missing(files)) return;
     load(
-        "Opening " + (files.size() == 1 ? files.front().filename().string() : "files"),
+        "Opening " + title_of_files(files),
         [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
+}
+
+void Session::remember(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
+    if (attended_) {
+        // The first of them comes first.
+        for (auto file = files.rbegin(); file != files.rend(); ++file) settings.remember(*file);
+    }
+    std::error_code error;
+    const std::filesystem::path& first = files.front();
+    std::filesystem::path folder = std::filesystem::is_directory(first, error) ? first : first.parent_path();
+    if (folder.empty()) folder = ".";
+    // Scripts and pictures find the same wherever they run.
+    settings.folder = attended_ ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
+}
+
+bool Session::opened_by_person() const {
+    if (empty()) return false;
+    if (file() || modified() || in_excerpt()) return true;
+    try {
+        return scene().file != demo_scene_file();
+    } catch (const MachineError&) {
+        return true;
+    }
+}
+
+void Session::drop(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
+    if (complain_of_missing(files)) return;
+    if (!opened_by_person()) return open(files);
+    open_dialog(Dialog::dropped, {.text = "", .files = files});
+}
+
+void Session::note_session() {
+    if (opened_.empty()) return;
+    settings.last = {{}, in_excerpt() ? document().excerpt_of->view : view()};
+    for (const std::filesystem::path& file : opened_) {
+        std::error_code error;
+        settings.last.files.push_back(std::filesystem::absolute(file, error).lexically_normal());
+    }
+}
+
+bool Session::has_last() const { return !settings.last.files.empty() && !missing_of(settings.last.files); }
+
+std::string Session::last_title() const { return title_of_files(settings.last.files); }
+
+void Session::reopen_last() {
+    const LastSession last = settings.last;
+    if (complain_of_missing(last.files)) return;
+    load(
+        "Opening " + last_title(),
+        [last](JobControl& control) { return load_files(last.files, {}, progress_of(control)); }, last.files,
+        last.view);
 }
 
 void Session::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
@@ -510,10 +605,12 @@ void Session::open_demo() {
 
 void Session::add(const std::vector<std::filesystem::path>& files) {
     if (empty()) return open(files);
+    if (complain_of_missing(files)) return;
     if (crowd()) throw InputError("a run stands alone: open the files by themselves");
     start("Adding files", [this, files](JobControl& control) -> Job::Finish {
         const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
-        return [this, read] {
+        return [this, read, files] {
+            remember(files);
             edit_with_fits(
                 {"adding files", ""}, [read](Scene& scene) { merge(scene, *read); }, nullptr);
         };
@@ -563,7 +660,7 @@ void Session::save_as(const std::filesystem::path& file) {
         file_ = file;
         opened_ = {file};
     }
-    if (attended_) settings.remember(file);
+    remember({file});
     tell(Message::Level::info, "Saved " + file.string());
     if (dialog == Dialog::save_as || dialog == Dialog::unsaved) dialog = Dialog::none;
     if (const auto then = std::exchange(pending_, nullptr)) then();
@@ -621,12 +718,43 @@ void Session::ask_anew(DialogInput with) {
 
 // --- messages, queue and jobs
 
-void Session::tell(Message::Level level, const std::string& text) {
+void Session::tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer) {
     const std::string said = shortened(text, kLongestMessage);
     // Twice the same says nothing new.
     std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
-    messages_.push_back({level, said, {}});
+    messages_.push_back({level, said, std::move(offer), {}, 0, true, level == Message::Level::info});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
+}
+
+std::size_t Session::unread() const {
+    return static_cast<std::size_t>(std::ranges::count(messages_, false, &Message::read));
+}
+
+void Session::open_messages() {
+    open_dialog(Dialog::messages);
+    put_messages_away();
+    for (Message& message : messages_) message.read = true;
+}
+
+void Session::put_messages_away() {
+    for (Message& message : messages_) message.up = false;
+}
+
+double Session::age_messages(double now, bool held) {
+    double next = std::numeric_limits<double>::infinity();
+    for (Message& message : messages_) {
+        if (!message.up) continue;
+        if (!message.shown_at) {
+            message.shown_at = now;
+            message.goes_at = now + (message.offer                           ? kOfferSeconds
+                                     : message.level == Message::Level::info ? kInfoSeconds
+                                                                             : kErrorSeconds);
+        }
+        if (held) message.goes_at = std::max(message.goes_at, now + kLeftSeconds);
+        message.up = now < message.goes_at;
+        if (message.up) next = std::min(next, message.goes_at - now);
+    }
+    return next;
 }
 
 void Session::dismiss(std::size_t message) {

@@ -2,6 +2,8 @@
 /// it; it knows neither.
 #pragma once
 
+#include <app/document/file_browser.h>
+#include <app/document/file_preview.h>
 #include <app/document/history.h>
 #include <app/document/job.h>
 #include <app/document/selection.h>
@@ -27,14 +29,26 @@
 namespace mobbscope::app {
 
 /// What is asked or shown over the panels, one at a time.
-enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about };
+enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about, messages, dropped };
 
-/// A line for the person: what went wrong and what to do, or what was done.
+/// A command that a message offers; it is drawn as a button.
+struct MessageOffer {
+    std::string command;   ///< its id
+    std::string argument;  ///< empty: none
+    std::string label;     ///< "Mend unit..."
+};
+
+/// A line for the person: what went wrong and what to do, or what was done. It lies over the picture for some seconds,
+/// then it is kept in a list behind a bell.
 struct Message {
     enum class Level { info, warning, error };
     Level level = Level::info;
     std::string text;
-    std::optional<double> shown_at{};  ///< when the window showed it first
+    std::optional<MessageOffer> offer{};  ///< none once another document is open: it was about the last one
+    std::optional<double> shown_at{};     ///< seconds of the window's clock, when it was shown first
+    double goes_at = 0;                   ///< ... when it goes behind the bell; only once it was shown
+    bool up = true;                       ///< it lies over the picture
+    bool read = false;                    ///< the list was opened since, or it was only what was done (info)
 };
 
 /// Where a command sends the keys.
@@ -54,12 +68,13 @@ struct Hooks {
 /// What was put into the open dialog so far; the dialog says what it means by it.
 struct DialogInput {
     std::string text;
-    std::string command{};    ///< the palette asks for the argument of this one; empty: it lists all
-    int picked = 0;           ///< of a list
-    bool confirming = false;  ///< asks whether to overwrite
-    int generation = 0;       ///< the field shows another text from without: see set_text
-    int opening = 0;          ///< counts dialogs: the undo of a field must not reach the text of an earlier one
-    bool fresh = true;        ///< the field waits for the keyboard
+    std::string command{};                       ///< the palette asks for the argument of this one; empty: it lists all
+    std::vector<std::filesystem::path> files{};  ///< that were dropped
+    int picked = 0;                              ///< of a list
+    bool confirming = false;                     ///< asks whether to overwrite
+    int generation = 0;                          ///< the field shows another text from without: see set_text
+    int opening = 0;    ///< counts dialogs: the undo of a field must not reach the text of an earlier one
+    bool fresh = true;  ///< the field waits for the keyboard
 
     void set_text(std::string to) {
         text = std::move(to);
@@ -186,6 +201,16 @@ class Session {
     const std::vector<std::filesystem::path>& opened() const { return opened_; }
     /// Adds clips, or whole scenes, to the document.
     void add(const std::vector<std::filesystem::path>& files);
+    /// Opens what was dropped on the window; asks whether to add it where the person has something open.
+    void drop(const std::vector<std::filesystem::path>& files);
+    /// What is open is that of the next time's settings.last.
+    void note_session();
+    /// Opens settings.last, seen as it was.
+    void reopen_last();
+    /// Whether there is anything to reopen that is still there.
+    bool has_last() const;
+    /// "crossing.json", or "3 files"; requires has_last().
+    std::string last_title() const;
     /// Throws MachineError if it cannot be written; without a file asks for one. What waits for the answer about
     /// unsaved changes goes on when they are saved.
     void save();
@@ -217,6 +242,8 @@ class Session {
     // Dialogs and messages.
     Dialog dialog = Dialog::none;  ///< the open one
     DialogInput input;             ///< ... and what was put into it
+    FileBrowser browser;           ///< what a dialog for files looks at
+    FilePreview preview;           ///< ... and into
     void open_dialog(Dialog which, DialogInput with = {});
     /// Shows the help, over the open dialog if there is one: closing it leads back there.
     void open_help();
@@ -224,10 +251,21 @@ class Session {
     Dialog behind_help() const { return behind_help_.first; }
     /// Nothing comes of it: what waited for its answer is forgotten.
     void close_dialog();
-    void tell(Message::Level level, const std::string& text);
+    void tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
+    /// The oldest first, at most 50; the list behind the bell.
     const std::vector<Message>& messages() const { return messages_; }
+    /// How many warnings and errors nobody has looked at in the list.
+    std::size_t unread() const;
+    /// Takes one out of the list.
     void dismiss(std::size_t message);
-    void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }
+    void clear_messages() { messages_.clear(); }
+    /// Opens the list; all that is in it counts as read.
+    void open_messages();
+    /// The messages over the picture go behind the bell.
+    void put_messages_away();
+    /// The window shows its messages at this time of its clock: those whose time is over go behind the bell. `held`:
+    /// the mouse is on them, so none goes. Returns in how many seconds the next one goes; infinity: none is up.
+    double age_messages(double now, bool held);
 
     bool follow_test = false;  ///< the camera goes to the pair under test where that is not well in the picture
     /// Cameras of the pictures that are not shown now, by what they are of: "space-time", "moment", "disk".
@@ -275,7 +313,15 @@ class Session {
                         const FittedScene* fitted_beside);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     /// Replaces the document by what `load_all` gives, after asking if there are unsaved changes.
-    void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files);
+    /// ... seen as the scene says, or as `view`.
+    void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
+              const std::optional<ViewState>& view = std::nullopt);
+    /// Says so if one of them is not there; whether it did.
+    bool complain_of_missing(const std::vector<std::filesystem::path>& files);
+    /// They are the latest of the recent ones.
+    void remember(const std::vector<std::filesystem::path>& files);
+    /// Whether something is open that is not the demo as it comes.
+    bool opened_by_person() const;
     /// Changes the present state in place: no step of its own for undo.
     void amend(const std::function<void(Document&)>& change);
     /// For another document: stops playing; nothing is selected or hovered.

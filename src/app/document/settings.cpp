@@ -1,21 +1,25 @@
 #include <app/document/settings.h>
 #include <base/error.h>
 #include <base/file.h>
+#include <base/json.h>
 #include <base/json_writer.h>
+#include <scene/view_options.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace mobbscope::app {
 
 namespace {
 
-constexpr std::size_t kMostRecent = 12;
+constexpr std::size_t kMostRecent = 20;
 
 struct NumberSetting {
     const char* key;
@@ -26,6 +30,101 @@ constexpr std::array<NumberSetting, 4> kNumberSettings{{{"ui_scale", &Settings::
                                                         {"left_width", &Settings::left_width, 50, 5000},
                                                         {"right_width", &Settings::right_width, 50, 5000},
                                                         {"bottom_height", &Settings::bottom_height, 50, 5000}}};
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 6> kFileOrders{"name", "-name", "size", "-size", "date", "-date"};
+constexpr int kFarthest = 100'000;  // pixels from the corner of the displays
+
+/// What the file holds; an empty object where it is none.
+Json read_object(const std::filesystem::path& file) {
+    try {
+        Json json = Json::parse(read_file(file), nullptr, false);
+        if (json.is_object()) return json;
+    } catch (const InputError&) {
+        // The first time there is none.
+    }
+    return Json::object();
+}
+
+std::string setting_text(const Json& json, const char* key) {
+    const auto at = json.find(key);
+    return at != json.end() && at->is_string() ? at->get<std::string>() : "";
+}
+
+/// The absolute paths of a list, at most so many; what is none is passed over.
+std::vector<std::filesystem::path> paths_at(const Json& json, const char* key, std::size_t most) {
+    std::vector<std::filesystem::path> out;
+    const auto list = json.find(key);
+    if (list == json.end() || !list->is_array()) return out;
+    for (const Json& entry : *list) {
+        if (out.size() == most) break;
+        if (!entry.is_string()) continue;
+        const std::filesystem::path path = entry.get<std::string>();
+        if (path.is_absolute()) out.push_back(path);
+    }
+    return out;
+}
+
+Json texts_of(const std::vector<std::filesystem::path>& paths) {
+    Json out = Json::array();
+    for (const std::filesystem::path& path : paths) out.push_back(path.native());
+    return out;
+}
+
+std::optional<int> integer_at(const Json& json, const char* key, int least, int most) {
+    const auto at = json.find(key);
+    if (at == json.end() || !at->is_number()) return std::nullopt;
+    const double read = at->get<double>();
+    if (!(read >= least && read <= most)) return std::nullopt;
+    return static_cast<int>(read);
+}
+
+std::optional<WindowPlace> read_window(const Json& json) {
+    const auto at = json.find("window");
+    if (at == json.end() || !at->is_object()) return std::nullopt;
+    const auto x = integer_at(*at, "x", -kFarthest, kFarthest);
+    const auto y = integer_at(*at, "y", -kFarthest, kFarthest);
+    const auto width = integer_at(*at, "width", 1, kFarthest);
+    const auto height = integer_at(*at, "height", 1, kFarthest);
+    if (!x || !y || !width || !height) return std::nullopt;
+    const auto maximized = at->find("maximized");
+    return WindowPlace{*x, *y, *width, *height,
+                       maximized != at->end() && maximized->is_boolean() && maximized->get<bool>()};
+}
+
+Json json_of(const WindowPlace& window) {
+    return {{"x", window.x},
+            {"y", window.y},
+            {"width", window.width},
+            {"height", window.height},
+            {"maximized", window.maximized}};
+}
+
+/// A session whose files or view cannot be read is none.
+LastSession read_last(const Json& json) {
+    const auto at = json.find("last_session");
+    if (at == json.end() || !at->is_object()) return {};
+    LastSession last{paths_at(*at, "files", std::string::npos), {}};
+    const auto view = at->find("view");
+    if (view == at->end()) return last;
+    try {
+        const std::string name = "settings";
+        const JsonValue value = parse_json(view->dump(), name);
+        last.view = read_view(JsonPlace(value, name));
+    } catch (const std::exception&) {
+        // Another version's: the files are seen as they say themselves.
+        last.view = {};
+    }
+    return last;
+}
+
+Json json_of(const LastSession& last) {
+    std::ostringstream view;
+    JsonWriter out(view);
+    write_view(out, last.view);
+    return {{"files", texts_of(last.files)}, {"view", Json::parse(view.str())}};
+}
 
 std::filesystem::path folder_named_by(const char* variable) {
     const char* value = std::getenv(variable);
@@ -57,45 +156,45 @@ std::filesystem::path settings_file() {
 
 Settings load_settings(const std::filesystem::path& file) {
     Settings settings;
-    std::string text;
-    try {
-        text = read_file(file);
-    } catch (const InputError&) {
-        return settings;
-    }
-    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object()) return settings;
+    const Json json = read_object(file);
     for (const NumberSetting& number : kNumberSettings) {
         const auto at = json.find(number.key);
         if (at == json.end() || !at->is_number()) continue;
         const double read = at->get<double>();
         if (read >= number.least && read <= number.most) settings.*number.value = read;
     }
-    const auto recent = json.find("recent");
-    if (recent == json.end() || !recent->is_array()) return settings;
-    for (const nlohmann::json& entry : *recent) {
-        if (settings.recent.size() == kMostRecent) break;
-        if (!entry.is_string()) continue;
-        const std::filesystem::path path = entry.get<std::string>();
-        if (path.is_absolute()) settings.recent.push_back(path);
+    settings.recent = paths_at(json, "recent", kMostRecent);
+    const std::filesystem::path folder = setting_text(json, "folder");
+    if (folder.is_absolute()) settings.folder = folder;
+    settings.theme = theme_from_name(setting_text(json, "theme"));
+    settings.window = read_window(json);
+    if (const auto folded = json.find("folded"); folded != json.end() && folded->is_object()) {
+        for (const auto& [name, is] : folded->items()) {
+            if (is.is_boolean()) settings.folded[name] = is.get<bool>();
+        }
     }
+    const std::string order = setting_text(json, "file_order");
+    if (std::ranges::find(kFileOrders, order) != kFileOrders.end()) settings.file_order = order;
+    settings.last = read_last(json);
     return settings;
 }
 
 void save_settings(const std::filesystem::path& file, const Settings& settings) {
     if (file.empty()) return;
-    std::ostringstream text;
-    JsonWriter out(text);
-    out.begin_object();
-    for (const NumberSetting& number : kNumberSettings) out.member(number.key, settings.*number.value);
-    out.begin_array("recent");
-    for (const std::filesystem::path& path : settings.recent) out.value(std::string_view(path.native()));
-    out.end_array();
-    out.end_object();
+    Json json = read_object(file);
+    for (const NumberSetting& number : kNumberSettings) json[number.key] = settings.*number.value;
+    json["recent"] = texts_of(settings.recent);
+    json["folder"] = settings.folder.native();
+    json["file_order"] = settings.file_order;
+    if (settings.theme) json["theme"] = name(*settings.theme);
+    if (settings.window) json["window"] = json_of(*settings.window);
+    json["folded"] = settings.folded;
+    json["last_session"] = json_of(settings.last);
     std::error_code ignored;
     std::filesystem::create_directories(file.parent_path(), ignored);
     try {
-        write_file(file, text.str());
+        // Whole or not at all.
+        write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
     } catch (const MachineError&) {
         // Nothing that was worked on is lost.
     }

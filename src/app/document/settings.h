@@ -1,17 +1,45 @@
-/// What the window remembers from one time to the next; nothing that a picture depends on.
+/// What the window remembers from one time to the next; nothing that a picture without a window depends on.
 #pragma once
 
+#include <scene/view_state.h>
+
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace mobbscope::app {
 
+/// Where the window stood: in the display's coordinates, as it is when it is not maximised.
+struct WindowPlace {
+    int x = 0, y = 0;
+    int width = 0, height = 0;
+    bool maximized = false;
+    friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
+};
+
+/// What was open at the end, and how it was seen.
+struct LastSession {
+    std::vector<std::filesystem::path> files;  ///< absolute; empty: there is none
+    ViewState view;
+    friend bool operator==(const LastSession&, const LastSession&) = default;
+};
+
 struct Settings {
-    std::vector<std::filesystem::path> recent;  ///< scenes and clips that were opened, latest first, at most 12
-    double ui_scale = 0;                        ///< of text and panels; 0: the monitor's
-    double left_width = 256;                    ///< of the panels, pixels at scale 1
+    std::vector<std::filesystem::path>
+        recent;                    ///< scenes, clips and folders that were opened, latest first, at most 20
+    std::filesystem::path folder;  ///< where a file was opened or written last; empty: nowhere yet
+    double ui_scale = 0;           ///< of text and panels; 0: the monitor's
+    double left_width = 256;       ///< of the panels, pixels at scale 1
     double right_width = 320;
     double bottom_height = 150;
+    std::optional<Theme> theme;          ///< that was chosen last; none: never
+    std::optional<WindowPlace> window;   ///< none: it was never open
+    std::map<std::string, bool> folded;  ///< sections and panels by name: whether each is folded; others as is usual
+    std::string file_order =
+        "name";  ///< of the file dialog: "name", "size" or "date", with "-" from the last to the first
+    LastSession last;
 
     /// Puts a file first.
     void remember(const std::filesystem::path& file);
@@ -22,7 +50,8 @@ struct Settings {
 std::filesystem::path settings_file();
 /// What the file says; the defaults for what it lacks or says wrong. Never throws.
 Settings load_settings(const std::filesystem::path& file);
-/// Silently does nothing where it cannot write: no work is lost by it.
+/// Silently does nothing where it cannot write: no work is lost by it. Keys in the file that are unknown here stay:
+/// they are another version's.
 void save_settings(const std::filesystem::path& file, const Settings& settings);
 
 }  // namespace mobbscope::app

@@ -1,8 +1,13 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
+#include <app/ui/widgets.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -33,6 +38,44 @@ void unsaved(Ui& ui) {
     end_dialog();
 }
 
+/// Files were dropped while something is open.
+void dropped(Ui& ui) {
+    constexpr std::size_t kMostNames = 6;
+    Session& session = ui.session;
+    const std::vector<std::filesystem::path>& files = session.input.files;
+    begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
+    dialog_title(ui, "Add to this scene, or open instead?");
+    for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
+        const std::filesystem::path& file = files[i];
+        const std::string name = (file.has_filename() ? file : file.parent_path()).filename().string();
+        ImGui::TextUnformatted(fitted_text(name, ImGui::GetContentRegionAvail().x).c_str());
+    }
+    if (files.size() > kMostNames) {
+        ImGui::TextDisabled("and %s more", std::to_string(files.size() - kMostNames).c_str());
+    }
+    ImGui::Dummy({0, ui.px(6)});
+    const auto answer = [&](const char* command) {
+        session.enqueue([&session, command, argument = as_argument(files)] {
+            session.close_dialog();
+            run_command(session, command, argument);
+        });
+    };
+    if (session.crowd()) {
+        // A run stands alone.
+        if (marked_button(ui, "Open instead", "dropped.open", true) || pressed(ImGuiKey_Enter)) answer("file.open");
+    } else {
+        if (marked_button(ui, "Add", "dropped.add", true) || pressed(ImGuiKey_Enter)) answer("file.add");
+        ImGui::SameLine();
+        if (marked_button(ui, "Open instead", "dropped.open") || pressed(Key::o)) answer("file.open");
+    }
+    ImGui::SameLine();
+    if (marked_button(ui, "Cancel", "dropped.cancel")) session.enqueue([&session] { session.close_dialog(); });
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled(session.crowd() ? "Enter or Escape" : "Enter, O or Escape");
+    end_dialog();
+}
+
 }  // namespace
 
 void dialogs(Ui& ui) {
@@ -57,6 +100,12 @@ void dialogs(Ui& ui) {
             break;
         case Dialog::about:
             about(ui);
+            break;
+        case Dialog::dropped:
+            dropped(ui);
+            break;
+        case Dialog::messages:
+            message_list(ui);
             break;
     }
     // A field in it that is typed into is left first.

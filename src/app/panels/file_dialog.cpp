@@ -1,21 +1,43 @@
+#include <app/commands/arguments.h>
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
-#include <app/panels/path_completion.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
+#include <base/file.h>
 #include <base/text.h>
 #include <scene/load_files.h>
 
+#include <algorithm>
 #include <array>
+#include <ctime>
 #include <exception>
+#include <optional>
+#include <span>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 
 namespace {
 
+using Choose = FileBrowser::Choose;
+
 constexpr std::array<std::string_view, 1> kScenes{".json"};
 constexpr std::array<std::string_view, 1> kPictures{".png"};
+
+// Pixels at scale 1.
+constexpr float kDialogWidth = 920;
+constexpr float kDialogHeight = 560;
+constexpr float kPlacesWidth = 132;
+constexpr float kPreviewWidth = 236;
+constexpr float kLeastList = 300;  ///< narrower, what stands beside it gives way
+constexpr float kSizeWidth = 74;
+constexpr float kDateWidth = 136;
+constexpr float kLeastName = 150;  ///< narrower, the date gives way
+constexpr std::size_t kMostCrumbs = 4;
+constexpr std::size_t kMostRecentFolders = 6;
 
 /// What differs between the four.
 struct Purpose {
@@ -25,6 +47,8 @@ struct Purpose {
     const char* command;  ///< that is done with the path
     std::span<const std::string_view> extensions;
     const char* extension;  ///< that a name without one gets; null: none, as the file must be there
+
+    bool writes() const { return extension; }
 };
 
 Purpose purpose_of(Dialog dialog) {
@@ -40,18 +64,12 @@ Purpose purpose_of(Dialog dialog) {
     }
 }
 
-/// Where one begins: the folder of what is open, and for a new file a name.
-std::string first_text(const Session& session, const Purpose& purpose) {
-    const std::filesystem::path& open = session.scene().file;
+bool is_folder(const std::filesystem::path& path) {
     std::error_code ignored;
-    std::filesystem::path folder =
-        open.has_parent_path() && session.file() ? open.parent_path() : std::filesystem::current_path(ignored);
-    if (purpose.extension) {
-        const std::string stem = std::filesystem::path(session.title()).stem().string();
-        return (folder / (stem + purpose.extension)).string();
-    }
-    return (folder / "").string();
+    return std::filesystem::is_directory(path, ignored);
 }
+
+bool is_clip(const FileEntry& entry) { return !entry.folder && lower_extension(entry.name) != ".json"; }
 
 std::string size_text(std::uintmax_t bytes) {
     const double size = static_cast<double>(bytes);
@@ -60,87 +78,420 @@ std::string size_text(std::uintmax_t bytes) {
     return formatted("%.1f MB", size / 1e6);
 }
 
-/// The path that is meant, with the extension that it lacks.
-std::filesystem::path path_meant(const std::string& typed, const Purpose& purpose) {
-    std::filesystem::path path = expanded(typed);
-    if (purpose.extension && path.has_filename() && !path.has_extension()) path += purpose.extension;
-    return path;
+/// Pictures that are compared must not change with the dates of files.
+std::string date_text(const Session& session, std::time_t when) {
+    std::tm parts{};
+    if (!session.may_write || !::localtime_r(&when, &parts)) return "";
+    std::array<char, 32> text{};
+    const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M", &parts);
+    return {text.data(), length};
 }
 
-void accept(Session& session, const Purpose& purpose) {
+/// Where one was last; a scene that has a file is saved beside it.
+void begin(Session& session, const Purpose& purpose) {
+    std::filesystem::path folder = session.settings.folder;
+    if (purpose.writes() && session.file()) folder = session.file()->parent_path();
+    if (!folder.empty() && !is_folder(folder)) folder.clear();
+    const std::string open = session.scene().file.filename().string();
+    session.browser.order_by(session.settings.file_order);
+    session.browser.begin(folder, purpose.extensions, open);
+    const std::string stem = std::filesystem::path(session.title()).stem().string();
+    session.input.set_text(purpose.writes() ? stem + purpose.extension : "");
+}
+
+/// What was typed led elsewhere; the name of a file that is to be written stays.
+void keep_name(Session& session, const Purpose& purpose) {
+    const std::string& typed = session.input.text;
+    session.input.set_text(purpose.writes() ? typed.substr(typed.rfind('/') + 1) : "");
+}
+
+void go_into(Session& session, const Purpose& purpose, const std::filesystem::path& folder) {
+    session.browser.go(folder);
+    keep_name(session, purpose);
+}
+
+void go_up(Session& session, const Purpose& purpose) {
+    session.browser.go_up();
+    keep_name(session, purpose);
+}
+
+/// Does the dialog's command with files; what goes wrong is said, and the dialog stays.
+void take(Session& session, const Purpose& purpose, const std::vector<std::filesystem::path>& files) {
+    const Dialog dialog = session.dialog;
+    try {
+        run_command(session, purpose.command, as_argument(files));
+        if (session.dialog == dialog) session.close_dialog();
+    } catch (const std::exception& error) {
+        session.tell(Message::Level::error, error.what());
+        session.input.fresh = true;
+    }
+}
+
+/// A file that is to be written, with the extension that it lacks; asks before another one is overwritten.
+void take_written(Session& session, const Purpose& purpose) {
     DialogInput& input = session.input;
-    const std::filesystem::path path = path_meant(input.text, purpose);
+    std::filesystem::path path = typed_path(input.text, session.browser.folder());
+    if (is_folder(path)) return go_into(session, purpose, path);
+    if (path.has_filename() && !path.has_extension()) path += purpose.extension;
     std::error_code ignored;
     const bool keeps_own = session.dialog == Dialog::save_as && session.file() &&
                            std::filesystem::equivalent(path, *session.file(), ignored);
-    if (purpose.extension && !keeps_own && !input.confirming && std::filesystem::exists(path, ignored)) {
+    if (!keeps_own && !input.confirming && std::filesystem::exists(path, ignored)) {
         input.confirming = true;
         input.fresh = true;
         return;
     }
-    const Dialog dialog = session.dialog;
-    try {
-        if (dialog == Dialog::save_as) {
+    const auto pending_goes_on = [&] {
+        try {
             session.save_as(path);  // closes the dialog, and goes on with what waited for it
-            return;
+        } catch (const std::exception& error) {
+            session.tell(Message::Level::error, error.what());
+            input.fresh = true;
         }
-        run_command(session, purpose.command, path.string());
-        if (session.dialog == dialog) session.close_dialog();
-    } catch (const std::exception& error) {
-        session.tell(Message::Level::error, error.what());
-        input.fresh = true;
+    };
+    session.dialog == Dialog::save_as ? pending_goes_on() : take(session, purpose, {path});
+}
+
+/// What is chosen, which is what was typed where that is listed; a folder is gone into.
+void take_read(Session& session, const Purpose& purpose) {
+    const std::vector<std::filesystem::path> chosen = session.browser.chosen();
+    if (chosen.size() == 1 && is_folder(chosen.front())) return go_into(session, purpose, chosen.front());
+    if (!chosen.empty()) return take(session, purpose, chosen);
+    const std::string& typed = session.input.text;
+    const std::filesystem::path path = typed_path(typed, session.browser.folder()).lexically_normal();
+    if (typed.empty()) {
+        session.input.fresh = true;
+    } else if (is_folder(path)) {
+        go_into(session, purpose, path);
+    } else {
+        take(session, purpose, {path});  // which says what is wrong with it
     }
 }
 
-/// The files and folders that go on as typed; a folder that is taken is gone into.
-void listing(Ui& ui, const Purpose& purpose, const PathCompletion& completion, bool& accepted) {
-    DialogInput& input = ui.session.input;
-    const int count = static_cast<int>(completion.entries.size());
-    const bool moved = move_picked(input.picked, count);
-    if (completion.entries.empty())
-        ImGui::TextDisabled(purpose.extension ? "No file here begins so."
-                                              : "There is nothing here that can be opened.");
-    for (int i = 0; i < count; ++i) {
-        const PathEntry& entry = completion.entries[static_cast<std::size_t>(i)];
-        const std::string name = entry.name + (entry.folder ? "/" : "");
-        ImGui::PushID(i);
-        const bool clicked = ImGui::Selectable(name.c_str(), i == input.picked, ImGuiSelectableFlags_AllowDoubleClick);
-        ImGui::PopID();
-        ui.mark_only(std::string(purpose.prefix) + ".entry." + entry.name);
-        if (moved && i == input.picked) ImGui::SetScrollHereY();
-        if (!entry.folder) {
-            const std::string size = size_text(entry.size);
-            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - text_size(*ui.style.mono, size).x);
-            text_line(ui.style.quiet, size, ui.style.mono);
+/// The folder whose clips are opened together: the one that is chosen, else the one that is listed.
+std::filesystem::path folder_of_clips(const FileBrowser& browser) {
+    const std::vector<std::filesystem::path> chosen = browser.chosen();
+    return chosen.size() == 1 && is_folder(chosen.front()) ? chosen.front() : browser.listed();
+}
+
+// --- what stands above the list
+
+/// The way to the folder, each step a button.
+void crumbs(Ui& ui, const Purpose& purpose) {
+    Session& session = ui.session;
+    const std::string prefix = purpose.prefix;
+    const auto go = [&](const std::filesystem::path& folder) {
+        session.enqueue([&session, purpose, folder] { go_into(session, purpose, folder); });
+    };
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up)) session.enqueue([&session, purpose] { go_up(session, purpose); });
+    ui.mark(prefix + ".up");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The folder above (Backspace, or Alt+Up)");
+    const std::vector<std::filesystem::path> way = session.browser.way();
+    const std::size_t first = way.size() > kMostCrumbs ? way.size() - kMostCrumbs : 0;
+    const float room = ImGui::GetContentRegionMax().x / static_cast<float>(kMostCrumbs + 1);
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
+    if (first > 0) {
+        ImGui::SameLine();
+        if (ImGui::Button("\u2026")) go(way[first - 1]);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", way[first - 1].string().c_str());
+    }
+    for (std::size_t i = first; i < way.size(); ++i) {
+        ImGui::SameLine(0, ui.px(2));
+        if (i > 0) {
+            ImGui::AlignTextToFramePadding();
+            ImGui::TextDisabled("/");
+            ImGui::SameLine(0, ui.px(2));
         }
-        if (clicked) {
-            const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-            // A folder is gone into at the second click; a file is named at the first and taken at the second.
-            if (!entry.folder || twice) input.set_text(with_entry(input.text, entry));
-            if (!entry.folder && twice) accepted = true;
-            if (!twice) {
-                input.picked = i;
-                input.fresh = true;
+        const std::string name = i == 0 ? "/" : way[i].filename().string();
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Button(fitted_text(name, room).c_str())) go(way[i]);
+        ImGui::PopID();
+        ui.mark(prefix + ".crumb." + std::to_string(way.size() - 1 - i));
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", way[i].string().c_str());
+    }
+    ImGui::PopStyleColor();
+}
+
+// --- what stands at the left
+
+struct FilePlace {
+    std::string name;
+    std::filesystem::path folder;
+};
+
+/// Where files often are.
+std::vector<FilePlace> places(const Session& session) {
+    std::vector<FilePlace> out;
+    const std::string home = expanded("~");
+    out.push_back({"Home", home == "~" ? "/" : home});
+    if (session.file()) out.push_back({"This scene's", typed_path(".", session.file()->parent_path())});
+    try {
+        out.push_back({"Examples", demo_scene_file().parent_path().parent_path()});
+    } catch (const MachineError&) {
+        // It was installed without them.
+    }
+    return out;
+}
+
+std::vector<FilePlace> recent_folders(const Session& session) {
+    std::vector<FilePlace> out;
+    for (const std::filesystem::path& file : session.settings.recent) {
+        const std::filesystem::path folder = file.has_extension() ? file.parent_path() : file;
+        const bool known = std::ranges::any_of(out, [&](const FilePlace& place) { return place.folder == folder; });
+        if (!known) out.push_back({folder.filename().string(), folder});
+        if (out.size() == kMostRecentFolders) break;
+    }
+    return out;
+}
+
+void place_list(Ui& ui, const Purpose& purpose) {
+    Session& session = ui.session;
+    const auto list = [&](const std::vector<FilePlace>& all, const std::string& mark) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const FilePlace& place = all[i];
+            ImGui::PushID(static_cast<int>(i));
+            ImGui::PushID(mark.c_str());
+            if (ImGui::Selectable(fitted_text(place.name, ImGui::GetContentRegionAvail().x).c_str())) {
+                session.enqueue([&session, purpose, to = place.folder] { go_into(session, purpose, to); });
             }
-            return;
+            ImGui::PopID();
+            ImGui::PopID();
+            ui.mark(purpose.prefix + mark + std::to_string(i));
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", place.folder.string().c_str());
         }
+    };
+    text_line(ui.style.quiet, "PLACES", ui.style.caption);
+    list(places(session), ".place.");
+    const std::vector<FilePlace> recent = recent_folders(session);
+    if (recent.empty()) return;
+    ImGui::Dummy({0, ui.px(6)});
+    text_line(ui.style.quiet, "RECENT", ui.style.caption);
+    list(recent, ".recent.");
+}
+
+// --- the list
+
+/// Where its columns begin, from the left end of a row.
+struct Columns {
+    float width = 0;  ///< of the row
+    float size = 0;   ///< right end
+    float date = 0;   ///< left end; 0: there is no room for it
+};
+
+Columns columns_of(const Ui& ui, float width) {
+    Columns out{width, width - ui.px(6), 0};
+    if (width - ui.px(kSizeWidth + kDateWidth) > ui.px(kLeastName)) {
+        out.date = width - ui.px(kDateWidth);
+        out.size = out.date - ui.px(14);
+    }
+    return out;
+}
+
+/// Orders by a column, or the other way round if it is ordered by it already.
+void order_by(Session& session, const std::string& column) {
+    std::string& now = session.settings.file_order;
+    // Who orders by date or size looks for the latest or largest.
+    const std::string first = column == "name" ? column : "-" + column;
+    const std::string other = column == "name" ? "-" + column : column;
+    now = now == first ? other : first;
+    session.browser.order_by(now);
+}
+
+/// The heads of the columns; a click orders by one, the next one the other way round.
+void column_heads(Ui& ui, const Purpose& purpose, const Columns& columns) {
+    Session& session = ui.session;
+    const std::string& now = session.settings.file_order;
+    const ImVec2 at = ImGui::GetCursorPos();
+    const auto head = [&](const char* label, const std::string& order, float from, float to) {
+        const bool first_to_last = now == order;
+        const bool last_to_first = now == "-" + order;
+        ImGui::SetCursorPos({at.x + from, at.y});
+        const float height = ImGui::GetTextLineHeight() + ui.px(6);
+        if (ImGui::InvisibleButton(order.c_str(), {to - from, height})) order_by(session, order);
+        ui.mark(purpose.prefix + (".order." + order));
+        const bool hovered = ImGui::IsItemHovered();
+        if (hovered) ImGui::SetTooltip("Orders by it: Ctrl+1 the name, Ctrl+2 the size, Ctrl+3 the date");
+        const ImVec2 min = ImGui::GetItemRectMin();
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        const ImU32 color = hovered || first_to_last || last_to_first ? ui.style.text : ui.style.quiet;
+        const ImFont& font = *ui.style.caption;
+        const float y = min.y + (height - font.FontSize) / 2;
+        const float word = text_size(font, label).x;
+        const bool right = order == "size";
+        const float x = right ? ImGui::GetItemRectMax().x - word : min.x + (order == "name" ? ui.px(6) : 0);
+        draw_text(draw, font, {x, y}, color, label);
+        if (!first_to_last && !last_to_first) return;
+        const ImVec2 tip{right ? x - ui.px(8) : x + word + ui.px(8), y + font.FontSize / 2};
+        const float up = first_to_last ? -1.0f : 1.0f;
+        const float side = ui.px(3);
+        draw.AddTriangleFilled({tip.x - side, tip.y - up * side / 2}, {tip.x + side, tip.y - up * side / 2},
+                               {tip.x, tip.y + up * side}, color);
+    };
+    head("NAME", "name", 0, columns.size - ui.px(kSizeWidth));
+    head("SIZE", "size", columns.size - ui.px(kSizeWidth), columns.size);
+    if (columns.date > 0) head("CHANGED", "date", columns.date, columns.width);
+}
+
+/// One line of the list; returns whether it was clicked.
+bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& columns) {
+    const FileBrowser& browser = ui.session.browser;
+    const float height = ImGui::GetTextLineHeight() + ui.px(6);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushID(static_cast<int>(index));
+    const bool clicked = ImGui::Selectable("##row", browser.is_chosen(entry), ImGuiSelectableFlags_AllowDoubleClick,
+                                           {columns.width, height});
+    ImGui::PopID();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float y = at.y + (height - ImGui::GetFontSize()) / 2;
+    const std::string size = entry.folder ? "" : size_text(entry.size);
+    const float name_room = columns.size - text_size(*ui.style.mono, size).x - ui.px(16);
+    const std::string name = fitted_text(entry.name + (entry.folder ? "/" : ""), name_room);
+    draw.AddText({at.x + ui.px(6), y}, entry.folder ? ui.style.accent : ui.style.text, name.c_str());
+    const auto number = [&](float x, const std::string& text) {
+        draw_text(draw, *ui.style.mono, {at.x + x, at.y + (height - ui.style.mono->FontSize) / 2}, ui.style.quiet,
+                  text);
+    };
+    number(columns.size - text_size(*ui.style.mono, size).x, size);
+    if (columns.date > 0) number(columns.date, date_text(ui.session, entry.written));
+    if (index == browser.cursor() && browser.chosen_count() > 1) {
+        draw.AddRect(at, {at.x + columns.width, at.y + height}, ui.style.accent, ui.px(2));
+    }
+    return clicked;
+}
+
+/// A click on an entry; whether it is taken.
+bool clicked_entry(Session& session, const Purpose& purpose, std::size_t index) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const FileEntry& entry = session.browser.entries()[index];
+    session.input.fresh = true;  // keys go on in the field
+    session.browser.choose(index, io.KeyShift && !purpose.writes()  ? Choose::range
+                                  : io.KeyCtrl && !purpose.writes() ? Choose::toggle
+                                                                    : Choose::only);
+    const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    if (purpose.writes()) {
+        if (entry.folder && twice) {
+            session.enqueue(
+                [&session, purpose, to = session.browser.listed() / entry.name] { go_into(session, purpose, to); });
+        }
+        // The name of a file that is there may be meant for the new one.
+        if (!entry.folder) session.input.set_text(entry.name);
+        return twice && !entry.folder;
+    }
+    return twice;
+}
+
+/// The keys that move through the list while the field has the others.
+bool keys_in_list(Session& session, const Purpose& purpose) {
+    FileBrowser& browser = session.browser;
+    const ImGuiIO& io = ImGui::GetIO();
+    if (browser.entries().empty() || io.KeyAlt) return false;
+    int at = static_cast<int>(browser.cursor());
+    const bool moved = move_picked(at, static_cast<int>(browser.entries().size()));
+    const bool several = !purpose.writes();
+    if (moved) {
+        browser.choose(static_cast<std::size_t>(at), io.KeyShift && several  ? Choose::range
+                                                     : io.KeyCtrl && several ? Choose::none
+                                                                             : Choose::only);
+    }
+    constexpr std::array<std::pair<Key, const char*>, 3> kOrders{
+        {{Key::n1, "name"}, {Key::n2, "size"}, {Key::n3, "date"}}};
+    for (const auto& [key, column] : kOrders) {
+        if (io.KeyCtrl && pressed(key)) order_by(session, column);
+    }
+    if (several && io.KeyCtrl && pressed(ImGuiKey_Space)) browser.choose(browser.cursor(), Choose::toggle);
+    if (several && io.KeyCtrl && pressed(ImGuiKey_A) && session.input.text.empty()) browser.choose_all();
+    return moved;
+}
+
+/// Whether an entry was taken by a double click.
+bool listing(Ui& ui, const Purpose& purpose, bool moved) {
+    Session& session = ui.session;
+    const FileBrowser& browser = session.browser;
+    const Columns columns = columns_of(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize);
+    column_heads(ui, purpose, columns);
+    ImGui::BeginChild("entries", {0, 0}, false);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    if (!browser.error().empty()) {
+        words(ui.style.error, browser.error());
+    } else if (browser.entries().empty()) {
+        words(ui.style.quiet, purpose.writes()             ? "No such file is here yet."
+                              : session.input.text.empty() ? "There is nothing here that can be opened."
+                                                           : "No name here holds what is typed.");
+    }
+    std::optional<std::size_t> clicked;
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(browser.entries().size()));
+    const int cursor = static_cast<int>(browser.cursor());
+    if (moved) clipper.ForceDisplayRangeByIndices(cursor, cursor + 1);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const auto index = static_cast<std::size_t>(i);
+            if (file_row(ui, browser.entries()[index], index, columns)) clicked = index;
+            ui.mark_only(std::string(purpose.prefix) + ".entry." + browser.entries()[index].name);
+            if (moved && i == cursor) ImGui::SetScrollHereY();
+        }
+    }
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+    return clicked && clicked_entry(session, purpose, *clicked);
+}
+
+// --- what a file holds
+
+const FileSummary* summary_at_cursor(Ui& ui) {
+    Session& session = ui.session;
+    const FileBrowser& browser = session.browser;
+    if (browser.entries().empty()) return nullptr;
+    const std::filesystem::path file = browser.listed() / browser.entries()[browser.cursor()].name;
+    const FileSummary* summary = session.preview.ask(file, ui.now, !session.attended(), session.hooks.wake);
+    if (!summary) ui.want_frame_in(session.preview.ask_again_in(ui.now));
+    return summary;
+}
+
+void preview(Ui& ui) {
+    const FileBrowser& browser = ui.session.browser;
+    if (browser.entries().empty()) return;
+    const FileEntry& entry = browser.entries()[browser.cursor()];
+    ImGui::TextUnformatted(fitted_text(entry.name, ImGui::GetContentRegionAvail().x).c_str());
+    const FileSummary* summary = summary_at_cursor(ui);
+    if (!summary) return text_line(ui.style.quiet, "Reading\u2026");
+    words(summary->readable ? ui.style.quiet : ui.style.error, summary->title);
+    ImGui::Dummy({0, ui.px(4)});
+    const float end = ImGui::GetContentRegionAvail().x;
+    for (const auto& [label, value] : summary->facts) {
+        text_line(ui.style.quiet, label);
+        ImGui::SameLine(ui.px(70));
+        ImGui::TextUnformatted(fitted_text(value, end - ui.px(70)).c_str());
+    }
+    for (const auto& [name, duration] : summary->clips) {
+        const float width = text_size(*ui.style.mono, duration).x;
+        ImGui::TextUnformatted(fitted_text(name, end - width - ui.px(10)).c_str());
+        ImGui::SameLine(end - width);
+        text_line(ui.style.quiet, duration, ui.style.mono);
+    }
+    if (!summary->clips.empty() && summary->clip_count > summary->clips.size()) {
+        text_line(ui.style.quiet, "and " + std::to_string(summary->clip_count - summary->clips.size()) + " more");
+    }
+    for (const std::string& warning : summary->warnings) {
+        ImGui::Dummy({0, ui.px(2)});
+        words(ui.style.warning, warning);
     }
 }
 
-void recent_files(Ui& ui, const Purpose& purpose, bool& accepted) {
-    text_line(ui.style.quiet, "RECENT", ui.style.caption);
-    int index = 0;
-    for (const std::filesystem::path& file : ui.session.settings.recent) {
-        ImGui::PushID(index);
-        const bool clicked = ImGui::Selectable(file.filename().string().c_str(), false);
-        ImGui::PopID();
-        ui.mark(std::string(purpose.prefix) + ".recent." + std::to_string(index++));
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", file.string().c_str());
-        if (!clicked) continue;
-        ui.session.input.set_text(file.string());
-        accepted = true;
-        return;
-    }
+/// In a line, where there is no room beside the list.
+std::string in_a_line(Ui& ui, bool has_preview) {
+    const FileBrowser& browser = ui.session.browser;
+    if (browser.chosen_count() > 1) return counted(browser.chosen_count(), "entry", "entries") + " chosen";
+    const FileSummary* summary = has_preview ? nullptr : summary_at_cursor(ui);
+    return summary ? summary->title : "";
+}
+
+/// The next button goes on the same line if it fits there.
+bool flowing_button(Ui& ui, const char* label, const std::string& mark, const char* help) {
+    flow(button_width(label));
+    const bool hit = marked_button(ui, label, mark.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    return hit;
 }
 
 }  // namespace
@@ -148,60 +499,90 @@ void recent_files(Ui& ui, const Purpose& purpose, bool& accepted) {
 void file_dialog(Ui& ui) {
     Session& session = ui.session;
     DialogInput& input = session.input;
+    FileBrowser& browser = session.browser;
     const Purpose purpose = purpose_of(session.dialog);
-    if (input.generation == 0) input.set_text(first_text(session, purpose));
-    begin_dialog(ui, "file", {680, 460});
-    dialog_title(ui, purpose.title);
-    const auto complete = [&](const std::string& text) { return complete_path(text, purpose.extensions).completed; };
     const std::string prefix = purpose.prefix;
-    const FieldEvents events = text_field(ui, "A path; Tab completes it", complete);
-    ui.mark(prefix + ".path");
-    const PathCompletion completion = complete_path(input.text, purpose.extensions);
+    const auto enqueue = [&](void (*what)(Session&, const Purpose&)) {
+        session.enqueue([&session, purpose, what] { what(session, purpose); });
+    };
+    if (input.generation == 0) begin(session, purpose);
+    begin_dialog(ui, "file", {kDialogWidth, kDialogHeight});
+    dialog_title(ui, purpose.title);
+    crumbs(ui, purpose);
 
-    const float foot = ImGui::GetFrameHeightWithSpacing() + ui.px(4);
-    const bool has_recent = !purpose.extension && !session.settings.recent.empty();
-    const float side = has_recent ? ui.px(180) : 0;
-    bool accepted = false;
-    ImGui::BeginChild("files", {ImGui::GetContentRegionAvail().x - side, -foot}, false);
-    listing(ui, purpose, completion, accepted);
+    // Backspace leads up where there is nothing to delete.
+    const bool up =
+        (input.text.empty() && pressed(ImGuiKey_Backspace)) || (ImGui::GetIO().KeyAlt && pressed(ImGuiKey_UpArrow));
+    const auto complete = [&](const std::string& text) {
+        return complete_path(text, browser.folder(), purpose.extensions);
+    };
+    const FieldEvents events =
+        text_field(ui, purpose.writes() ? "A name" : "A part of a name, or a path; Tab completes it", complete);
+    ui.mark(prefix + ".path");
+    browser.follow(input.text, !purpose.writes());
+    session.settings.folder = session.attended() ? browser.way().back() : browser.folder();
+    const bool moved = keys_in_list(session, purpose);
+    if (ImGui::GetIO().KeyCtrl && pressed(Key::h)) browser.show_hidden(!browser.shows_hidden());
+
+    const float room = ImGui::GetContentRegionAvail().x;
+    const bool has_places = room >= ui.px(kPlacesWidth + kLeastList);
+    const float preview_room = room - (has_places ? ui.px(kPlacesWidth) : 0);
+    const bool has_preview = !purpose.writes() && preview_room >= ui.px(kPreviewWidth + kLeastList);
+    const bool one_line = room >= ui.px(600);
+    const float foot = (one_line ? 1.0f : 2.0f) * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
+    if (has_places) {
+        ImGui::BeginChild("places", {ui.px(kPlacesWidth) - ui.px(12), -foot}, false);
+        place_list(ui, purpose);
+        ImGui::EndChild();
+        ImGui::SameLine(0, ui.px(12));
+    }
+    ImGui::BeginChild("files", {has_preview ? -ui.px(kPreviewWidth) : 0, -foot}, false);
+    bool accepted = listing(ui, purpose, moved) || events.entered;
     ImGui::EndChild();
-    if (has_recent) {
-        ImGui::SameLine();
-        ImGui::BeginChild("recent", {0, -foot}, false);
-        recent_files(ui, purpose, accepted);
+    if (has_preview) {
+        ImGui::SameLine(0, ui.px(12));
+        ImGui::BeginChild("preview", {0, -foot}, false);
+        preview(ui);
         ImGui::EndChild();
     }
 
-    if (events.entered) {
-        // Enter takes the picked entry where the text is only its beginning.
-        std::error_code ignored;
-        const std::filesystem::path typed = expanded(input.text);
-        const bool is_file = std::filesystem::exists(typed, ignored) && !std::filesystem::is_directory(typed, ignored);
-        const bool is_new = purpose.extension && typed.has_filename() && !std::filesystem::is_directory(typed, ignored);
-        const auto picked = static_cast<std::size_t>(input.picked);
-        if (is_file || (is_new && input.picked == 0) || picked >= completion.entries.size()) {
-            accepted = true;
-        } else {
-            const PathEntry entry = completion.entries[picked];
-            input.set_text(with_entry(input.text, entry));
-            accepted = !entry.folder;
+    accepted |= marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true);
+    ImGui::SameLine();
+    if (marked_button(ui, "Cancel", (prefix + ".cancel").c_str())) {
+        session.enqueue([&session] { session.close_dialog(); });
+    }
+    bool as_clips = false;
+    if (!purpose.writes()) {
+        const bool has_clips =
+            std::ranges::any_of(browser.entries(), is_clip) || folder_of_clips(browser) != browser.listed();
+        if (has_clips) {
+            as_clips = flowing_button(ui, "All clips of the folder", prefix + ".folder",
+                                      "Every clip in the folder that is chosen, or else in this one (Ctrl+Enter)");
         }
+        as_clips |= has_clips && pressed(ImGuiKey_Enter) && ImGui::GetIO().KeyCtrl;
     }
-    if (marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true)) {
-        accepted = true;
-    }
-    ImGui::SameLine();
-    const bool cancelled = marked_button(ui, "Cancel", (prefix + ".cancel").c_str());
-    ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    if (input.confirming) {
-        text_line(ui.style.warning, "This file exists. Enter overwrites it.");
-    } else if (!purpose.extension) {
-        ImGui::TextDisabled("Enter goes into a folder; Open opens all clips in it.");
+    flow(button_width("Hidden") + ui.px(24));
+    bool hidden = browser.shows_hidden();
+    if (ImGui::Checkbox("Hidden", &hidden)) browser.show_hidden(hidden);
+    ui.mark(prefix + ".hidden");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Files and folders whose names begin with a dot (Ctrl+H)");
+    const std::string line = input.confirming   ? "This file exists. Enter overwrites it."
+                             : purpose.writes() ? ""
+                                                : in_a_line(ui, has_preview);
+    if (!line.empty()) {
+        if (one_line) ImGui::SameLine();
+        ImGui::AlignTextToFramePadding();
+        text_line(input.confirming ? ui.style.warning : ui.style.quiet,
+                  fitted_text(line, ImGui::GetContentRegionAvail().x));
     }
     end_dialog();
-    if (accepted) session.enqueue([&session, purpose] { accept(session, purpose); });
-    if (cancelled) session.enqueue([&session] { session.close_dialog(); });
+    if (as_clips) {
+        session.enqueue([&session, purpose] { take(session, purpose, {folder_of_clips(session.browser)}); });
+    } else if (accepted) {
+        enqueue(purpose.writes() ? take_written : take_read);
+    } else if (up) {
+        enqueue(go_up);
+    }
 }
 
 }  // namespace mobbscope::app

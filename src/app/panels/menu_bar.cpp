@@ -25,6 +25,7 @@ std::string lower_case(std::string_view text) {
 /// "Undo moving A".
 std::string title_of(const Session& session, const Command& command) {
     std::string title(command.title);
+    if (command.id == "file.reopen_last" && session.has_last()) title += ": " + session.last_title();
     if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
     if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
     return title;
@@ -137,15 +138,16 @@ void search(Ui& ui, float left, float right) {
     draw_text(draw, *ui.style.mono, {max.x - pad - key_width, y}, ui.style.quiet, key);
 }
 
-/// The file's name at the right, with a dot when it is not saved; returns where it begins. A long name loses its end.
-float file_title(Ui& ui, float left) {
+/// The file's name between two places, at the right, with a dot when it is not saved; returns where it begins. A long
+/// name loses its end.
+float file_title(Ui& ui, float left, float right) {
     const Session& session = ui.session;
     const std::string title = session.title();
     const float pad = ui.px(12);
     const float dot = session.modified() ? ui.px(14) : 0;
-    const float room = ImGui::GetWindowWidth() - left - 2 * pad - dot;
+    const float room = right - left - 2 * pad - dot;
     const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, std::max(room, ui.px(40)));
-    const float x = ImGui::GetWindowWidth() - pad - width;
+    const float x = right - pad - width;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float middle = ImGui::GetFrameHeight() / 2;
     if (session.modified()) draw.AddCircleFilled({x - dot + ui.px(4), middle}, ui.px(3.5f), ui.style.warning);
@@ -177,7 +179,7 @@ void menu_bar(Ui& ui) {
         ImGui::EndMenu();
     }
     const float left = ImGui::GetCursorPosX();
-    const float right = file_title(ui, left);
+    const float right = file_title(ui, left, message_bell(ui));
     search(ui, left, right);
     ImGui::EndMainMenuBar();
 }

@@ -1,10 +1,14 @@
+#include <app/commands/command.h>
 #include <app/document/job.h>
 #include <app/panels/panels.h>
+#include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
 
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -13,13 +17,34 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kInfoSeconds = 4;
-constexpr float kWidest = 560;  // pixels at scale 1
+constexpr float kWidest = 440;        // pixels at scale 1
+constexpr std::size_t kMostUp = 3;    // over the picture; the others are behind the bell
+constexpr float kLeastWithJob = 300;  // pixels at scale 1
+constexpr float kListWidth = 640;     // pixels at scale 1
+constexpr float kListHeight = 420;    // pixels at scale 1
+constexpr float kBarWidth = 3;        // pixels at scale 1: of the coloured edge that says how bad it is
 
-/// Where the lower left corner is, and how wide they are.
+ImU32 color_of(const Ui& ui, Message::Level level) {
+    return level == Message::Level::error     ? ui.style.error
+           : level == Message::Level::warning ? ui.style.warning
+                                              : ui.style.accent;
+}
+
+/// "12 s ago"; empty for one that was not shown.
+std::string age_text(const Message& message, double now) {
+    if (!message.shown_at) return "";
+    const double seconds = std::max(now - *message.shown_at, 0.0);
+    if (seconds < 1) return "now";
+    if (seconds < 60) return formatted("%.0f s ago", std::floor(seconds));
+    if (seconds < 3600) return formatted("%.0f min ago", std::floor(seconds / 60));
+    return formatted("%.0f h ago", std::floor(seconds / 3600));
+}
+
+/// Where a corner at the bottom is, how wide they are, and which corner: 0 the left one, 1 the right one.
 struct MessagePlace {
     ImVec2 corner;
     float width;
+    float pivot;
 };
 
 MessagePlace place_of(const Ui& ui) {
@@ -28,7 +53,7 @@ MessagePlace place_of(const Ui& ui) {
     // Below what a dialog says and asks.
     if (ui.session.dialog != Dialog::none) {
         const float width = std::min(room.x - 2 * gap, ui.px(kWidest));
-        return {{(room.x - width) / 2, room.y - gap}, width};
+        return {{(room.x - width) / 2, room.y - gap}, width, 0};
     }
     const auto& marks = ui.marks.all();
     const auto left = marks.find("splitter.left");
@@ -37,55 +62,64 @@ MessagePlace place_of(const Ui& ui) {
     const float x0 = left == marks.end() ? 0 : left->second.max.x;
     const float x1 = right == marks.end() ? room.x : right->second.min.x;
     const float y = bottom == marks.end() ? room.y : bottom->second.min.y;
-    return {{x0 + gap, y - gap}, std::min(x1 - x0 - 2 * gap, ui.px(kWidest))};
+    // The legend lies at the left.
+    return {{x1 - gap, y - gap}, std::min(x1 - x0 - 2 * gap, ui.px(kWidest)), 1};
 }
 
-/// Draws one; true if it is to go.
-bool draw(Ui& ui, const Message& message, std::size_t index) {
-    const bool stays = message.level != Message::Level::info;
-    const ImU32 color = message.level == Message::Level::error     ? ui.style.error
-                        : message.level == Message::Level::warning ? ui.style.warning
-                                                                   : ui.style.accent;
-    const std::string mark = "message." + std::to_string(index);
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float words = ImGui::CalcTextSize("Copy").x + ImGui::CalcTextSize("x").x;
-    const float buttons = stays ? words + 4 * style.FramePadding.x + style.ItemSpacing.x + ui.px(8) : 0;
+/// What a person wants of a message.
+enum class Wish { nothing, dismiss };
+
+/// Offer, Copy and x, from the right end of a line; `wide`: what they need of it.
+float buttons_width(const Ui& ui, const Message& message) {
+    const float padding = 2 * ImGui::GetStyle().FramePadding.x;
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    float width = ImGui::CalcTextSize("Copy").x + ImGui::CalcTextSize("x").x + 2 * padding + gap + ui.px(8);
+    if (message.offer) width += ImGui::CalcTextSize(message.offer->label.c_str()).x + padding + gap;
+    return width;
+}
+
+Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
+    Session& session = ui.session;
+    if (message.offer) {
+        if (small_button(ui, message.offer->label.c_str(), mark + ".offer")) {
+            session.enqueue([&session, offer = *message.offer] {
+                if (session.dialog == Dialog::messages) session.close_dialog();
+                session.put_messages_away();
+                run_command(session, offer.command, offer.argument);
+            });
+        }
+        ImGui::SameLine();
+    }
+    if (small_button(ui, "Copy", mark + ".copy", "Copy the text") && session.hooks.set_clipboard) {
+        session.hooks.set_clipboard(message.text);
+    }
+    ImGui::SameLine();
+    return small_button(ui, "x", mark + ".dismiss", "Take it off the list") ? Wish::dismiss : Wish::nothing;
+}
+
+/// Draws one; `right` stands at the end of its first line, before the buttons.
+Wish draw_message(Ui& ui, const Message& message, const std::string& mark, const std::string& right) {
+    const float side = buttons_width(ui, message);
+    const float end = ImGui::GetWindowContentRegionMax().x;
+    const float age = right.empty() ? 0 : text_size(*ui.style.caption, right).x + ui.px(12);
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::PushID(static_cast<int>(index));
+    ImGui::PushID(mark.c_str());
     ImGui::BeginGroup();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
-    ImGui::PushTextWrapPos(ImGui::GetWindowContentRegionMax().x - buttons);
+    ImGui::PushTextWrapPos(end - side - age);
     ImGui::TextUnformatted(message.text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndGroup();
     ui.mark(mark);
-    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + ui.px(3), ImGui::GetItemRectMax().y}, color);
-    bool gone = false;
-    if (stays) {
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons + ui.px(8));
-        const bool copies = small_button(ui, "Copy", mark + ".copy");
-        if (copies && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(message.text);
-        ImGui::SameLine();
-        gone = small_button(ui, "x", mark + ".dismiss");
-    }
+    const float bottom = ImGui::GetItemRectMax().y;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(at, {at.x + ui.px(kBarWidth), bottom}, color_of(ui, message.level));
+    ImGui::SameLine(end - side - age);
+    if (!right.empty()) text_line(ui.style.quiet, right, ui.style.caption);
+    ImGui::SameLine(end - side + ui.px(8));
+    const Wish wish = buttons(ui, message, mark);
     ImGui::PopID();
-    return gone;
-}
-
-/// Info goes by itself.
-void forget_old(Ui& ui) {
-    Session& session = ui.session;
-    for (std::size_t i = session.messages().size(); i-- > 0;) {
-        const Message& message = session.messages()[i];
-        if (!message.shown_at) session.note_shown(i, ui.now);
-        if (message.level != Message::Level::info) continue;
-        const double left = *message.shown_at + kInfoSeconds - ui.now;
-        if (left <= 0) {
-            session.dismiss(i);
-        } else {
-            ui.want_frame_in(left);
-        }
-    }
+    return wish;
 }
 
 constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
@@ -121,19 +155,51 @@ bool draw_job(Ui& ui, const Job& job, std::size_t index) {
     return cancelled;
 }
 
+/// What one needs on a single line.
+float width_of(const Ui& ui, const Message& message) {
+    const float padding = 2 * ImGui::GetStyle().WindowPadding.x;
+    return ImGui::CalcTextSize(message.text.c_str()).x + buttons_width(ui, message) + ui.px(16) + padding;
+}
+
+/// A bell of this height, in lines.
+void draw_bell(ImDrawList& draw, ImVec2 middle, float height, ImU32 color) {
+    const float h = height / 2;
+    const auto at = [&](float x, float y) { return ImVec2{middle.x + x * h, middle.y + y * h}; };
+    draw.PathLineTo(at(-0.95f, 0.6f));
+    draw.PathLineTo(at(-0.62f, 0.25f));
+    draw.PathLineTo(at(-0.62f, -0.2f));
+    draw.PathArcTo(at(0, -0.2f), 0.62f * h, 3.1416f, 6.2832f, 10);
+    draw.PathLineTo(at(0.62f, 0.25f));
+    draw.PathLineTo(at(0.95f, 0.6f));
+    draw.PathStroke(color, ImDrawFlags_Closed, std::max(1.0f, height / 11));
+    draw.AddCircleFilled(at(0, 0.84f), 0.22f * h, color);
+}
+
 }  // namespace
 
 void messages(Ui& ui) {
-    forget_old(ui);
     Session& session = ui.session;
     if (session.job_count() > 0) ui.want_frame_in(kProgressFrame);
-    if (session.messages().empty() && session.job_count() == 0) return;
-    const MessagePlace place = place_of(ui);
-    ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {0, 1});
+    std::vector<std::size_t> up;
+    for (std::size_t i = session.messages().size(); i-- > 0;) {
+        if (session.messages()[i].up) up.push_back(i);
+    }
+    if (up.empty() && session.job_count() == 0) return;
+    const std::size_t shown = std::min(up.size(), kMostUp);
+    float needed = session.job_count() > 0 ? ui.px(kLeastWithJob) : 0;
+    for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, session.messages()[up[i]]));
+    MessagePlace place = place_of(ui);
+    place.width = std::min(place.width, needed);
+    ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {place.pivot, 1});
     ImGui::SetNextWindowSizeConstraints({place.width, 0}, {place.width, ImGui::GetIO().DisplaySize.y / 2});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(4));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.style.panel);
     ImGui::Begin("##messages", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
     // Over dialogs too: what went wrong in one is read there.
     ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
     std::optional<std::size_t> cancelled;
@@ -141,12 +207,108 @@ void messages(Ui& ui) {
         if (draw_job(ui, session.job(i), i)) cancelled = i;
     }
     std::optional<std::size_t> gone;
-    for (std::size_t i = 0; i < session.messages().size(); ++i) {
-        if (draw(ui, session.messages()[i], i)) gone = i;
+    // The latest at the bottom, where the eye goes first.
+    for (std::size_t i = shown; i-- > 0;) {
+        const Message& message = session.messages()[up[i]];
+        if (draw_message(ui, message, "message." + std::to_string(up[i]), "") == Wish::dismiss) gone = up[i];
     }
+    if (up.size() > shown) {
+        text_line(ui.style.quiet, std::to_string(up.size() - shown) + " more behind the bell", ui.style.caption);
+    }
+    const bool held = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
     ImGui::End();
+    ui.want_frame_in(session.age_messages(ui.now, held));
     if (cancelled) session.enqueue([&session, index = *cancelled] { session.cancel_job(index); });
-    if (gone) session.dismiss(*gone);
+    if (gone) session.enqueue([&session, index = *gone] { session.dismiss(index); });
+}
+
+float message_bell(Ui& ui) {
+    Session& session = ui.session;
+    const std::size_t unread = session.unread();
+    const std::string count = unread > 0 ? std::to_string(unread) : "";
+    const float pad = ui.px(10);
+    const float height = ImGui::GetFrameHeight();
+    const float bell = ui.px(13);
+    const float number = count.empty() ? 0 : text_size(*ui.style.mono, count).x + ui.px(4);
+    const float width = bell + number + pad;
+    const float x = ImGui::GetWindowWidth() - width - ui.px(4);
+    ImGui::SetCursorPos({x, 0});
+    if (ImGui::InvisibleButton("##bell", {width, height})) invoke(session, "help.messages");
+    ui.mark("menu.bell");
+    const bool hovered = ImGui::IsItemHovered();
+    if (hovered) {
+        const std::string key(first_shortcut(*find_command("help.messages")));
+        const std::string text = unread > 0                   ? counted(unread, "unread message", "unread messages")
+                                 : session.messages().empty() ? std::string("No messages")
+                                                              : std::string("Messages");
+        ImGui::SetTooltip("%s (%s)", text.c_str(), key.c_str());
+    }
+    const bool error = std::ranges::any_of(session.messages(), [](const Message& message) {
+        return !message.read && message.level == Message::Level::error;
+    });
+    const ImU32 color = unread > 0 ? (error ? ui.style.error : ui.style.warning)
+                        : hovered  ? ui.style.text
+                                   : ui.style.quiet;
+    const ImVec2 at = ImGui::GetItemRectMin();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw_bell(draw, {at.x + pad / 2 + bell / 2, at.y + height / 2 - ui.px(0.5f)}, bell, color);
+    if (!count.empty()) {
+        draw_text(draw, *ui.style.mono,
+                  {at.x + pad / 2 + bell + ui.px(4), at.y + (height - ui.style.mono->FontSize) / 2}, color, count);
+    }
+    return x;
+}
+
+void message_list(Ui& ui) {
+    Session& session = ui.session;
+    DialogInput& input = session.input;
+    begin_dialog(ui, "message list", {kListWidth, kListHeight});
+    dialog_title(ui, "Messages");
+    const float foot = ImGui::GetFrameHeightWithSpacing() + ui.px(4);
+    ImGui::BeginChild("list", {0, -foot}, false);
+    ImGui::Dummy({0, ui.px(2)});
+    const std::vector<Message>& all = session.messages();
+    const int count = static_cast<int>(all.size());
+    if (all.empty()) ImGui::TextDisabled("Nothing was said yet.");
+    const bool moved = move_picked(input.picked, count);
+    std::optional<std::size_t> gone;
+    // The latest first.
+    for (int i = 0; i < count; ++i) {
+        const std::size_t index = all.size() - 1 - static_cast<std::size_t>(i);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const bool picked = i == input.picked;
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        draw.ChannelsSplit(2);
+        draw.ChannelsSetCurrent(1);
+        const Wish wish = draw_message(ui, all[index], "messages." + std::to_string(i), age_text(all[index], ui.now));
+        if (wish == Wish::dismiss) gone = index;
+        const ImVec2 to{at.x + ImGui::GetContentRegionAvail().x, ImGui::GetCursorScreenPos().y - ui.px(3)};
+        draw.ChannelsSetCurrent(0);
+        if (picked) draw.AddRectFilled({at.x, at.y - ui.px(3)}, to, ui.style.raised, ui.px(2));
+        draw.ChannelsMerge();
+        ImGui::Dummy({0, ui.px(2)});
+        if (picked && moved) ImGui::SetScrollHereY();
+    }
+    ImGui::EndChild();
+    const auto index = all.size() - 1 - static_cast<std::size_t>(input.picked);
+    const Message* picked = all.empty() ? nullptr : &all[index];
+    if (picked && pressed(ImGuiKey_Delete)) gone = index;
+    if (picked && ImGui::GetIO().KeyCtrl && pressed(ImGuiKey_C) && session.hooks.set_clipboard) {
+        session.hooks.set_clipboard(picked->text);
+    }
+    if (marked_button(ui, "Close", "messages.close", true) || pressed(ImGuiKey_Enter)) {
+        session.enqueue([&session] { session.close_dialog(); });
+    }
+    if (!all.empty()) {
+        ImGui::SameLine();
+        if (marked_button(ui, "Clear", "messages.clear")) invoke(session, "help.clear_messages");
+        ImGui::SameLine();
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextDisabled("Up and Down choose, Ctrl+C copies, Delete takes it off the list");
+    }
+    end_dialog();
+    if (gone) session.enqueue([&session, which = *gone] { session.dismiss(which); });
+    ui.want_frame_in(1);  // the ages go on
 }
 
 }  // namespace mobbscope::app

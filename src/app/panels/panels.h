@@ -19,8 +19,9 @@ void query_panel(Ui& ui, QueryPictures& pictures);  ///< the answer, and why
 void crowd_panel(Ui& ui);                           ///< who is followed, its last choice, its plays, and who collides
 void selection_panel(Ui& ui);                       ///< all numbers of what is selected
 void timeline(Ui& ui, QueryPictures& pictures);     ///< two clocks: time and step
-void dialogs(Ui& ui);                               ///< open, save, palette, help, unsaved changes
-void messages(Ui& ui);
+void dialogs(Ui& ui);                               ///< open, save, palette, help, unsaved changes, messages
+void messages(Ui& ui);                              ///< those over the picture, and what is under way
+float message_bell(Ui& ui);                         ///< at the menu bar's right end; returns where it begins
 
 /// The whole window: panels with movable borders between them.
 void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures);
@@ -32,5 +33,6 @@ void help_sheet(Ui& ui);
 /// What the mouse does, as the help sheet says it; README says the same.
 std::span<const std::pair<const char*, const char*>> mouse_help();
 void about(Ui& ui);
+void message_list(Ui& ui);
 
 }  // namespace mobbscope::app

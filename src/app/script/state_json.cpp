@@ -125,14 +125,18 @@ Json messages_json(const Session& session) {
     constexpr std::array<const char*, 3> kLevels{"info", "warning", "error"};
     Json json = Json::array();
     for (const Message& message : session.messages()) {
-        json.push_back({{"level", kLevels[static_cast<std::size_t>(message.level)]}, {"text", message.text}});
+        Json one{{"level", kLevels[static_cast<std::size_t>(message.level)]}, {"text", message.text}};
+        if (message.offer) one["offer"] = message.offer->command;
+        if (!message.up) one["put_away"] = true;
+        json.push_back(std::move(one));
     }
     return json;
 }
 
 std::string_view kind_name(Dialog dialog) {
-    constexpr std::array<std::string_view, 9> kNames{"none",    "open",    "add",  "save_as", "export_picture",
-                                                     "unsaved", "palette", "help", "about"};
+    constexpr std::array<std::string_view, 11> kNames{"none",           "open",     "add",     "save_as",
+                                                      "export_picture", "unsaved",  "palette", "help",
+                                                      "about",          "messages", "dropped"};
     return kNames[static_cast<std::size_t>(dialog)];
 }
 
@@ -226,6 +230,7 @@ Json state_json(const Session& session) {
     json["dialog"] = kind_name(session.dialog);
     if (!session.focus.empty()) json["focus"] = session.focus;
     json["messages"] = messages_json(session);
+    if (session.unread() > 0) json["unread"] = session.unread();
     json["undo"] = text_or_null(session.history().undo_title());
     json["redo"] = text_or_null(session.history().redo_title());
     json["job"] = nullptr;

@@ -3,12 +3,15 @@
 ///     {"title": "crossing.json", "file": "...", "modified": false, "empty": false,
 ///      "scene": {...}, "view": {...}, "selection": {"kind": "node", "name": "A", "path": {...}, "index": 3},
 ///      "hovered": {...}, "query": null, "time": null, "playing": false, "dialog": "none",
-///      "messages": [{"level": "info", "text": "..."}], "undo": null, "redo": null, "job": null}
+///      "messages": [{"level": "info", "text": "...", "offer": "file.open", "put_away": true}], "unread": 1, "undo":
+///      null, "redo": null, "job": null}
 ///
 /// `scene` is as in scene files, but clips say their number of `samples` and queries have no traces; `view` is as in
 /// scene files, so what is as always is left out. `query` is what is asked in the view: {"index", "a", "b", "collides",
 /// "contact_time", "step", "steps", "tests": one count for each kind of test, "outcome",
-/// "sentence"}, the last two of the step. `undo` and `redo` are titles.
+/// "sentence"}, the last two of the step. `undo` and `redo` are titles. Of a message `offer` is the command that it
+/// offers, and `put_away` says that it is behind the bell; `unread` counts warnings and errors that nobody has looked
+/// at in the list. The three are left out where there is nothing to say.
 #pragma once
 
 #include <app/document/session.h>

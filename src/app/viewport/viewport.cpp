@@ -103,6 +103,12 @@ void welcome(Ui& ui) {
     ImGui::SameLine();
     if (ImGui::Button("Open the demo")) invoke(ui.session, "file.demo");
     ui.mark("welcome.demo");
+    if (ui.session.has_last()) {
+        if (ImGui::Button(("Reopen last session: " + ui.session.last_title()).c_str())) {
+            invoke(ui.session, "file.reopen_last");
+        }
+        ui.mark("welcome.reopen");
+    }
     ImGui::EndGroup();
 }
 

@@ -28,6 +28,8 @@ namespace {
 constexpr double kLeastFrame = 1.0 / 120;
 /// Of the monitor's room, what a window takes at most.
 constexpr double kShareOfMonitor = 0.9;
+/// Pixels of a window's upper edge that must be on a monitor to take hold of it.
+constexpr int kGrip = 48;
 
 std::string last_error;
 
@@ -165,7 +167,28 @@ PictureSize default_size(double scale) {
     return {std::max(size.width, kLeastSize.width), std::max(size.height, kLeastSize.height)};
 }
 
-GLFWwindow* open_window(PictureSize size) {
+/// Where it stood last, if enough of that is still on a monitor to take hold of.
+std::optional<WindowPlace> place_on_monitors(const std::optional<WindowPlace>& last) {
+    if (!last) return std::nullopt;
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        int x = 0;
+        int y = 0;
+        PictureSize room;
+        glfwGetMonitorWorkarea(monitors[i], &x, &y, &room.width, &room.height);
+        const int across = std::min(last->x + last->width, x + room.width) - std::max(last->x, x);
+        const bool top_is_on = last->y >= y && last->y < y + room.height - kGrip;
+        if (across < kGrip || !top_is_on) continue;
+        WindowPlace place = *last;
+        place.width = std::clamp(place.width, kLeastSize.width, std::max(room.width, kLeastSize.width));
+        place.height = std::clamp(place.height, kLeastSize.height, std::max(room.height, kLeastSize.height));
+        return place;
+    }
+    return std::nullopt;
+}
+
+GLFWwindow* open_window(PictureSize size, bool maximized) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -173,6 +196,7 @@ GLFWwindow* open_window(PictureSize size) {
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until there is something to see
+    glfwWindowHint(GLFW_MAXIMIZED, maximized ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "mobbscope");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "mobbscope");
     GLFWwindow* window = glfwCreateWindow(size.width, size.height, "Mobbscope", nullptr, nullptr);
@@ -195,13 +219,19 @@ float distance_to_rounded_square(glm::vec2 p, float radius) {
 bool has_display() { return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"); }
 
 struct GlfwWindow::State {
+    /// A size that was asked for holds this once, and so it goes where the display puts it.
     State(Session& of, std::optional<PictureSize> size)
         : session(of),
+          place(size ? std::nullopt : place_on_monitors(of.settings.window)),
+          keeps_place(!size),
           window(open_window(
-              size.value_or(default_size(of.settings.ui_scale > 0 ? of.settings.ui_scale : monitor_scale())))),
+              size.value_or(place ? PictureSize{place->width, place->height}
+                                  : default_size(of.settings.ui_scale > 0 ? of.settings.ui_scale : monitor_scale())),
+              place && place->maximized)),
           shell(std::make_unique<WindowContext>(window), of, monitor_scale()) {
         glfwSwapInterval(1);
         glfwSetWindowSizeLimits(window, kLeastSize.width, kLeastSize.height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+        if (place) glfwSetWindowPos(window, place->x, place->y);
         set_icon();
         set_callbacks();
         session.hooks.wake = [] { glfwPostEmptyEvent(); };
@@ -219,7 +249,8 @@ struct GlfwWindow::State {
         for (const auto& [shape, cursor] : cursors) glfwDestroyCursor(cursor);
     }
 
-    static Shell& shell_of(GLFWwindow* of) { return static_cast<State*>(glfwGetWindowUserPointer(of))->shell; }
+    static State& state_of(GLFWwindow* of) { return *static_cast<State*>(glfwGetWindowUserPointer(of)); }
+    static Shell& shell_of(GLFWwindow* of) { return state_of(of).shell; }
 
     void set_icon() const {
         std::array<Image, 3> icons{window_icon(16), window_icon(32), window_icon(64)};
@@ -232,6 +263,9 @@ struct GlfwWindow::State {
 
     void set_callbacks() {
         glfwSetWindowUserPointer(window, this);
+        glfwSetWindowPosCallback(window, [](GLFWwindow* of, int, int) { state_of(of).moved = true; });
+        glfwSetWindowSizeCallback(window, [](GLFWwindow* of, int, int) { state_of(of).moved = true; });
+        glfwSetWindowMaximizeCallback(window, [](GLFWwindow* of, int) { state_of(of).moved = true; });
         glfwSetCursorPosCallback(window, [](GLFWwindow* of, double x, double y) {
             // Positions come in the window's coordinates, which on some displays are not pixels.
             PictureSize points;
@@ -282,6 +316,20 @@ struct GlfwWindow::State {
         return size.width > 0 && size.height > 0 && !glfwGetWindowAttrib(window, GLFW_ICONIFIED);
     }
 
+    /// Where it stands now is where it opens the next time.
+    void note_place() {
+        if (!keeps_place || !std::exchange(moved, false)) return;
+        WindowPlace now = place.value_or(WindowPlace{});
+        now.maximized = glfwGetWindowAttrib(window, GLFW_MAXIMIZED) != 0;
+        // What it goes back to when it is no longer maximised.
+        if (!now.maximized) {
+            glfwGetWindowPos(window, &now.x, &now.y);
+            glfwGetWindowSize(window, &now.width, &now.height);
+        }
+        place = now;
+        if (now.width > 0 && now.height > 0) session.settings.window = now;
+    }
+
     /// Draws, and notes when to draw again.
     void draw() {
         if (!is_seen()) {
@@ -298,6 +346,7 @@ struct GlfwWindow::State {
         show_title();
         show_cursor();
         if (!std::exchange(shown, true)) glfwShowWindow(window);
+        note_place();
     }
 
     void show_title() {
@@ -331,6 +380,9 @@ struct GlfwWindow::State {
 
     Library library;
     Session& session;
+    std::optional<WindowPlace> place;  ///< as settings have it; none: it was nowhere yet
+    bool keeps_place;
+    bool moved = true;  ///< or resized, since its place was noted
     GLFWwindow* window;
     Shell shell;
     std::string title;

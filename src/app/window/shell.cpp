@@ -4,10 +4,8 @@
 #include <app/window/answer_pace.h>
 #include <app/window/shell.h>
 #include <app/window/window_gl.h>
-#include <base/file.h>
 #include <render/gl/renderer.h>
 #include <render/image/png.h>
-#include <scene/load_files.h>
 
 #include <imgui_internal.h>
 
@@ -63,17 +61,6 @@ bool edits_text(const Chord& chord) {
     constexpr std::array kEditing{Key::a,     Key::c,    Key::v,   Key::x,         Key::y,   Key::z,    Key::left,
                                   Key::right, Key::home, Key::end, Key::backspace, Key::del, Key::enter};
     return std::ranges::find(kEditing, chord.key) != kEditing.end();
-}
-
-/// Clips that are dropped join what a person has opened, but not the demo.
-bool opened_by_person(const Session& session) {
-    if (session.empty()) return false;
-    if (session.file() || session.modified()) return true;
-    try {
-        return session.scene().file != demo_scene_file();
-    } catch (const MachineError&) {
-        return true;
-    }
 }
 
 /// Has textures of its own: the renderer's holds what else it draws soon. Where the fine picture takes long, a coarse
@@ -262,12 +249,7 @@ struct Shell::State {
     }
 
     void drop(const Drop& dropped) {
-        if (dropped.paths.empty()) return;
-        const bool clips = std::none_of(dropped.paths.begin(), dropped.paths.end(),
-                                        [](const auto& path) { return lower_extension(path) == ".json"; });
-        session.enqueue([this, clips, dropped] {
-            clips&& opened_by_person(session) ? session.add(dropped.paths) : session.open(dropped.paths);
-        });
+        session.enqueue([this, dropped] { session.drop(dropped.paths); });
         session.run_queue();
     }
 
@@ -276,7 +258,7 @@ struct Shell::State {
         const Dialog open = session.dialog;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
                                open == Dialog::export_picture || open == Dialog::palette || open == Dialog::help;
-        if (!has_field || !session.input.fresh || ImGui::GetIO().WantTextInput)
+        if (!has_field || !session.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)
             return true;
