@@ -4,7 +4,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <import/import.h>
-#include <mobb/predicate.h>
+#include <scene/path_figures.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,33 +22,6 @@ struct InfoCommandArguments {
     bool json = false;
     ImportOptions import_options;
 };
-
-/// What a clip's samples say, in metres and m/s.
-struct PathFigures {
-    double length = 0;
-    double mean_speed = 0;  ///< between the first sample and the last; 0 for one sample
-    double min_radius = 0;
-    double mean_radius = 0;
-    double max_radius = 0;
-};
-
-PathFigures figures_of(const mobb::Clip& clip) {
-    PathFigures figures;
-    double radii = 0;
-    figures.min_radius = clip.samples().front().r;
-    const mobb::Disk* before = nullptr;
-    for (const mobb::Disk& disk : clip.samples()) {
-        if (before) figures.length += std::sqrt(mobb::squared_distance(*before, disk));
-        figures.min_radius = std::min(figures.min_radius, disk.r);
-        figures.max_radius = std::max(figures.max_radius, disk.r);
-        radii += disk.r;
-        before = &disk;
-    }
-    // Rounding must not push the mean of equal radii off them.
-    figures.mean_radius = std::clamp(radii / clip.count(), figures.min_radius, figures.max_radius);
-    if (clip.count() > 1) figures.mean_speed = figures.length / ((clip.count() - 1) * clip.dt());
-    return figures;
-}
 
 /// Of a clip with its samples in the scene, the scene is the file.
 SourceFacts facts_of(const SceneClip& clip) {
@@ -69,6 +42,7 @@ void write_skeleton(JsonWriter& out, const SourceFacts& facts) {
     };
     name("animation", facts.animation);
     name("root", facts.root);
+    name("root_why", facts.root_why);
     out.key("joints");
     facts.joints > 0 ? out.value(facts.joints) : out.null();
 }
@@ -82,6 +56,7 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("format", facts.format);
     write_skeleton(out, facts);
     out.member("unit", facts.unit);
+    out.member("guessed_from_height", facts.guessed_from_height);
     out.member("file_frames", facts.frames);
     out.member("file_dt", facts.dt);
     out.member("file_duration", facts.duration);
@@ -93,7 +68,9 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("min_radius", figures.min_radius);
     out.member("mean_radius", figures.mean_radius);
     out.member("max_radius", figures.max_radius);
-    out.values("warnings", facts.warnings);
+    std::vector<std::string> warnings;
+    for (const ImportWarning& warning : facts.warnings) warnings.push_back(warning.text);
+    out.values("warnings", warnings);
     out.end_object();
 }
 
@@ -103,9 +80,9 @@ std::string guess_of(const SourceFacts& facts) {
     return " (guessed: a body " + brief(std::round(*facts.guessed_from_height * 100) / 100) + " m tall)";
 }
 
-using Warnings = std::vector<std::string>;
+using Warnings = std::vector<ImportWarning>;
 
-bool holds(const Warnings& warnings, const std::string& warning) {
+bool holds(const Warnings& warnings, const ImportWarning& warning) {
     return std::find(warnings.begin(), warnings.end(), warning) != warnings.end();
 }
 
@@ -113,13 +90,13 @@ bool holds(const Warnings& warnings, const std::string& warning) {
 Warnings common_warnings(const Scene& scene) {
     Warnings common = scene.clips.front().facts.warnings;
     for (const SceneClip& clip : scene.clips)
-        std::erase_if(common, [&](const std::string& warning) { return !holds(clip.facts.warnings, warning); });
+        std::erase_if(common, [&](const ImportWarning& warning) { return !holds(clip.facts.warnings, warning); });
     return common;
 }
 
 void list_warnings(const Warnings& warnings, const Warnings& said) {
-    for (const std::string& warning : warnings) {
-        if (!holds(said, warning)) std::cout << "  warning      " << cleaned(warning) << '\n';
+    for (const ImportWarning& warning : warnings) {
+        if (!holds(said, warning)) std::cout << "  warning      " << cleaned(warning.text) << '\n';
     }
 }
 
@@ -129,6 +106,7 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said)
     std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n";
     if (facts.joints > 0) {
         std::cout << "  skeleton     " << counted(facts.joints, "joint", "joints") << ", root " << in_quotes(facts.root)
+                  << (facts.root_why.empty() ? "" : " (" + facts.root_why + ")")
                   << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
     }
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
