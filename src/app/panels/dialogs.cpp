@@ -37,6 +37,9 @@ void unsaved(Ui& ui) {
 
 void dialogs(Ui& ui) {
     Session& session = ui.session;
+    // Of lists and fields in a dialog Escape closes these first.
+    const bool escape_is_taken = session.dialog == Dialog::import_clip &&
+                                 (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || ImGui::GetIO().WantTextInput);
     switch (session.dialog) {
         case Dialog::none:
             return;
@@ -58,8 +61,11 @@ void dialogs(Ui& ui) {
         case Dialog::about:
             about(ui);
             break;
+        case Dialog::import_clip:
+            import_dialog(ui);
+            break;
     }
-    if (pressed(ImGuiKey_Escape)) session.enqueue([&session] { session.close_dialog(); });
+    if (pressed(ImGuiKey_Escape) && !escape_is_taken) session.enqueue([&session] { session.close_dialog(); });
 }
 
 void about(Ui& ui) {

@@ -1,3 +1,4 @@
+#include <app/commands/command.h>
 #include <app/document/job.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
@@ -49,24 +50,31 @@ bool draw(Ui& ui, const Message& message, std::size_t index) {
     const std::string mark = "message." + std::to_string(index);
     const ImGuiStyle& style = ImGui::GetStyle();
     const float words = ImGui::CalcTextSize("Copy").x + ImGui::CalcTextSize("x").x;
+    const Command* mends = find_command(message.command);
     const float buttons = stays ? words + 4 * style.FramePadding.x + style.ItemSpacing.x + ui.px(8) : 0;
     const ImVec2 at = ImGui::GetCursorScreenPos();
+    bool mended = false;
     ImGui::PushID(static_cast<int>(index));
     ImGui::BeginGroup();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
     ImGui::PushTextWrapPos(ImGui::GetWindowContentRegionMax().x - buttons);
     ImGui::TextUnformatted(message.text.c_str());
     ImGui::PopTextWrapPos();
+    if (mends) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
+    if (mends && small_button(ui, std::string(mends->title).c_str(), mark + ".mend")) {
+        invoke(ui.session, message.command, message.argument);
+        mended = true;
+    }
     ImGui::EndGroup();
     ui.mark(mark);
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + ui.px(3), ImGui::GetItemRectMax().y}, color);
-    bool gone = false;
+    bool gone = mended;
     if (stays) {
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons + ui.px(8));
         const bool copies = small_button(ui, "Copy", mark + ".copy");
         if (copies && ui.session.hooks.set_clipboard) ui.session.hooks.set_clipboard(message.text);
         ImGui::SameLine();
-        gone = small_button(ui, "x", mark + ".dismiss");
+        gone |= small_button(ui, "x", mark + ".dismiss");
     }
     ImGui::PopID();
     return gone;

@@ -32,5 +32,8 @@ void help_sheet(Ui& ui);
 /// What the mouse does, as the help sheet says it; README says the same.
 std::span<const std::pair<const char*, const char*>> mouse_help();
 void about(Ui& ui);
+void import_dialog(Ui& ui);  ///< how a clip is read from its file
+/// The clip in the import dialog as it is: path, skeleton, radius over time, trim.
+void import_preview(Ui& ui, const SceneClip& clip);
 
 }  // namespace mobbscope::app

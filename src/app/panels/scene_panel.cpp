@@ -89,6 +89,10 @@ void clips(Ui& ui) {
                      session.hovered == self, 0, warned ? ui.style.warning : 0})) {
             session.select(self);
         }
+        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) &&
+            find_command("clip.import")->enabled(session)) {
+            invoke(session, "clip.import", clip.name);
+        }
         if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().text.c_str());
     });
     if (session.crowd()) return;

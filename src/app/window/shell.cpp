@@ -59,6 +59,12 @@ bool edits_text(const Chord& chord) {
     return std::ranges::find(kEditing, chord.key) != kEditing.end();
 }
 
+/// A dialog has the keys; what is edited in one is undone in it too.
+bool works_under(Dialog dialog, const Command& command) {
+    if (dialog == Dialog::import_clip) return command.id == "edit.undo" || command.id == "edit.redo";
+    return dialog == Dialog::none;
+}
+
 /// Clips that are dropped join what a person has opened, but not the demo.
 bool opened_by_person(const Session& session) {
     if (session.empty()) return false;
@@ -145,7 +151,7 @@ struct Shell::State {
     /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
     bool press(const Chord& chord, bool repeated) {
         const Command* command = command_for(chord);
-        if (!command || (repeated && !command->repeats) || session.dialog != Dialog::none) {
+        if (!command || (repeated && !command->repeats) || !works_under(session.dialog, *command)) {
             return false;
         }
         // A drag ends on what it began on.
