@@ -145,23 +145,26 @@ void Session::ask_for_offer() {
 }
 
 void Session::tell_of_warnings(std::size_t from) {
-    const SceneClip* first = nullptr;
+    const SceneClip* of = nullptr;
     const ImportWarning* worst = nullptr;
     std::size_t clips = 0;
     for (std::size_t i = from; i < scene().clips.size(); ++i) {
         const SceneClip& clip = scene().clips[i];
-        const auto at = std::ranges::find_if(clip.facts.warnings,
-                                             [](const ImportWarning& warning) { return !warning.option.empty(); });
-        if (!clip.source || at == clip.facts.warnings.end()) continue;
-        if (clips++ == 0) {
-            first = &clip;
-            worst = &*at;
+        bool warned = false;
+        for (const ImportWarning& warning : clip.facts.warnings) {
+            if (!clip.source || warning.option.empty()) continue;
+            warned = true;
+            // A wrong unit makes all else look wrong.
+            if (worst && (worst->option == "unit" || warning.option != "unit")) continue;
+            of = &clip;
+            worst = &warning;
         }
+        clips += warned ? 1 : 0;
     }
-    if (!first) return;
+    if (!worst) return;
     const std::string others = clips > 1 ? " (" + counted(clips - 1, "more clip", "more clips") + ")" : "";
-    tell(Message::Level::warning, first->name + ": " + worst->text + others, "clip.import",
-         first->name + ' ' + worst->option);
+    tell(Message::Level::warning, of->name + ": " + worst->text + others, "clip.import",
+         of->name + ' ' + worst->option);
 }
 
 }  // namespace mobbscope::app

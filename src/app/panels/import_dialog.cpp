@@ -42,7 +42,8 @@ void set_option(Ui& ui, const ImportField& field, const std::string& text) {
 std::string label_of(const ImportField& field, const std::string& value) {
     if (!field.offer) return value;
     const auto at = std::ranges::find(field.offer->choices, value, &OfferedChoice::value);
-    return at == field.offer->choices.end() ? value : at->label;
+    if (at != field.offer->choices.end()) return at->label;
+    return parse_double(value) && *field.option.unit != '\0' ? value + ' ' + field.option.unit + " a unit" : value;
 }
 
 /// What is taken without the option: "auto: cm".
@@ -221,9 +222,9 @@ void import_field(Ui& ui, const ImportField& field) {
     ImGui::Dummy({0, ui.px(1)});
     ImGui::PopID();
     if (!asked_for) return;
-    const float x = corner.x - ui.px(6);
-    ImGui::GetWindowDrawList()->AddRectFilled({x, corner.y}, {x + ui.px(2), ImGui::GetItemRectMax().y},
-                                              ui.style.accent);
+    const ImVec2 from{corner.x - ui.px(4), corner.y - ui.px(3)};
+    const ImVec2 to{from.x + ImGui::GetContentRegionAvail().x + ui.px(8), ImGui::GetItemRectMax().y + ui.px(2)};
+    ImGui::GetWindowDrawList()->AddRect(from, to, ui.style.accent, ui.px(4), 0, ui.px(1));
     if (now.scroll) {
         // The field is laid out in this frame, and the list's length is known in the next.
         ImGui::SetScrollFromPosY(corner.y - ImGui::GetWindowPos().y, 0.3f);

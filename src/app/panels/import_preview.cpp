@@ -217,34 +217,35 @@ void scrub(Ui& ui, const ChartAxis& x, double duration) {
 void radius_over_time(Ui& ui, const mobb::Clip& clip, const PathFigures& figures, ImVec2 size) {
     const Plot in = plot(ui, size, "import.radius_chart");
     const float caption = ui.style.caption->FontSize;
-    const float words = text_size(*ui.style.caption, "mean 0.000 m").x + ui.px(12);
-    const ChartAxis x{0, clip.duration(), in.min.x + ui.px(6), in.max.x - words};
+    const std::pair<std::string, double> levels[] = {
+        {formatted("max %.3g m", figures.max_radius), figures.max_radius},
+        {formatted("mean %.3g m", figures.mean_radius), figures.mean_radius},
+        {formatted("min %.3g m", figures.min_radius), figures.min_radius}};
+    float label = 0;
+    for (const auto& level : levels) label = std::max(label, text_size(*ui.style.caption, level.first).x);
+    const ChartAxis x{0, clip.duration(), in.min.x + ui.px(6), in.max.x - label - ui.px(12)};
     const double top = figures.max_radius > 0 ? 1.1 * figures.max_radius : 1;
     const ChartAxis y{0, top, in.max.y - ui.px(4), in.min.y + caption + ui.px(6)};
     ImGui::SetCursorScreenPos(in.min);
     ImGui::InvisibleButton("radius", size);
     scrub(ui, x, clip.duration());
     ImDrawList& list = *ImGui::GetWindowDrawList();
+    // Labels one below the other, however near the values are.
+    float least = in.min.y;
+    float most = in.max.y - static_cast<float>(std::size(levels)) * caption;
+    for (const auto& [text, value] : levels) {
+        const float level = y.pixel(value);
+        list.AddLine({x.first, level}, {x.last, level}, to_im(with_alpha(ui.style.palette.text, 0.25f)), ui.px(1));
+        const float at = std::min(std::max(level - caption / 2, least), most);
+        note(ui, {x.last + ui.px(6), at}, ui.style.quiet, text);
+        least = at + caption;
+        most += caption;
+    }
     std::vector<ImVec2> curve;
     const std::span<const mobb::Disk> samples = clip.samples();
     thinned(samples.size(), kMostPoints, [&](std::size_t i) {
         curve.push_back({x.pixel((static_cast<double>(i) + 0.5) * clip.dt()), y.pixel(samples[i].r)});
     });
-    const std::pair<const char*, double> levels[] = {
-        {"max", figures.max_radius}, {"mean", figures.mean_radius}, {"min", figures.min_radius}};
-    float above = in.min.y;
-    for (const auto& [name, value] : levels) {
-        const float level = y.pixel(value);
-        list.AddLine({x.first, level}, {x.last, level}, to_im(with_alpha(ui.style.palette.text, 0.25f)), ui.px(1));
-        // One below the other, however near the values are.
-        above = std::max(level - caption / 2, above);
-        note(ui,
-             {x.last + ui.px(6), std::min(above, in.max.y - caption * (name == levels[0].first   ? 3.0f
-                                                                       : name == levels[1].first ? 2.0f
-                                                                                                 : 1.0f))},
-             ui.style.quiet, formatted("%s %.3g m", name, value));
-        above += caption;
-    }
     list.AddPolyline(curve.data(), static_cast<int>(curve.size()), ui.style.text, 0, ui.px(1.5f));
     const float now = x.pixel(ui.session.importing.time);
     list.AddLine({now, in.min.y}, {now, in.max.y}, ui.style.accent, ui.px(1.5f));

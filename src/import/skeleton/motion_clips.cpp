@@ -104,7 +104,7 @@ class MotionImport {
                  {"fps", short_double(kDefaultFps), "as usual; " + frames},
                  unit_offer(options_.root ? root_by_name(motion_.joints(), *options_.root) : taken.joint),
                  {"up", "y", "as in most files", false, {{"y", "y"}, {"z", "z"}}},
-                 {"trim", "0 " + short_double(seconds), "all of it"},
+                 {"trim", "", "all of it"},
                  origin_offer(),
                  {"radius", "", "up to the joint that is farthest from the root"}}};
     }
@@ -116,7 +116,7 @@ class MotionImport {
         const auto tall = [height](double unit) { return "a body " + brief_length(height * unit) + " tall"; };
         OptionOffer out{"unit", unit_word(file_unit_.value_or(guess)),
                         file_unit_ ? "as the file says: " + tall(*file_unit_)
-                                   : "guessed: its median height is " + brief_length(height * guess) + " then"};
+                                   : "guessed: " + tall(guess) + " (its median height)"};
         if (file_unit_) out.choices.push_back({"auto", "auto: " + tall(guess)});
         for (const auto& [value, label] : kUnitChoices) {
             out.choices.push_back({value, label + std::string(": ") + tall(*metres_per_unit(value))});

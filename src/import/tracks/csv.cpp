@@ -299,7 +299,7 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const
     if (!uniform)
         out.options.push_back({"fps", short_double(kDefaultFps), "as usual; the rows are not uniform in time"});
     out.options.push_back(unit_offer(1, "as usual of CSV files"));
-    if (out.seconds > 0) out.options.push_back({"trim", "0 " + short_double(out.seconds), "all of it"});
+    if (out.seconds > 0) out.options.push_back({"trim", "", "all of it"});
     out.options.push_back(origin_offer());
     if (table.tracks.size() > 1) out.options.push_back(id_offer(table.tracks));
     out.options.push_back(

@@ -225,7 +225,7 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
                     {{"fps", maker.usual_step() > 0 ? short_double(1 / maker.usual_step()) : "", "as stored: " + step},
                      unit_offer(tracks.unit, tracks.unit_assumption.empty() ? "as the file or its format says"
                                                                             : tracks.unit_assumption),
-                     {"trim", "0 " + short_double(maker.duration()), "all of it, from the file's first frame"},
+                     {"trim", "", "all of it, from the file's first frame"},
                      origin_offer()}};
     if (tracks.tracks.size() > 1) out.options.push_back(id_offer(tracks.tracks));
     out.options.push_back({"radius", short_double(kDefaultTrackRadius), assumed_radius()});
