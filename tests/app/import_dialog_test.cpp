@@ -133,7 +133,7 @@ TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     w.open("scene.json");
     ASSERT_EQ(w.session.messages().size(), 1u);
     EXPECT_NE(all_messages(w.session).find("check unit"), std::string::npos) << all_messages(w.session);
-    w.click("message.0.mend");
+    w.click("message.0.offer");
     EXPECT_EQ(w.session.dialog, Dialog::import_clip);
     EXPECT_EQ(w.session.importing.clip, 0);
     EXPECT_EQ(w.session.importing.field, "unit");

@@ -6,7 +6,7 @@ source "$(dirname "$0")/real_hand.sh"
 cd "$(dirname "$3")"
 begin "$1" "$2" "$3"
 
-click opened.txt message.0.mend 0 0
+click opened.txt message.0.offer 0 0
 reached dialog.txt
 # Two clicks.
 click dialog.txt import.unit 0 0

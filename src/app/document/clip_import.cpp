@@ -28,7 +28,8 @@ void Session::open_import(int clip, const std::string& field) {
     }
     open_dialog(Dialog::import_clip);
     // What they say stands at the fields now.
-    std::erase_if(messages_, [](const Message& message) { return message.command == "clip.import"; });
+    std::erase_if(messages_,
+                  [](const Message& message) { return message.offer && message.offer->command == "clip.import"; });
     importing = {.clip = clip, .field = field};
     // What is wrong with one track of a crowd is wrong with all.
     importing.whole_file = opened.options.id.has_value();
@@ -163,8 +164,8 @@ void Session::tell_of_warnings(std::size_t from) {
     }
     if (!worst) return;
     const std::string others = clips > 1 ? " (" + counted(clips - 1, "more clip", "more clips") + ")" : "";
-    tell(Message::Level::warning, of->name + ": " + worst->text + others, "clip.import",
-         of->name + ' ' + worst->option);
+    tell(Message::Level::warning, of->name + ": " + worst->text + others,
+         MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."});
 }
 
 }  // namespace mobbscope::app

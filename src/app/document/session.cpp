@@ -587,12 +587,11 @@ void Session::ask_anew(DialogInput with) {
 
 // --- messages, queue and jobs
 
-void Session::tell(Message::Level level, const std::string& text, const std::string& command,
-                   const std::string& argument) {
+void Session::tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer) {
     const std::string said = shortened(text, kLongestMessage);
     // Twice the same says nothing new.
     std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
-    messages_.push_back({level, said, {}, command, argument});
+    messages_.push_back({level, said, {}, std::move(offer)});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
 }
 

@@ -30,14 +30,20 @@ namespace mobbscope::app {
 /// What is asked or shown over the panels, one at a time.
 enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about, import_clip };
 
+/// What a message offers to do, on a button.
+struct MessageOffer {
+    std::string command;   ///< its id
+    std::string argument;  ///< empty: none
+    std::string label;     ///< "Import options..."
+};
+
 /// A line for the person: what went wrong and what to do, or what was done.
 struct Message {
     enum class Level { info, warning, error };
     Level level = Level::info;
     std::string text;
     std::optional<double> shown_at{};  ///< when the window showed it first
-    std::string command{};             ///< that mends it, for a button; empty: none
-    std::string argument{};            ///< ... with this
+    std::optional<MessageOffer> offer{};
 };
 
 /// How the window's surroundings are reached; all may be empty.
@@ -212,9 +218,7 @@ class Session {
     void open_dialog(Dialog which, DialogInput with = {});
     /// Nothing comes of it: what waited for its answer is forgotten.
     void close_dialog();
-    /// `command`, with its argument: what mends it; empty: nothing does.
-    void tell(Message::Level level, const std::string& text, const std::string& command = "",
-              const std::string& argument = "");
+    void tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
     const std::vector<Message>& messages() const { return messages_; }
     void dismiss(std::size_t message);
     void note_shown(std::size_t message, double now) { messages_[message].shown_at = now; }

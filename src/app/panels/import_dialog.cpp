@@ -156,12 +156,14 @@ void trim_field(Ui& ui, const ImportField& field) {
     const float width = (ImGui::CalcItemWidth() - spacing) / 2;
     ImGui::PushFont(ui.style.mono);
     ImGui::SetNextItemWidth(width);
-    bool changed = number_to_drag(field.mark() + ".from", begin, kTrimStep, "from %.3f s");
+    bool changed = number_to_drag(field.mark() + ".from", begin, kTrimStep, "%.3f s");
     ui.mark(field.mark() + ".from");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Where it begins, in seconds from the file's first key");
     ImGui::SameLine(0, spacing);
     ImGui::SetNextItemWidth(width);
-    changed |= number_to_drag(field.mark() + ".to", end, kTrimStep, "to %.3f s");
+    changed |= number_to_drag(field.mark() + ".to", end, kTrimStep, "%.3f s");
     ui.mark(field.mark() + ".to");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Where it ends, likewise");
     ImGui::PopFont();
     if (changed) set_option(ui, field, formatted("%.6g %.6g", begin, end));
 }

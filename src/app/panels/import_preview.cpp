@@ -300,7 +300,10 @@ void time_bar(Ui& ui, const SceneClip& clip, double seconds) {
     note(ui, {corner.x, caption}, ui.style.quiet, left);
     note(ui, {right_x, caption}, ui.style.quiet, right);
     const std::string moment = formatted("shown: %.2f s", now.time);
-    note(ui, {corner.x + 0.5f * (width - text_size(*ui.style.caption, moment).x), caption}, ui.style.accent, moment);
+    const float moment_width = text_size(*ui.style.caption, moment).x;
+    const float moment_x = corner.x + 0.5f * (width - moment_width);
+    // Where there is no room for all three, the bar shows it.
+    if (moment_x + moment_width + ui.px(8) < right_x) note(ui, {moment_x, caption}, ui.style.accent, moment);
     ImGui::SetCursorScreenPos(corner);
     ImGui::Dummy({width, caption + ui.style.caption->FontSize - corner.y});
     if (first == begin && last == end) return;
@@ -338,7 +341,7 @@ void import_preview(Ui& ui, const SceneClip& clip) {
     const float gap = ui.px(8);
     const float bar = ui.px(46);
     const float words = 2 * ImGui::GetTextLineHeightWithSpacing();
-    const float chart = ui.px(104);
+    const float chart = std::clamp(0.22f * room.y, ui.px(48), ui.px(104));
     const float height = std::max(ui.px(80), room.y - bar - words - chart - 4 * gap);
     const float half = std::floor((room.x - gap) / 2);
     path_from_above(ui, *clip.clip, {clip.skeleton ? half : room.x, height});

@@ -50,25 +50,23 @@ bool draw(Ui& ui, const Message& message, std::size_t index) {
     const std::string mark = "message." + std::to_string(index);
     const ImGuiStyle& style = ImGui::GetStyle();
     const float words = ImGui::CalcTextSize("Copy").x + ImGui::CalcTextSize("x").x;
-    const Command* mends = find_command(message.command);
     const float buttons = stays ? words + 4 * style.FramePadding.x + style.ItemSpacing.x + ui.px(8) : 0;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    bool mended = false;
     ImGui::PushID(static_cast<int>(index));
     ImGui::BeginGroup();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
     ImGui::PushTextWrapPos(ImGui::GetWindowContentRegionMax().x - buttons);
     ImGui::TextUnformatted(message.text.c_str());
     ImGui::PopTextWrapPos();
-    if (mends) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
-    if (mends && small_button(ui, std::string(mends->title).c_str(), mark + ".mend")) {
-        invoke(ui.session, message.command, message.argument);
-        mended = true;
+    bool gone = false;
+    if (message.offer) {
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
+        gone = small_button(ui, message.offer->label.c_str(), mark + ".offer");
+        if (gone) invoke(ui.session, message.offer->command, message.offer->argument);
     }
     ImGui::EndGroup();
     ui.mark(mark);
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + ui.px(3), ImGui::GetItemRectMax().y}, color);
-    bool gone = mended;
     if (stays) {
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons + ui.px(8));
         const bool copies = small_button(ui, "Copy", mark + ".copy");
