@@ -4,7 +4,7 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <import/import.h>
-#include <scene/file_summary.h>
+#include <scene/path_figures.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,19 +42,21 @@ void write_skeleton(JsonWriter& out, const SourceFacts& facts) {
     };
     name("animation", facts.animation);
     name("root", facts.root);
+    name("root_why", facts.root_why);
     out.key("joints");
     facts.joints > 0 ? out.value(facts.joints) : out.null();
 }
 
 void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     const SourceFacts facts = facts_of(clip);
-    const PathFigures figures = path_figures(*clip.clip);
+    const PathFigures figures = figures_of(*clip.clip);
     out.begin_object();
     out.member("file", file_of(scene, clip));
     out.member("name", clip.name);
     out.member("format", facts.format);
     write_skeleton(out, facts);
     out.member("unit", facts.unit);
+    out.member("guessed_from_height", facts.guessed_from_height);
     out.member("file_frames", facts.frames);
     out.member("file_dt", facts.dt);
     out.member("file_duration", facts.duration);
@@ -66,7 +68,9 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("min_radius", figures.min_radius);
     out.member("mean_radius", figures.mean_radius);
     out.member("max_radius", figures.max_radius);
-    out.values("warnings", facts.warnings);
+    std::vector<std::string> warnings;
+    for (const ImportWarning& warning : facts.warnings) warnings.push_back(warning.text);
+    out.values("warnings", warnings);
     out.end_object();
 }
 
@@ -76,9 +80,9 @@ std::string guess_of(const SourceFacts& facts) {
     return " (guessed: a body " + brief(std::round(*facts.guessed_from_height * 100) / 100) + " m tall)";
 }
 
-using Warnings = std::vector<std::string>;
+using Warnings = std::vector<ImportWarning>;
 
-bool holds(const Warnings& warnings, const std::string& warning) {
+bool holds(const Warnings& warnings, const ImportWarning& warning) {
     return std::find(warnings.begin(), warnings.end(), warning) != warnings.end();
 }
 
@@ -86,22 +90,23 @@ bool holds(const Warnings& warnings, const std::string& warning) {
 Warnings common_warnings(const Scene& scene) {
     Warnings common = scene.clips.front().facts.warnings;
     for (const SceneClip& clip : scene.clips)
-        std::erase_if(common, [&](const std::string& warning) { return !holds(clip.facts.warnings, warning); });
+        std::erase_if(common, [&](const ImportWarning& warning) { return !holds(clip.facts.warnings, warning); });
     return common;
 }
 
 void list_warnings(const Warnings& warnings, const Warnings& said) {
-    for (const std::string& warning : warnings) {
-        if (!holds(said, warning)) std::cout << "  warning      " << cleaned(warning) << '\n';
+    for (const ImportWarning& warning : warnings) {
+        if (!holds(said, warning)) std::cout << "  warning      " << cleaned(warning.text) << '\n';
     }
 }
 
 void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said) {
     const SourceFacts facts = facts_of(clip);
-    const PathFigures figures = path_figures(*clip.clip);
+    const PathFigures figures = figures_of(*clip.clip);
     std::cout << cleaned(clip.name) << " (" << cleaned(file_of(scene, clip)) << ", " << facts.format << ")\n";
     if (facts.joints > 0) {
         std::cout << "  skeleton     " << counted(facts.joints, "joint", "joints") << ", root " << in_quotes(facts.root)
+                  << (facts.root_why.empty() ? "" : " (" + facts.root_why + ")")
                   << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
     }
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)

@@ -44,9 +44,9 @@ mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
 void print_warnings(const Scene& scene) {
     std::set<std::string> said;
     for (const SceneClip& clip : scene.clips) {
-        for (const std::string& warning : clip.facts.warnings) {
-            if (said.insert(warning).second)
-                warn(scene.file.string() + ": clip " + in_quotes(clip.name) + ": " + warning);
+        for (const ImportWarning& warning : clip.facts.warnings) {
+            if (said.insert(warning.text).second)
+                warn(scene.file.string() + ": clip " + in_quotes(clip.name) + ": " + warning.text);
         }
     }
 }

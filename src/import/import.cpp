@@ -14,6 +14,7 @@
 #include <iterator>
 #include <memory>
 #include <type_traits>
+#include <variant>
 
 namespace mobbscope {
 
@@ -21,18 +22,26 @@ namespace {
 
 MotionFile read_bvh(const std::filesystem::path& file) { return bvh_motion(parse_bvh(read_file(file), file.string())); }
 
-/// The clips of what `read` makes of a file.
-template <auto read, auto to_clips>
+/// What `read` makes of a file, and the clips and the offer of that.
+template <auto read, auto to_clips, auto to_offer>
 ParsedFile parse_once(const std::filesystem::path& file) {
-    using Path = const std::filesystem::path&;
-    if constexpr (std::is_invocable_v<decltype(read), Path>) {
-        return
-            [parsed = read(file)](Path from, const ImportOptions& options) { return to_clips(parsed, from, options); };
-    } else {
-        return [parsed = read(read_file(file), file.string())](Path from, const ImportOptions& options) {
-            return to_clips(parsed, from, options);
-        };
-    }
+    const auto parse = [&] {
+        if constexpr (std::is_invocable_v<decltype(read), const std::filesystem::path&>) {
+            return read(file);
+        } else {
+            return read(read_file(file), file.string());
+        }
+    };
+    const auto parsed = std::make_shared<const decltype(parse())>(parse());
+    const auto checked = [file](const ImportOptions& options) { at_place(file.string(), "", [&] { check(options); }); };
+    return {[=](const ImportOptions& options) {
+                checked(options);
+                return to_clips(*parsed, file, options);
+            },
+            [=](const ImportOptions& options) {
+                checked(options);
+                return to_offer(*parsed, file, options);
+            }};
 }
 
 struct Format {
@@ -44,15 +53,15 @@ struct Format {
 
 /// Every format, in the order of help and messages.
 constexpr Format kFormats[] = {
-    {".bvh", parse_once<read_bvh, motion_clips>, Contents::skeletons},
-    {".gltf", parse_once<read_gltf, motion_clips>, Contents::skeletons},
-    {".glb", parse_once<read_gltf, motion_clips>, Contents::skeletons},
-    {".fbx", parse_once<read_fbx, motion_clips>, Contents::skeletons},
-    {".csv", parse_once<parse_csv, csv_clips>, Contents::table},
-    {".txt", parse_once<parse_text_tracks, track_clips>, Contents::trajectories},
-    {".ndjson", parse_once<parse_trajnetpp, track_clips>, Contents::trajectories},
-    {".yaml", parse_once<parse_mapf_plan, track_clips>, Contents::trajectories},
-    {".yml", parse_once<parse_mapf_plan, track_clips>, Contents::trajectories, false},
+    {".bvh", parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons},
+    {".gltf", parse_once<read_gltf, motion_clips, motion_offer>, Contents::skeletons},
+    {".glb", parse_once<read_gltf, motion_clips, motion_offer>, Contents::skeletons},
+    {".fbx", parse_once<read_fbx, motion_clips, motion_offer>, Contents::skeletons},
+    {".csv", parse_once<parse_csv, csv_clips, csv_offer>, Contents::table},
+    {".txt", parse_once<parse_text_tracks, track_clips, track_offer>, Contents::trajectories},
+    {".ndjson", parse_once<parse_trajnetpp, track_clips, track_offer>, Contents::trajectories},
+    {".yaml", parse_once<parse_mapf_plan, track_clips, track_offer>, Contents::trajectories},
+    {".yml", parse_once<parse_mapf_plan, track_clips, track_offer>, Contents::trajectories, false},
 };
 
 const Format* format_of(const std::filesystem::path& file) {
@@ -93,13 +102,8 @@ std::span<const std::string_view> clip_extensions() {
 std::string listed_clip_extensions(std::string_view separator) { return list_formats(false, separator, separator); }
 std::string listed_trajectory_extensions() { return list_formats(true, " ", " "); }
 
-std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, const ImportOptions& options) {
-    at_place(file.string(), "", [&] { check(options); });
-    if (const Format* format = format_of(file)) {
-        auto parsed = parsed_.find(file);
-        if (parsed == parsed_.end()) parsed = parsed_.emplace(file, format->parse(file)).first;
-        return parsed->second(file, options);
-    }
+ParsedFile parse_clip_file(const std::filesystem::path& file) {
+    if (const Format* format = format_of(file)) return format->parse(file);
     std::error_code ignored;
     if (lower_extension(file).empty() && !std::filesystem::exists(file, ignored)) {
         throw InputError(file.string(), "", "no such file or folder; check the path");
@@ -107,6 +111,22 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
     throw InputError(file.string(), "",
                      "no reader for this kind of file; clips can be " + list_formats(false, ", ", " and ") +
                          ", trajectories " + list_formats(true, ", ", " and ") + ", scenes .json");
+}
+
+ImportOptions offer_depends_on(const ImportOptions& options) {
+    ImportOptions out;
+    out.animation = options.animation;
+    out.root = options.root;
+    out.up = options.up;
+    out.dt = options.dt;
+    return out;
+}
+
+std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, const ImportOptions& options) {
+    at_place(file.string(), "", [&] { check(options); });
+    auto parsed = parsed_.find(file);
+    if (parsed == parsed_.end()) parsed = parsed_.emplace(file, parse_clip_file(file)).first;
+    return parsed->second.clips(options);
 }
 
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {
@@ -120,21 +140,14 @@ std::string does_not_apply(const std::string& key, const std::filesystem::path& 
 
 ApplicableOptions applicable(const ImportOptions& options, const std::filesystem::path& file) {
     ApplicableOptions out{options, {}};
-    const auto leave_out = [&out](auto& option, const char* key) {
-        if (!option) return;
-        option.reset();
-        out.left_out.emplace_back(key);
-    };
     const Contents contents = contents_by_name(file).value_or(Contents::skeletons);
-    if (contents != Contents::skeletons) {
-        leave_out(out.options.animation, "animation");
-        leave_out(out.options.root, "root");
-        leave_out(out.options.up, "up");
+    for (const ImportOption& option : kImportOptions) {
         // Without a body's height there is nothing to guess the unit from.
-        if (contents == Contents::table && out.options.unit == "auto") leave_out(out.options.unit, "unit");
-    } else {
-        leave_out(out.options.id, "id");
-        leave_out(out.options.dt, "dt");
+        const bool guess =
+            contents == Contents::table && option.key == std::string_view("unit") && options.unit == "auto";
+        if (!option.is_given(options) || (option.means_something_for(contents) && !guess)) continue;
+        std::visit([&](auto member) { (out.options.*member).reset(); }, option.member);
+        out.left_out.emplace_back(option.key);
     }
     return out;
 }

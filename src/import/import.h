@@ -1,9 +1,9 @@
 /// Files to clips, whatever their format.
 #pragma once
 
+#include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -15,13 +15,6 @@
 
 namespace mobbscope {
 
-/// What the files of a format hold, which decides what options mean something for them.
-enum class Contents : std::uint8_t {
-    skeletons,     ///< joints that move: clips of one body
-    table,         ///< rows of numbers: clips without joints
-    trajectories,  ///< a crowd by one clock: every track is a clip, placed in time
-};
-
 /// What the extension of a file tells, whether or not it exists; nothing for what no reader takes.
 std::optional<Contents> contents_by_name(const std::filesystem::path& file);
 
@@ -32,14 +25,25 @@ std::span<const std::string_view> clip_extensions();
 std::string listed_clip_extensions(std::string_view separator = " ");
 std::string listed_trajectory_extensions();
 
-/// Makes clips of a file that has been parsed. Throws InputError.
-using ParsedFile = std::function<std::vector<ImportedClip>(const std::filesystem::path&, const ImportOptions&)>;
+/// A file that has been read: makes clips of it, however often. Safe from any number of threads.
+struct ParsedFile {
+    /// Every clip in the file, in its order: of many tracks each of them, unless options.id names one; likewise of
+    /// several animations and options.animation. Throws InputError.
+    std::function<std::vector<ImportedClip>(const ImportOptions&)> clips;
+    /// What the file has for each option; depends on a part of `options` alone (offer_depends_on). Throws InputError.
+    std::function<ImportOffer(const ImportOptions&)> offer;
+};
+
+/// Reads a file by its extension. Throws InputError.
+ParsedFile parse_clip_file(const std::filesystem::path& file);
+
+/// Of the options those that an offer depends on.
+ImportOptions offer_depends_on(const ImportOptions& options);
 
 /// Reads clips from files, each file once however many of its clips are asked for.
 class Importer {
   public:
-    /// Every clip in a file, by its extension, in the file's order: of many tracks each of them, unless options.id
-    /// names one; likewise of several animations and options.animation. Throws InputError.
+    /// ParsedFile::clips of a file.
     std::vector<ImportedClip> clips(const std::filesystem::path& file, const ImportOptions& options);
 
   private:

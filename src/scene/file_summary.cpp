@@ -5,6 +5,7 @@
 #include <mobb/predicate.h>
 #include <scene/crowd_run.h>
 #include <scene/file_summary.h>
+#include <scene/path_figures.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::string title_of(const Scene& scene, bool is_scene) {
 
 void tell_of_clip(const SceneClip& clip, FileSummary& out) {
     const mobb::Clip& samples = *clip.clip;
-    const PathFigures figures = path_figures(samples);
+    const PathFigures figures = figures_of(samples);
     out.facts.emplace_back("Duration", seconds_text(samples.duration()));
     out.facts.emplace_back("Samples", formatted("%d, %.4g a second", samples.count(), 1 / samples.dt()));
     const SourceFacts& facts = clip.facts;
@@ -109,24 +110,6 @@ std::string without_file(const std::string& message, const std::filesystem::path
 }
 
 }  // namespace
-
-PathFigures path_figures(const mobb::Clip& clip) {
-    PathFigures figures;
-    double radii = 0;
-    figures.min_radius = clip.samples().front().r;
-    const mobb::Disk* before = nullptr;
-    for (const mobb::Disk& disk : clip.samples()) {
-        if (before) figures.length += std::sqrt(mobb::squared_distance(*before, disk));
-        figures.min_radius = std::min(figures.min_radius, disk.r);
-        figures.max_radius = std::max(figures.max_radius, disk.r);
-        radii += disk.r;
-        before = &disk;
-    }
-    // Rounding must not push the mean of equal radii off them.
-    figures.mean_radius = std::clamp(radii / clip.count(), figures.min_radius, figures.max_radius);
-    if (clip.count() > 1) figures.mean_speed = figures.length / ((clip.count() - 1) * clip.dt());
-    return figures;
-}
 
 FileSummary summary_of(const std::filesystem::path& file, const Progress& progress) {
     std::error_code ignored;

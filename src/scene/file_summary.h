@@ -1,7 +1,6 @@
 /// What a file or a folder holds, in words for people.
 #pragma once
 
-#include <mobb/clip.h>
 #include <scene/scene.h>
 
 #include <filesystem>
@@ -10,16 +9,6 @@
 #include <vector>
 
 namespace mobbscope {
-
-/// What a clip's samples say, in metres and m/s.
-struct PathFigures {
-    double length = 0;
-    double mean_speed = 0;  ///< between the first sample and the last; 0 for one sample
-    double min_radius = 0;
-    double mean_radius = 0;
-    double max_radius = 0;
-};
-PathFigures path_figures(const mobb::Clip& clip);
 
 struct FileSummary {
     bool readable = true;

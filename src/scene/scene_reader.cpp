@@ -99,13 +99,13 @@ ImportOptions read_import_options(const JsonPlace& place) {
 
 /// Options of the command line that apply to a file; those that do not are named in `warnings`.
 ImportOptions overrides_for(const std::filesystem::path& file, const ImportOptions& overrides,
-                            std::vector<std::string>& warnings) {
+                            std::vector<ImportWarning>& warnings) {
     const ApplicableOptions taken = applicable(overrides, file);
-    for (const std::string& key : taken.left_out) warnings.push_back(does_not_apply(key, file));
+    for (const std::string& key : taken.left_out) warnings.push_back({does_not_apply(key, file)});
     return taken.options;
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+void append(std::vector<ImportWarning>& to, const std::vector<ImportWarning>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
@@ -237,7 +237,7 @@ class SceneReader {
         for (const std::string& key : applicable(clip.options, *clip.source).left_out) {
             place.require(key).fail(does_not_apply(key, *clip.source) + "; leave it out");
         }
-        std::vector<std::string> warnings;
+        std::vector<ImportWarning> warnings;
         const ImportOptions overrides = overrides_for(*clip.source, overrides_, warnings);
         try {
             std::vector<ImportedClip> imported =
@@ -336,7 +336,7 @@ class SceneReader {
 Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& overrides) {
     Scene scene;
     const bool is_crowd = contents_by_name(file) == Contents::trajectories;
-    std::vector<std::string> warnings;
+    std::vector<ImportWarning> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
     for (ImportedClip& imported : import_clips(file, options)) {
         SceneClip clip{imported.name,

@@ -1,6 +1,7 @@
 // Scene files written: what is read back is the same scene, bit for bit.
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <import/clip/import_options.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>

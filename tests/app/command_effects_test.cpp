@@ -117,6 +117,24 @@ std::vector<Case> cases() {
     });
     look("file.quit", "", [](CommandWorld& w) { EXPECT_TRUE(w.session.closed()); });
 
+    // Clips
+    look("clip.import", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.dialog, Dialog::import_clip);
+        EXPECT_EQ(w.session.importing.clip, 0);
+    });
+    look("clip.import", "stand unit", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.importing.clip, 1);
+        EXPECT_EQ(w.session.importing.field, "unit");
+    });
+    edit("clip.set", "unit cm", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.scene().clips[0].options.unit, "cm");
+        EXPECT_NEAR(w.session.fitted().tree(0).clip().samples()[30].x, 0.01, 1e-9);
+    });
+    add({"clip.set", "trim", {{"clip.set", "trim 0.5 1"}}, [](CommandWorld& w) {
+             EXPECT_FALSE(w.session.scene().clips[0].options.trim);
+             EXPECT_EQ(w.session.fitted().tree(0).clip().count(), 60);
+         }});
+
     // Edit
     add({"edit.undo", "", {kSelectB, {"agent.move", "4 5"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(1, -1));

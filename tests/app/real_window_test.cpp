@@ -118,6 +118,25 @@ TEST(RealWindow, APersonWorksByKeysAlone) {
     EXPECT_EQ(status, 0);
 }
 
+// A clip in the wrong unit, mended by hand: real_import.script asserts each state.
+TEST(RealWindow, APersonMendsAUnit) {
+    const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_import";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "scene.json") << R"({"clips": {"walk": {"source": "big.bvh", "unit": "m"}}})";
+    std::ofstream bvh(folder / "big.bvh");
+    bvh << "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n"
+           "JOINT Head\n{\nOFFSET 10 80 0\nCHANNELS 0\nEnd Site\n{\nOFFSET 30 0 0\n}\n}\n"
+           "JOINT Foot\n{\nOFFSET 0 -90 0\nCHANNELS 0\nEnd Site\n{\nOFFSET 10 0 0\n}\n}\n}\n"
+           "MOTION\nFrames: 90\nFrame Time: 0.0333333\n";
+    for (int i = 0; i < 90; ++i) bvh << 4 * i << " 90 0\n";
+    bvh.close();
+    const int status = under_xvfb("'" + kHere + "real_import.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "real_import.script' '" + (folder / "scene.json").string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    EXPECT_EQ(status, 0);
+}
+
 // Without a script, as only then settings are kept.
 TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
     const TempFolder folder;

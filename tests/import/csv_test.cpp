@@ -81,16 +81,16 @@ TEST(Csv, OtherTimesAreResampledFromTheFirstToTheLast) {
     EXPECT_EQ(only(clips(text, ten)).count(), 5);
     ASSERT_EQ(read[0].facts.warnings.size(), 1u);
     EXPECT_EQ(
-        read[0].facts.warnings[0],
+        read[0].facts.warnings[0].text,
         "the times are not uniform (line 3: 10.1 s, in step would be 10.1333 s); the path is resampled at 30 fps");
-    EXPECT_NE(clips(text, ten)[0].facts.warnings.at(0).find("resampled at 10 fps"), std::string::npos);
+    EXPECT_NE(clips(text, ten)[0].facts.warnings.at(0).text.find("resampled at 10 fps"), std::string::npos);
 }
 
 TEST(Csv, AWarningNamesTheLineInTheFileNotInTheTrack) {
     const auto read = clips("id,t,x,y,r\na,0,0,0,0\nb,0,0,0,0\n\na,1,0,0,0\nb,1,0,0,0\nb,5,0,0,0\na,2,0,0,0\n");
     EXPECT_TRUE(read.at(0).facts.warnings.empty());
     ASSERT_EQ(read.at(1).facts.warnings.size(), 1u);
-    EXPECT_NE(read[1].facts.warnings[0].find("(line 6: 1 s"), std::string::npos) << read[1].facts.warnings[0];
+    EXPECT_NE(read[1].facts.warnings[0].text.find("(line 6: 1 s"), std::string::npos) << read[1].facts.warnings[0].text;
 }
 
 TEST(Csv, WithoutTimesDtIsNeeded) {
@@ -102,7 +102,7 @@ TEST(Csv, WithoutTimesDtIsNeeded) {
     EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,0.4\n").find("one row does not tell how long it lasts"), std::string::npos);
     const auto one = clips("t,x,y,r\n3,0,0,0.4\n", options);
     EXPECT_EQ(only(one).dt(), 0.25);
-    EXPECT_EQ(one[0].facts.warnings, std::vector<std::string>{"there is one row: it holds for 0.25 s"});
+    EXPECT_EQ(one[0].facts.warnings, (std::vector<ImportWarning>{{"there is one row: it holds for 0.25 s", "dt"}}));
     EXPECT_EQ(clips("t,x,y,r\n0,0,0,0\n1,0,0,0\n", options)[0].facts.warnings.size(), 1u);
 }
 
@@ -142,7 +142,8 @@ TEST(Csv, TrimTakesSecondsFromTheFirstRow) {
     EXPECT_TRUE(rows[0].facts.warnings.empty());
     options.trim = {2.5, 99};
     EXPECT_EQ(clips(text, options)[0].facts.warnings,
-              std::vector<std::string>{"trim ends at 99 s, but the rows last 10 s; all of them to the end are taken"});
+              (std::vector<ImportWarning>{
+                  {"trim ends at 99 s, but the rows last 10 s; all of them to the end are taken", "trim"}}));
     EXPECT_EQ(only(clips(text, options)).count(), 8);
     EXPECT_EQ(only(clips(text, options)).samples()[0].x, 2.5);
     options.trim = {20, 30};

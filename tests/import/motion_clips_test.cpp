@@ -29,7 +29,7 @@ void expect_disk(const ImportedClip& of, std::size_t sample, double x, double y,
 
 bool warns(const ImportedClip& of, const std::string& text) {
     return std::any_of(of.facts.warnings.begin(), of.facts.warnings.end(),
-                       [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+                       [&](const ImportWarning& warning) { return warning.text.find(text) != std::string::npos; });
 }
 
 /// A pole 1.7 m tall in cm that goes along X at a frame's `steps` in cm, 30 a second, with an arm 40 cm long.

@@ -134,10 +134,10 @@ TEST(MotionData, WarningsAreGivenWhereTheDataIsOddAndNowhereElse) {
     for (const testing::Row& row : testing::read_rows(table)) {
         const std::string& file = row.at("file");
         if (!file.ends_with(".bvh") || file.ends_with("rotation_first_root.bvh")) continue;
-        const std::vector<std::string> warnings = import_clips(kData / file, {}).at(0).facts.warnings;
+        const std::vector<ImportWarning> warnings = import_clips(kData / file, {}).at(0).facts.warnings;
         const auto warned = [&](const char* of) {
             return std::count_if(warnings.begin(), warnings.end(),
-                                 [of](const std::string& w) { return w.find(of) != std::string::npos; });
+                                 [of](const ImportWarning& w) { return w.text.find(of) != std::string::npos; });
         };
         const std::string& note = row.at("note");
         const bool is_upside_down = file.find("broken_retarget") != std::string::npos;

@@ -45,7 +45,7 @@ TEST(Trajnetpp, WithoutASceneTheUsualRateIsAssumed) {
                                 "\n"
                                 R"({"track": {"f": 11, "p": 1, "x": 0, "y": 0}})");
     EXPECT_EQ(read[0].clip->dt(), 0.4);
-    EXPECT_NE(read[0].facts.warnings.at(0).find("2.5 points a second are assumed"), std::string::npos);
+    EXPECT_NE(read[0].facts.warnings.at(0).text.find("2.5 points a second are assumed"), std::string::npos);
 }
 
 TEST(Trajnetpp, BadLinesAreNamed) {

@@ -30,8 +30,8 @@ std::string tracks_refusal(const std::string& text, const ImportOptions& options
 }
 
 bool track_warns(const ImportedClip& clip, const std::string& part) {
-    for (const std::string& warning : clip.facts.warnings) {
-        if (warning.find(part) != std::string::npos) return true;
+    for (const ImportWarning& warning : clip.facts.warnings) {
+        if (warning.text.find(part) != std::string::npos) return true;
     }
     return false;
 }

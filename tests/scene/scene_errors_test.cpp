@@ -268,7 +268,7 @@ TEST(SceneErrors, WhatIsForOtherFormatsIsRefusedInTheSceneAndPassedOverFromOutsi
     const Scene scene = load_scene(file, overrides);
     EXPECT_EQ(scene.clips[0].clip->samples()[0].r, 0.5);
     EXPECT_EQ(scene.clips[0].facts.warnings,
-              (std::vector<std::string>{"root does not apply to .csv files", "up does not apply to .csv files"}));
+              (std::vector<ImportWarning>{{"root does not apply to .csv files"}, {"up does not apply to .csv files"}}));
     EXPECT_EQ(load_scene(folder.path() / "a.csv", overrides).clips[0].facts.warnings.size(), 2u);
 }
 

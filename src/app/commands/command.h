@@ -103,6 +103,7 @@ Command option_command(const ViewOption& option);
 // The parts of the table, one file each.
 std::vector<Command> file_commands();
 std::vector<Command> edit_commands();
+std::vector<Command> clip_commands();
 std::vector<Command> view_commands();
 std::vector<Command> tree_commands();
 std::vector<Command> query_commands();

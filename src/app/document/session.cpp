@@ -145,17 +145,20 @@ Scene Session::changed_scene(const std::function<void(Scene&)>& change) const {
 }
 
 void Session::edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
-                             const FittedScene* fitted_beside) {
+                             const FittedScene* fitted_beside, Purpose purpose) {
     Scene next = changed_scene(change);
     if (quick_to_fit(next, *document().fitted, fitted_beside)) {
         return change_document(with_scene(document(), std::move(next), fitted_beside), name);
     }
-    start("Fitting trees",
-          [this, name, change, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
-              const Document fitted = with_scene(before, next, nullptr, progress_of(control));
-              // The document may have changed meanwhile: the edit is made on what it is now, with the trees made here.
-              return [this, name, change, fitted] { edit_with_fits(name, change, fitted.fitted.get()); };
-          });
+    start(
+        "Fitting trees",
+        [this, name, change, purpose, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
+            const Document fitted = with_scene(before, next, nullptr, progress_of(control));
+            // The document may have changed meanwhile: the edit is made on what it is now, with the trees made here.
+            return
+                [this, name, change, fitted, purpose] { edit_with_fits(name, change, fitted.fitted.get(), purpose); };
+        },
+        purpose);
 }
 
 void Session::change_document(Document next, const EditName& name) {
@@ -308,6 +311,7 @@ void Session::changed() {
         next.view.step = {Step::Unit::end, 0};
         history_.amend(std::move(next));
     }
+    ask_for_offer();
 }
 
 Session::Derived& Session::derived() const {
@@ -461,6 +465,9 @@ std::string Session::title() const {
 
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
     jobs_.clear();
+    import_changes_.clear();
+    import_file_.reset();
+    if (dialog == Dialog::import_clip) close_dialog();
     document.view = fitting(document.view, *document.fitted);
     document.excerpt_of = nullptr;
     saved_ = document.fitted;
@@ -481,13 +488,14 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     }
     history_.reset(std::move(document));
     changed();
+    tell_of_warnings(0);
 }
 
 void Session::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
                    const std::optional<ViewState>& view) {
     after_asking([this, title, load_all, files, view] {
         // What is opened last is meant.
-        std::erase_if(jobs_, [](const Running& running) { return running.opens; });
+        std::erase_if(jobs_, [](const Running& running) { return running.purpose == Purpose::opens; });
         const auto work = [this, load_all, files, view,
                            present = document().fitted](JobControl& control) -> Job::Finish {
             Document document = document_of(load_all(control), nullptr, progress_of(control));
@@ -502,7 +510,7 @@ void Session::load(const std::string& title, const LoadAll& load_all, const std:
                 after_asking([this, document, files] { replace(document, files); });
             };
         };
-        start(title, work, true);
+        start(title, work, Purpose::opens);
     });
 }
 
@@ -611,8 +619,10 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
         const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
         return [this, read, files] {
             remember(files);
+            const std::size_t before = scene().clips.size();
             edit_with_fits(
                 {"adding files", ""}, [read](Scene& scene) { merge(scene, *read); }, nullptr);
+            tell_of_warnings(before);
         };
     });
 }
@@ -779,14 +789,15 @@ void Session::require_no_job() const {
     if (!jobs_.empty()) throw std::invalid_argument("wait for \"" + job()->title() + "\", or cancel it");
 }
 
-void Session::start(std::string title, Job::Work work, bool opens) {
-    jobs_.push_back({std::make_unique<Job>(std::move(title), std::move(work), hooks.wake), opens});
+void Session::start(std::string title, Job::Work work, Purpose purpose) {
+    jobs_.push_back({std::make_unique<Job>(std::move(title), std::move(work), hooks.wake), purpose});
     jobs_.back().job->wait(attended_ ? kPatience : std::chrono::hours(24));
     poll();
 }
 
 void Session::cancel_job(std::size_t index) {
     if (index >= jobs_.size()) return;
+    if (jobs_[index].purpose == Purpose::imports) import_changes_.clear();
     jobs_.erase(jobs_.begin() + static_cast<std::ptrdiff_t>(index));
     tell(Message::Level::info, "Cancelled");
 }
@@ -799,6 +810,7 @@ void Session::poll() {
         const std::unique_ptr<Job> job = std::move(done->job);
         jobs_.erase(done);
         finish(*job);
+        import_next();
     }
 }
 

@@ -2,6 +2,7 @@
 /// it; it knows neither.
 #pragma once
 
+#include <app/document/clip_import.h>
 #include <app/document/file_browser.h>
 #include <app/document/file_preview.h>
 #include <app/document/history.h>
@@ -29,7 +30,20 @@
 namespace mobbscope::app {
 
 /// What is asked or shown over the panels, one at a time.
-enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about, messages, dropped };
+enum class Dialog {
+    none,
+    open,
+    add,
+    save_as,
+    export_picture,
+    unsaved,
+    palette,
+    help,
+    about,
+    messages,
+    dropped,
+    import_clip
+};
 
 /// A command that a message offers; it is drawn as a button.
 struct MessageOffer {
@@ -178,6 +192,17 @@ class Session {
     bool in_excerpt() const { return document().excerpt_of != nullptr; }
     void leave_excerpt();
 
+    // Imports.
+    ClipImport importing;  ///< in the dialog Dialog::import_clip
+    /// Opens the dialog for a clip with a source; `field`: the option that it is about, empty: none.
+    void open_import(int clip, const std::string& field = "");
+    /// Gives an import option of a clip, or of all clips of its file, another value; an empty text leaves it to the
+    /// file. The clip is made anew, in a job if that takes long; the document changes when that is done, and changes
+    /// asked for meanwhile follow. What cannot be imported leaves the document as it was: it is said at the field if
+    /// the dialog is open, else in a message. Throws std::invalid_argument for a value out of range where there is no
+    /// dialog.
+    void set_import(int clip, bool whole_file, const std::string& option, const std::string& text);
+
     // What is pointed at.
     Selection selection;  ///< always of something that exists
     Selection hovered;    ///< under the mouse in any panel
@@ -302,15 +327,17 @@ class Session {
 
   private:
     using LoadAll = std::function<Scene(JobControl&)>;
+    /// What a job is for: `opens` replaces the document.
+    enum class Purpose { other, opens, imports };
 
     void ask_anew(DialogInput with);
     void require_no_job() const;
-    void start(std::string title, Job::Work work, bool opens = false);
+    void start(std::string title, Job::Work work, Purpose purpose = Purpose::other);
     void finish(Job& job);
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
     /// An edit that may make fits, in a job if they take long. `fitted_beside`: has trees to share; null: none.
     void edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
-                        const FittedScene* fitted_beside);
+                        const FittedScene* fitted_beside, Purpose purpose = Purpose::other);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     /// Replaces the document by what `load_all` gives, after asking if there are unsaved changes.
     /// ... seen as the scene says, or as `view`.
@@ -343,7 +370,7 @@ class Session {
     std::deque<std::function<void()>> queue_;
     struct Running {
         std::unique_ptr<Job> job;
-        bool opens = false;  ///< it replaces the document
+        Purpose purpose = Purpose::other;
     };
     std::vector<Running> jobs_;
     bool playing_ = false;
@@ -351,6 +378,27 @@ class Session {
     std::pair<Dialog, DialogInput> behind_help_{Dialog::none, {}};
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes
     bool closed_ = false;
+
+    // Imports: one change after the other.
+    struct ImportChange {
+        int clip = 0;
+        bool whole_file = false;
+        std::string option;
+        std::string text;
+    };
+    bool imports() const;
+    /// The clips that a change is of, with their options then; those that have them already are left out. Throws
+    /// std::invalid_argument for a value out of range.
+    std::vector<std::pair<int, ImportOptions>> options_wanted(const ImportChange& change) const;
+    void start_import(const ImportChange& change);
+    void import_next();
+    void refuse_import(const ImportChange& change, const std::string& why);
+    /// What the file of the clip in the dialog has to offer, for the options that it has now.
+    void ask_for_offer();
+    /// Points to the first warning that an option mends, of the clips from that index on.
+    void tell_of_warnings(std::size_t from);
+    std::deque<ImportChange> import_changes_;        ///< not begun yet
+    std::shared_ptr<const SourceFile> import_file_;  ///< that was read last
 
     /// What is computed from the present scene when asked for.
     struct Derived {

@@ -80,6 +80,9 @@ void dropped(Ui& ui) {
 
 void dialogs(Ui& ui) {
     Session& session = ui.session;
+    // Of lists and fields in a dialog Escape closes these first.
+    const bool escape_is_taken = session.dialog == Dialog::import_clip &&
+                                 (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || ImGui::GetIO().WantTextInput);
     switch (session.dialog) {
         case Dialog::none:
             return;
@@ -107,9 +110,13 @@ void dialogs(Ui& ui) {
         case Dialog::messages:
             message_list(ui);
             break;
+        case Dialog::import_clip:
+            import_dialog(ui);
+            break;
     }
     // A field in it that is typed into is left first.
-    if (pressed(ImGuiKey_Escape) && !ui.field.typing) session.enqueue([&session] { session.close_dialog(); });
+    const bool typing = ui.field.typing || escape_is_taken;
+    if (pressed(ImGuiKey_Escape) && !typing) session.enqueue([&session] { session.close_dialog(); });
 }
 
 void about(Ui& ui) {

@@ -34,5 +34,8 @@ void help_sheet(Ui& ui);
 std::span<const std::pair<const char*, const char*>> mouse_help();
 void about(Ui& ui);
 void message_list(Ui& ui);
+void import_dialog(Ui& ui);  ///< how a clip is read from its file
+/// The clip in the import dialog as it is: path, skeleton, radius over time, trim.
+void import_preview(Ui& ui, const SceneClip& clip);
 
 }  // namespace mobbscope::app

@@ -90,7 +90,11 @@ void clips(Ui& ui) {
                      session.hovered == self, 0, warned ? ui.style.warning : 0})) {
             session.select(self);
         }
-        if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().c_str());
+        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) &&
+            find_command("clip.import")->enabled(session)) {
+            invoke(session, "clip.import", clip.name);
+        }
+        if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().text.c_str());
     });
     if (session.crowd()) return;
     if (small_button(ui, "+ files", "scene.add_files", "Add clips, or the clips and agents of another scene")) {

@@ -133,10 +133,26 @@ Json messages_json(const Session& session) {
     return json;
 }
 
+/// The clip in the import dialog: what is taken of its file by itself, and what was refused.
+Json import_json(const Session& session) {
+    const ClipImport& now = session.importing;
+    Json taken = Json::object();
+    if (now.offer) {
+        for (const OptionOffer& option : now.offer->options) taken[option.key] = text_or_null(option.taken);
+    }
+    Json refused = Json::object();
+    for (const auto& [option, refusal] : now.refused) refused[option] = refusal.why;
+    return {{"clip", session.scene().clips[static_cast<std::size_t>(now.clip)].name},
+            {"field", text_or_null(now.field)},
+            {"whole_file", now.whole_file},
+            {"taken", std::move(taken)},
+            {"refused", std::move(refused)}};
+}
+
 std::string_view kind_name(Dialog dialog) {
-    constexpr std::array<std::string_view, 11> kNames{"none",           "open",     "add",     "save_as",
-                                                      "export_picture", "unsaved",  "palette", "help",
-                                                      "about",          "messages", "dropped"};
+    constexpr std::array<std::string_view, 12> kNames{
+        "none",    "open", "add",   "save_as",  "export_picture", "unsaved",
+        "palette", "help", "about", "messages", "dropped",        "import_clip"};
     return kNames[static_cast<std::size_t>(dialog)];
 }
 
@@ -235,6 +251,7 @@ Json state_json(const Session& session) {
     json["redo"] = text_or_null(session.history().redo_title());
     json["job"] = nullptr;
     if (const Job* job = session.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
+    if (session.dialog == Dialog::import_clip) json["import"] = import_json(session);
     if (session.view_count() > 1) {
         json["views"] = Json::array();
         for (std::size_t place = 0; place < session.view_count(); ++place) {

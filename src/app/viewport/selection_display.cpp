@@ -4,6 +4,7 @@
 #include <mobb/kinds.h>
 #include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
+#include <scene/path_figures.h>
 
 #include <cmath>
 #include <numbers>
@@ -72,18 +73,14 @@ void describe_path(Described& out, const FittedScene& fitted, const PlacedAgent&
 }
 
 void describe_clip(Described& out, const SceneClip& clip) {
-    double length = 0;
-    const auto samples = clip.clip->samples();
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-        length += std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y);
-    }
+    const double length = figures_of(*clip.clip).length;
     out.name = clip.name;
     out.facts = {{"source", clip.source.value_or("samples in the scene")},
                  {"samples", std::to_string(clip.clip->count())},
                  {"lasts", formatted("%.3f s at %.5g a second", clip.clip->duration(), 1 / clip.clip->dt())},
                  {"path", formatted("%.2f m, %.2f m/s", length, length / clip.clip->duration())}};
     if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
-    for (const std::string& warning : clip.facts.warnings) out.facts.emplace_back("note", warning);
+    for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", warning.text);
 }
 
 using Role = HighlightLine::Role;

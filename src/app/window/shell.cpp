@@ -63,6 +63,12 @@ bool edits_text(const Chord& chord) {
     return std::ranges::find(kEditing, chord.key) != kEditing.end();
 }
 
+/// A dialog has the keys, but for the one that explains it; what is edited in one is undone in it too.
+bool works_under(Dialog dialog, const Command& command) {
+    if (dialog == Dialog::none || command.id == "help.shortcuts") return true;
+    return dialog == Dialog::import_clip && (command.id == "edit.undo" || command.id == "edit.redo");
+}
+
 /// Has textures of its own: the renderer's holds what else it draws soon. Where the fine picture takes long, a coarse
 /// one stands in for it, and it is painted in parts while nothing changes.
 class TexturePainter final : public Painter {
@@ -219,8 +225,7 @@ struct Shell::State {
         if (focus.press(chord, repeated)) return Taken::opened;
         const Command* command = command_for(chord);
         if (!command || (repeated && !command->repeats)) return Taken::nobodys;
-        // A dialog takes all keys but the one that explains it.
-        if (session.dialog != Dialog::none && command->id != "help.shortcuts") return Taken::nobodys;
+        if (!works_under(session.dialog, *command)) return Taken::nobodys;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
         const bool busy = ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
         if (busy && !chord.ctrl && edits_text(chord)) return Taken::nobodys;

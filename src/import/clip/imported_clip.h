@@ -18,8 +18,7 @@ enum class Origin { keep, start, start_heading };
 inline constexpr double kDefaultFps = 30;
 
 /// How a file becomes clips: the import keys of a scene's clip and the import options of the command line.
-/// An empty option takes the default of the contract, section 2. `applicable` (import/import.h) tells which options
-/// mean nothing for a format.
+/// An empty option takes the default of the contract, section 2. import_options.h lists them.
 struct ImportOptions {
     std::optional<std::string> animation;           ///< index (from 0) or name; a number counts as an index
     std::optional<std::string> root;                ///< joint name
@@ -36,21 +35,6 @@ struct ImportOptions {
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };
 
-/// Calls `visit` with the key in a scene of every option, and the option as a member.
-template <class Visit>
-void for_each_import_option(const Visit& visit) {
-    visit("animation", &ImportOptions::animation);
-    visit("root", &ImportOptions::root);
-    visit("fps", &ImportOptions::fps);
-    visit("unit", &ImportOptions::unit);
-    visit("up", &ImportOptions::up);
-    visit("trim", &ImportOptions::trim);
-    visit("origin", &ImportOptions::origin);
-    visit("id", &ImportOptions::id);
-    visit("radius", &ImportOptions::radius);
-    visit("dt", &ImportOptions::dt);
-}
-
 /// Throws std::invalid_argument, naming the option, if one is out of range whatever the file.
 void check(const ImportOptions& options);
 
@@ -61,18 +45,27 @@ std::optional<double> metres_per_unit(const std::string& unit);
 std::string_view name(Origin origin);
 std::optional<Origin> origin_from_name(std::string_view name);
 
+/// What was passed over or looks wrong, in one sentence.
+struct ImportWarning {
+    std::string text;
+    std::string option{};  ///< the key of the option that mends it; empty: none does
+
+    friend bool operator==(const ImportWarning&, const ImportWarning&) = default;
+};
+
 /// What the file said, before sampling.
 struct SourceFacts {
     std::string format;  ///< "csv", "bvh", "gltf", "fbx", or of trajectories as in import/tracks/tracks.h
     double unit = 1;     ///< metres per file unit
     int frames = 0;
-    std::optional<double> dt;           ///< seconds between frames, where they are uniform
-    double duration = 0;                ///< last key - first key, seconds
-    std::vector<std::string> warnings;  ///< what was passed over or looks wrong, one sentence each
+    std::optional<double> dt;  ///< seconds between frames, where they are uniform
+    double duration = 0;       ///< last key - first key, seconds
+    std::vector<ImportWarning> warnings;
 
     // Of files with skeletons:
     std::string animation{};                      ///< its name; "#<index>" if it has none
     std::string root{};                           ///< the joint in the centre of the disks
+    std::string root_why{};                       ///< why it was taken, where no option names it: "the topmost joint"
     int joints = 0;                               ///< in the root's subtree, itself included, End Sites not
     std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
 };

@@ -91,9 +91,9 @@ std::vector<bool> subtree(std::span<const Joint> joints, int root) {
     return inside;
 }
 
-int default_root(const GroundedMotion& motion) {
+DefaultRoot default_root(const GroundedMotion& motion) {
     const std::vector<std::size_t> chain = only_children(motion.motion());
-    if (chain.size() == 1) return static_cast<int>(chain.front());
+    if (chain.size() == 1) return {static_cast<int>(chain.front()), "the topmost joint"};
 
     std::vector<glm::dvec3> start;
     std::vector<glm::dvec3> now;
@@ -111,7 +111,13 @@ int default_root(const GroundedMotion& motion) {
         }
         if (still == 0) break;
     }
-    return static_cast<int>(chain[std::min(still, chain.size() - 1)]);
+    const std::size_t taken = std::min(still, chain.size() - 1);
+    const std::string above = in_quotes(motion.joints()[chain.front()].name);
+    return {static_cast<int>(chain[taken]),
+            taken == 0 ? "the topmost joint"
+            : still == chain.size()
+                ? "the first with several joints below it: " + above + " and those below it stand still"
+                : "the topmost joint that moves: " + above + " stands still"};
 }
 
 int root_by_name(std::span<const Joint> joints, const std::string& name) {

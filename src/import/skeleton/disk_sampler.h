@@ -70,9 +70,15 @@ class DiskSampler {
     std::array<Slot, 2> slots_;
 };
 
+/// The joint that is taken where no option names one, and why, in words.
+struct DefaultRoot {
+    int joint = 0;
+    std::string why;
+};
+
 /// The default root of the contract: the topmost joint; if it never moves over the ground and has exactly one child
 /// joint, that child, and so on. A pivot (Motion::is_pivot) ends the search.
-int default_root(const GroundedMotion& motion);
+DefaultRoot default_root(const GroundedMotion& motion);
 
 /// The joint with a name, the first of several. Throws std::invalid_argument, naming the nearest.
 int root_by_name(std::span<const Joint> joints, const std::string& name);

@@ -24,6 +24,15 @@ constexpr std::size_t kMaxMotionSamples = 1'000'000;
 constexpr std::size_t kMaxJointPoses = 100'000'000;
 constexpr std::size_t kMaxSkeletonPositions = 8'000'000;  // 96 MB; longer clips go without a skeleton
 
+/// Units as options, and what they are called.
+constexpr std::pair<const char*, const char*> kUnitChoices[] = {
+    {"m", "m"}, {"cm", "cm"}, {"0.001", "mm"}, {"in", "in"}, {"0.0564444", "0.0564444 (CMU's ASF/AMC)"}};
+
+/// Metres with two decimals, or as many digits as it takes.
+std::string brief_length(double metres) {
+    return (metres >= 0.1 ? short_double(std::round(metres * 100) / 100) : formatted("%.1g", metres)) + " m";
+}
+
 /// The unit that makes a body of that height, in file units, most nearly 1.7 m tall.
 double body_unit(double height) {
     return *std::min_element(kBodyUnits.begin(), kBodyUnits.end(), [height](double a, double b) {
@@ -49,10 +58,9 @@ class MotionImport {
             throw std::invalid_argument("has " + std::to_string(motion_.joints().size()) +
                                         " joints, too many for so many frames; check the file, or lower fps");
         }
-        const int root = options_.root ? root_by_name(motion_.joints(), *options_.root) : default_root(grounded_);
-
         ImportedClip out;
         SourceFacts& facts = out.facts;
+        const int root = options_.root ? root_by_name(motion_.joints(), *options_.root) : take_default_root(facts);
         facts.format = std::move(format);
         facts.frames = times.frames;
         facts.dt = times.dt;
@@ -60,7 +68,7 @@ class MotionImport {
         facts.root = motion_.joints()[static_cast<std::size_t>(root)].name;
         facts.joints = joints_below(root);
         choose_unit(root, facts);
-        facts.warnings = motion_.warnings();
+        for (std::string& warning : motion_.warnings()) facts.warnings.push_back({std::move(warning)});
 
         auto skeleton = std::make_shared<Skeleton>();
         std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, *skeleton);
@@ -79,7 +87,49 @@ class MotionImport {
         return out;
     }
 
+    ImportOffer offer() {
+        const MotionTimes& times = motion_.times();
+        const DefaultRoot taken = default_root(grounded_);
+        const auto name_of = [&](int joint) { return motion_.joints()[static_cast<std::size_t>(joint)].name; };
+        OptionOffer roots{"root", name_of(taken.joint), taken.why};
+        for (const Joint& joint : motion_.joints()) {
+            if (!joint.end_site) roots.choices.push_back({joint.name, joint.name});
+        }
+        const double rate = times.dt ? 1 / *times.dt : 0;
+        const std::string frames = rate > 0 ? "the file has " + brief(std::round(rate * 100) / 100) + " frames a second"
+                                            : "the file's frames are not uniform in time";
+        const double seconds = times.last - times.first;
+        return {seconds,
+                {std::move(roots),
+                 {"fps", short_double(kDefaultFps), "as usual; " + frames},
+                 unit_offer(options_.root ? root_by_name(motion_.joints(), *options_.root) : taken.joint),
+                 {"up", "y", "as in most files", false, {{"y", "y"}, {"z", "z"}}},
+                 {"trim", "", "all of it"},
+                 origin_offer(),
+                 {"radius", "", "up to the joint that is farthest from the root"}}};
+    }
+
   private:
+    OptionOffer unit_offer(int root) const {
+        const double height = median_height(grounded_, root);
+        const double guess = body_unit(height);
+        const auto tall = [height](double unit) { return "a body " + brief_length(height * unit) + " tall"; };
+        OptionOffer out{"unit", unit_word(file_unit_.value_or(guess)),
+                        file_unit_ ? "as the file says: " + tall(*file_unit_)
+                                   : "guessed: " + tall(guess) + " (its median height)"};
+        if (file_unit_) out.choices.push_back({"auto", "auto: " + tall(guess)});
+        for (const auto& [value, label] : kUnitChoices) {
+            out.choices.push_back({value, label + std::string(": ") + tall(*metres_per_unit(value))});
+        }
+        return out;
+    }
+
+    int take_default_root(SourceFacts& facts) const {
+        DefaultRoot taken = default_root(grounded_);
+        facts.root_why = std::move(taken.why);
+        return taken.joint;
+    }
+
     int joints_below(int root) const {
         const std::vector<bool> inside = subtree(motion_.joints(), root);
         int count = 0;
@@ -127,6 +177,13 @@ class MotionImport {
     std::optional<double> file_unit_;
     const ImportOptions& options_;
 };
+
+/// What ImportOptions::animation says for one of several: its name, unless others share it or it is a number and so an
+/// index.
+std::string animation_key(const std::vector<std::string>& names, std::size_t index) {
+    const bool leads_here = std::count(names.begin(), names.end(), names[index]) == 1 && !parse_int(names[index]);
+    return leads_here ? names[index] : std::to_string(index);
+}
 
 /// Which animations are asked for.
 std::vector<std::size_t> chosen_animations(const std::vector<std::string>& names,
@@ -178,12 +235,28 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
         clip.facts.animation = names[i];
         clip.name = names.size() > 1 ? names[i] : file.stem().string();
         if (names.size() == 1) continue;
-        // A name that others share, or that is a number and so an index, does not lead back here.
-        const bool is_key = std::count(names.begin(), names.end(), names[i]) == 1 && !parse_int(names[i]);
-        clip.animation = is_key ? names[i] : std::to_string(i);
-        if (!is_key) clip.name += " #" + std::to_string(i);
+        clip.animation = animation_key(names, i);
+        if (clip.animation != names[i]) clip.name += " #" + std::to_string(i);
     }
     return clips;
+}
+
+ImportOffer motion_offer(const MotionFile& motions, const std::filesystem::path& file, const ImportOptions& options) {
+    return at_place(file.string(), "", [&] {
+        const std::vector<std::string>& names = motions.animations;
+        const std::size_t chosen = chosen_animations(names, options.animation).front();
+        const std::shared_ptr<const Motion> motion = motions.motion(chosen);
+        ImportOffer out = MotionImport(*motion, motions.unit, options).offer();
+        if (names.size() > 1) {
+            OptionOffer animations{"animation", "", "the file has several: name one", true};
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                const std::string key = animation_key(names, i);
+                animations.choices.push_back({key, key == names[i] ? key : key + ": " + names[i]});
+            }
+            out.options.insert(out.options.begin(), std::move(animations));
+        }
+        return out;
+    });
 }
 
 }  // namespace mobbscope

@@ -1,6 +1,7 @@
 /// Skeletons in motion to clips of disks (contract, section 2), and what looks wrong about such clips.
 #pragma once
 
+#include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
 #include <import/skeleton/motion.h>
 
@@ -13,6 +14,9 @@ namespace mobbscope {
 /// A clip of every animation in a file, or of the one that the options name. Throws InputError.
 std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::filesystem::path& file,
                                        const ImportOptions& options);
+
+/// What a file has for each option; see ParsedFile::offer (import/import.h).
+ImportOffer motion_offer(const MotionFile& motions, const std::filesystem::path& file, const ImportOptions& options);
 
 /// Whether the first sample is a pose that the motion does not begin with, such as a T-pose: a body far wider than in
 /// the next pose and in the usual one.

@@ -54,9 +54,10 @@ class Inspection {
         if (!begins_in_other_pose(clip_)) return;
         const std::size_t next = next_pose(clip_);
         say("sample 0" + file_frames(0, 0) +
-            " is a pose that the motion does not begin with, such as a T-pose: its radius is " +
-            rounded(radii_.front()) + " m, that of sample " + std::to_string(next) + " " + rounded(radii_[next]) +
-            " m; begin later with trim");
+                " is a pose that the motion does not begin with, such as a T-pose: its radius is " +
+                rounded(radii_.front()) + " m, that of sample " + std::to_string(next) + " " + rounded(radii_[next]) +
+                " m; begin later with trim",
+            "trim");
     }
 
     void jumps() {
@@ -77,10 +78,11 @@ class Inspection {
                                   std::to_string(largest + 1) + file_frames(largest, largest + 1) + ", at " +
                                   rounded(begin_ + static_cast<double>(largest) * clip_.dt()) + " s";
         if (found.size() == 1) {
-            say("the path jumps " + where);
+            say("the path jumps " + where, "trim");
         } else {
             say("the path jumps " + std::to_string(found.size()) + " times, first after sample " +
-                std::to_string(found.front()) + file_frames(found.front(), found.front()) + ", farthest " + where);
+                    std::to_string(found.front()) + file_frames(found.front(), found.front()) + ", farthest " + where,
+                "trim");
         }
     }
 
@@ -98,19 +100,21 @@ class Inspection {
         if (steps_.empty()) return;
         const double usual = median(steps_) / clip_.dt();
         if (usual > kFastest) {
-            say("the usual speed is " + rounded(usual) + " m/s, which no person reaches; check unit and frame time");
+            say("the usual speed is " + rounded(usual) + " m/s, which no person reaches; check unit and frame time",
+                "unit");
         }
     }
 
     void size() {
         const double radius = median(radii_);
         if (radius < kMinRadius || radius > kMaxRadius) {
-            say("the usual radius is " + rounded(radius) + " m, which no person has; check unit and root");
+            say("the usual radius is " + rounded(radius) + " m, which no person has; check unit and root", "unit");
         }
         const std::optional<double>& height = facts_.guessed_from_height;
         if (height && (*height < kMinHeight || *height > kMaxHeight)) {
             say("no usual unit makes the body's height plausible (" + rounded(*height) +
-                " m with that taken); give unit");
+                    " m with that taken); give unit",
+                "unit");
         }
     }
 
@@ -121,11 +125,12 @@ class Inspection {
         }
         const double usual = median(std::move(heights));
         if (usual < -kBelowFloor)
-            say("the root is usually " + rounded(-usual) + " m below the floor; check up and root");
+            say("the root is usually " + rounded(-usual) + " m below the floor; check up and root", "up");
     }
 
   private:
-    void say(std::string warning) { facts_.warnings.push_back(std::move(warning)); }
+    /// `option`: the one that mends it.
+    void say(std::string warning, const char* option = "") { facts_.warnings.push_back({std::move(warning), option}); }
 
     /// " (file frames 0 and 4)" where the file's frames are uniform.
     std::string file_frames(std::size_t first, std::size_t last) const {

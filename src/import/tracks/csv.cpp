@@ -198,12 +198,13 @@ class ClipMaker {
 
         const double fps = options_.fps.value_or(kDefaultFps);
         const double step = stored_dt.value_or(1 / fps);
-        if (!stored_dt) facts.warnings.push_back(resampled(track, fps));
-        if (rows.size() == 1) facts.warnings.push_back("there is one row: it holds for " + brief(step) + " s");
+        if (!stored_dt) facts.warnings.push_back({resampled(track, fps), "fps"});
+        if (rows.size() == 1) facts.warnings.push_back({"there is one row: it holds for " + brief(step) + " s", "dt"});
         // The last row still holds for a step.
         if (options_.trim && options_.trim->second > facts.duration + step) {
-            facts.warnings.push_back("trim ends at " + brief(options_.trim->second) + " s, but the rows last " +
-                                     brief(facts.duration) + " s; all of them to the end are taken");
+            facts.warnings.push_back({"trim ends at " + brief(options_.trim->second) + " s, but the rows last " +
+                                          brief(facts.duration) + " s; all of them to the end are taken",
+                                      "trim"});
         }
         std::vector<mobb::Disk> samples;
         if (stored_dt && !options_.trim) {
@@ -234,7 +235,7 @@ class ClipMaker {
     /// The rows' uniform spacing in seconds, or none. Gives rows without a time column their times.
     std::optional<double> spacing(std::vector<TimedDisk>& rows, SourceFacts& facts) const {
         if (options_.fps && (!table_.has_time || rows.size() == 1 || is_uniform(rows))) {
-            facts.warnings.push_back("fps does not apply: the rows are uniform in time and are the samples");
+            facts.warnings.push_back({"fps does not apply: the rows are uniform in time and are the samples", "fps"});
         }
         if (!table_.has_time || rows.size() == 1) {
             if (!options_.dt) {
@@ -247,7 +248,7 @@ class ClipMaker {
             }
             return options_.dt;
         }
-        if (options_.dt) facts.warnings.push_back("dt does not apply: the column t gives the times");
+        if (options_.dt) facts.warnings.push_back({"dt does not apply: the column t gives the times", "dt"});
         if (!is_uniform(rows)) return std::nullopt;
         return (rows.back().t - rows.front().t) / static_cast<double>(rows.size() - 1);
     }
@@ -280,6 +281,34 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
     ClipMaker maker = at_place(name, "", [&] { return ClipMaker(table, options); });
     return clips_by_track(table.tracks, file, options,
                           [&](const CsvTrack& track) { return std::optional(maker.make(track)); });
+}
+
+ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const ImportOptions& options) {
+    ImportOffer out;
+    bool uniform = true;
+    bool timed = table.has_time;
+    for (const CsvTrack& track : table.tracks) {
+        const std::size_t rows = track.rows.size();
+        const double last = table.has_time ? track.rows.back().t - track.rows.front().t
+                                           : static_cast<double>(rows - 1) * options.dt.value_or(0);
+        out.seconds = std::max(out.seconds, last);
+        uniform = uniform && (!table.has_time || rows == 1 || is_uniform(track.rows));
+        timed = timed && rows > 1;
+    }
+    // Rows in step are the samples.
+    if (!uniform)
+        out.options.push_back({"fps", short_double(kDefaultFps), "as usual; the rows are not uniform in time"});
+    out.options.push_back(unit_offer(1, "as usual of CSV files"));
+    if (out.seconds > 0) out.options.push_back({"trim", "", "all of it"});
+    out.options.push_back(origin_offer());
+    if (table.tracks.size() > 1) out.options.push_back(id_offer(table.tracks));
+    out.options.push_back(
+        {"radius", "", table.has_radius ? "the column r" : "the file has no column r", !table.has_radius});
+    if (!timed) {
+        out.options.push_back(
+            {"dt", "", table.has_time ? "one row does not tell how long it lasts" : "the file has no column t", true});
+    }
+    return out;
 }
 
 std::string csv_field(std::string_view text) {

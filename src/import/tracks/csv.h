@@ -1,6 +1,7 @@
 /// Comma-separated tracks: a header row naming t,x,y,r or x,y,r (any order), optionally id; one disk a row.
 #pragma once
 
+#include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
 #include <import/clip/sampling.h>
 
@@ -34,6 +35,9 @@ CsvTable parse_csv(std::string_view text, const std::string& file);
 /// The clips of a table. Throws InputError.
 std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem::path& file,
                                     const ImportOptions& options);
+
+/// What a file has for each option; see ParsedFile::offer (import/import.h).
+ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path& file, const ImportOptions& options);
 
 /// A field as it must stand in a file: quoted where it holds a comma, a quote or a blank at an end.
 std::string csv_field(std::string_view text);

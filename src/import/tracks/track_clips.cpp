@@ -19,6 +19,10 @@ constexpr std::size_t kAlwaysFilled = 10'000;
 // Frames of a plan may be fractions: they are in step to so many of a step.
 constexpr double kStepTolerance = 1e-6;
 
+std::string assumed_radius() {
+    return "the file has no radii: " + brief(kDefaultTrackRadius) + " m are taken; give radius if that is wrong";
+}
+
 /// Frames from each point to the next.
 void append_steps(std::span<const TrackPoint> points, std::vector<double>& steps) {
     for (std::size_t i = 1; i < points.size(); ++i) steps.push_back(points[i].frame - points[i - 1].frame);
@@ -73,8 +77,10 @@ class FrameClock {
 
 class TrackClipMaker {
   public:
+    /// Refers to the options.
     TrackClipMaker(const TrackFile& file, const ImportOptions& options)
-        : options_(options), clock_(file, options), common_{file.format, file.unit, 0, std::nullopt, 0, file.warnings} {
+        : options_(options), clock_(file, options), common_{file.format, file.unit, 0, std::nullopt, 0, {}} {
+        for (const std::string& warning : file.warnings) common_.warnings.push_back({warning});
         std::size_t points = 0;
         for (const Track& track : file.tracks) points += track.points.size();
         most_ = options.fps ? kMaxSamples : std::min(kMaxSamples, kMaxFill * points + kAlwaysFilled);
@@ -82,24 +88,28 @@ class TrackClipMaker {
             throw std::invalid_argument("its frames last " + brief(clock_.duration()) + " s, over " +
                                         short_double(mobb::kMaxTime) + "; check them");
         }
-        if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back(file.rate_assumption);
+        if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back({file.rate_assumption, "dt"});
         if (options.unit && *options.unit != "auto") {
             common_.unit = *metres_per_unit(*options.unit);
         } else if (!file.unit_assumption.empty()) {
-            common_.warnings.push_back(file.unit_assumption);
+            common_.warnings.push_back({file.unit_assumption, "unit"});
             common_.guessed_from_height = file.guessed_height;
         }
         if (!options.radius) {
-            common_.warnings.push_back("the file has no radii: " + brief(kDefaultTrackRadius) +
-                                       " m are taken; give radius if that is wrong");
+            common_.warnings.push_back(
+                {"the file has no radii: " + brief(kDefaultTrackRadius) + " m are taken; give radius if that is wrong",
+                 "radius"});
         }
         if (options.trim && options.trim->second > clock_.duration() + clock_.seconds(clock_.usual_step())) {
-            common_.warnings.push_back("trim ends at " + brief(options.trim->second) + " s, but the file lasts " +
-                                       brief(clock_.duration()) + " s; all to the end is taken");
+            common_.warnings.push_back({"trim ends at " + brief(options.trim->second) + " s, but the file lasts " +
+                                            brief(clock_.duration()) + " s; all to the end is taken",
+                                        "trim"});
         }
     }
 
     double duration() const { return clock_.duration(); }
+    double frame_time() const { return clock_.seconds(1); }
+    double usual_step() const { return clock_.seconds(clock_.usual_step()); }
 
     /// Nothing if the track is not there in the time that is taken.
     std::optional<ImportedClip> make(const Track& track) {
@@ -115,15 +125,15 @@ class TrackClipMaker {
         facts.duration = clock_.seconds(track.points.back().frame - track.points.front().frame);
         if (!in_step(steps, step)) {
             const double fps = options_.fps.value_or(kDefaultFps);
-            facts.warnings.push_back("the points are not uniform in time; the path is resampled at " + brief(fps) +
-                                     " fps");
+            facts.warnings.push_back(
+                {"the points are not uniform in time; the path is resampled at " + brief(fps) + " fps", "fps"});
         } else if (uniform(steps, step)) {
             facts.dt = dt;
         } else {
             const double missing =
                 (points.back().frame - points.front().frame) / step - static_cast<double>(steps.size());
-            facts.warnings.push_back(counted(std::llround(missing), "frame is", "frames are") +
-                                     " missing within the track; the path is interpolated there");
+            facts.warnings.push_back({counted(std::llround(missing), "frame is", "frames are") +
+                                      " missing within the track; the path is interpolated there"});
         }
         const double sample_dt = options_.fps || !in_step(steps, step) ? 1 / options_.fps.value_or(kDefaultFps) : dt;
 
@@ -205,6 +215,23 @@ std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesy
                              " s of trim; the file lasts " + brief(maker.duration()) + " s");
     }
     return clips;
+}
+
+ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& file, const ImportOptions&) {
+    const ImportOptions none;
+    const TrackClipMaker maker = at_place(file.string(), "", [&] { return TrackClipMaker(tracks, none); });
+    const std::string step = maker.usual_step() > 0 ? brief(1 / maker.usual_step()) + " points a second" : "points";
+    ImportOffer out{maker.duration(),
+                    {{"fps", maker.usual_step() > 0 ? short_double(1 / maker.usual_step()) : "", "as stored: " + step},
+                     unit_offer(tracks.unit, tracks.unit_assumption.empty() ? "as the file or its format says"
+                                                                            : tracks.unit_assumption),
+                     {"trim", "", "all of it, from the file's first frame"},
+                     origin_offer()}};
+    if (tracks.tracks.size() > 1) out.options.push_back(id_offer(tracks.tracks));
+    out.options.push_back({"radius", short_double(kDefaultTrackRadius), assumed_radius()});
+    out.options.push_back({"dt", short_double(maker.frame_time()),
+                           tracks.rate_assumption.empty() ? "as the file or its format says" : tracks.rate_assumption});
+    return out;
 }
 
 }  // namespace mobbscope

@@ -26,6 +26,10 @@ std::vector<Track> TrackCollector::take(const std::string& file) {
     return std::move(tracks_);
 }
 
+OptionOffer unit_offer(double taken, const std::string& why) {
+    return {"unit", unit_word(taken), why, false, {{"m", "m"}, {"cm", "cm"}, {"0.001", "mm"}, {"in", "in"}}};
+}
+
 void refuse_skeleton_options(const ImportOptions& options, const std::filesystem::path& file, const std::string& what) {
     const auto refuse = [&](bool given, const char* option) {
         if (given)

@@ -3,6 +3,7 @@
 
 #include <base/error.h>
 #include <base/text.h>
+#include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
 
 #include <cstddef>
@@ -91,6 +92,20 @@ inline constexpr double kDefaultTrackRadius = 0.2;
 /// InputError.
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
                                       const ImportOptions& options);
+
+/// What a file has for each option; see ParsedFile::offer (import/import.h).
+ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options);
+
+/// The unit of files without a body: one that is taken, and the usual ones.
+OptionOffer unit_offer(double taken, const std::string& why);
+
+/// Which of several tracks.
+template <class Tracks>
+OptionOffer id_offer(const Tracks& tracks) {
+    OptionOffer out{"id", "", "the file has several tracks: name one", true};
+    for (const auto& track : tracks) out.choices.push_back({track.id, track.id});
+    return out;
+}
 
 /// Throws InputError if an option is given that means something for skeletons alone. `what`: the file's kind.
 void refuse_skeleton_options(const ImportOptions& options, const std::filesystem::path& file, const std::string& what);

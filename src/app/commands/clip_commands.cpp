@@ -1,0 +1,90 @@
+#include <app/commands/arguments.h>
+#include <app/commands/command.h>
+#include <app/document/agents.h>
+#include <base/text.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+namespace {
+
+bool has_source(const Session& session, int clip) {
+    const auto& clips = session.scene().clips;
+    return clip >= 0 && static_cast<std::size_t>(clip) < clips.size() && clips[static_cast<std::size_t>(clip)].source;
+}
+
+/// The clip that import commands are about: of the dialog, else the selected one or that of the selected agent, else
+/// the first from a file; -1: none.
+int clip_to_import(const Session& session) {
+    if (session.dialog == Dialog::import_clip) return session.importing.clip;
+    const Selection& selected = session.selection;
+    if (selected.kind == Selection::Kind::clip && has_source(session, selected.index)) return selected.index;
+    if (selected.on_path()) {
+        const auto who = placed_agent_of(session.fitted(), selected.path);
+        if (who && has_source(session, who->clip)) return who->clip;
+    }
+    const auto& clips = session.scene().clips;
+    const auto at = std::ranges::find_if(clips, [](const SceneClip& clip) { return clip.source.has_value(); });
+    return at == clips.end() ? -1 : static_cast<int>(at - clips.begin());
+}
+
+bool can_import(const Session& session) {
+    return !session.crowd() && !session.scene().graph && clip_to_import(session) >= 0;
+}
+
+std::string_view why_no_import(const Session& session) {
+    if (session.crowd()) return "a run is not edited";
+    return session.scene().graph ? "the motion graph was cut out of these clips" : "no clip comes from a file";
+}
+
+std::vector<std::string> names_of_sources(const Session& session) {
+    std::vector<std::string> out;
+    for (const SceneClip& clip : session.scene().clips) {
+        if (clip.source) out.push_back(clip.name);
+    }
+    return out;
+}
+
+/// A clip's name, and behind it the option that the dialog is opened for.
+void open_dialog(Session& session, const std::string& text) {
+    if (text.empty()) return session.open_import(clip_to_import(session));
+    const std::vector<std::string> names = clip_names(session);
+    std::string name(trimmed(text));
+    std::string option;
+    const std::size_t blank = name.rfind(' ');
+    if (std::ranges::find(names, name) == names.end() && blank != std::string::npos &&
+        import_option(name.substr(blank + 1))) {
+        option = name.substr(blank + 1);
+        name = trimmed(std::string_view(name).substr(0, blank));
+    }
+    session.open_import(index_of_name(names, name, "clip"), option);
+}
+
+void set(Session& session, const std::string& text) {
+    const std::string_view both = trimmed(text);
+    const std::size_t end = std::min(both.find(' '), both.size());
+    std::vector<std::string> keys;
+    for (const ImportOption& option : kImportOptions) keys.emplace_back(option.key);
+    const int option = index_of_name(keys, both.substr(0, end), "import option");
+    session.set_import(clip_to_import(session), session.dialog == Dialog::import_clip && session.importing.whole_file,
+                       keys[static_cast<std::size_t>(option)], std::string(trimmed(both.substr(end))));
+}
+
+}  // namespace
+
+std::vector<Command> clip_commands() {
+    const std::vector<Command> rows{
+        Command("clip.import", "Import options...",
+                "Shows how a clip is read from its file, what was guessed and why, and changes it.", open_dialog,
+                {.argument = "[CLIP [OPTION]]", .enabled = {can_import, why_no_import}, .choices = names_of_sources}),
+        Command("clip.set", "Set import option",
+                "Reads the selected clip from its file with another value of an import option; without a value as the "
+                "file says.",
+                set, {.menu = kNoMenu, .argument = "OPTION [VALUE]", .enabled = {can_import, why_no_import}}),
+    };
+    return in_menu("Edit", rows);
+}
+
+}  // namespace mobbscope::app

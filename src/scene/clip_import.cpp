@@ -1,0 +1,102 @@
+#include <base/text.h>
+#include <scene/clip_import.h>
+
+#include <algorithm>
+#include <system_error>
+#include <unordered_map>
+
+namespace mobbscope {
+
+namespace {
+
+/// Of a file with several, the one that the options name: of tracks all are made at once, so that the file is gone
+/// through once however many are asked for.
+ImportOptions without_id(ImportOptions options) {
+    options.id.reset();
+    return options;
+}
+
+const ImportedClip& one_of(const std::vector<ImportedClip>& all, const ImportOptions& options,
+                           const std::filesystem::path& file) {
+    const auto is_it = [&](const ImportedClip& clip) { return !options.id || clip.id == *options.id; };
+    const auto at = std::ranges::find_if(all, is_it);
+    if (at == all.end()) {
+        throw InputError(file.string(), "", "track " + in_quotes(*options.id) + " is not there, or not in this time");
+    }
+    if (std::count_if(at, all.end(), is_it) > 1) {
+        throw InputError(file.string(), "",
+                         at->id.empty() ? "it has several animations: name one" : "it has several tracks: name one");
+    }
+    return *at;
+}
+
+}  // namespace
+
+std::shared_ptr<const SourceFile> source_file(const std::filesystem::path& path,
+                                              const std::shared_ptr<const SourceFile>& known) {
+    std::error_code ignored;
+    const auto written = std::filesystem::last_write_time(path, ignored);
+    const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+    if (known && known->path == path && known->written == written && known->size == size) return known;
+    return std::make_shared<const SourceFile>(SourceFile{path, written, size, parse_clip_file(path)});
+}
+
+std::filesystem::path source_path(const Scene& scene, const SceneClip& clip) {
+    return scene.file.parent_path() / *clip.source;
+}
+
+std::vector<int> clips_of_same_source(const Scene& scene, int clip) {
+    std::vector<int> out;
+    const std::optional<std::string>& source = scene.clips.at(static_cast<std::size_t>(clip)).source;
+    for (int i = 0; i < static_cast<int>(scene.clips.size()); ++i) {
+        if (scene.clips[static_cast<std::size_t>(i)].source == source) out.push_back(i);
+    }
+    return out;
+}
+
+std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
+                                     const std::vector<std::pair<int, ImportOptions>>& wanted) {
+    std::vector<ReimportedClip> out;
+    std::optional<ImportOptions> made_with;
+    std::vector<ImportedClip> made;
+    for (const auto& [index, options] : wanted) {
+        const bool alone = wanted.size() == 1;
+        const ImportOptions common = alone ? options : without_id(options);
+        if (made_with != common) {
+            made = file.parsed.clips(common);
+            made_with = common;
+        }
+        const ImportedClip& imported = one_of(made, options, file.path);
+        const SceneClip& was = scene.clips.at(static_cast<std::size_t>(index));
+        out.push_back(
+            {index, {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start}});
+    }
+    return out;
+}
+
+void replace_clips(Scene& scene, const std::vector<ReimportedClip>& clips) {
+    std::unordered_map<int, double> started;  // by clip: when it did before
+    for (const ReimportedClip& made : clips) {
+        if (static_cast<std::size_t>(made.clip) >= scene.clips.size()) continue;
+        SceneClip& clip = scene.clips[static_cast<std::size_t>(made.clip)];
+        if (clip.name != made.is.name || clip.source != made.is.source) continue;
+        started[made.clip] = clip.start;
+        clip = made.is;
+    }
+    const auto follow = [&](int clip, mobb::Placement& placement) {
+        const auto at = started.find(clip);
+        if (at == started.end()) return false;
+        if (placement.start == at->second) placement.start = scene.clips[static_cast<std::size_t>(clip)].start;
+        return true;
+    };
+    for (Agent& agent : scene.agents) follow(agent.clip, agent.placement);
+    for (SceneQuery& query : scene.queries) {
+        const bool a = follow(query.a.clip, query.a.placement);
+        const bool b = follow(query.b.clip, query.b.placement);
+        if (!a && !b) continue;
+        query.trace.reset();
+        if (query.expect) query.expect->contact.reset();
+    }
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,50 @@
+/// Clips of a scene read anew with other import options.
+#pragma once
+
+#include <import/import.h>
+#include <scene/scene.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope {
+
+/// A file that clips come from, as it was read: changing an option does not read it anew.
+struct SourceFile {
+    std::filesystem::path path;
+    std::filesystem::file_time_type written{};
+    std::uintmax_t size = 0;
+    ParsedFile parsed;
+};
+
+/// The file as it is now: `known` (null: nothing) if that is it and it has not changed since, else read. Throws
+/// InputError.
+std::shared_ptr<const SourceFile> source_file(const std::filesystem::path& path,
+                                              const std::shared_ptr<const SourceFile>& known);
+
+/// Where a clip's source is. Requires one.
+std::filesystem::path source_path(const Scene& scene, const SceneClip& clip);
+
+/// The clips that come from the same file as one with a source, itself included: indices into Scene::clips.
+std::vector<int> clips_of_same_source(const Scene& scene, int clip);
+
+/// A clip as it is with other options.
+struct ReimportedClip {
+    int clip = 0;  ///< index into Scene::clips
+    SceneClip is{};
+};
+
+/// Clips of one file with those options, each by its index. Throws InputError, as load_scene would.
+std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
+                                     const std::vector<std::pair<int, ImportOptions>>& wanted);
+
+/// Puts them into the scene; those that are no longer there, or are of another source now, are passed over. What was
+/// recorded of them is dropped: traces, and of expected answers the contact. Agents that started when their track did
+/// go on doing so.
+void replace_clips(Scene& scene, const std::vector<ReimportedClip>& clips);
+
+}  // namespace mobbscope
