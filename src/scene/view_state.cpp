@@ -18,6 +18,7 @@ std::optional<int> level(std::string_view text) {
 constexpr std::array<std::string_view, 5> kPresets{"iso", "top", "front", "side", "free"};
 constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};
 constexpr std::array<std::string_view, 2> kColorings{"agent", "level"};
+constexpr std::array<std::string_view, 2> kArrangements{"none", "grid"};
 constexpr std::array<std::string_view, 2> kShows{"space-time", "moment"};
 
 }  // namespace
@@ -77,6 +78,11 @@ std::string_view name(Theme theme) { return kThemes[static_cast<std::size_t>(the
 
 std::optional<ColorBy> color_by_from_name(std::string_view text) { return enumerator_named<ColorBy>(kColorings, text); }
 std::string_view name(ColorBy color_by) { return kColorings[static_cast<std::size_t>(color_by)]; }
+
+std::optional<Arrange> arrange_from_name(std::string_view text) {
+    return enumerator_named<Arrange>(kArrangements, text);
+}
+std::string_view name(Arrange arrange) { return kArrangements[static_cast<std::size_t>(arrange)]; }
 
 std::optional<Show> show_from_name(std::string_view text) { return enumerator_named<Show>(kShows, text); }
 std::string_view name(Show show) { return kShows[static_cast<std::size_t>(show)]; }

@@ -104,6 +104,7 @@ Command option_command(const ViewOption& option);
 std::vector<Command> file_commands();
 std::vector<Command> edit_commands();
 std::vector<Command> view_commands();
+std::vector<Command> shown_commands();
 std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
 std::vector<Command> go_commands();

@@ -31,6 +31,12 @@ std::string at_time(double time);
 /// Whether the scene may lie behind the words: it does not where the camera frames it by itself.
 bool scene_may_lie_behind(const ViewState& view, const PictureOptions& options);
 
+/// Says something in the detail, before all else.
+void mention(Caption& caption, const std::string& text);
+
+/// Says in the detail who is hidden: by name, or how many of all.
+void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::size_t all);
+
 /// Says in the detail that a time cursor is not drawn, as it lies outside what the paths take.
 void mention_cursor_outside(Caption& caption, double time, double begin, double end);
 

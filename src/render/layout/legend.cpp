@@ -67,6 +67,7 @@ void add_levels(std::vector<LegendEntry>& entries, const DrawList& list, std::sp
 void add_query(std::vector<LegendEntry>& entries, const DrawList& list, std::span<const DrawnAgent> sides,
                const QueryProgress& progress, PairOutline outline, std::vector<LegendEntry>& remarks) {
     for (const DrawnAgent& side : sides) {
+        if (side.hidden) continue;
         const Rgba color = outline == PairOutline::owner
                                ? side.color
                                : pair_style(outline, side, progress.event.outcome, list.palette).color;
@@ -129,13 +130,16 @@ LegendEntry line_entry(const LineStyle& style, std::string text) {
 
 std::vector<LegendEntry> agent_entries(std::span<const DrawnAgent> agents) {
     std::vector<LegendEntry> entries;
-    const std::size_t shown = std::min(agents.size(), kMostAgents);
-    for (const DrawnAgent& agent : agents.first(shown)) {
-        entries.push_back(dot_entry(agent.color, agent.label));
+    std::size_t more = 0;
+    for (const DrawnAgent& agent : agents) {
+        if (agent.hidden) continue;
+        if (entries.size() < kMostAgents) {
+            entries.push_back(dot_entry(agent.color, agent.label));
+        } else {
+            ++more;
+        }
     }
-    if (shown < agents.size()) {
-        entries.push_back(dot_entry(Rgba(0), "and " + std::to_string(agents.size() - shown) + " more"));
-    }
+    if (more > 0) entries.push_back(dot_entry(Rgba(0), "and " + std::to_string(more) + " more"));
     return entries;
 }
 
@@ -154,7 +158,8 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
             entries.push_back({.mark = Mark::double_ring, .color = list.palette.hit, .text = "samples that hit"});
         }
     } else {
-        entries = agent_entries(agents);
+        // In a grid each has its name.
+        if (!agents.front().cell) entries = agent_entries(agents);
         if (view.boxes && !list.boxes.empty()) {
             if (view.color_by == ColorBy::level) {
                 add_level_colors(entries, list, agents);

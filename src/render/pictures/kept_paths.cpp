@@ -14,17 +14,22 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
 }
 
 const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewState& view) {
-    if (!bounds_ || bounds_->first != view.query) bounds_.emplace(view.query, bounds_of(agents));
+    const std::pair of(view.query, view.arrange);
+    if (!bounds_ || bounds_->first != of) bounds_.emplace(of, bounds_of(agents));
     return bounds_->second;
 }
 
 const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                            const std::vector<PathFocus>& foci) {
-    const Shapes shapes{view.query, list.space.origin, list.space.time_height,
-                        fitted_->scene().crowd ? view.time_window : 0};
-    const Colors colors{view.theme, foci};
+    const Shapes shapes{
+        view.query,  list.space.origin, list.space.time_height, fitted_->scene().crowd ? view.time_window : 0,
+        view.hidden, view.arrange};
+    Colors colors{view.theme, foci, {}};
+    for (const DrawnAgent& agent : agents) colors.agents.push_back(agent.color);
     if (shapes_ != shapes) {
-        for (std::size_t i = 0; i < agents.size(); ++i) add_disks(list, agents[i], foci[i]);
+        for (std::size_t i = 0; i < agents.size(); ++i) {
+            if (!agents[i].hidden) add_disks(list, agents[i], foci[i]);
+        }
         disks_ = list.disks;
         points_ = ShownPoints(disks_);
         shapes_ = shapes;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,11 +42,14 @@ class KeptPaths {
         glm::dvec3 origin{0};
         double time_height = 0;
         double time_window = 0;  ///< of a run, whose window begins at the origin's time
+        std::vector<std::string> hidden;
+        Arrange arrange = Arrange::none;
         friend bool operator==(const Shapes&, const Shapes&) = default;
     };
     struct Colors {
         Theme theme = Theme::dark;
         std::vector<PathFocus> foci;
+        std::vector<Rgba> agents;
         friend bool operator==(const Colors&, const Colors&) = default;
     };
 
@@ -58,8 +62,9 @@ class KeptPaths {
 
     std::shared_ptr<const FittedScene> fitted_;
     Moment moment_;
-    std::unique_ptr<KeptPaths> at_moment_;                         ///< of a run
-    std::optional<std::pair<std::optional<int>, Bounds>> bounds_;  ///< by the view's query
+    std::unique_ptr<KeptPaths> at_moment_;  ///< of a run
+    /// By the view's query and arrangement.
+    std::optional<std::pair<std::pair<std::optional<int>, Arrange>, Bounds>> bounds_;
     std::optional<Shapes> shapes_;
     Colors colors_;
     SharedValues<DiskInstance> disks_;

@@ -71,6 +71,9 @@ class Picture {
     DrawList list_;
 
   private:
+    void let_stand_out();
+    void say_what_view_does(Caption& caption) const;
+
     LabelLayout layout_;
     Blocks blocks_;
 };
