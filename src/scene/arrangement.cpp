@@ -55,7 +55,8 @@ std::vector<GridCell> grid_of(const Scene& scene, std::span<const PlacedAgent> a
 }
 
 bool is_in_grid(const Scene& scene, const ViewState& view) {
-    return view.arrange == Arrange::grid && !view.query && !scene.crowd;
+    const bool of_one_disk = view.projection && view.show == Show::space_time;
+    return view.arrange == Arrange::grid && !view.query && !of_one_disk && !scene.crowd;
 }
 
 void lay_out_clips(Scene& scene) {

@@ -50,7 +50,7 @@ class Worked {
         session.may_write = false;
         session.open({file});
         settle();
-        begun_ = session.document();
+        note_opening();
     }
 
     void work(int statements) {
@@ -59,13 +59,11 @@ class Worked {
             done += lines + '\n';
             std::istringstream in(lines);
             for (std::string line; std::getline(in, line);) run(line);
-            // Another file was opened: what was done before is no past of it.
-            const History& history = session.history();
-            const bool fresh = !history.can_undo() && !history.can_redo();
-            if (fresh && session.document().fitted != begun_.fitted) begun_ = session.document();
+            note_opening();
         }
         session.stop();
         settle();
+        note_opening();
     }
 
     const Document& begun() const { return begun_; }
@@ -86,6 +84,16 @@ class Worked {
         }
     }
 
+    /// Another file was opened, and maybe something done since: what was done before is no past of it.
+    void note_opening() {
+        if (session.in_excerpt() || session.opening() == opening_) return;
+        opening_ = session.opening();
+        int done_since = 0;
+        for (; session.history().can_undo(); ++done_since) session.undo();
+        begun_ = session.document();
+        for (; done_since > 0; --done_since) session.redo();
+    }
+
     /// Until no job is left.
     void settle() {
         do {
@@ -95,6 +103,7 @@ class Worked {
 
     test::RandomScript script_;
     Document begun_ = session.document();
+    int opening_ = session.opening();
 };
 
 TEST(UndoScripts, AnyScriptUndoneIsWhereItBeganAndRedoneWhereItWas) {

@@ -1,8 +1,10 @@
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <app/document/shown_agents.h>
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -11,18 +13,40 @@ namespace {
 using Change = void (*)(Session&, const AgentNames&);
 using Holds = bool (*)(const Session&, const AgentNames&);
 
-Command about_agents(std::string_view id, std::string_view title, std::string_view key, std::string_view doc,
-                     Change change, Holds holds) {
-    const auto act = [change](Session& session, const std::string& name) {
-        const AgentNames who = agents_meant(session, name);
-        if (who.empty()) {
-            throw std::invalid_argument(name.empty() ? "no agent is selected: select one, or a clip that one plays"
-                                                     : "no agent plays it");
-        }
+bool has_selected_agents(const Session& session) { return !selected_agents(session).empty(); }
+std::string_view why_nobody(const Session& session) {
+    return session.selection.kind == Selection::Kind::clip ? "no agent plays the clip" : "no agent is selected";
+}
+
+/// About those that are selected.
+Command of_selected(std::string_view id, std::string_view title, std::string_view key, std::string_view doc,
+                    Change change, Holds holds) {
+    const auto act = [change](Session& session) { change(session, selected_agents(session)); };
+    const auto is_so = [holds](const Session& session) { return holds(session, selected_agents(session)); };
+    return {id, title, doc, act, {.shortcut = key, .enabled = {has_selected_agents, why_nobody}, .checked = is_so}};
+}
+
+/// What agents_meant takes.
+std::vector<std::string> meanings(const Session& session) {
+    std::vector<std::string> out = all_agents(session);
+    for (const ClipGroup& group : session.clip_groups()) {
+        if (!agents_of_group(session, group).empty()) out.push_back(kOfGroup + group.title);
+    }
+    const std::vector<std::string> clips = clip_names(session);
+    for (int clip = 0; clip < static_cast<int>(clips.size()); ++clip) {
+        if (!agents_of_clip(session, clip).empty()) out.push_back(kOfClip + clips[static_cast<std::size_t>(clip)]);
+    }
+    return out;
+}
+
+/// The same about others, as the lists' buttons have it.
+Command of_named(std::string_view id, std::string_view title, std::string_view doc, Change change) {
+    const auto act = [change](Session& session, const std::string& text) {
+        const AgentNames who = agents_meant(session, text);
+        if (who.empty()) throw std::invalid_argument("no agent plays it");
         change(session, who);
     };
-    const auto is_so = [holds](const Session& session) { return holds(session, selected_agents(session)); };
-    return {id, title, doc, act, {.shortcut = key, .argument = "[NAME]", .checked = is_so}};
+    return {id, title, doc, act, {.menu = kNoMenu, .argument = "NAME|clip:NAME|group:NAME", .choices = meanings}};
 }
 
 /// Where a run's people stand is what it is about.
@@ -43,22 +67,29 @@ Command arrange_command() {
 
 std::vector<Command> shown_commands() {
     const std::vector<Command> rows{
-        about_agents("agent.hide", "Hide", "V",
-                     "Takes the selected agent, or the agents of the selected clip, out of the picture, or brings them "
-                     "back; answers stay.",
-                     toggle_hidden, are_hidden),
-        about_agents("agent.solo", "Show alone", "I",
-                     "Hides all others but those that are pinned; once more shows what was in the picture before.",
-                     toggle_alone, are_alone),
-        about_agents("agent.pin", "Pin", "P",
-                     "Pinned ones stay in the picture when another is shown alone, and keep their colour where others "
-                     "dim.",
-                     toggle_pinned, are_pinned),
+        of_selected("agent.hide", "Hide", "V",
+                    "Takes the selected agent, or the agents of the selected clip, out of the picture, or brings them "
+                    "back; answers stay.",
+                    toggle_hidden, are_hidden),
+        of_selected("agent.solo", "Show alone", "I",
+                    "Hides all but the selected agent, or the selected clip's, and those that are pinned; once more "
+                    "shows what was in the picture before.",
+                    toggle_alone, are_alone),
+        of_selected("agent.pin", "Pin", "P",
+                    "Keeps the selected agent in the picture when another is shown alone, and its colour where others "
+                    "dim.",
+                    toggle_pinned, are_pinned),
         Command("agent.show_all", "Show all", "Brings everybody who is hidden back into the picture.", show_all,
                 {.shortcut = "Shift+V",
                  .enabled = {[](const Session& session) { return !session.view().hidden.empty(); },
                              [](const Session&) { return std::string_view("nobody is hidden"); }}}),
         arrange_command(),
+        of_named("agents.hide", "Hide by name", "Hides an agent, or all of a clip or a group of clips, or shows them.",
+                 toggle_hidden),
+        of_named("agents.solo", "Show alone by name",
+                 "Shows an agent, or all of a clip or a group of clips, with those that are pinned alone.",
+                 toggle_alone),
+        of_named("agents.pin", "Pin by name", "Pins an agent, or all of a clip or a group of clips.", toggle_pinned),
     };
     return in_menu("View/Agents", rows);
 }

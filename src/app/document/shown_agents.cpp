@@ -1,6 +1,7 @@
 #include <app/document/agents.h>
 #include <app/document/shown_agents.h>
 #include <scene/arrangement.h>
+#include <scene/crowd_run.h>
 
 #include <algorithm>
 #include <string_view>
@@ -33,7 +34,7 @@ void toggle_in(Session& session, AgentNames ViewState::*list, const AgentNames& 
 }
 
 /// All but them and what is pinned.
-AgentNames others(const Session& session, const AgentNames& who) {
+AgentNames all_but(const Session& session, const AgentNames& who) {
     const NameSet kept = set_of(who);
     const NameSet pinned = set_of(session.view().pinned);
     AgentNames out = all_agents(session);
@@ -44,6 +45,11 @@ AgentNames others(const Session& session, const AgentNames& who) {
 }  // namespace
 
 AgentNames all_agents(const Session& session) { return names_in_view(session.scene()); }
+
+std::size_t agent_count(const Session& session) {
+    const Scene& scene = session.scene();
+    return scene.crowd ? scene.crowd->agents.size() : session.fitted().placed_agents().size();
+}
 
 AgentNames agents_of_clip(const Session& session, int clip) {
     const Scene& scene = session.scene();
@@ -94,8 +100,10 @@ bool are_pinned(const Session& session, const AgentNames& who) { return all_in(w
 
 bool are_alone(const Session& session, const AgentNames& who) {
     const AgentNames& hidden = session.view().hidden;
-    if (who.empty() || hidden.empty()) return false;
-    const AgentNames alone = others(session, who);
+    // Most are told apart by counting.
+    const std::size_t most_in_picture = who.size() + session.view().pinned.size();
+    if (who.empty() || hidden.empty() || agent_count(session) > hidden.size() + most_in_picture) return false;
+    const AgentNames alone = all_but(session, who);
     return alone.size() == hidden.size() && all_in(alone, hidden);
 }
 
@@ -111,7 +119,7 @@ void toggle_alone(Session& session, const AgentNames& who) {
         if (remembers) next = session.alone->before;
         session.alone.reset();
     } else {
-        next = others(session, who);
+        next = all_but(session, who);
         session.alone = Alone{next, remembers ? session.alone->before : session.view().hidden};
     }
     session.change_view([&](ViewState& view) { view.hidden = next; });

@@ -3,7 +3,7 @@
 
 #include <app/document/session.h>
 
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,7 @@ using AgentNames = std::vector<std::string>;
 
 /// All that can be hidden (names_in_view), in order.
 AgentNames all_agents(const Session& session);
+std::size_t agent_count(const Session& session);  ///< how many
 /// Those that play a clip, < scene().clips.size(); in a scene without agents the clip itself. Of a run none.
 AgentNames agents_of_clip(const Session& session, int clip);
 AgentNames agents_of_group(const Session& session, const ClipGroup& group);

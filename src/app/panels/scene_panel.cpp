@@ -40,7 +40,7 @@ std::string count_text(std::size_t shown, std::size_t all) {
 
 void filter_field(Ui& ui) {
     Session& session = ui.session;
-    const std::size_t longest = std::max(all_agents(session).size(), session.scene().clips.size());
+    const std::size_t longest = std::max(agent_count(session), session.scene().clips.size());
     if (longest <= static_cast<std::size_t>(kMostSceneRows)) return;
     ImGui::Dummy({0, ui.px(2)});
     ImGui::SetNextItemWidth(-1);
@@ -48,8 +48,17 @@ void filter_field(Ui& ui) {
     ui.mark("scene.filter");
 }
 
-void agent_menu(Ui& ui, const Selection& self, const ListedAgents& listed) {
-    if (!ImGui::BeginPopupContextItem()) return;
+/// The menu of the last row; lists have their rows closer together than menus their items.
+void row_menu(Ui& ui, const std::function<void()>& fill) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(6)});
+    if (ImGui::BeginPopupContextItem()) {
+        fill();
+        ImGui::EndPopup();
+    }
+    ImGui::PopStyleVar();
+}
+
+void agent_menu_of(Ui& ui, const Selection& self, const ListedAgents& listed) {
     ui.session.select(self);
     const std::string mark = "agent.menu";
     command_menu_item(ui, mark, "view.frame");
@@ -61,7 +70,6 @@ void agent_menu(Ui& ui, const Selection& self, const ListedAgents& listed) {
         command_menu_item(ui, mark, "agent.duplicate");
         command_menu_item(ui, mark, "agent.remove");
     }
-    ImGui::EndPopup();
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
@@ -99,7 +107,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const ListedAgents listed{who.name, {who.name}};
     const bool hidden = are_hidden(session, listed.who);
     const auto about = [&] {
-        agent_menu(ui, self, listed);
+        row_menu(ui, [&] { agent_menu_of(ui, self, listed); });
         const float side = ui.px(10);
         const ImVec2 low{corner.x + ui.px(7), corner.y + 0.5f * (ImGui::GetFrameHeight() - side)};
         const ImVec2 high{low.x + side, low.y + side};
@@ -192,13 +200,13 @@ void clip_row(Ui& ui, int index, float indent) {
     const bool warned = !clip.facts.warnings.empty();
     const ListedAgents listed{kOfClip + clip.name, agents_of_clip(session, index)};
     const auto about = [&] {
-        if (!listed.who.empty() && ImGui::BeginPopupContextItem()) {
+        const auto menu = [&] {
             session.select(self);
             command_menu_item(ui, "clip.menu", "view.frame");
             ImGui::Separator();
             agent_menu_items(ui, "clip.menu", listed);
-            ImGui::EndPopup();
-        }
+        };
+        if (!listed.who.empty()) row_menu(ui, menu);
         if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().c_str());
     };
     const bool clicked = agents_row(ui,
@@ -246,10 +254,7 @@ void group_row(Ui& ui, int index) {
     const bool folded = session.folded_groups.contains(group.title);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const auto about = [&] {
-        if (!listed.who.empty() && ImGui::BeginPopupContextItem()) {
-            agent_menu_items(ui, "group.menu", listed);
-            ImGui::EndPopup();
-        }
+        if (!listed.who.empty()) row_menu(ui, [&] { agent_menu_items(ui, "group.menu", listed); });
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%s\nClick to %s", group.title.c_str(), folded ? "unfold" : "fold");
         const float side = ui.px(3.5f);

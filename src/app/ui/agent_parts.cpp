@@ -46,14 +46,13 @@ void draw_pin(ImDrawList& draw, ImVec2 at, float px, ImU32 color, bool on) {
     draw.AddLine({at.x, head.y + 3 * px}, {at.x, at.y + 6 * px}, color, 1.3f * px);
 }
 
-/// A button of one command; returns the middle of its place, and the colour for what is drawn there.
-struct IconPlace {
+/// A button of a command about agents by name; returns the middle of its place, and the colour for what is drawn there.
+struct ButtonPlace {
     ImVec2 middle;
     ImU32 color;
 };
-IconPlace icon_button(Ui& ui, const std::string& mark, const char* id, const std::string& argument, const char* title,
-                      bool on) {
-    const Command& command = *find_command(id);
+ButtonPlace agent_button(Ui& ui, const std::string& mark, const char* id, const std::string& argument,
+                         const std::string& title, bool on) {
     ImGui::SameLine(0, 0);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{ui.px(kButton), ImGui::GetFrameHeight()};
@@ -62,9 +61,7 @@ IconPlace icon_button(Ui& ui, const std::string& mark, const char* id, const std
     ImGui::PopID();
     ui.mark(mark);
     const bool hovered = ImGui::IsItemHovered();
-    if (hovered) {
-        ImGui::SetTooltip("%s  (%s)", title, std::string(first_shortcut(command)).c_str());
-    }
+    if (hovered) ImGui::SetTooltip("%s", title.c_str());
     return {{corner.x + 0.5f * size.x, corner.y + 0.5f * size.y},
             hovered ? ui.style.text
             : on    ? ui.style.accent
@@ -84,34 +81,41 @@ void agent_buttons(Ui& ui, const std::string& mark, const ListedAgents& listed, 
     const Session& session = ui.session;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const bool alone = are_alone(session, listed.who);
-    const IconPlace of_alone = icon_button(ui, mark + ".solo", "agent.solo", listed.text,
-                                           alone ? "Show what was in the picture before" : "Show alone", alone);
+    const ButtonPlace of_alone = agent_button(ui, mark + ".solo", "agents.solo", listed.text,
+                                              alone ? "Show what was in the picture before" : "Show alone", alone);
     if (lit || alone) draw_alone(draw, of_alone.middle, ui.px(1), of_alone.color);
     const bool pinned = are_pinned(session, listed.who);
-    const IconPlace of_pin =
-        icon_button(ui, mark + ".pin", "agent.pin", listed.text,
-                    pinned ? "Unpin" : "Pin: stays when another is shown alone, and keeps its colour", pinned);
+    const ButtonPlace of_pin =
+        agent_button(ui, mark + ".pin", "agents.pin", listed.text,
+                     pinned ? "Unpin" : "Pin: stays when another is shown alone, and keeps its colour", pinned);
     if (lit || pinned) draw_pin(draw, of_pin.middle, ui.px(1), of_pin.color, pinned);
     const bool hidden = are_hidden(session, listed.who);
-    const IconPlace of_eye = icon_button(ui, mark + ".eye", "agent.hide", listed.text, hidden ? "Show" : "Hide", false);
+    const ButtonPlace of_eye =
+        agent_button(ui, mark + ".eye", "agents.hide", listed.text, hidden ? "Show" : "Hide", false);
     draw_eye(draw, of_eye.middle, ui.px(1), of_eye.color, !hidden);
 }
 
-void command_menu_item(Ui& ui, const std::string& mark, const char* id, const std::string& argument, const char* text) {
+void command_menu_item(Ui& ui, const std::string& mark, const char* id) {
     const Command& command = *find_command(id);
-    const std::string title(text ? text : command.title);
+    const std::string title(command.title);
     const std::string shortcut(first_shortcut(command));
     const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));
     ui.mark(mark + '.' + id);
-    if (chosen) invoke(ui.session, id, argument);
+    if (chosen) invoke(ui.session, id);
 }
 
 void agent_menu_items(Ui& ui, const std::string& mark, const ListedAgents& listed) {
     const Session& session = ui.session;
-    const auto item = [&](const char* id, const char* text) { command_menu_item(ui, mark, id, listed.text, text); };
-    item("agent.hide", are_hidden(session, listed.who) ? "Show" : "Hide");
-    item("agent.solo", are_alone(session, listed.who) ? "Show what was there before" : "Show alone");
-    item("agent.pin", are_pinned(session, listed.who) ? "Unpin" : "Pin");
+    // The key is that of the command about the selected ones, as whose menu is open is selected.
+    const auto item = [&](const char* id, const char* by_key, const char* text) {
+        const std::string shortcut(first_shortcut(*find_command(by_key)));
+        const bool chosen = ImGui::MenuItem(text, shortcut.c_str());
+        ui.mark(mark + '.' + id);
+        if (chosen) invoke(ui.session, id, listed.text);
+    };
+    item("agents.hide", "agent.hide", are_hidden(session, listed.who) ? "Show" : "Hide");
+    item("agents.solo", "agent.solo", are_alone(session, listed.who) ? "Show what was there before" : "Show alone");
+    item("agents.pin", "agent.pin", are_pinned(session, listed.who) ? "Unpin" : "Pin");
     command_menu_item(ui, mark, "agent.show_all");
 }
 

@@ -69,7 +69,7 @@ void welcome(Ui& ui) {
 
 /// The selected agent, where it changes the picture.
 std::string standing_out(const Session& session) {
-    if (session.view().query || !session.selection.on_path() || names_fit(all_agents(session).size())) {
+    if (session.view().query || !session.selection.on_path() || names_fit(agent_count(session))) {
         return "";
     }
     const AgentNames selected = selected_agents(session);
