@@ -25,6 +25,7 @@ struct DrawnAgent {
     std::optional<GridCell> cell{};
     bool hidden = false;  ///< it has its place in lists and frames, but is not drawn
     bool pinned = false;  ///< see ViewState::pinned
+    bool dimmed = false;  ///< others stand out: its colour is on the way to the background's
     bool named = false;   ///< its name stands in the picture, however many there are
 
     const mobb::PlacedClip& clip() const { return placed.placed_clip(); }

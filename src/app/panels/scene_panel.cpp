@@ -139,7 +139,8 @@ void shown_buttons(Ui& ui) {
     const std::size_t hidden = session.view().hidden.size();
     if (hidden > 0) {
         const std::string label = "show " + std::to_string(hidden) + " hidden";
-        flow(button_width(label.c_str()));
+        // Of a run it stands there by itself.
+        if (!session.crowd()) flow(button_width(label.c_str()));
         if (small_button(ui, label.c_str(), "scene.show_all", "Bring everybody back into the picture  (Shift+V)")) {
             invoke(session, "agent.show_all");
         }
@@ -176,7 +177,6 @@ void agents(Ui& ui) {
             count_text(shown.size(), static_cast<std::size_t>(count)));
     rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
          [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)]); });
-    ImGui::Dummy({0, 0});
     if (!session.crowd()) {
         if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
             ImGui::OpenPopup("add agent");

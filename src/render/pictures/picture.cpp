@@ -50,6 +50,7 @@ void Picture::let_stand_out() {
         // The followed one is named beside its rings.
         agent.named = points_at(agent) && name_in_view(scene, agent) != view_.follow;
         if (points_at(agent) || agent.pinned) continue;
+        agent.dimmed = true;
         agent.color = mix_colors(list_.palette.background, agent.color, kDimmed);
     }
 }

@@ -182,7 +182,7 @@ void add_skeleton(const DrawList& list, Pen& pen, const Figure& f, float scale) 
     for (Bone& bone : bones) bone.depth = list.projection.depth(0.5f * (bone.from + bone.to));
     std::stable_sort(bones.begin(), bones.end(), [](const Bone& a, const Bone& b) { return a.depth > b.depth; });
     const float width = bone_width(f, scale);
-    const Rgba color = mix_colors(list.palette.text, f.agent.color, 0.25f);
+    const Rgba color = mix_colors(line_color_of(f.agent, list.palette), f.agent.color, 0.25f);
     const Rgba rim = with_alpha(list.palette.background, 0.8f);
     const float around = width > 2.2f * scale ? 2 * scale : 0;
     for (const Bone& bone : bones) {
