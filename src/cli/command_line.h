@@ -71,6 +71,9 @@ class Command {
     /// The std::invalid_argument that `set` throws becomes bad usage of the option.
     Option add_option(const std::string& name, std::function<void(const std::string&)> set, const std::string& help,
                       const std::string& placeholder);
+    /// The same with as many texts as follow.
+    Option add_list_option(const std::string& name, std::function<void(const std::vector<std::string>&)> set,
+                           const std::string& help, const std::string& placeholder);
     /// `target`: a text, a path, a path that need not be given, or a list of texts or paths.
     template <class T>
     requires(!std::invocable<T, const std::string&>) Option

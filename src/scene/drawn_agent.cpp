@@ -1,4 +1,6 @@
 #include <base/text.h>
+#include <scene/arrangement.h>
+#include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
 #include <scene/view_state.h>
@@ -7,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
+#include <unordered_set>
 
 namespace mobbscope {
 
@@ -18,9 +22,10 @@ constexpr std::size_t kLongestLabel = 24;
 constexpr std::array<std::uint32_t, 8> kAgentColors{0xE69F00, 0x56B4E9, 0xCC79A7, 0x0072B2,
                                                     0xF3CF80, 0xABDAF4, 0xE6BCD3, 0x6BA9D0};
 
-DrawnAgent make_drawn_agent(const FittedScene& fitted, const PlacedAgent& who, int index, int color_index) {
+DrawnAgent make_drawn_agent(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who, int index,
+                            int color_index) {
     const Scene& scene = fitted.scene();
-    return {fitted.placed(who),
+    return {{fitted.tree(who.clip), shown_placement(fitted, view, who)},
             who.name,
             shortened(who.name, kLongestLabel),
             agent_color(scene, who, color_index),
@@ -28,6 +33,27 @@ DrawnAgent make_drawn_agent(const FittedScene& fitted, const PlacedAgent& who, i
             scene.clips[static_cast<std::size_t>(who.clip)].skeleton.get(),
             who.agent >= 0 ? scene.agents[static_cast<std::size_t>(who.agent)].run_agent : -1};
 }
+
+/// Who is hidden and who is pinned in a view.
+class Shown {
+  public:
+    Shown(const Scene& scene, const ViewState& view)
+        : scene_(scene),
+          hidden_(view.hidden.begin(), view.hidden.end()),
+          pinned_(view.pinned.begin(), view.pinned.end()) {}
+
+    void mark(DrawnAgent& agent, const PlacedAgent& who) const {
+        // What a query places itself is no agent, unless clips are all there is.
+        if (who.agent < 0 && !scene_.agents.empty()) return;
+        const std::string& name = name_in_view(scene_, who);
+        agent.hidden = hidden_.contains(name);
+        agent.pinned = pinned_.contains(name);
+    }
+
+  private:
+    const Scene& scene_;
+    std::unordered_set<std::string_view> hidden_, pinned_;
+};
 
 /// The samples that hold at some time between two.
 mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, double end) {
@@ -38,6 +64,19 @@ mobb::SampleRange samples_between(const mobb::PlacedClip& clip, double begin, do
 }
 
 }  // namespace
+
+const std::string& name_in_view(const Scene& scene, const DrawnAgent& agent) {
+    return agent.run_agent >= 0 ? scene.crowd->agents[static_cast<std::size_t>(agent.run_agent)].name : agent.name;
+}
+
+mobb::Placement shown_placement(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who) {
+    mobb::Placement out = who.placement;
+    if (!is_in_grid(fitted.scene(), view)) return out;
+    // What stands in the grid is an agent, or without agents a clip.
+    const int index = who.agent >= 0 ? who.agent : who.clip;
+    out.translate += fitted.grid()[static_cast<std::size_t>(index)].offset;
+    return out;
+}
 
 Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index) {
     if (who.agent >= 0) {
@@ -51,10 +90,13 @@ Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index) {
 
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view) {
     std::vector<DrawnAgent> out;
+    const Shown shown(fitted.scene(), view);
     if (!view.query) {
         for (const PlacedAgent& who : fitted.placed_agents()) {
             const int index = static_cast<int>(out.size());
-            out.push_back(make_drawn_agent(fitted, who, index, index));
+            out.push_back(make_drawn_agent(fitted, view, who, index, index));
+            shown.mark(out.back(), who);
+            if (is_in_grid(fitted.scene(), view)) out.back().cell = fitted.grid()[static_cast<std::size_t>(index)];
         }
         if (fitted.scene().crowd && view.show == Show::space_time) {
             const double time = run_time(fitted.scene(), view);
@@ -71,10 +113,12 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
     }
     const SceneQuery query = fitted.queries()[static_cast<std::size_t>(*view.query)];
     const int color_a = query.a.agent >= 0 ? query.a.agent : 0;
-    out.push_back(make_drawn_agent(fitted, query.a, 0, color_a));
-    out.push_back(make_drawn_agent(fitted, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
+    out.push_back(make_drawn_agent(fitted, view, query.a, 0, color_a));
+    out.push_back(make_drawn_agent(fitted, view, query.b, 1, query.b.agent >= 0 ? query.b.agent : color_a + 1));
+    shown.mark(out[0], query.a);
+    shown.mark(out[1], query.b);
     // Two sides of one colour or name could not be told apart.
-    if (out[1].color == out[0].color) out[1] = make_drawn_agent(fitted, query.b, 1, color_a + 1);
+    if (out[1].color == out[0].color) out[1].color = agent_color(fitted.scene(), query.b, color_a + 1);
     if (out[1].name == out[0].name) {
         out[0].name += " (A)";
         out[1].name += " (B)";

@@ -21,6 +21,12 @@ struct DrawnAgent {
     int run_agent = -1;                  ///< of a run: who plays it, as Agent::run_agent; else -1
     /// Of a run in space-time: the samples within the view's window, maybe none; nothing: all of them.
     std::optional<mobb::SampleRange> window{};
+    /// Its cell, if the view lays out a grid: `placed` is where it is drawn there, which answers nothing.
+    std::optional<GridCell> cell{};
+    bool hidden = false;  ///< it has its place in lists and frames, but is not drawn
+    bool pinned = false;  ///< see ViewState::pinned
+    bool dimmed = false;  ///< others stand out: its colour is on the way to the background's
+    bool named = false;   ///< its name stands in the picture, however many there are
 
     const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
     mobb::SampleRange samples() const { return window.value_or(mobb::SampleRange{0, clip().count()}); }  ///< drawn
@@ -28,11 +34,18 @@ struct DrawnAgent {
     double end() const { return clip().time(clip().count()); }
 };
 
+/// As scene/arrangement.h has it, of an agent that is drawn without a query.
+const std::string& name_in_view(const Scene& scene, const DrawnAgent& agent);
+
+/// Where a view shows an agent of the scene: where it is, or in its cell.
+mobb::Placement shown_placement(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who);
+
 /// The colour of an agent: its own, or the palette's by index. None of them is an outcome's colour.
 Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index);
 
 /// The scene's agents, of a run made a scene (scene/crowd_scene.h) cut to the view's window of time; with a query
-/// in the view, its two sides. Throws std::invalid_argument if the scene has no such query.
+/// in the view, its two sides; those that the view hides too. Throws std::invalid_argument if the scene has no such
+/// query.
 std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState& view);
 
 /// The sample that holds at a global time, or none.

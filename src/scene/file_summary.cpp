@@ -63,8 +63,9 @@ FileSummary summary_of_file(const std::filesystem::path& file, const Progress& p
         if (scene.clips.size() > 1 && out.clips.size() < FileSummary::kMostListed) {
             out.clips.emplace_back(clip.name, seconds_text(clip.clip->duration()));
         }
-        for (const std::string& warning : clip.facts.warnings) {
-            if (std::ranges::find(out.warnings, warning) == out.warnings.end()) out.warnings.push_back(warning);
+        for (const ImportWarning& warning : clip.facts.warnings) {
+            const bool known = std::ranges::find(out.warnings, warning.text) != out.warnings.end();
+            if (!known) out.warnings.push_back(warning.text);
         }
     }
     return out;

@@ -71,6 +71,11 @@ FittedScene FittedScene::without_unused_fits() const {
     return out;
 }
 
+const std::vector<GridCell>& FittedScene::grid() const {
+    std::call_once(grid_->made, [this] { grid_->cells = grid_of(*scene_, *placed_agents_); });
+    return grid_->cells;
+}
+
 std::size_t FittedScene::bytes_beyond(const FittedScene& other) const {
     std::unordered_set<const void*> shared{other.scene_.get()};
     for (const auto& fit : other.fits_) {

@@ -1,10 +1,12 @@
 /// A scene with a tree over each of its clips: what the commands print and the renderer draws.
 #pragma once
 
+#include <scene/arrangement.h>
 #include <scene/scene.h>
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,6 +66,9 @@ class FittedScene {
     QueryList queries() const { return QueryList(*scene_); }  ///< what is asked; valid as long as this or a copy
     const std::vector<PlacedAgent>& placed_agents() const { return *placed_agents_; }  ///< what is drawn
 
+    /// The cells of what is drawn, in its order; made when asked for. From any thread.
+    const std::vector<GridCell>& grid() const;
+
     mobb::PlacedTree placed(const PlacedAgent& who) const { return {tree(who.clip), who.placement}; }
 
     /// Memory for what this holds and `other` does not share: its lists, clips and trees.
@@ -72,6 +77,11 @@ class FittedScene {
   private:
     std::shared_ptr<const Scene> scene_;
     std::shared_ptr<const std::vector<PlacedAgent>> placed_agents_;
+    struct Grid {
+        std::once_flag made;
+        std::vector<GridCell> cells;
+    };
+    std::shared_ptr<Grid> grid_ = std::make_shared<Grid>();
     std::vector<std::shared_ptr<const NamedFit>> fits_;
     std::size_t in_use_ = 0;
 };

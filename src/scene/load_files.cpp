@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <import/import.h>
+#include <scene/arrangement.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
@@ -82,6 +83,7 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
             merge(scene, std::move(loaded));
         }
     }
+    if (std::none_of(all.begin(), all.end(), is_scene)) lay_out_clips(scene);
     if (all.size() > 1 && !scene_file_of(files)) {
         // It is named for all of them; sources go on leading from where they did.
         const bool folder = files.size() == 1;

@@ -101,7 +101,10 @@ void rename_agent(Scene& scene, int agent, const std::string& name) {
             throw std::invalid_argument("there is an agent " + in_quotes(name) + " already");
         }
     }
-    agent_at(scene, agent).name = name;
+    const std::string before = std::exchange(agent_at(scene, agent).name, name);
+    std::ranges::replace(scene.view.hidden, before, name);
+    std::ranges::replace(scene.view.pinned, before, name);
+    if (scene.view.follow == before) scene.view.follow = name;
     change_sides(scene, agent, [&](PlacedAgent& side) { side.name = name; });
 }
 

@@ -3,6 +3,7 @@
 #include <base/json.h>
 #include <base/text.h>
 #include <import/import.h>
+#include <scene/arrangement.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
@@ -182,6 +183,7 @@ class SceneReader {
         if (const auto view = root_.find("view")) {
             scene_.view = read_view(*view);
             check_viewed_query(*view);
+            check_viewed_names(*view);
         }
         return std::move(scene_);
     }
@@ -319,6 +321,16 @@ class SceneReader {
         }
     }
 
+    void check_viewed_names(const JsonPlace& view) const {
+        if (scene_.view.hidden.empty() && scene_.view.pinned.empty()) return;
+        NameTable known;
+        for (const std::string& name : names_in_view(scene_)) known.add(name);
+        for (const ViewOption& option : view_options()) {
+            const auto names = option.names ? view.find(option.key) : std::nullopt;
+            for (int i = 0; names && i < names->size(); ++i) known.find((*names)[i], "agent");
+        }
+    }
+
     const mobb::Clip& clip_of(const PlacedAgent& who) const {
         return *scene_.clips[static_cast<std::size_t>(who.clip)].clip;
     }
@@ -355,6 +367,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         }
         scene.clips.push_back(std::move(clip));
     }
+    lay_out_clips(scene);
     return scene;
 }
 

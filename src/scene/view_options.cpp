@@ -130,6 +130,25 @@ ViewOption choice(ViewOption row) {
     return field<member>(std::move(row));
 }
 
+/// A row about a list of agents' names.
+template <auto member>
+ViewOption name_list(ViewOption row) {
+    row.names = member;
+    row.read = [](const JsonPlace& place, ViewState& view) {
+        (view.*member).clear();
+        for (int i = 0; i < place.size(); ++i) (view.*member).push_back(place[i].string());
+    };
+    row.write = [](JsonWriter& out, const ViewState& view) {
+        out.begin_array(JsonWriter::Layout::row);
+        for (const std::string& name : view.*member) out.value(name);
+        out.end_array();
+    };
+    row.parse = [](const std::string& text, ViewState& view) {
+        text == "none" ? (view.*member).clear() : (view.*member).push_back(text);
+    };
+    return field<member>(std::move(row));
+}
+
 std::vector<ViewOption> all_view_options() {
     return {
         choice<&ViewState::show, show_from_name>(
@@ -278,6 +297,36 @@ std::vector<ViewOption> all_view_options() {
              .write = [](JsonWriter& out, const ViewState& view) { out.value(view.follow); },
              .parse = [](const std::string& text, ViewState& view) { view.follow = text == "none" ? "" : text; },
              .text = [](const ViewState& view) { return view.follow.empty() ? "none" : view.follow; }}),
+        name_list<&ViewState::hidden>(
+            {.key = "hidden",
+             .schema =
+                 R"({"description": "Agents that are not in the picture, by name; without agents clips. Answers stay", "type": "array", "items": {"type": "string"}})",
+             .option = "--hide",
+             .placeholder = "NAME...",
+             .help = "Agents that are left out of the picture, without agents clips; or none"}),
+        name_list<&ViewState::pinned>(
+            {.key = "pinned",
+             .schema =
+                 R"({"description": "Agents that stay in the picture when another is shown alone, and keep their colour", "type": "array", "items": {"type": "string"}})",
+             .option = "--pin",
+             .placeholder = "NAME...",
+             .help = "Agents that keep their colour where others dim; or none"}),
+        choice<&ViewState::arrange, arrange_from_name>(
+            {.key = "arrange",
+             .schema =
+                 R"({"description": "grid: agents or clips are drawn apart from one another, whatever their places; not of a run or a query", "enum": ["none", "grid"]})",
+             .option = "--arrange",
+             .placeholder = "HOW",
+             .help = "Where agents are drawn: none (where they are) or grid (apart, with names)",
+             .command = "view.arrange",
+             .title = "Lay out in a grid",
+             .menu = "View/Agents",
+             .doc =
+                 "Draws agents, or clips, apart from one another with their names; queries are asked where they are.",
+             .argument = "[none|grid]",
+             .choices = {"none", "grid"},
+             .refused_in_file = "agents cannot be arranged as {}",
+             .refused_in_window = "agents cannot be arranged as {}"}),
         field<&ViewState::time_height>(
             {.key = "time_height",
              .schema =
@@ -456,6 +505,11 @@ const ViewOption& view_option(std::string_view key) {
 }
 
 std::string in_command_line(const ViewOption& option, const ViewState& view) {
+    if (option.names) {
+        std::string out = ' ' + std::string(option.option);
+        for (const std::string& name : view.*option.names) out += ' ' + shell_word(name);
+        return (view.*option.names).empty() ? out + " none" : out;
+    }
     if (!option.toggle) return ' ' + std::string(option.option) + ' ' + shell_word(option.text(view));
     const std::size_t off = option.option.find(",!");
     return ' ' + std::string(view.*option.toggle ? option.option.substr(0, off) : option.option.substr(off + 2));

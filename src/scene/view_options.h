@@ -7,7 +7,7 @@
 ///                 "target": [0, 0, 1], "distance": 12, "shift": [0, 0.1]},
 ///      "levels": "1:3", "query": 0, "step": "40%", "past": "ancestors",
 ///      "projection": {"participant": 0, "node": 0, "sample": 3}, "time": 1.5, "time_height": 2,
-///      "color_by": "agent", "theme": "dark",
+///      "hidden": ["B"], "pinned": [], "arrange": "none", "color_by": "agent", "theme": "dark",
 ///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true}
 ///
 /// `levels` is a level or what `--level` takes, `step` an event number or what `--step` takes.
@@ -66,12 +66,14 @@ struct ViewOption {
 
     // What table rows leave to toggle(), choice() and field() in view_options.cpp.
     bool ViewState::*toggle = nullptr;
+    std::vector<std::string> ViewState::*names = nullptr;        ///< of a list of agents' names
     std::function<void(const JsonPlace&, ViewState&)> read{};    ///< throws InputError
     std::function<void(JsonWriter&, const ViewState&)> write{};  ///< its value
     std::function<bool(const ViewState&, const ViewState&)> same{};
-    /// Reads an option's text, of a toggle "true" or "false"; throws std::invalid_argument.
+    /// Reads an option's text, of a toggle "true" or "false"; throws std::invalid_argument. Of a list one of its names,
+    /// which it adds, or "none", which empties it.
     std::function<void(const std::string&, ViewState&)> parse{};
-    std::function<std::string(const ViewState&)> text{};  ///< what `parse` reads
+    std::function<std::string(const ViewState&)> text{};  ///< what `parse` reads; empty for a list
     /// Whether a command line that says `from` needs the option to say `to`; empty: where the two are not the same.
     std::function<bool(const ViewState& from, const ViewState& to)> needed{};
 };
@@ -82,7 +84,7 @@ std::span<const ViewOption> view_options();
 /// Requires that there is one.
 const ViewOption& view_option(std::string_view key);
 
-/// " --theme dark", " --no-floor": the option that says what the view has, for a shell.
+/// " --theme dark", " --no-floor", " --hide A B": the option that says what the view has, for a shell.
 std::string in_command_line(const ViewOption& option, const ViewState& view);
 
 /// `refused` with the text in quotes for its {}.

@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 5> kPresets{"iso", "top", "front", "side"
 constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};
 constexpr std::array<std::string_view, 2> kColorings{"agent", "level"};
 constexpr std::array<std::string_view, 4> kPasts{"pair", "ancestors", "siblings", "all"};
+constexpr std::array<std::string_view, 2> kArrangements{"none", "grid"};
 constexpr std::array<std::string_view, 2> kShows{"space-time", "moment"};
 
 }  // namespace
@@ -81,6 +82,10 @@ std::string_view name(ColorBy color_by) { return kColorings[static_cast<std::siz
 
 std::optional<Past> past_from_name(std::string_view text) { return enumerator_named<Past>(kPasts, text); }
 std::string_view name(Past past) { return kPasts[static_cast<std::size_t>(past)]; }
+std::optional<Arrange> arrange_from_name(std::string_view text) {
+    return enumerator_named<Arrange>(kArrangements, text);
+}
+std::string_view name(Arrange arrange) { return kArrangements[static_cast<std::size_t>(arrange)]; }
 
 std::optional<Show> show_from_name(std::string_view text) { return enumerator_named<Show>(kShows, text); }
 std::string_view name(Show show) { return kShows[static_cast<std::size_t>(show)]; }

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace mobbscope {
 
@@ -29,6 +30,9 @@ enum class Past {
     siblings,   ///< ... and those that its parent called before it
     all,        ///< every pair tested before
 };
+
+/// Where agents are drawn: where they are, or apart from one another, each in a cell of a grid.
+enum class Arrange { none, grid };
 
 /// One disk and how far it reaches along the axes of a box around it (the paper's Fig. 6).
 struct DiskProjection {
@@ -99,6 +103,10 @@ struct ViewState {
     double time_window = 2;
     /// The agent that the camera goes along with: its target is counted from where that agent walks. Empty: nobody.
     std::string follow;
+    // Agents by name; of a run its people, of a scene without agents its clips.
+    std::vector<std::string> hidden;  ///< not in the picture; what is asked of them is answered as ever
+    std::vector<std::string> pinned;  ///< stay in the picture when another one is shown alone, and keep their colour
+    Arrange arrange = Arrange::none;  ///< not of a run, nor of a query: these show where agents are
     bool candidates = true;  ///< of a run's followed agent: the moves of its last choice, and what became of each
     double time_height = 0;  ///< metres drawn per second; 0: chosen so that the scene is about as tall as wide
     ColorBy color_by = ColorBy::agent;  ///< of the boxes of levels; those of a query have their states' colours
@@ -135,6 +143,9 @@ std::optional<Past> past_from_name(std::string_view name);
 /// "space-time" and "moment".
 std::string_view name(Show show);
 std::optional<Show> show_from_name(std::string_view name);
+/// "none" and "grid".
+std::string_view name(Arrange arrange);
+std::optional<Arrange> arrange_from_name(std::string_view name);
 /// What parse_level_range and parse_step read.
 std::string to_string(const LevelRange& levels);
 std::string to_string(const Step& step);

@@ -307,6 +307,35 @@ std::vector<Case> cases() {
             EXPECT_EQ(find_command(option.command)->checked(w.session), now);
         });
     }
+    add({"agent.hide", "", {kSelectB}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().hidden, std::vector<std::string>{"B"});
+             run_command(w.session, "file.save");
+             run_command(w.session, "agents.hide", "A");
+             run_command(w.session, "file.copy_command");
+             EXPECT_NE(w.clipboard.find(" --hide A B"), std::string::npos) << w.clipboard;
+             run_command(w.session, "agent.show_all");
+             run_command(w.session, "file.copy_command");
+             EXPECT_NE(w.clipboard.find(" --hide none"), std::string::npos) << w.clipboard;
+         }});
+    add({"agent.solo", "", {kSelectB}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().hidden, (std::vector<std::string>{"A", "C"}));
+         }});
+    look("agents.pin", "C", [](CommandWorld& w) { EXPECT_EQ(w.view().pinned, std::vector<std::string>{"C"}); });
+    add({"agent.pin", "", {kSelectB}, [](CommandWorld& w) {
+             EXPECT_EQ(w.view().pinned, std::vector<std::string>{"B"});
+         }});
+    look("agents.hide", "clip:walk", [](CommandWorld& w) { EXPECT_EQ(w.view().hidden.size(), 3u); });
+    look("agents.solo", "A", [](CommandWorld& w) {
+        EXPECT_EQ(w.view().hidden, (std::vector<std::string>{"B", "C"}));
+        run_command(w.session, "agents.solo", "A");
+        EXPECT_TRUE(w.view().hidden.empty());
+    });
+    add({"agent.show_all", "", {{"agents.hide", "A"}}, [](CommandWorld& w) { EXPECT_TRUE(w.view().hidden.empty()); }});
+    look("view.arrange", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.view().arrange, Arrange::grid);
+        run_command(w.session, "view.arrange", "none");
+        EXPECT_EQ(w.view().arrange, Arrange::none);
+    });
     add({"view.projection", "", {{"go.sample", "A 7"}}, [](CommandWorld& w) {
              const mobb::Node& leaf =
                  w.session.fitted().tree(0).nodes()[static_cast<std::size_t>(w.view().projection.value().node)];

@@ -157,5 +157,24 @@ TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
     EXPECT_NE(geometry.find("WIDTH=1100\nHEIGHT=720"), std::string::npos) << geometry;
 }
 
+// Of a folder with 17 clips all but two are hidden, by the buttons in the lists; real_clips.script asserts each state.
+TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
+    const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_clips";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder / "clips");
+    for (int i = 1; i <= 17; ++i) {
+        const std::string number = std::to_string(100 + i).substr(1);
+        std::ofstream(folder / "clips" / ("clip" + number + ".csv"))
+            << "t,x,y,r\n0,0,0,0.3\n0.5,1,0,0.3\n1,2,0.5,0.3\n";
+    }
+    const int status = under_xvfb("'" + kHere + "real_clips.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "real_clips.script' '" + folder.string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    ASSERT_EQ(status, 0);
+    const Json two = state(folder / "two.json");
+    EXPECT_EQ(two["view"]["hidden"].size(), 15u);
+    EXPECT_EQ(two["modified"], false) << "how clips are seen is no edit";
+}
+
 }  // namespace
 }  // namespace mobbscope

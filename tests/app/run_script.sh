@@ -17,6 +17,8 @@ walk 0 >clips/straight.csv
 walk 1 >clips/left.csv
 walk -1 >clips/right.csv
 cp clips/left.csv clips/deeper/other.csv
+mkdir seventeen
+for i in $(seq -w 17); do cp clips/left.csv "seventeen/clip$i.csv"; done
 cp clips/left.csv going.csv
 printf '{"clips": {"a": {"dt": 1, "samples": [[0, 0, 0.3], [1, 0, 0.3]]}}, "view": {"query": 7}}' >query-out-of-range.json
 printf '{"clips": {}}' >no-clips.json

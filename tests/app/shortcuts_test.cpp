@@ -38,6 +38,7 @@ const std::vector<Steps> kSituations{
     {{"view.top", ""}},
     {{"view.zoom", "3"}},
     {{"time.at", "0.5"}},
+    {{"agents.hide", "A"}},
     {{"view.split", ""}},
     {{"window.scale", "2"}},
     {{"go.agent", "A"}, {"agent.move", "3 3"}},

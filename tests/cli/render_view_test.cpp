@@ -149,6 +149,28 @@ TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     }
 }
 
+TEST_F(RenderViewTest, WhoIsHiddenIsNotDrawnAndAGridIs) {
+    const std::string lists = folder.path() / "list.json";
+    const auto list = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> all{kCrossing, "--draw-list", lists};
+        all.insert(all.end(), options.begin(), options.end());
+        const testing::Result run = render_small(all);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return testing::slurp(lists);
+    };
+    const std::string one = list({"--hide", "B", "--no-boxes"});
+    EXPECT_NE(one.find("B is hidden"), std::string::npos);
+    EXPECT_LT(one.size(), list({"--no-boxes"}).size());
+    EXPECT_NE(list({"--hide", "A", "B"}).find("A and B are hidden"), std::string::npos);
+    EXPECT_NE(list({"--hide", "B", "--query", "0"}).find("B is hidden"), std::string::npos);
+    EXPECT_NE(list({"--arrange", "grid"}).find("in a grid, not where they are"), std::string::npos);
+    EXPECT_EQ(list({"--arrange", "grid", "--query", "0"}), list({"--query", "0"})) << "a query is where it is";
+    expect_refused(render_small({kCrossing, "-o", folder.path() / "o.png", "--hide", "C"}), 2,
+                   "there is no agent 'C'; the nearest is 'A'");
+    expect_refused(render_small({kCrossing, "-o", folder.path() / "o.png", "--hide", "B", "--select", "B"}), 2,
+                   "'B' is hidden");
+}
+
 TEST_F(RenderViewTest, WhatIsSelectedIsHighlighted) {
     const std::string lists = folder.path() / "list.json";
     const auto highlighted = [&](const std::vector<std::string>& options) {

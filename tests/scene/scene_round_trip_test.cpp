@@ -54,6 +54,8 @@ Scene random_scene(std::mt19937_64& random) {
     scene.view.step = {Step::Unit::percent, 100.0 / 3};
     scene.view.time = length(random);
     scene.view.time_height = positive(random);
+    scene.view.hidden = {scene.agents.front().name};
+    scene.view.arrange = Arrange::grid;
     scene.view.color_by = ColorBy::level;
     scene.view.theme = Theme::light;
     for (const ViewOption& option : view_options()) {

@@ -105,6 +105,7 @@ std::vector<Command> file_commands();
 std::vector<Command> edit_commands();
 std::vector<Command> clip_commands();
 std::vector<Command> view_commands();
+std::vector<Command> shown_commands();
 std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
 std::vector<Command> go_commands();

@@ -30,7 +30,8 @@ std::vector<Command> help_commands() {
 
 std::span<const Command> commands() {
     static const std::vector<Command> table =
-        joined({file_commands(), edit_commands(), clip_commands(), view_commands(), tree_commands(), query_commands(),
+        joined({file_commands(), edit_commands(), clip_commands(), view_commands(), shown_commands(), tree_commands(),
+                query_commands(),
                 go_commands(), crowd_commands(), help_commands()});
     return table;
 }

@@ -97,7 +97,11 @@ std::string view_line(const ViewState& file, const ViewState& now) {
         if (!needed) continue;
         if (option.option.empty()) ask_to_save();
         out += in_command_line(option, now);
-        option.parse(option.text(now), reached);
+        if (option.names) {
+            reached.*option.names = now.*option.names;
+        } else {
+            option.parse(option.text(now), reached);
+        }
     }
     return out;
 }

@@ -5,6 +5,7 @@
 #include <explain/query_progress.h>
 #include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
+#include <scene/arrangement.h>
 #include <scene/crowd_scene.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
@@ -109,6 +110,7 @@ bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedSc
 ViewState fitting(ViewState view, const FittedScene& fitted) {
     if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
     if (!view.follow.empty() && !can_follow(fitted.scene(), view.follow)) view.follow.clear();
+    drop_unknown_names(fitted.scene(), view);
     // A run is always seen at some time.
     if (fitted.scene().crowd && !view.time) view.time = run_time(fitted.scene(), view);
     return view;
@@ -164,6 +166,8 @@ void Session::edit_with_fits(const EditName& name, const std::function<void(Scen
 void Session::change_document(Document next, const EditName& name) {
     // A node of a tree that was fitted anew is another one, or none.
     if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
+    next.view = fitting(next.view, *next.fitted);
+    for (SceneView& other : next.beside) other.view = fitting(other.view, *other.fitted);
     history_.change(std::move(next), name);
     changed();
 }
@@ -315,7 +319,7 @@ void Session::changed() {
 }
 
 Session::Derived& Session::derived() const {
-    if (derived_.of != document().fitted) derived_ = {document().fitted, {}, {}, {}, {}};
+    if (derived_.of != document().fitted) derived_ = {document().fitted, {}, {}, {}, {}, {}};
     return derived_;
 }
 
@@ -352,6 +356,12 @@ const std::vector<mobb::LevelFigures>& Session::figures_of(int clip) const {
     return at->second;
 }
 
+const std::vector<ClipGroup>& Session::clip_groups() const {
+    Derived& d = derived();
+    if (!d.groups) d.groups = app::clip_groups(scene());
+    return *d.groups;
+}
+
 // --- crowds
 
 std::shared_ptr<const FittedScene> Session::shown() const { return shown_at({document().fitted, view()}, shown_); }
@@ -368,7 +378,8 @@ std::shared_ptr<const FittedScene> Session::shown_at(const SceneView& seen, Show
 }
 
 bool Session::is_crowd() const {
-    return crowd() || (scene().queries.empty() && fitted().placed_agents().size() > kFewAgents);
+    return crowd() ||
+           (scene().queries.empty() && !scene().agents.empty() && fitted().placed_agents().size() > kFewAgents);
 }
 
 const FollowedChoice* Session::choice() const {
@@ -481,6 +492,8 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     candidate = -1;
     conflict = -1;
     cameras_aside.clear();
+    alone.reset();
+    filter.clear();
     // What went wrong with the last document is over, and what was offered for it.
     for (Message& message : messages_) {
         if (files_opened_ > 1) message.offer.reset();
@@ -621,7 +634,13 @@ void Session::add(const std::vector<std::filesystem::path>& files) {
             remember(files);
             const std::size_t before = scene().clips.size();
             edit_with_fits(
-                {"adding files", ""}, [read](Scene& scene) { merge(scene, *read); }, nullptr);
+                {"adding files", ""},
+                [read](Scene& scene) {
+                    const bool was_one = scene.clips.size() == 1;
+                    merge(scene, *read);
+                    if (was_one) lay_out_clips(scene);
+                },
+                nullptr);
             tell_of_warnings(before);
         };
     });

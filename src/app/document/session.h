@@ -2,6 +2,7 @@
 /// it; it knows neither.
 #pragma once
 
+#include <app/document/clip_groups.h>
 #include <app/document/clip_import.h>
 #include <app/document/file_browser.h>
 #include <app/document/file_preview.h>
@@ -24,6 +25,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -97,6 +99,11 @@ struct DialogInput {
         ++generation;
         fresh = true;
     }
+};
+
+/// What showing some agents alone has hidden, and what was hidden before.
+struct Alone {
+    std::vector<std::string> hidden, before;
 };
 
 class Session {
@@ -173,10 +180,17 @@ class Session {
     /// Figures of a clip's tree; kept until the scene changes.
     const std::vector<mobb::LevelFigures>& figures_of(int clip) const;
 
+    /// The document's clips by folder and rig; kept until the scene changes.
+    const std::vector<ClipGroup>& clip_groups() const;
+    std::optional<Alone> alone;  ///< since agents were shown alone
+    std::string filter;          ///< the lists of the scene panel show what has this text in its name; empty: all
+    std::set<std::string> folded_groups;  ///< of clips, by title
+
     // Crowds.
     /// What the document's agents play, if it is a run; else null.
     const CrowdRun* crowd() const { return scene().crowd.get(); }
-    /// Whether there are so many that they are a crowd: a run, or more agents than lists of pairs are made for.
+    /// Whether there are so many that they are a crowd: a run, or more agents than lists of pairs are made for. Clips
+    /// without agents are none.
     bool is_crowd() const;
     /// Of a run the last choice of the agent that the view follows; null: there is none.
     const FollowedChoice* choice() const;
@@ -407,6 +421,7 @@ class Session {
         std::shared_ptr<const QueryFindings> findings;  ///< of `recorded`
         std::map<std::size_t, Answer> answers;
         std::map<int, std::vector<mobb::LevelFigures>> figures;
+        std::optional<std::vector<ClipGroup>> groups;
     };
     Derived& derived() const;
     mutable Derived derived_;

@@ -112,11 +112,11 @@ std::vector<Line> lines_with(const Session& session, const std::string& search) 
 }
 
 /// Where keys, titles and sentences begin, pixels from the left.
-struct Columns {
+struct HelpColumns {
     float what = 0, doc = 0;
 };
 
-Columns columns_of(const Ui& ui, const std::vector<Line>& lines) {
+HelpColumns help_columns(const Ui& ui, const std::vector<Line>& lines) {
     float keys = 0;
     float what = 0;
     for (const Line& line : lines) {
@@ -129,7 +129,7 @@ Columns columns_of(const Ui& ui, const std::vector<Line>& lines) {
 }
 
 /// Draws one; true if it was clicked.
-bool help_row(Ui& ui, const Line& line, const Columns& columns, std::size_t index, bool picked) {
+bool help_row(Ui& ui, const Line& line, const HelpColumns& columns, std::size_t index, bool picked) {
     const float height = ImGui::GetTextLineHeight() + ui.px(6);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -222,7 +222,7 @@ void help_sheet(Ui& ui) {
     const bool searched = !words_of(input.text).empty();
     const std::vector<Line> lines = searched ? lines_with(session, input.text) : all_lines(session);
     const bool moved = move_over_lines(input.picked, lines);
-    const Columns columns = columns_of(ui, lines);
+    const HelpColumns columns = help_columns(ui, lines);
     ImGui::BeginChild(searched ? "found" : "lines", {0, -ImGui::GetFrameHeightWithSpacing() - ui.px(4)});
     if (events.changed) ImGui::SetScrollY(0);
     if (lines.empty()) ImGui::TextDisabled("Nothing is called so.");

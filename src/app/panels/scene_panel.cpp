@@ -1,9 +1,21 @@
 #include <app/commands/command.h>
+#include <app/document/shown_agents.h>
 #include <app/panels/panels.h>
+#include <app/ui/agent_parts.h>
 #include <app/ui/widgets.h>
 #include <app/viewport/selection_display.h>
 #include <base/text.h>
 #include <render/drawlist/palette.h>
+#include <scene/arrangement.h>
+#include <scene/crowd_run.h>
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -11,26 +23,77 @@ namespace {
 
 constexpr int kMostSceneRows = 9;
 
-void agent_menu(Ui& ui, const Selection& self) {
-    if (!ImGui::BeginPopupContextItem()) return;
-    ui.session.select(self);
-    for (const char* id : {"view.frame", "crowd.follow", "agent.duplicate", "agent.remove"}) {
-        const Command& command = *find_command(id);
-        if (command.id.starts_with("crowd.") ? !ui.session.is_crowd()
-                                             : command.id.starts_with("agent.") && ui.session.crowd())
-            continue;
-        const std::string title(command.title);
-        const std::string shortcut(first_shortcut(command));
-        const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));
-        ui.mark(std::string("agent.menu.") + id, OwnKeys::none, title);
-        if (chosen) invoke(ui.session, id);
+/// Of which items the filter of the lists leaves some.
+template <class NameOf>
+std::vector<int> filtered(const Session& session, int count, const NameOf& name_of) {
+    const std::string wanted = lower(session.filter);
+    std::vector<int> out;
+    for (int i = 0; i < count; ++i) {
+        if (wanted.empty() || lower(name_of(i)).find(wanted) != std::string::npos) out.push_back(i);
     }
-    ImGui::EndPopup();
+    return out;
+}
+
+std::string count_text(std::size_t shown, std::size_t all) {
+    return shown == all ? std::to_string(all) : std::to_string(shown) + " of " + std::to_string(all);
+}
+
+void filter_field(Ui& ui) {
+    Session& session = ui.session;
+    const std::size_t longest = std::max(agent_count(session), session.scene().clips.size());
+    if (longest <= static_cast<std::size_t>(kMostSceneRows)) return;
+    ImGui::Dummy({0, ui.px(2)});
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##filter", "Filter the lists by name", &session.filter);
+    ui.mark("scene.filter");
+}
+
+/// The menu of the last row; lists have their rows closer together than menus their items.
+void row_menu(Ui& ui, const std::function<void()>& fill) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(6)});
+    if (ImGui::BeginPopupContextItem()) {
+        fill();
+        ImGui::EndPopup();
+    }
+    ImGui::PopStyleVar();
+}
+
+void agent_menu_of(Ui& ui, const Selection& self, const ListedAgents& listed) {
+    ui.session.select(self);
+    const std::string mark = "agent.menu";
+    command_menu_item(ui, mark, "view.frame");
+    if (ui.session.is_crowd()) command_menu_item(ui, mark, "crowd.follow");
+    ImGui::Separator();
+    agent_menu_items(ui, mark, listed);
+    if (!ui.session.crowd()) {
+        ImGui::Separator();
+        command_menu_item(ui, mark, "agent.duplicate");
+        command_menu_item(ui, mark, "agent.remove");
+    }
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
 std::string clip_remark(const Session& session, const SceneClip& clip) {
     return session.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
+}
+
+/// A row with the buttons of its agents; `about` draws what belongs to the row itself, which is the last item then.
+bool agents_row(Ui& ui, Row shown, const ListedAgents& listed, const std::function<void()>& about) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 end{corner.x + ImGui::GetContentRegionAvail().x, corner.y + ImGui::GetFrameHeight()};
+    const bool lit = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(corner, end);
+    shown.hovered = shown.hovered || lit;
+    shown.quiet = shown.quiet || are_hidden(ui.session, listed.who);
+    if (!listed.who.empty()) {
+        shown.buttons = agent_buttons_width(ui);
+        shown.right = lit ? shown.buttons : shown_buttons_width(ui, listed);
+        if (lit) shown.remark.clear();
+    }
+    const std::string mark = shown.mark;
+    const bool clicked = row(ui, shown);
+    about();
+    if (!listed.who.empty()) agent_buttons(ui, mark, listed, lit);
+    return clicked;
 }
 
 /// One of what is seen: an agent, or in a scene without agents a clip where it is.
@@ -41,16 +104,59 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
-    const bool clicked = row(ui, {"agent." + std::to_string(index), who.name, clip_remark(session, clip),
-                                  on_it(session.selection), on_it(session.hovered), ui.px(18), 0});
-    agent_menu(ui, self);
-    const float side = ui.px(10);
-    const float y = corner.y + 0.5f * (ImGui::GetFrameHeight() - side);
-    ImGui::GetWindowDrawList()->AddRectFilled({corner.x + ui.px(7), y}, {corner.x + ui.px(7) + side, y + side},
-                                              to_im(agent_color(fitted.scene(), who, index)), ui.px(2));
-    if (ImGui::IsItemHovered()) session.hovered = self;
+    const ListedAgents listed{who.name, {who.name}};
+    const bool hidden = are_hidden(session, listed.who);
+    const auto about = [&] {
+        row_menu(ui, [&] { agent_menu_of(ui, self, listed); });
+        const float side = ui.px(10);
+        const ImVec2 low{corner.x + ui.px(7), corner.y + 0.5f * (ImGui::GetFrameHeight() - side)};
+        const ImVec2 high{low.x + side, low.y + side};
+        const ImU32 color = to_im(agent_color(fitted.scene(), who, index));
+        // Who is not in the picture has an empty square.
+        if (hidden) {
+            ImGui::GetWindowDrawList()->AddRect(low, high, color, ui.px(2));
+        } else {
+            ImGui::GetWindowDrawList()->AddRectFilled(low, high, color, ui.px(2));
+        }
+        if (!ImGui::IsItemHovered()) return;
+        session.hovered = self;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
+    };
+    const bool clicked = agents_row(ui,
+                                    {.mark = "agent." + std::to_string(index),
+                                     .name = who.name,
+                                     .remark = clip_remark(session, clip),
+                                     .selected = on_it(session.selection),
+                                     .hovered = on_it(session.hovered),
+                                     .indent = ui.px(18)},
+                                    listed, about);
     if (clicked) session.select(self);
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
+}
+
+/// What the picture does not show as the scene has it, and the way back.
+void shown_buttons(Ui& ui) {
+    Session& session = ui.session;
+    const std::size_t hidden = session.view().hidden.size();
+    if (hidden > 0) {
+        const std::string label = "show " + std::to_string(hidden) + " hidden";
+        // Of a run it stands there by itself.
+        if (!session.crowd()) flow(button_width(label.c_str()));
+        if (small_button(ui, label.c_str(), "scene.show_all", "Bring everybody back into the picture  (Shift+V)")) {
+            invoke(session, "agent.show_all");
+        }
+    }
+    if (session.crowd() || session.fitted().placed_agents().size() < 2) return;
+    const bool in_grid = session.view().arrange == Arrange::grid;
+    const char* label = in_grid ? "where they are" : "in a grid";
+    flow(button_width(label));
+    if (small_button(ui, label, "scene.arrange",
+                     in_grid ? "Draw them where they are"
+                             : "Draw them apart from one another, with names; queries are asked where they are")) {
+        invoke(session, "view.arrange");
+    }
+    if (in_grid && session.view().query) {
+        words(ui.style.quiet, "A query is shown where the two are, not in the grid.");
+    }
 }
 
 void agents(Ui& ui) {
@@ -60,41 +166,135 @@ void agents(Ui& ui) {
     // Of a run its people; what they play before and after now is theirs.
     const auto count =
         static_cast<int>(session.crowd() ? session.crowd()->agents.size() : fitted.placed_agents().size());
-    heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
-    rows(ui, "##agents", count, kMostSceneRows, [&](int i) { path_row(ui, fitted, i); });
-    if (session.crowd()) return;
-    if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
-        ImGui::OpenPopup("add agent");
-    }
-    if (ImGui::BeginPopup("add agent")) {
-        for (const SceneClip& clip : fitted.scene().clips) {
-            ImGui::PushID(&clip);  // names may look alike to ImGui
-            if (ImGui::MenuItem(clip.name.c_str())) invoke(session, "agent.add", clip.name);
-            ImGui::PopID();
-            ui.mark("scene.add_agent." + clip.name, OwnKeys::none, clip.name);
+    const std::vector<int> shown = filtered(session, count, [&](int i) -> const std::string& {
+        return fitted.placed_agents()[static_cast<std::size_t>(i)].name;
+    });
+    const bool in_grid = is_in_grid(fitted.scene(), session.view());
+    heading(ui,
+            has_agents ? "AGENTS"
+            : in_grid  ? "CLIPS IN A GRID"
+                       : "CLIPS WHERE THEY ARE",
+            count_text(shown.size(), static_cast<std::size_t>(count)));
+    rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
+         [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)]); });
+    if (!session.crowd()) {
+        if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
+            ImGui::OpenPopup("add agent");
         }
-        ImGui::EndPopup();
+        if (ImGui::BeginPopup("add agent")) {
+            for (const SceneClip& clip : fitted.scene().clips) {
+                ImGui::PushID(&clip);  // names may look alike to ImGui
+                if (ImGui::MenuItem(clip.name.c_str())) invoke(session, "agent.add", clip.name);
+                ImGui::PopID();
+            }
+            ImGui::EndPopup();
+        }
     }
+    shown_buttons(ui);
 }
 
-void clips(Ui& ui) {
+void clip_row(Ui& ui, int index, float indent) {
     Session& session = ui.session;
-    const auto& all = session.scene().clips;
-    heading(ui, "CLIPS", std::to_string(all.size()));
-    rows(ui, "##clips", static_cast<int>(all.size()), kMostSceneRows, [&](int i) {
-        const SceneClip& clip = all[static_cast<std::size_t>(i)];
-        const Selection self{Selection::Kind::clip, {}, i};
-        const bool warned = !clip.facts.warnings.empty();
-        if (row(ui, {"clip." + std::to_string(i), clip.name,
-                     (warned ? "! " : "") + formatted("%.1f s", clip.clip->duration()), session.selection == self,
-                     session.hovered == self, 0, warned ? ui.style.warning : 0})) {
+    const SceneClip& clip = session.scene().clips[static_cast<std::size_t>(index)];
+    const Selection self{Selection::Kind::clip, {}, index};
+    const bool warned = !clip.facts.warnings.empty();
+    const ListedAgents listed{kOfClip + clip.name, agents_of_clip(session, index)};
+    const auto about = [&] {
+        const auto menu = [&] {
             session.select(self);
-        }
+            command_menu_item(ui, "clip.menu", "view.frame");
+            ImGui::Separator();
+            agent_menu_items(ui, "clip.menu", listed);
+        };
+        if (!listed.who.empty()) row_menu(ui, menu);
         if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) &&
             find_command("clip.import")->enabled(session)) {
             invoke(session, "clip.import", clip.name);
         }
         if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().text.c_str());
+    };
+    const bool clicked = agents_row(ui,
+                                    {.mark = "clip." + std::to_string(index),
+                                     .name = clip.name,
+                                     .remark = (warned ? "! " : "") + formatted("%.1f s", clip.clip->duration()),
+                                     .selected = session.selection == self,
+                                     .hovered = session.hovered == self,
+                                     .indent = indent,
+                                     .remark_color = warned ? ui.style.warning : 0},
+                                    listed, about);
+    if (clicked) session.select(self);
+}
+
+/// A line of the list of clips: a clip, or the heading of a group.
+struct ClipLine {
+    int group = -1;
+    int clip = -1;
+};
+
+/// The lines that the filter leaves; a group that is folded has its heading alone.
+std::vector<ClipLine> clip_lines(const Session& session, const std::vector<int>& shown) {
+    const std::vector<ClipGroup>& groups = session.clip_groups();
+    std::vector<ClipLine> out;
+    if (groups.empty()) {
+        for (const int clip : shown) out.push_back({-1, clip});
+        return out;
+    }
+    for (int g = 0; g < static_cast<int>(groups.size()); ++g) {
+        const ClipGroup& group = groups[static_cast<std::size_t>(g)];
+        std::vector<int> in_group;
+        std::ranges::set_intersection(group.clips, shown, std::back_inserter(in_group));
+        if (in_group.empty()) continue;
+        out.push_back({g, -1});
+        if (session.folded_groups.contains(group.title)) continue;
+        for (const int clip : in_group) out.push_back({g, clip});
+    }
+    return out;
+}
+
+void group_row(Ui& ui, int index) {
+    Session& session = ui.session;
+    const ClipGroup& group = session.clip_groups()[static_cast<std::size_t>(index)];
+    const ListedAgents listed{kOfGroup + group.title, agents_of_group(session, group)};
+    const bool folded = session.folded_groups.contains(group.title);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const auto about = [&] {
+        if (!listed.who.empty()) row_menu(ui, [&] { agent_menu_items(ui, "group.menu", listed); });
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s\nClick to %s", group.title.c_str(), folded ? "unfold" : "fold");
+        const float side = ui.px(3.5f);
+        const ImVec2 at{corner.x + ui.px(8), corner.y + 0.5f * ImGui::GetFrameHeight()};
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        if (folded) {
+            draw.AddTriangleFilled({at.x - side, at.y - side}, {at.x + side, at.y}, {at.x - side, at.y + side},
+                                   ui.style.quiet);
+        } else {
+            draw.AddTriangleFilled({at.x - side, at.y - side}, {at.x + side, at.y - side}, {at.x, at.y + side},
+                                   ui.style.quiet);
+        }
+    };
+    const bool clicked = agents_row(ui,
+                                    {.mark = "group." + std::to_string(index),
+                                     .name = group.title,
+                                     .remark = std::to_string(group.clips.size()),
+                                     .indent = ui.px(12)},
+                                    listed, about);
+    if (!clicked) return;
+    session.enqueue([&session, title = group.title] {
+        if (session.folded_groups.erase(title) == 0) session.folded_groups.insert(title);
+    });
+}
+
+void clips(Ui& ui) {
+    Session& session = ui.session;
+    const auto& all = session.scene().clips;
+    const std::vector<int> shown = filtered(session, static_cast<int>(all.size()), [&](int i) -> const std::string& {
+        return all[static_cast<std::size_t>(i)].name;
+    });
+    heading(ui, "CLIPS", count_text(shown.size(), all.size()));
+    const std::vector<ClipLine> lines = clip_lines(session, shown);
+    rows(ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows, [&](int i) {
+        const ClipLine& line = lines[static_cast<std::size_t>(i)];
+        line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12));
     });
     if (session.crowd()) return;
     if (small_button(ui, "+ files", "scene.add_files", "Add clips, or the clips and agents of another scene")) {
@@ -133,6 +333,7 @@ void scene_panel(Ui& ui) {
         words(ui.style.quiet, "Nothing is open");
         return;
     }
+    filter_field(ui);
     agents(ui);
     if (!ui.session.crowd()) placement_panel(ui);
     clips(ui);

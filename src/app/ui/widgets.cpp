@@ -378,23 +378,24 @@ bool row(Ui& ui, const Row& row) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::PushID(row.mark.c_str());
-    const bool clicked = ImGui::InvisibleButton("##row", {width, height});
+    const bool clicked = ImGui::InvisibleButton("##row", {width - row.buttons, height});
     ImGui::PopID();
     ui.mark(row.mark);
     if (row.selected) ui.focus.begin_here();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImVec2 end{corner.x + width, corner.y + height};
+    ImVec2 end{corner.x + width, corner.y + height};
     if (row.selected || row.hovered || ImGui::IsItemHovered()) {
         draw.AddRectFilled(corner, end, row.selected ? ui.style.raised : ui.style.border, ui.px(4));
     }
     if (row.selected) draw.AddRectFilled(corner, {corner.x + ui.px(2), end.y}, ui.style.accent, ui.px(1));
+    end.x -= row.right;
     const float pad = ui.px(6);
     const ImFont& mono = *ui.style.mono;
     const float y = corner.y + 0.5f * (height - ImGui::GetFontSize());
     const ImVec2 remark = text_size(mono, row.remark);
     const float left = corner.x + pad + row.indent;
     const std::string name = fitted_text(row.name, std::max(ui.px(24), end.x - pad - remark.x - ui.px(8) - left));
-    draw.AddText({left, y}, ui.style.text, name.c_str());
+    draw.AddText({left, y}, row.quiet ? ui.style.quiet : ui.style.text, name.c_str());
     draw_text(draw, mono, {end.x - pad - remark.x, corner.y + 0.5f * (height - mono.FontSize)},
               row.remark_color != 0 ? row.remark_color : ui.style.quiet, row.remark);
     return clicked;

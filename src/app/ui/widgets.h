@@ -99,6 +99,9 @@ struct Row {
     bool hovered = false;    ///< lit, as it is under the mouse elsewhere
     float indent = 0;        ///< pixels left of the name
     ImU32 remark_color = 0;  ///< 0: quiet
+    bool quiet = false;      ///< the name too
+    float buttons = 0;       ///< pixels at its right end that are left to buttons, which come next on the line
+    float right = 0;         ///< pixels of them that the remark keeps free, <= buttons
 };
 bool row(Ui& ui, const Row& row);
 

@@ -1,9 +1,11 @@
+#include <app/document/shown_agents.h>
 #include <app/viewport/selection_display.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <mobb/kinds.h>
 #include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
+#include <scene/arrangement.h>
 #include <scene/path_figures.h>
 
 #include <cmath>
@@ -85,10 +87,19 @@ void describe_clip(Described& out, const SceneClip& clip) {
 
 using Role = HighlightLine::Role;
 
+bool is_hidden(const Session& session, const PlacedAgent& who) {
+    if (who.agent < 0 && !session.scene().agents.empty()) return false;
+    return are_hidden(session, {name_in_view(session.fitted().scene(), who)});
+}
+
 void add_highlight_of(DrawList& list, const Session& session, const Selection& what, Role role, float scale) {
     if (!what.on_path() || !index_in_view(session.fitted(), session.view(), what.path)) return;
-    const auto who = placed_agent_of(session.fitted(), what.path);
-    if (who) add_highlight(list, drawn_agent_of(session.fitted(), *who), what.part(), role, scale);
+    const FittedScene& fitted = session.fitted();
+    const auto who = placed_agent_of(fitted, what.path);
+    if (!who || is_hidden(session, *who)) return;
+    DrawnAgent drawn = drawn_agent_of(fitted, *who);
+    drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, session.view(), *who)};
+    add_highlight(list, drawn, what.part(), role, scale);
 }
 
 void add_candidate(DrawList& list, const Session& session, float scale) {

@@ -1,13 +1,16 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
+#include <app/document/shown_agents.h>
 #include <app/viewport/selection_display.h>
 #include <app/viewport/viewport.h>
 #include <base/text.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
 #include <render/drawlist/picture_options.h>
+#include <render/layout/annotations.h>
 #include <render/parts/highlights.h>
 #include <render/pictures/build_draw_list.h>
+#include <scene/arrangement.h>
 #include <scene/drawn_agent.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
@@ -112,6 +115,15 @@ void welcome(Ui& ui) {
     ImGui::EndGroup();
 }
 
+/// The selected agent, where it changes the picture.
+std::string standing_out(const Session& session) {
+    if (session.view().query || !session.selection.on_path() || names_fit(agent_count(session))) {
+        return "";
+    }
+    const AgentNames selected = selected_agents(session);
+    return selected.empty() ? "" : selected.front();
+}
+
 }  // namespace
 
 // --- the picture
@@ -126,7 +138,8 @@ void Viewport::build(const Key& key, const FollowedChoice* choice) {
     why_not_.clear();
     try {
         check(key.size);
-        list_ = build_draw_list(paths_of(key), key.view, {.size = key.size, .scale = key.scale}, choice);
+        const PictureOptions options{.size = key.size, .scale = key.scale, .selected = key.selected};
+        list_ = build_draw_list(paths_of(key), key.view, options, choice);
     } catch (const std::invalid_argument& error) {
         why_not_ = error.what();
     }
@@ -159,7 +172,12 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
     // Text follows the panels where they are made larger than the picture would have it by itself.
     const double words = ui.style.scale > 1 ? std::max<double>(ui.style.scale, metrics_of(size).scale) : 0;
     const SceneView seen = ui.session.view_at(view_place_);
-    return {seen.fitted, seen.view, size, words, choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1)};
+    return {seen.fitted,
+            seen.view,
+            size,
+            words,
+            choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1),
+            is_active(ui) ? standing_out(ui.session) : ""};
 }
 
 /// Gives the view a camera that stands.
@@ -366,6 +384,10 @@ std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& p
     const Session& session = ui.session;
     // They stand where a path begins, in space-time.
     if (picture.list.moment || !session.selection.on_path() || session.crowd()) return std::nullopt;
+    // In a grid an agent is not where it is, and who is hidden is not to be seen.
+    if (is_in_grid(session.scene(), session.view()) || are_hidden(session, selected_agents(session))) {
+        return std::nullopt;
+    }
     const auto who = placed_agent_of(session.fitted(), session.selection.path);
     const bool in_view = index_in_view(session.fitted(), session.view(), session.selection.path).has_value();
     if (!who || who->agent < 0 || !in_view) return std::nullopt;
@@ -488,8 +510,13 @@ void Viewport::tooltip(Ui& ui) const {
     for (const auto& [key, value] : what.facts) {
         if (key == "samples" || key == "time" || key == "radius") ImGui::Text("%-8s%s", key.c_str(), value.c_str());
     }
+    glm::dvec3 place = *place_;
+    if (const auto who = placed_agent_of(session.fitted(), session.hovered.path)) {
+        const mobb::Placement shown = shown_placement(session.fitted(), session.view(), *who);
+        place -= glm::dvec3(shown.translate - who->placement.translate, 0);
+    }
     const char* here = list_->moment ? "%-8s%.3f, %.3f m, %.3f m high" : "%-8s%.3f, %.3f m at %.3f s";
-    ImGui::Text(here, "here", place_->x, place_->y, place_->z);
+    ImGui::Text(here, "here", place.x, place.y, place.z);
     ImGui::PopStyleColor();
     ImGui::PopFont();
     ImGui::EndTooltip();

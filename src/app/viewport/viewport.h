@@ -32,6 +32,7 @@ class Viewport {
         PictureSize size;
         double scale = 0;
         std::pair<int, int> choice{-1, -1};  ///< agent and play whose candidates are shown
+        std::string selected{};              ///< as PictureOptions has it
         friend bool operator==(const Key&, const Key&) = default;
     };
     enum class Drag { none, orbit, pan, handle };

@@ -99,10 +99,17 @@ void add_shown_options(Command& command, ViewArguments& view) {
         const auto set = [&view, &option](const std::string& text) {
             ViewState ignored;
             option.parse(text, ignored);
-            view.shown.insert_or_assign(std::string(option.key), text);
+            view.shown.insert_or_assign(std::string(option.key), std::vector{text});
         };
         const std::string name(option.option);
         const std::string help(option.help);
+        if (option.names) {
+            const auto set_names = [&view, &option](const std::vector<std::string>& names) {
+                view.shown.insert_or_assign(std::string(option.key), names);
+            };
+            command.add_list_option(name, set_names, help, std::string(option.placeholder)).group(kShownGroup);
+            continue;
+        }
         const Option added = option.toggle ? command.add_flag(
                                                  name, [set](bool on) { set(on ? "true" : "false"); }, help)
                                            : command.add_option(name, set, help, std::string(option.placeholder));
@@ -264,9 +271,14 @@ void add_render_options(Command& command, RenderArguments& arguments) {
                "With --ui: size of text and panels, 0.5 to 4", "X");
     add_camera_options(command, arguments.view);
     add_shown_options(command, arguments.view);
-    add_parsed(command, "--select", arguments.select, parse_named_part,
-               "Highlights an agent, or a node or sample: AGENT (or AGENT:path), AGENT:node:N or AGENT:sample:N",
-               "WHAT")
+    const auto select = [&arguments](const std::string& text) {
+        arguments.select = parse_named_part(text);
+        arguments.picture.selected = arguments.select->agent;
+    };
+    command
+        .add_option("--select", select,
+                    "Highlights an agent, or a node or sample: AGENT (or AGENT:path), AGENT:node:N or AGENT:sample:N",
+                    "WHAT")
         .group(kShownGroup);
     add_sequence_options(command, arguments.sequence);
     add_fit_options(command, arguments.fit);
@@ -291,7 +303,9 @@ ViewState view_over(ViewState view, const ViewArguments& arguments) {
     view.camera = camera_over(view.camera, arguments);
     for (const ViewOption& option : view_options()) {
         const auto given = arguments.shown.find(option.key);
-        if (given != arguments.shown.end()) option.parse(given->second, view);
+        if (given == arguments.shown.end()) continue;
+        if (option.names) (view.*option.names).clear();
+        for (const std::string& text : given->second) option.parse(text, view);
     }
     if (arguments.says("step") && !view.query) throw InputError("--step: say with --query which query it is a step of");
     return view;

@@ -18,6 +18,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -30,8 +31,8 @@ struct ViewArguments {
     std::optional<glm::dvec3> target;
     std::optional<double> distance;
     std::optional<glm::dvec2> shift;
-    /// The texts of those that the table of view options has (scene/view_options.h), by its keys.
-    std::map<std::string, std::string, std::less<>> shown;
+    /// The texts of those that the table of view options has (scene/view_options.h), by its keys; of a list several.
+    std::map<std::string, std::vector<std::string>, std::less<>> shown;
 
     bool says(std::string_view key) const { return shown.contains(key); }
 };

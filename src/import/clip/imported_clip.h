@@ -3,6 +3,7 @@
 
 #include <mobb/clip.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,6 +68,7 @@ struct SourceFacts {
     std::string root{};                           ///< the joint in the centre of the disks
     std::string root_why{};                       ///< why it was taken, where no option names it: "the topmost joint"
     int joints = 0;                               ///< in the root's subtree, itself included, End Sites not
+    std::size_t rig = 0;                          ///< the same for the same names of root and joints; 0: no skeleton
     std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
 };
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace mobbscope {
@@ -67,6 +69,7 @@ class MotionImport {
         facts.duration = times.last - times.first;
         facts.root = motion_.joints()[static_cast<std::size_t>(root)].name;
         facts.joints = joints_below(root);
+        facts.rig = rig_of(facts.root);
         choose_unit(root, facts);
         for (std::string& warning : motion_.warnings()) facts.warnings.push_back({std::move(warning)});
 
@@ -135,6 +138,11 @@ class MotionImport {
         int count = 0;
         for (std::size_t i = 0; i < inside.size(); ++i) count += inside[i] && !motion_.joints()[i].end_site ? 1 : 0;
         return count;
+    }
+
+    std::size_t rig_of(std::string names) const {
+        for (const Joint& joint : motion_.joints()) names += '\n' + joint.name;
+        return std::max<std::size_t>(std::hash<std::string>{}(names), 1);
     }
 
     void choose_unit(int root, SourceFacts& facts) const {

@@ -19,6 +19,9 @@ struct PictureOptions {
     double scale = 0;                  ///< of text and lines, as build_draw_list takes it
     int samples = kPictureSamples;     ///< per pixel of the scene: 1, 2, 4 or 8
     std::optional<Rgba> background{};  ///< instead of the theme's; opacity below 1: seen through where nothing is drawn
+    /// The agent that is selected, by the name that views have for it: of many it stands out and the rest dims. Empty:
+    /// none.
+    std::string selected{};
 };
 
 /// The smallest and largest side of a picture, and the most pixels that it may have.

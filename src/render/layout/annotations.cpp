@@ -13,6 +13,18 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kMostNames = 12;
+constexpr float kLeastCellName = 6;  // times the size of text: the room that a name under a cell has at least
+
+/// What a rectangle of the floor covers in the picture; none if it is not all before the eye.
+std::optional<Rect> seen_rect(const DrawList& list, glm::dvec2 low, glm::dvec2 high, double floor) {
+    std::optional<Rect> out;
+    for (const glm::dvec2 corner : {low, {high.x, low.y}, high, {low.x, high.y}}) {
+        const auto at = list.projection.project(list.space.point(corner.x, corner.y, floor));
+        if (!at) return std::nullopt;
+        out = out ? Rect{glm::min(out->min, *at), glm::max(out->max, *at)} : Rect{*at, *at};
+    }
+    return out;
+}
 
 /// A number at a place in the scene, if that can be seen.
 void note(std::vector<LabelRequest>& notes, const DrawList& list, glm::vec3 at, std::string text, Rgba color,
@@ -37,12 +49,16 @@ void add_rings(DrawList& list, std::span<const DrawnAgent> agents, const Emphasi
         if (emphasis.at_cursor[i]) add_cursor_ring(list, agents[i], *emphasis.at_cursor[i], scale);
     }
     if (!emphasis.hits) return;
-    for (std::size_t side = 0; side < 2; ++side) add_hit_ring(list, agents[side], (*emphasis.hits)[side], scale);
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (!agents[side].hidden) add_hit_ring(list, agents[side], (*emphasis.hits)[side], scale);
+    }
 }
 
 std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgent> sides, const RecordedQuery& recorded,
                                        const QueryProgress& progress, const Metrics& metrics) {
     std::vector<LabelRequest> notes;
+    // What is found between two is not to be seen of one.
+    if (sides[0].hidden || sides[1].hidden) return notes;
     const mobb::Trace::Event& event = progress.event;
     if (const auto gap = separation_gap(sides, event)) {
         const glm::vec3 at = add_separation_gap(list, *gap, sides[0].placed.time_scale(), metrics.scale);
@@ -88,11 +104,39 @@ std::optional<LabelRequest> name_label(const DrawList& list, const DrawnAgent& a
     return label;
 }
 
+std::size_t shown_count(std::span<const DrawnAgent> agents) {
+    return static_cast<std::size_t>(std::ranges::count(agents, false, &DrawnAgent::hidden));
+}
+
+void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, double floor,
+                    const Metrics& metrics) {
+    for (const DrawnAgent& agent : agents) {
+        if (agent.hidden || !agent.cell) continue;
+        const GridCell& cell = *agent.cell;
+        const auto seen = seen_rect(list, cell.low, cell.high, floor);
+        const glm::dvec2 middle = 0.5 * (cell.low + cell.high);
+        const auto room = seen_rect(list, middle - 0.5 * cell.size, middle + 0.5 * cell.size, floor);
+        if (!seen || !room) continue;
+        LabelRequest label;
+        label.text = fit_text(agent.name, FontFace::text, metrics.small,
+                              std::max(room->max.x - room->min.x - metrics.small, kLeastCellName * metrics.small));
+        label.size = metrics.small;
+        label.color = readable(agent.color, list.palette);
+        label.anchor = {0.5f * (seen->min.x + seen->max.x), seen->max.y};
+        label.directions = {{0, 1}};
+        label.distance = 0.2f * metrics.small;
+        label.pill = true;
+        label.border = with_alpha(list.palette.panel, 0);
+        layout.place(label, list);
+    }
+}
+
 bool names_fit(std::size_t agents) { return agents <= kMostNames; }
 
 void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics) {
-    if (agents.size() < 2 || !names_fit(agents.size())) return;
+    const bool all = agents.size() > 1 && names_fit(shown_count(agents));
     for (const DrawnAgent& agent : agents) {
+        if (agent.hidden || !(all || agent.named)) continue;
         const mobb::Disk last = agent.clip().disk(agent.clip().count() - 1);
         const glm::vec3 top = list.space.point(last.x, last.y, agent.end());
         auto label = name_label(list, agent, top, last.r, metrics.text);

@@ -30,7 +30,14 @@ bool names_fit(std::size_t agents);
 std::optional<LabelRequest> name_label(const DrawList& list, const DrawnAgent& agent, glm::vec3 top, double radius,
                                        float text_size);
 
-/// Names at the upper ends of paths; a single path is named by the legend.
+/// How many are not hidden.
+std::size_t shown_count(std::span<const DrawnAgent> agents);
+
+/// Under each cell of a grid the name of who is in it. `floor`: the time at which cells lie on the floor.
+void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, double floor,
+                    const Metrics& metrics);
+
+/// Names at the upper ends of paths, of many those of DrawnAgent::named; a single path is named by the legend.
 void add_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Metrics& metrics);
 
 }  // namespace mobbscope

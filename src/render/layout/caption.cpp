@@ -6,6 +6,7 @@
 #include <render/parts/node_boxes.h>
 #include <render/query/query_boxes.h>
 #include <render/text/labels.h>
+#include <scene/arrangement.h>
 
 #include <algorithm>
 #include <cctype>
@@ -75,8 +76,9 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
         caption.detail = std::string(mobb::info(fitted.options().tree).title) + ", leaf " +
                          std::to_string(fitted.options().leaf) + kDot + boxes_text(agents, view.levels);
     }
-    if (!names_fit(agents.size())) {
-        const std::string left_out = std::to_string(agents.size()) + " agents, unnamed here";
+    if (!names_fit(agents.size()) && !is_in_grid(fitted.scene(), view)) {
+        const std::string left_out =
+            std::to_string(agents.size()) + (fitted.scene().agents.empty() ? " clips" : " agents") + ", unnamed here";
         caption.detail += (caption.detail.empty() ? "" : kDot) + left_out;
     }
     return caption;
@@ -94,9 +96,19 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
     return caption;
 }
 
-void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
-    const std::string text = formatted("%.10g s lies outside %.4g..%.4g s", time, begin, end);
+void mention(Caption& caption, const std::string& text) {
     caption.detail = caption.detail.empty() ? text : text + kDot + caption.detail;
+}
+
+void mention_cursor_outside(Caption& caption, double time, double begin, double end) {
+    mention(caption, formatted("%.10g s lies outside %.4g..%.4g s", time, begin, end));
+}
+
+void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::size_t all) {
+    if (hidden.empty()) return;
+    if (hidden.size() == 1) return mention(caption, hidden[0] + " is hidden");
+    if (hidden.size() == 2) return mention(caption, hidden[0] + " and " + hidden[1] + " are hidden");
+    mention(caption, std::to_string(hidden.size()) + " of " + std::to_string(all) + " are hidden");
 }
 
 CaptionLines caption_lines(const Caption& caption, float room, float scale, std::size_t most_headlines) {

@@ -28,6 +28,12 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
 /// " at 1.23 s".
 std::string at_time(double time);
 
+/// Says something in the detail, before all else.
+void mention(Caption& caption, const std::string& text);
+
+/// Says in the detail who is hidden: by name, or how many of all.
+void mention_hidden(Caption& caption, std::span<const std::string> hidden, std::size_t all);
+
 /// Says in the detail that a time cursor is not drawn, as it lies outside what the paths take.
 void mention_cursor_outside(Caption& caption, double time, double begin, double end);
 

@@ -5,6 +5,7 @@
 #include <render/layout/framing.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
+#include <scene/drawn_agent.h>
 #include <scene/motion_graph.h>
 #include <scene/view_state.h>
 
@@ -22,13 +23,14 @@ namespace {
 constexpr double kGlide = 0.5;  // seconds before and after
 constexpr int kPlaces = 16;     // that the mean is of
 
-/// The agent's clips one after the other.
-std::vector<mobb::PlacedClip> clips_of(const FittedScene& fitted, const std::string& name, double time) {
+/// The followed agent's clips one after the other.
+std::vector<mobb::PlacedClip> clips_of(const FittedScene& fitted, const ViewState& view, double time) {
     const Scene& scene = fitted.scene();
+    const std::string& name = view.follow;
     std::vector<mobb::PlacedClip> out;
     if (!scene.crowd) {
         for (const PlacedAgent& who : fitted.placed_agents()) {
-            if (who.name == name) return {fitted.placed(who).placed_clip()};
+            if (who.name == name) return {{fitted.tree(who.clip).clip(), shown_placement(fitted, view, who)}};
         }
         return out;
     }
@@ -59,7 +61,7 @@ glm::dvec2 place_at(const std::vector<mobb::PlacedClip>& clips, double time) {
 
 std::optional<glm::dvec2> followed_place(const FittedScene& fitted, const ViewState& view, double time) {
     if (view.follow.empty()) return std::nullopt;
-    const std::vector<mobb::PlacedClip> clips = clips_of(fitted, view.follow, time);
+    const std::vector<mobb::PlacedClip> clips = clips_of(fitted, view, time);
     if (clips.empty()) throw ViewMismatch("follow", "there is no agent " + in_quotes(view.follow) + " to follow");
     glm::dvec2 sum(0);
     for (int i = 0; i < kPlaces; ++i) sum += place_at(clips, time + kGlide * (2.0 * i / (kPlaces - 1) - 1));

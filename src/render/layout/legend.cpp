@@ -132,6 +132,7 @@ void add_query(std::vector<LegendEntry>& entries, const DrawList& list, const Se
             return box->state == BoxState::under_test && box->id.agent == side.index;
         });
         if (!seen) continue;
+        if (side.hidden) continue;
         const Rgba color = outline == PairOutline::owner
                                ? side.color
                                : pair_style(outline, side, progress.event.outcome, list.palette).color;
@@ -195,7 +196,7 @@ std::vector<LegendEntry> agent_entries(const DrawList& list, std::span<const Dra
             const bool own = agent.run_agent >= 0 ? path.run_agent == agent.run_agent : path.index == agent.index;
             return own && sight.path(path);
         });
-        if (seen) entries.push_back(dot_entry(agent.color, agent.label));
+        if (seen && !agent.hidden) entries.push_back(dot_entry(agent.color, agent.label));
     }
     return entries;
 }
@@ -218,7 +219,8 @@ std::vector<LegendEntry> legend_entries(const DrawList& list, std::span<const Dr
             entries.push_back(dot_entry(with_alpha(dim, 1), "dim: outside the nodes under test"));
         }
     } else {
-        entries = agent_entries(list, agents, agents);
+        // In a grid each has its name.
+        if (!agents.front().cell) entries = agent_entries(list, agents, agents);
         if (view.color_by == ColorBy::level) {
             add_level_colors(entries, list, boxes, agents);
         } else if (!boxes.empty()) {

@@ -306,6 +306,7 @@ void add_floor_map(DrawList& list, std::span<const DrawnAgent> agents, const Flo
         list.overlay_lines.push_back({at(s.x0, y), at(s.x1, y), list.palette.grid, 1, kSolid});
     }
     for (const DrawnAgent& agent : agents) {
+        if (agent.hidden) continue;
         const mobb::PlacedClip& clip = agent.clip();
         glm::vec2 from = at(clip.disk(0).x, clip.disk(0).y);
         for (int i = 1; i < clip.count(); ++i) {
@@ -318,7 +319,7 @@ void add_floor_map(DrawList& list, std::span<const DrawnAgent> agents, const Flo
     const float pixels = map.x / static_cast<float>(s.x1 - s.x0);
     for (const DrawnAgent& agent : agents) {
         const std::optional<int> sample = sample_at(agent, time);
-        if (!sample) continue;
+        if (!sample || agent.hidden) continue;
         const mobb::Disk disk = agent.clip().disk(*sample);
         const glm::vec2 middle = at(disk.x, disk.y);
         const float r = std::max(static_cast<float>(disk.r) * pixels, 2.5f * scale);

@@ -194,6 +194,7 @@ void add_selection(DrawList& list, const FittedScene& fitted, const ViewState& v
     if (of_one) agents = {agents.at(static_cast<std::size_t>(view.projection->agent))};
     const DrawnAgent& agent = agent_named(agents, named.agent);
     check_part(agent, named.part);
+    if (agent.hidden) throw std::invalid_argument(in_quotes(named.agent) + " is hidden: leave it out of --hide");
     if (list.moment && named.part.kind == AgentPart::Kind::node) {
         throw std::invalid_argument("a node is not shown in the picture of a moment: leave out --show moment");
     }

@@ -1,4 +1,5 @@
 #include <mobb/predicate.h>
+#include <render/drawlist/palette.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/paths.h>
 
@@ -12,6 +13,7 @@ namespace mobbscope {
 
 namespace {
 
+constexpr float kDimmedLines = 0.4f;  // of the text's colour
 constexpr float kEarly = 0.24f;  // towards the background at the beginning of a path, so that later disks stand out
 
 Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus& focus, int sample) {
@@ -28,6 +30,10 @@ std::int64_t order_index(const DrawnAgent& agent, int sample) {
 }
 
 }  // namespace
+
+Rgba line_color_of(const DrawnAgent& agent, const Palette& palette) {
+    return agent.dimmed ? mix_colors(palette.background, palette.text, kDimmedLines) : palette.text;
+}
 
 void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus) {
     const mobb::PlacedClip& clip = agent.clip();
@@ -123,7 +129,7 @@ void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingLin
 }  // namespace
 
 void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale, int pieces) {
-    add_ring(list, agent, sample, {list.palette.text, 1.6f * scale, 1.04f, 0, pieces});
+    add_ring(list, agent, sample, {line_color_of(agent, list.palette), 1.6f * scale, 1.04f, 0, pieces});
 }
 
 void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale) {

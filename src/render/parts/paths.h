@@ -34,6 +34,9 @@ struct PathFocus {
     }
 };
 
+/// The text's colour for lines of an agent, which dim with it.
+Rgba line_color_of(const DrawnAgent& agent, const Palette& palette);
+
 /// A disk for each sample.
 void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus);
 

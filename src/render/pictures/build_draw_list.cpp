@@ -4,6 +4,7 @@
 #include <render/pictures/disk_projection.h>
 #include <render/pictures/kept_paths.h>
 #include <render/pictures/picture.h>
+#include <scene/arrangement.h>
 #include <scene/crowd_scene.h>
 
 #include <memory>
@@ -34,6 +35,7 @@ auto with_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& 
                   Use use) {
     check_scale(options.scale);
     const FittedScene& fitted = *kept.fitted();
+    check_names(fitted.scene(), view);
     if (!is_run(fitted.scene())) return use(*picture_of(kept, view, options, choice));
     KeptPaths& seen = kept.shown_in(view);
     if (view.follow.empty() || !view.candidates) return use(*picture_of(seen, view, options, nullptr));

@@ -268,37 +268,43 @@ std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitt
     return Drawer(list, fitted, followed, metrics).draw();
 }
 
+std::vector<LabelRequest> add_followed(DrawList& list, const DrawnAgent& followed, double time, double height,
+                                       const Metrics& metrics) {
+    const std::optional<int> sample = sample_at(followed, time);
+    if (!sample || followed.hidden) return {};
+    const mobb::Disk disk = followed.clip().disk(*sample);
+    const double level = list.moment ? 0 : time;
+    constexpr int kPieces = 48;
+    Pen pen(list, {DrawLayer::candidates, 1});
+    for (const auto& [radius, at_scale_1] : {std::pair(1.25, 2.2f), std::pair(1.5, 1.2f)}) {
+        const auto at = [&, r = radius * disk.r](int i) {
+            const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + r * on_circle<double>(i, kPieces);
+            return list.space.point(rim.x, rim.y, level);
+        };
+        const float width = at_scale_1 * metrics.scale;
+        pen.path(kPieces, at, {.color = list.palette.accent, .width = width, .hidden = kThrough, .cap = 0.3f * width});
+    }
+    const glm::vec3 top = list.space.point(disk.x, disk.y, list.moment ? height : time);
+    const auto anchor = list.projection.project(top);
+    if (!anchor) return {};
+    LabelRequest label;
+    label.text = followed.label;
+    label.size = metrics.text;
+    label.color = readable(followed.color, list.palette);
+    label.border = list.palette.accent;
+    label.anchor = *anchor;
+    label.directions = {{0, -1}, {-1, -1}, {1, -1}, {-1, 0}, {1, 0}};
+    label.distance = 1.8f * metrics.text;
+    label.pill = true;
+    return {label};
+}
+
 std::vector<LabelRequest> add_followed(DrawList& list, std::span<const DrawnAgent> paths, int run_agent, double time,
                                        double height, const Metrics& metrics) {
     for (const DrawnAgent& path : paths) {
-        const std::optional<int> sample = path.run_agent == run_agent ? sample_at(path, time) : std::nullopt;
-        if (!sample) continue;
-        const mobb::Disk disk = path.clip().disk(*sample);
-        const double level = list.moment ? 0 : time;
-        constexpr int kPieces = 48;
-        Pen pen(list, {DrawLayer::candidates, 1});
-        for (const auto& [radius, at_scale_1] : {std::pair(1.25, 2.2f), std::pair(1.5, 1.2f)}) {
-            const auto at = [&, r = radius * disk.r](int i) {
-                const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + r * on_circle<double>(i, kPieces);
-                return list.space.point(rim.x, rim.y, level);
-            };
-            const float width = at_scale_1 * metrics.scale;
-            pen.path(kPieces, at,
-                     {.color = list.palette.accent, .width = width, .hidden = kThrough, .cap = 0.3f * width});
+        if (path.run_agent == run_agent && sample_at(path, time)) {
+            return add_followed(list, path, time, height, metrics);
         }
-        const glm::vec3 top = list.space.point(disk.x, disk.y, list.moment ? height : time);
-        const auto anchor = list.projection.project(top);
-        if (!anchor) return {};
-        LabelRequest label;
-        label.text = path.label;
-        label.size = metrics.text;
-        label.color = readable(path.color, list.palette);
-        label.border = list.palette.accent;
-        label.anchor = *anchor;
-        label.directions = {{0, -1}, {-1, -1}, {1, -1}, {-1, 0}, {1, 0}};
-        label.distance = 1.8f * metrics.text;
-        label.pill = true;
-        return {label};
     }
     return {};
 }

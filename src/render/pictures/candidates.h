@@ -40,8 +40,11 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
                                          const Metrics& metrics);
 
-/// Two rings around a person's disk at a time, on the floor or in space-time; the returned label has the name, above a
-/// body that is so high.
+/// Two rings around an agent's disk at a time, on the floor or in space-time; the returned label has the name, above a
+/// body that is so high. Adds nothing if it is not there then.
+std::vector<LabelRequest> add_followed(DrawList& list, const DrawnAgent& followed, double time, double height,
+                                       const Metrics& metrics);
+/// ... of a run around who plays one of the paths then.
 std::vector<LabelRequest> add_followed(DrawList& list, std::span<const DrawnAgent> paths, int run_agent, double time,
                                        double height, const Metrics& metrics);
 

@@ -58,7 +58,7 @@ std::vector<DrawnAgent> boxed(std::span<const DrawnAgent> paths, const ViewState
     std::vector<DrawnAgent> all;
     std::vector<DrawnAgent> own;
     for (const DrawnAgent& path : paths) {
-        if (path.samples().count == 0) continue;
+        if (path.samples().count == 0 || path.hidden) continue;
         boxes += shown_nodes(path.placed.tree(), view.levels).size();
         all.push_back(path);
         if (path.run_agent == followed) own.push_back(path);
@@ -133,7 +133,7 @@ class CrowdPicture final : public Picture {
         const Rect picture{glm::vec2(0), glm::vec2(list_.size.width, list_.size.height)};
         for (const DrawnAgent& agent : agents_) {
             const auto sample = sample_at(agent, time_);
-            if (!sample) continue;
+            if (!sample || agent.hidden) continue;
             const mobb::Disk disk = agent.clip().disk(*sample);
             const glm::vec3 middle = list_.space.point(disk.x, disk.y, time_);
             const float radius = static_cast<float>(disk.r) * list_.projection.pixels_per_metre(middle);

@@ -14,24 +14,45 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
 }
 
 const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewState& view) {
-    if (!bounds_ || bounds_->first != view.query) bounds_.emplace(view.query, bounds_of(agents));
+    const std::pair of(view.query, view.arrange);
+    if (!bounds_ || bounds_->first != of) bounds_.emplace(of, bounds_of(agents));
     return bounds_->second;
+}
+
+/// To hide somebody moves no camera.
+void KeptPaths::add_hidden_points(const DrawList& list, std::span<const DrawnAgent> agents) {
+    DrawList scratch;
+    scratch.space = list.space;
+    for (const DrawnAgent& agent : agents) {
+        if (agent.hidden) add_disks(scratch, agent, {});
+    }
+    for (const DiskInstance& disk : scratch.disks) {
+        for (const glm::vec3& way : rim_directions()) {
+            points_.add(disk.base + disk.radius * way);
+            points_.add(disk.base + disk.radius * way + glm::vec3(0, 0, disk.height));
+        }
+    }
 }
 
 const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                            const std::vector<PathFocus>& foci) {
-    const Shapes shapes{view.query, list.space.origin, list.space.time_height,
-                        fitted_->scene().crowd ? view.time_window : 0};
-    const Colors colors{view.theme, foci};
+    const Shapes shapes{
+        view.query,  list.space.origin, list.space.time_height, fitted_->scene().crowd ? view.time_window : 0,
+        view.hidden, view.arrange};
+    Colors colors{view.theme, foci, {}};
+    for (const DrawnAgent& agent : agents) colors.agents.push_back(agent.color);
     if (shapes_ != shapes) {
-        for (std::size_t i = 0; i < agents.size(); ++i) add_disks(list, agents[i], foci[i]);
+        for (std::size_t i = 0; i < agents.size(); ++i) {
+            if (!agents[i].hidden) add_disks(list, agents[i], foci[i]);
+        }
         disks_ = list.disks;
         points_ = ShownPoints(disks_);
+        add_hidden_points(list, agents);
         shapes_ = shapes;
     } else if (colors_ != colors) {
         std::size_t first = 0;
         for (std::size_t i = 0; i < agents.size(); ++i) {
-            first = color_disks(disks_.edit(), first, list.palette, agents[i], foci[i]);
+            if (!agents[i].hidden) first = color_disks(disks_.edit(), first, list.palette, agents[i], foci[i]);
         }
         points_ = points_.of_like(disks_);
     }

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,21 +32,26 @@ class KeptPaths {
     const Bounds& bounds(std::span<const DrawnAgent> agents, const ViewState& view);
 
     /// Sets the list's disks to those of the agents' paths, each with its focus. Needs the list's space. Returns them
-    /// as points that the picture has to show.
+    /// as points that the picture has to show, with those of the hidden ones.
     const ShownPoints& add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                     const std::vector<PathFocus>& foci);
 
   private:
+    void add_hidden_points(const DrawList& list, std::span<const DrawnAgent> agents);
+
     struct Shapes {
         std::optional<int> query;
         glm::dvec3 origin{0};
         double time_height = 0;
         double time_window = 0;  ///< of a run, whose window begins at the origin's time
+        std::vector<std::string> hidden;
+        Arrange arrange = Arrange::none;
         friend bool operator==(const Shapes&, const Shapes&) = default;
     };
     struct Colors {
         Theme theme = Theme::dark;
         std::vector<PathFocus> foci;
+        std::vector<Rgba> agents;
         friend bool operator==(const Colors&, const Colors&) = default;
     };
 
@@ -58,8 +64,9 @@ class KeptPaths {
 
     std::shared_ptr<const FittedScene> fitted_;
     Moment moment_;
-    std::unique_ptr<KeptPaths> at_moment_;                         ///< of a run
-    std::optional<std::pair<std::optional<int>, Bounds>> bounds_;  ///< by the view's query
+    std::unique_ptr<KeptPaths> at_moment_;  ///< of a run
+    /// By the view's query and arrangement.
+    std::optional<std::pair<std::pair<std::optional<int>, Arrange>, Bounds>> bounds_;
     std::optional<Shapes> shapes_;
     Colors colors_;
     SharedValues<DiskInstance> disks_;

@@ -134,7 +134,8 @@ Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> hei
             if (skeleton) body.farthest = farthest_joint(*skeleton, body.sample);
         }
     }
-    find_pairs(out);
+    // In a grid they are not where they meet.
+    if (agents.empty() || !agents.front().cell) find_pairs(out);
     return out;
 }
 
@@ -173,6 +174,8 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
         out.headlines = {both(pair) + " overlap" + then + " by " + with_unit(-pair.clearance, "m"),
                          both(pair) + " overlap" + then};
         out.mark = palette.hit;
+    } else if (!moment.nearest) {
+        out.headlines = {std::to_string(count) + " agents" + then};
     } else {
         const std::string clearance = with_unit(moment.nearest->clearance, "m") + " of clearance";
         const std::string all = std::to_string(count) + " agents" + then;
@@ -198,7 +201,8 @@ std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const Dra
     const Palette& palette = list.palette;
     std::vector<LegendEntry> out;
     // A crowd's colours only keep neighbours apart.
-    if (names_fit(agents.size())) out = agent_entries(list, agents, paths);
+    const bool in_grid = !agents.empty() && agents.front().cell;
+    if (names_fit(shown_count(agents)) && !in_grid) out = agent_entries(list, agents, paths);
     const auto line = [&](Rgba color, float width, const char* text) {
         LegendEntry entry;
         entry.color = color;
@@ -206,7 +210,7 @@ std::vector<LegendEntry> moment_legend(const DrawList& list, std::span<const Dra
         entry.text = text;
         out.push_back(entry);
     };
-    if (view.disks && agents.size() > 1) line(palette.hit, 3, "overlap");
+    if (view.disks && agents.size() > 1 && !in_grid) line(palette.hit, 3, "overlap");
     if (view.disks && may_show_radii(agents)) line(palette.text, 1.4f, "radius, to the farthest joint");
     const bool is_run = !agents.empty() && agents.front().run_agent >= 0;
     if (view.floor && !(is_run && agents.size() > kMostWithWays)) {

@@ -79,6 +79,7 @@ void add_ways(DrawList& list, std::span<const DrawnAgent> agents, const Moment& 
     for (const Body& body : moment.bodies) sample[static_cast<std::size_t>(body.agent)] = body.sample;
     for (std::size_t i = 0; i < agents.size(); ++i) {
         const DrawnAgent& agent = agents[i];
+        if (agent.hidden) continue;
         mobb::SampleRange shown{0, agent.clip().count()};
         if (agents.size() > kMostPathsInFull || agent.run_agent >= 0)
             shown = samples_around(agent.clip(), moment.time, kWaySeconds);
@@ -111,8 +112,8 @@ class MomentPicture final : public Picture {
         : Picture(fitted, view, options), crowd_(fitted.scene().crowd.get()), heights_(cylinder_heights(agents_)) {
         // Time is no direction of this picture.
         view_.time_axis = false;
-        moment_ = moment_of(agents_, heights_,
-                            crowd_ ? run_time(fitted.scene(), view) : view.time.value_or(beginning(agents_)));
+        const double time = crowd_ ? run_time(fitted.scene(), view) : view.time.value_or(beginning(agents_));
+        moment_ = moment_of(agents_, heights_, time);
         // Of a run each person stands there with several plays.
         count_ = crowd_ ? crowd_->agents.size() : agents_.size();
         list_.moment = moment_.time;
@@ -163,18 +164,25 @@ class MomentPicture final : public Picture {
             notes.insert(notes.end(), some.begin(), some.end());
         };
         if (choice_) add(add_candidates(list_, fitted_, *choice_, metrics_));
+        for (const DrawnAgent& agent : agents_) {
+            if (crowd_ || names_fit(count_) || agent.name != view_.follow) continue;
+            const double height = heights_[static_cast<std::size_t>(agent.index)];
+            add(add_followed(list_, agent, moment_.time, height, metrics_));
+        }
         if (crowd_ && !view_.follow.empty()) {
             const int followed = run_agent_by_name(*crowd_, view_.follow).value_or(-1);
             add(add_followed(list_, agents_, followed, moment_.time, heights_.front(), metrics_));
         }
+        const auto is_hidden = [&](const Body& body) { return agents_[static_cast<std::size_t>(body.agent)].hidden; };
         if (moment_.nearest && view_.disks && names_fit(count_)) {
-            const auto body = [&](int i) -> const Body& { return moment_.bodies[static_cast<std::size_t>(i)]; };
-            add(add_clearance(list_, body(moment_.nearest->a), body(moment_.nearest->b), metrics_));
+            const Body& a = moment_.bodies[static_cast<std::size_t>(moment_.nearest->a)];
+            const Body& b = moment_.bodies[static_cast<std::size_t>(moment_.nearest->b)];
+            if (!is_hidden(a) && !is_hidden(b)) add(add_clearance(list_, a, b, metrics_));
         }
         // Where two overlap, that is what the picture is about.
         if (view_.disks && may_show_radii(persons()) && moment_.overlaps.empty()) {
             for (const Body& body : moment_.bodies) {
-                if (!sets_radius(body)) continue;
+                if (!sets_radius(body) || is_hidden(body)) continue;
                 const auto length = add_radius(list_, agents_[static_cast<std::size_t>(body.agent)], body, metrics_);
                 if (moment_.bodies.size() == 1) add(length);
             }
@@ -182,7 +190,10 @@ class MomentPicture final : public Picture {
         return notes;
     }
 
-    void add_names_to(LabelLayout& layout) override { add_body_names(list_, layout, agents_, moment_, metrics_); }
+    void add_names_to(LabelLayout& layout) override {
+        if (agents_.front().cell) return add_cell_names(list_, layout, agents_, 0, metrics_);
+        add_body_names(list_, layout, agents_, moment_, metrics_);
+    }
 
     const CrowdRun* crowd_;
     const FollowedChoice* choice_ = nullptr;

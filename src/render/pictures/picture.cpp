@@ -1,14 +1,23 @@
+#include <render/drawlist/palette.h>
 #include <render/layout/annotations.h>
 #include <render/layout/framing.h>
 #include <render/pictures/picture.h>
+#include <scene/arrangement.h>
 
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <ranges>
 #include <stdexcept>
 #include <utility>
 
 namespace mobbscope {
+
+namespace {
+
+constexpr float kDimmed = 0.3f;  // of its colour that an agent keeps where another stands out
+
+}  // namespace
 
 Picture::Picture(const FittedScene& fitted, const ViewState& view, const PictureOptions& options)
     : fitted_(fitted),
@@ -21,6 +30,39 @@ Picture::Picture(const FittedScene& fitted, const ViewState& view, const Picture
     list_.palette = palette_for(view.theme, options);
     list_.background = options.background;
     for (const DrawnAgent& agent : agents_) list_.agents.push_back(agent.name);
+    let_stand_out();
+}
+
+/// Of so many that they are not told apart by name, the followed and the selected one stand out: the rest dims.
+void Picture::let_stand_out() {
+    const Scene& scene = fitted_.scene();
+    // In a grid each has its name.
+    const std::size_t all = names_in_view(scene).size();
+    if (agents_.front().cell || names_fit(all - std::min(all, view_.hidden.size()))) return;
+    const auto points_at = [&](const DrawnAgent& agent) {
+        const std::string& name = name_in_view(scene, agent);
+        return name == view_.follow || name == options_.selected;
+    };
+    if (std::ranges::none_of(agents_, points_at)) return;
+    for (DrawnAgent& agent : agents_) {
+        // The followed one is named beside its rings.
+        agent.named = points_at(agent) && name_in_view(scene, agent) != view_.follow;
+        if (points_at(agent) || agent.pinned) continue;
+        agent.dimmed = true;
+        agent.color = mix_colors(list_.palette.background, agent.color, kDimmed);
+    }
+}
+
+/// What is not as the scene has it.
+void Picture::say_what_view_does(Caption& caption) const {
+    const Scene& scene = fitted_.scene();
+    std::vector<std::string> hidden;
+    for (const DrawnAgent& agent : agents_) {
+        const std::string& name = view_.query ? agent.label : name_in_view(scene, agent);
+        if (agent.hidden && std::ranges::find(hidden, name) == hidden.end()) hidden.push_back(name);
+    }
+    mention_hidden(caption, hidden, view_.query ? agents_.size() : names_in_view(scene).size());
+    if (is_in_grid(scene, view_)) mention(caption, "in a grid, not where they are");
 }
 
 const PictureFrame& Picture::aim() {
@@ -30,13 +72,16 @@ const PictureFrame& Picture::aim() {
 }
 
 std::vector<LabelRequest> Picture::floor_labels() const {
-    return floor_and_axis_labels(list_, floor_extent_, view_.floor, view_.time_axis, metrics_.small);
+    // Of a grid distances tell nothing but the size of what is in a cell.
+    const bool floor = view_.floor && !is_in_grid(fitted_.scene(), view_);
+    return floor_and_axis_labels(list_, floor_extent_, floor, view_.time_axis, metrics_.small);
 }
 
 DrawList Picture::draw() {
     aim();
     if (view_.labels) {
         OverlayContents said = words();
+        say_what_view_does(said.caption);
         if (!view_.caption) said.caption = {};
         if (!view_.legend) said.legend.clear();
         if (const auto map = add_overlays(list_, said, view_, metrics_)) add_map(*map);

@@ -60,6 +60,10 @@ class Picture {
     ShownPoints points_;  ///< all that is drawn: what is near and far
     double margin_ = kFrameMargin;
     DrawList list_;
+
+  private:
+    void let_stand_out();
+    void say_what_view_does(Caption& caption) const;
 };
 
 

@@ -6,6 +6,7 @@
 #include <render/layout/legend.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
+#include <render/pictures/candidates.h>
 #include <render/pictures/kept_paths.h>
 #include <render/pictures/picture.h>
 #include <render/query/query_boxes.h>
@@ -54,6 +55,7 @@ void add_floor_and_axes(DrawList& list, std::span<const DrawnAgent> agents, cons
         if (!floor_on_edge(list.projection)) {
             const float height = list.space.point(0, 0, floor_extent.t0).z;
             for (const DrawnAgent& agent : agents) {
+                if (agent.hidden) continue;
                 add_floor_trace(list, agent, {0, agent.clip().count()}, height, floor_trace_color(agent, list.palette),
                                 1.6f * scale);
             }
@@ -109,22 +111,37 @@ class SpaceTimePicture final : public Picture {
         refine_crowded_boxes(list_, metrics_.scale);
         add_floor_and_axes(list_, agents_, floor_extent_, view_, metrics_.scale);
         if (view_.disks) {
-            for (const DrawnAgent& agent : agents_) add_thin_path(list_, agent, 1.3f * metrics_.scale);
+            for (const DrawnAgent& agent : agents_) {
+                if (!agent.hidden) add_thin_path(list_, agent, 1.3f * metrics_.scale);
+            }
         }
         if (progress() && view_.time_axis && pair_outline(view_) == PairOutline::outcome) {
             add_time_intervals(list_, floor_extent_, agents_, progress()->event, metrics_.scale);
         }
         if (emphasis_.cursor) add_time_cursor(list_, floor_extent_, *emphasis_.cursor, metrics_.scale);
         add_rings(list_, agents_, emphasis_, metrics_.scale);
-        if (!query_) return {};
+        if (!query_) return followed_name();
         return add_findings(list_, agents_, query_->recorded, *progress(), metrics_);
+    }
+
+    /// Of so many that the rest dims, the followed one is ringed: at the time cursor, else where its path begins.
+    std::vector<LabelRequest> followed_name() {
+        if (names_fit(agents_.size())) return {};
+        for (const DrawnAgent& agent : agents_) {
+            if (agent.name != view_.follow) continue;
+            return add_followed(list_, agent, emphasis_.cursor.value_or(agent.begin()), 0, metrics_);
+        }
+        return {};
     }
 
     void add_map(const Rect& within) override {
         add_floor_map(list_, agents_, floor_extent_, *emphasis_.cursor, within, metrics_.scale);
     }
 
-    void add_names_to(LabelLayout& layout) override { add_names(list_, layout, agents_, metrics_); }
+    void add_names_to(LabelLayout& layout) override {
+        if (agents_.front().cell) return add_cell_names(list_, layout, agents_, floor_extent_.t0, metrics_);
+        add_names(list_, layout, agents_, metrics_);
+    }
 
     std::optional<QueryAtStep> query_;
     Emphasis emphasis_;

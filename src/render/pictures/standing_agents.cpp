@@ -182,7 +182,7 @@ void add_skeleton(const DrawList& list, Pen& pen, const Figure& f, float scale) 
     for (Bone& bone : bones) bone.depth = list.projection.depth(0.5f * (bone.from + bone.to));
     std::stable_sort(bones.begin(), bones.end(), [](const Bone& a, const Bone& b) { return a.depth > b.depth; });
     const float width = bone_width(f, scale);
-    const Rgba color = mix_colors(list.palette.text, f.agent.color, 0.25f);
+    const Rgba color = mix_colors(line_color_of(f.agent, list.palette), f.agent.color, 0.25f);
     const Rgba rim = with_alpha(list.palette.background, 0.8f);
     const float around = width > 2.2f * scale ? 2 * scale : 0;
     for (const Bone& bone : bones) {
@@ -279,6 +279,7 @@ void add_bodies(DrawList& list, std::span<const DrawnAgent> agents, const Moment
     std::vector<const Figure*> far_first;
     for (const Figure& f : figures) {
         // What stands behind the eye is not seen.
+        if (f.agent.hidden) continue;
         if (f.pixels > 0 && (figures.size() <= kFewFigures || body_may_be_seen(list, f))) far_first.push_back(&f);
     }
     std::stable_sort(far_first.begin(), far_first.end(), [&](const Figure* a, const Figure* b) {
@@ -292,6 +293,7 @@ void add_bodies(DrawList& list, std::span<const DrawnAgent> agents, const Moment
     for (const BodyPair& pair : moment.overlaps) {
         const Figure& a = figures[static_cast<std::size_t>(pair.a)];
         const Figure& b = figures[static_cast<std::size_t>(pair.b)];
+        if (a.agent.hidden || b.agent.hidden) continue;
         add_overlap(list, a, b, plain, index++, scale);
     }
 }
@@ -333,9 +335,14 @@ std::vector<LabelRequest> add_clearance(DrawList& list, const Body& a, const Bod
 
 void add_body_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAgent> agents, const Moment& moment,
                     const Metrics& metrics) {
-    if (agents.size() < 2 || !names_fit(moment.bodies.size())) return;
+    const auto agent_of = [&](const Body& body) -> const DrawnAgent& {
+        return agents[static_cast<std::size_t>(body.agent)];
+    };
+    const auto shown = std::ranges::count_if(moment.bodies, [&](const Body& body) { return !agent_of(body).hidden; });
+    const bool all = agents.size() > 1 && names_fit(static_cast<std::size_t>(shown));
     for (const Body& body : moment.bodies) {
-        const DrawnAgent& agent = agents[static_cast<std::size_t>(body.agent)];
+        const DrawnAgent& agent = agent_of(body);
+        if (agent.hidden || !(all || agent.named)) continue;
         const glm::vec3 top = list.space.point(body.disk.x, body.disk.y, body.height);
         if (const auto label = name_label(list, agent, top, body.disk.r, metrics.text)) layout.place(*label, list);
     }

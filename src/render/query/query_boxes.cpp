@@ -75,6 +75,7 @@ void add_query_boxes(DrawList& list, std::span<const DrawnAgent> sides, const Qu
                      PairOutline outline, float scale) {
     for (std::size_t side = 0; side < 2; ++side) {
         const DrawnAgent& agent = sides[side];
+        if (agent.hidden) continue;
         for (const NodeProgress& node : progress.nodes[side]) {
             const LineStyle style = outcome_style(box_state(node.outcome), list.palette);
             BoxInstance box = node_box(agent, node.node, list.space);
@@ -131,7 +132,9 @@ Emphasis emphasis_of(const ViewState& view, std::span<const DrawnAgent> agents, 
     Emphasis out;
     if (view.time && *view.time >= begin && *view.time <= end) {
         out.cursor = view.time;
-        for (const DrawnAgent& agent : agents) out.at_cursor.push_back(sample_at(agent, *view.time));
+        for (const DrawnAgent& agent : agents) {
+            out.at_cursor.push_back(agent.hidden ? std::nullopt : sample_at(agent, *view.time));
+        }
     }
     if (!progress) return out;
     const mobb::Trace::Event& event = progress->event;
@@ -139,7 +142,7 @@ Emphasis emphasis_of(const ViewState& view, std::span<const DrawnAgent> agents, 
         out.hits = {event.pairs.back().i, event.pairs.back().j};
     for (const DrawnAgent& agent : agents) {
         const mobb::Node& node = agent.placed.node(agent.index == 0 ? event.a : event.b);
-        out.dims = out.dims || (view.disks && node.count < agent.clip().count());
+        out.dims = out.dims || (view.disks && !agent.hidden && node.count < agent.clip().count());
     }
     return out;
 }

@@ -1,0 +1,97 @@
+#include <app/commands/command.h>
+#include <app/document/agents.h>
+#include <app/document/shown_agents.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+using Change = void (*)(Session&, const AgentNames&);
+using Holds = bool (*)(const Session&, const AgentNames&);
+
+bool has_selected_agents(const Session& session) { return !selected_agents(session).empty(); }
+std::string_view why_nobody(const Session& session) {
+    return session.selection.kind == Selection::Kind::clip ? "no agent plays the clip" : "no agent is selected";
+}
+
+/// About those that are selected.
+Command of_selected(std::string_view id, std::string_view title, std::string_view key, std::string_view doc,
+                    Change change, Holds holds) {
+    const auto act = [change](Session& session) { change(session, selected_agents(session)); };
+    const auto is_so = [holds](const Session& session) { return holds(session, selected_agents(session)); };
+    return {id, title, doc, act, {.shortcut = key, .enabled = {has_selected_agents, why_nobody}, .checked = is_so}};
+}
+
+/// What agents_meant takes.
+std::vector<std::string> meanings(const Session& session) {
+    std::vector<std::string> out = all_agents(session);
+    for (const ClipGroup& group : session.clip_groups()) {
+        if (!agents_of_group(session, group).empty()) out.push_back(kOfGroup + group.title);
+    }
+    const std::vector<std::string> clips = clip_names(session);
+    for (int clip = 0; clip < static_cast<int>(clips.size()); ++clip) {
+        if (!agents_of_clip(session, clip).empty()) out.push_back(kOfClip + clips[static_cast<std::size_t>(clip)]);
+    }
+    return out;
+}
+
+/// The same about others, as the lists' buttons have it.
+Command of_named(std::string_view id, std::string_view title, std::string_view doc, Change change) {
+    const auto act = [change](Session& session, const std::string& text) {
+        const AgentNames who = agents_meant(session, text);
+        if (who.empty()) throw std::invalid_argument("no agent plays it");
+        change(session, who);
+    };
+    return {id, title, doc, act, {.menu = kNoMenu, .argument = "NAME|clip:NAME|group:NAME", .choices = meanings}};
+}
+
+/// Where a run's people stand is what it is about.
+bool may_be_laid_out(const Session& session) { return has_scene(session) && !session.crowd(); }
+std::string_view why_not_laid_out(const Session&) { return "a run is shown where it takes place"; }
+
+Command arrange_command() {
+    Command out = option_command(view_option("arrange"));
+    out.enabled = {may_be_laid_out, why_not_laid_out};
+    // One of two is a tick in the menu.
+    out.choices = {};
+    out.chosen = {};
+    out.checked = [](const Session& session) { return session.view().arrange == Arrange::grid; };
+    return out;
+}
+
+}  // namespace
+
+std::vector<Command> shown_commands() {
+    const std::vector<Command> rows{
+        of_selected("agent.hide", "Hide", "V",
+                    "Takes the selected agent, or the agents of the selected clip, out of the picture, or brings them "
+                    "back; answers stay.",
+                    toggle_hidden, are_hidden),
+        of_selected("agent.solo", "Show alone", "I",
+                    "Hides all but the selected agent, or the selected clip's, and those that are pinned; once more "
+                    "shows what was in the picture before.",
+                    toggle_alone, are_alone),
+        of_selected("agent.pin", "Pin", "P",
+                    "Keeps the selected agent in the picture when another is shown alone, and its colour where others "
+                    "dim.",
+                    toggle_pinned, are_pinned),
+        Command("agent.show_all", "Show all", "Brings everybody who is hidden back into the picture.", show_all,
+                {.shortcut = "Shift+V",
+                 .enabled = {[](const Session& session) { return !session.view().hidden.empty(); },
+                             [](const Session&) { return std::string_view("nobody is hidden"); }}}),
+        arrange_command(),
+        of_named("agents.hide", "Hide by name", "Hides an agent, or all of a clip or a group of clips, or shows them.",
+                 toggle_hidden),
+        of_named("agents.solo", "Show alone by name",
+                 "Shows an agent, or all of a clip or a group of clips, with those that are pinned alone.",
+                 toggle_alone),
+        of_named("agents.pin", "Pin by name", "Pins an agent, or all of a clip or a group of clips.", toggle_pinned),
+    };
+    return in_menu("View/Agents", rows);
+}
+
+}  // namespace mobbscope::app
