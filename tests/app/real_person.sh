@@ -90,7 +90,7 @@ xdotool key ctrl+a type 6
 xdotool key Return
 reached leaf.txt
 
-click leaf.txt query.row.0 0 0
+click leaf.txt query.0 0 0
 reached query.txt
 click query.txt agent.1 0 0
 reached agent.txt

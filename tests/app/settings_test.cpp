@@ -19,6 +19,7 @@ TEST(Settings, AreReadBackAsTheyWereWritten) {
     Settings settings;
     settings.ui_scale = 1.25;
     settings.left_width = 301.5;
+    settings.folded = {"clips", "in time"};
     settings.remember(folder.path() / "a \"quoted\" näme.json");
     settings.remember(folder.path() / "b.json");
     save_settings(file, settings);
@@ -40,8 +41,9 @@ TEST(Settings, JunkIsPassedOver) {
     const TempFolder folder;
     EXPECT_EQ(load_settings(folder.path() / "none.json"), Settings{});
     EXPECT_EQ(load_settings(folder.path()), Settings{});
-    for (const char* text : {"", "{", "[1, 2]", "null", "\xff\xfe", R"({"ui_scale": "big", "left_width": -3})",
-                             R"({"ui_scale": 1e999})", R"({"recent": {"a": 1}})", R"({"recent": [1, null, "here"]})"}) {
+    for (const char* text :
+         {"", "{", "[1, 2]", "null", "\xff\xfe", R"({"ui_scale": "big", "left_width": -3})", R"({"ui_scale": 1e999})",
+          R"({"recent": {"a": 1}})", R"({"recent": [1, null, "here"], "folded": [3]})"}) {
         EXPECT_EQ(load_settings(folder.write("settings.json", text)), Settings{}) << text;
     }
     const Settings some =

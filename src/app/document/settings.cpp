@@ -71,6 +71,11 @@ Settings load_settings(const std::filesystem::path& file) {
         const double read = at->get<double>();
         if (read >= number.least && read <= number.most) settings.*number.value = read;
     }
+    if (const auto folded = json.find("folded"); folded != json.end() && folded->is_array()) {
+        for (const nlohmann::json& section : *folded) {
+            if (section.is_string()) settings.folded.insert(section.get<std::string>());
+        }
+    }
     const auto recent = json.find("recent");
     if (recent == json.end() || !recent->is_array()) return settings;
     for (const nlohmann::json& entry : *recent) {
@@ -88,6 +93,9 @@ void save_settings(const std::filesystem::path& file, const Settings& settings) 
     JsonWriter out(text);
     out.begin_object();
     for (const NumberSetting& number : kNumberSettings) out.member(number.key, settings.*number.value);
+    out.begin_array("folded");
+    for (const std::string& section : settings.folded) out.value(section);
+    out.end_array();
     out.begin_array("recent");
     for (const std::filesystem::path& path : settings.recent) out.value(std::string_view(path.native()));
     out.end_array();

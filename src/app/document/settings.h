@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace mobbscope::app {
@@ -12,6 +14,7 @@ struct Settings {
     double left_width = 256;                    ///< of the panels, pixels at scale 1
     double right_width = 320;
     double bottom_height = 150;
+    std::set<std::string> folded;  ///< sections of panels, by their titles in small letters
 
     /// Puts a file first.
     void remember(const std::filesystem::path& file);

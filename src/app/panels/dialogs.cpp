@@ -58,6 +58,9 @@ void dialogs(Ui& ui) {
         case Dialog::about:
             about(ui);
             break;
+        case Dialog::history:
+            history_list(ui);
+            break;
     }
     if (pressed(ImGuiKey_Escape)) session.enqueue([&session] { session.close_dialog(); });
 }

@@ -1,5 +1,6 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
+#include <app/ui/command_menu.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
 
@@ -14,56 +15,11 @@ namespace {
 
 constexpr float kSearchWidth = 360;       // pixels at scale 1
 constexpr float kLeastSearchWidth = 110;  // below, it only costs room
-constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
 
 std::string lower_case(std::string_view text) {
     std::string out(text);
     std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
     return out;
-}
-
-/// "Undo moving A".
-std::string title_of(const Session& session, const Command& command) {
-    std::string title(command.title);
-    if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
-    if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
-    return title;
-}
-
-std::string menu_mark(const Command& command) { return "menu." + std::string(command.id); }
-
-void ask_argument(Session& session, const Command& command) {
-    session.enqueue([&session, &command] {
-        session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
-    });
-}
-
-void choices(Ui& ui, const Command& command) {
-    Session& session = ui.session;
-    const std::vector<std::string> all = command.choices(session);
-    const bool open = ImGui::BeginMenu(title_of(session, command).c_str(), command.enabled(session) && !all.empty());
-    ui.mark(menu_mark(command));
-    if (!open) return;
-    for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
-        const bool chosen = command.chosen && command.chosen(session, all[i]);
-        ImGui::PushID(static_cast<int>(i));
-        if (ImGui::MenuItem(all[i].c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
-        ImGui::PopID();
-        ui.mark(menu_mark(command) + '.' + all[i]);
-    }
-    if (all.size() > kMostChoices && ImGui::MenuItem("More...")) ask_argument(session, command);
-    ImGui::EndMenu();
-}
-
-void item(Ui& ui, const Command& command) {
-    Session& session = ui.session;
-    if (command.choices) return choices(ui, command);
-    const std::string shortcut(first_shortcut(command));
-    const bool checked = command.checked && command.checked(session);
-    if (ImGui::MenuItem(title_of(session, command).c_str(), shortcut.c_str(), checked, command.enabled(session))) {
-        command.needs_argument() ? ask_argument(session, command) : invoke(session, command.id);
-    }
-    ui.mark(menu_mark(command));
 }
 
 std::string_view group_of(const Command& command) { return command.id.substr(0, command.id.find('.')); }
@@ -75,7 +31,7 @@ void items(Ui& ui, const std::string& menu) {
         if (command.menu == menu) {
             if (!group.empty() && group != group_of(command)) ImGui::Separator();
             group = group_of(command);
-            item(ui, command);
+            command_item(ui, {command.id}, "menu." + std::string(command.id));
         } else if (command.menu.starts_with(menu + '/') &&
                    std::find(submenus.begin(), submenus.end(), command.menu) == submenus.end()) {
             submenus.push_back(command.menu);

@@ -1,11 +1,9 @@
-#include <app/document/job.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 
@@ -88,46 +86,12 @@ void forget_old(Ui& ui) {
     }
 }
 
-constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
-constexpr double kSweep = 1.6;               // seconds that the bar takes where nothing is known
-
-/// Draws the work under way; true if it is to be cancelled.
-bool draw_job(Ui& ui, const Job& job, std::size_t index) {
-    const std::string mark = "job." + std::to_string(index);
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float button = ImGui::CalcTextSize("Cancel").x + 2 * style.FramePadding.x;
-    ImGui::PushID(static_cast<int>(index));
-    ImGui::TextUnformatted(job.title().c_str());
-    ui.mark(mark);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x - button - ui.px(10);
-    const float height = ui.px(6);
-    const float y = at.y + (ImGui::GetTextLineHeight() - height) / 2;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x, y}, {at.x + width, y + height}, ui.style.raised, height / 2);
-    const double progress = job.progress();
-    float from = 0;
-    float to = static_cast<float>(progress);
-    if (progress < 0) {
-        from = static_cast<float>(0.75 * (0.5 - 0.5 * std::cos(ui.now / kSweep * 6.283)));
-        to = from + 0.25f;
-    }
-    draw.AddRectFilled({at.x + from * width, y}, {at.x + to * width, y + height}, ui.style.accent, height / 2);
-    ImGui::Dummy({width, height});
-    ui.mark(mark + ".bar");
-    ImGui::SameLine(0, ui.px(10));
-    const bool cancelled = small_button(ui, "Cancel", mark + ".cancel");
-    ImGui::PopID();
-    return cancelled;
-}
-
 }  // namespace
 
 void messages(Ui& ui) {
     forget_old(ui);
     Session& session = ui.session;
-    if (session.job_count() > 0) ui.want_frame_in(kProgressFrame);
-    if (session.messages().empty() && session.job_count() == 0) return;
+    if (session.messages().empty()) return;
     const MessagePlace place = place_of(ui);
     ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowSizeConstraints({place.width, 0}, {place.width, ImGui::GetIO().DisplaySize.y / 2});
@@ -136,16 +100,11 @@ void messages(Ui& ui) {
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
     // Over dialogs too: what went wrong in one is read there.
     ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
-    std::optional<std::size_t> cancelled;
-    for (std::size_t i = 0; i < session.job_count(); ++i) {
-        if (draw_job(ui, session.job(i), i)) cancelled = i;
-    }
     std::optional<std::size_t> gone;
     for (std::size_t i = 0; i < session.messages().size(); ++i) {
         if (draw(ui, session.messages()[i], i)) gone = i;
     }
     ImGui::End();
-    if (cancelled) session.enqueue([&session, index = *cancelled] { session.cancel_job(index); });
     if (gone) session.dismiss(*gone);
 }
 

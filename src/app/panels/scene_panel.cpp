@@ -1,7 +1,8 @@
 #include <app/commands/command.h>
+#include <app/document/described.h>
 #include <app/panels/panels.h>
+#include <app/ui/thing_menus.h>
 #include <app/ui/widgets.h>
-#include <app/viewport/selection_display.h>
 #include <base/text.h>
 #include <render/drawlist/palette.h>
 
@@ -11,21 +12,12 @@ namespace {
 
 constexpr int kMostSceneRows = 9;
 
-void agent_menu(Ui& ui, const Selection& self) {
-    if (!ImGui::BeginPopupContextItem()) return;
-    ui.session.select(self);
-    for (const char* id : {"view.frame", "crowd.follow", "agent.duplicate", "agent.remove"}) {
-        const Command& command = *find_command(id);
-        if (command.id.starts_with("crowd.") ? !ui.session.is_crowd()
-                                             : command.id.starts_with("agent.") && ui.session.crowd())
-            continue;
-        const std::string title(command.title);
-        const std::string shortcut(first_shortcut(command));
-        const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));
-        ui.mark(std::string("agent.menu.") + id);
-        if (chosen) invoke(ui.session, id);
-    }
-    ImGui::EndPopup();
+/// The right-click menu of a row, which is selected by it.
+void row_menu(Ui& ui, const Selection& self) {
+    context_menu(ui, [&] {
+        ui.session.select(self);
+        return selection_menu(ui.session);
+    });
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
@@ -43,12 +35,12 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
     const bool clicked = row(ui, {"agent." + std::to_string(index), who.name, clip_remark(session, clip),
                                   on_it(session.selection), on_it(session.hovered), ui.px(18), 0});
-    agent_menu(ui, self);
+    row_menu(ui, self);
     const float side = ui.px(10);
     const float y = corner.y + 0.5f * (ImGui::GetFrameHeight() - side);
     ImGui::GetWindowDrawList()->AddRectFilled({corner.x + ui.px(7), y}, {corner.x + ui.px(7) + side, y + side},
                                               to_im(agent_color(fitted.scene(), who, index)), ui.px(2));
-    if (ImGui::IsItemHovered()) session.hovered = self;
+    if (ImGui::IsItemHovered()) ui.hovered = self;
     if (clicked) session.select(self);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
 }
@@ -60,7 +52,7 @@ void agents(Ui& ui) {
     // Of a run its people; what they play before and after now is theirs.
     const auto count =
         static_cast<int>(session.crowd() ? session.crowd()->agents.size() : fitted.placed_agents().size());
-    heading(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count));
+    if (!section(ui, has_agents ? "AGENTS" : "CLIPS WHERE THEY ARE", std::to_string(count))) return;
     rows(ui, "##agents", count, kMostSceneRows, [&](int i) { path_row(ui, fitted, i); });
     if (session.crowd()) return;
     if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
@@ -79,7 +71,7 @@ void agents(Ui& ui) {
 void clips(Ui& ui) {
     Session& session = ui.session;
     const auto& all = session.scene().clips;
-    heading(ui, "CLIPS", std::to_string(all.size()));
+    if (!section(ui, "CLIPS", std::to_string(all.size()))) return;
     rows(ui, "##clips", static_cast<int>(all.size()), kMostSceneRows, [&](int i) {
         const SceneClip& clip = all[static_cast<std::size_t>(i)];
         const Selection self{Selection::Kind::clip, {}, i};
@@ -89,6 +81,8 @@ void clips(Ui& ui) {
                      session.hovered == self, 0, warned ? ui.style.warning : 0})) {
             session.select(self);
         }
+        row_menu(ui, self);
+        if (ImGui::IsItemHovered()) ui.hovered = self;
         if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().c_str());
     });
     if (session.crowd()) return;
@@ -100,21 +94,27 @@ void clips(Ui& ui) {
 void queries(Ui& ui) {
     Session& session = ui.session;
     const auto count = static_cast<int>(session.fitted().queries().size());
-    heading(ui, session.scene().queries.empty() && count > 0 ? "QUERIES (ALL PAIRS)" : "QUERIES",
-            std::to_string(count));
+    const bool all_pairs = session.scene().queries.empty() && count > 1;
+    if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
     rows(ui, "##queries", count, kMostSceneRows, [&](int i) {
         const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
         const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
+        const Selection self{Selection::Kind::query, {}, i};
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.style.palette;
+        const std::string found = hit ? formatted("hit %.2f s", answer.contact->time) : "miss";
         if (row(ui, {"query." + std::to_string(i), query.a.name + " against " + query.b.name,
-                     std::string(unexpected ? "! " : "") + (hit ? "hit" : "miss"), session.view().query == i, false, 0,
+                     (unexpected ? "! " : "") + found, session.view().query == i, session.hovered == self, 0,
                      to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
             invoke(session, session.view().query == i ? "query.none" : "query.select",
                    session.view().query == i ? "" : std::to_string(i));
         }
-        if (unexpected && ImGui::IsItemHovered()) ImGui::SetTooltip("The scene expects the other answer");
+        row_menu(ui, self);
+        if (!ImGui::IsItemHovered()) return;
+        ui.hovered = self;
+        ImGui::SetTooltip("%s%s", sentence(query, answer.contact).c_str(),
+                          unexpected ? "\nThe scene expects the other answer" : "");
     });
     if (count == 0)
         words(ui.style.quiet,
@@ -129,7 +129,6 @@ void scene_panel(Ui& ui) {
         return;
     }
     agents(ui);
-    if (!ui.session.crowd()) placement_panel(ui);
     clips(ui);
     // A run is asked for its conflicts.
     if (!ui.session.crowd()) queries(ui);
@@ -138,7 +137,7 @@ void scene_panel(Ui& ui) {
 void selection_panel(Ui& ui) {
     const Session& session = ui.session;
     if (session.empty()) return;
-    heading(ui, "SELECTION");
+    if (!section(ui, "SELECTION")) return;
     if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
         words(ui.style.quiet,
               "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cfloat>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace mobbscope::app {
@@ -28,6 +30,8 @@ std::vector<std::string> unbroken_words(const std::string& text) {
     return out;
 }
 
+constexpr float kLeastField = 56;  // pixels at scale 1
+
 }  // namespace
 
 void heading(Ui& ui, const char* text, const std::string& right) {
@@ -44,6 +48,44 @@ void heading(Ui& ui, const char* text, const std::string& right) {
     }
     ImGui::PopStyleColor();
     ImGui::PopFont();
+}
+
+bool section(Ui& ui, const std::string& title, const std::string& right) {
+    std::string id = title;
+    std::ranges::transform(id, id.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::set<std::string>& folded = ui.session.settings.folded;
+    const bool open = !folded.contains(id);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    heading(ui, title.c_str(), right);
+    const ImVec2 below = ImGui::GetCursorScreenPos();
+    const float line = ui.style.caption->FontSize;
+    const float top = corner.y + ui.px(6) + ImGui::GetStyle().ItemSpacing.y;
+    // All of its line is the button, and the room beside it.
+    const float edge = ui.px(10);
+    ImGui::SetCursorScreenPos({corner.x - edge, top - ui.px(2)});
+    const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), line + ui.px(4)};
+    if (ImGui::InvisibleButton(("##section." + id).c_str(), size)) {
+        open ? static_cast<void>(folded.insert(id)) : static_cast<void>(folded.erase(id));
+    }
+    ui.mark("section." + id);
+    const bool hovered = ImGui::IsItemHovered();
+    if (hovered) ImGui::SetTooltip(open ? "Click to fold" : "Click to unfold");
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 window = ImGui::GetWindowPos();
+    draw.PushClipRect(window, {window.x + ImGui::GetWindowWidth(), window.y + ImGui::GetWindowHeight()});
+    const ImU32 color = hovered ? ui.style.text : ui.style.quiet;
+    const float r = ui.px(3);
+    const ImVec2 middle{corner.x - ui.px(6), top + 0.5f * line};
+    if (open) {
+        draw.AddTriangleFilled({middle.x - r, middle.y - 0.6f * r}, {middle.x + r, middle.y - 0.6f * r},
+                               {middle.x, middle.y + 0.8f * r}, color);
+    } else {
+        draw.AddTriangleFilled({middle.x - 0.6f * r, middle.y - r}, {middle.x + 0.8f * r, middle.y},
+                               {middle.x - 0.6f * r, middle.y + r}, color);
+    }
+    draw.PopClipRect();
+    ImGui::SetCursorScreenPos(below);
+    return open;
 }
 
 void text_line(ImU32 color, const std::string& text, ImFont* font) {
@@ -99,7 +141,10 @@ void form_label(Ui& ui, const char* label, const char* help) {
     if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
     // Below the longest label of all forms the columns still stand under one another.
     const float column = ImGui::GetWindowContentRegionMin().x + ImGui::CalcTextSize("Leaf samples").x + ui.px(12);
-    ImGui::SameLine(std::max(column, 0.34f * ImGui::GetWindowContentRegionMax().x));
+    const float right = ImGui::GetWindowContentRegionMax().x;
+    const float left = std::max(column, 0.34f * right);
+    // In a narrow panel the widget stands below its label.
+    if (right - left >= ui.px(kLeastField)) ImGui::SameLine(left);
     ImGui::SetNextItemWidth(-1);
 }
 

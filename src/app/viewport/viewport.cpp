@@ -1,4 +1,6 @@
 #include <app/commands/command.h>
+#include <app/document/described.h>
+#include <app/ui/thing_menus.h>
 #include <app/viewport/selection_display.h>
 #include <app/viewport/viewport.h>
 #include <base/text.h>
@@ -42,6 +44,11 @@ std::vector<Pick> picks(const DrawList& list, glm::vec2 pixel) {
     };
     std::stable_partition(hits.begin(), hits.end(), stands_out);
     return hits;
+}
+
+Selection selection_of(const Session& session, const ObjectId& id) {
+    return {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
+            agent_in_view(session.fitted(), session.view(), id.agent), id.index};
 }
 
 /// Nothing is open: what to do.
@@ -197,6 +204,8 @@ void Viewport::draw(Ui& ui, std::size_t place, const PictureFrame* linked) {
     update_highlights(ui);
     show(ui, corner);
     if (is_active(ui)) decorate(ui, {*list_, corner});
+    context_menu(ui, "what is here",
+                 [&] { return over_nothing_ ? picture_menu(ui.session) : selection_menu(ui.session); });
     if (ui.session.view_count() > 1) name_trees(ui, corner);
 }
 
@@ -250,9 +259,8 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
         lit_ = held ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
         if (over && list_ && is_active(ui) && lit_ == Handle::none) {
             hover(ui, pixel);
-        } else if (place_) {
+        } else {
             place_.reset();
-            ui.session.hovered = {};
         }
     }
     last_ = pixel;
@@ -297,8 +305,8 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     last_ = pixel;
     moved_ = false;
     drag_ = Drag::orbit;
+    asks_ = io.MouseDown[1];
     place_.reset();
-    ui.session.hovered = {};
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
     } else if (const auto hold = is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt) {
@@ -336,21 +344,36 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
 
 void Viewport::release(Ui& ui, glm::vec2 pixel) {
     const bool was_click = !moved_ && drag_ != Drag::pan;
+    const bool asked = !moved_ && asks_;
     drag_ = Drag::none;
     ui.session.enqueue([&session = ui.session] { session.close_group(); });
     if (was_click && list_ && is_active(ui)) click(ui, pixel);
+    if (asked && list_ && is_active(ui)) ask(ui, pixel);
+}
+
+/// A right click: a menu of what is there, which is selected; what is selected already stays so, also behind something.
+void Viewport::ask(Ui& ui, glm::vec2 pixel) {
+    Session& session = ui.session;
+    std::optional<Selection> nearest;
+    bool stays = false;
+    for (const Pick& hit : picks(*list_, pixel)) {
+        const Selection here = selection_of(session, hit.id);
+        if (!nearest) nearest = here;
+        stays = stays || here == session.selection;
+    }
+    over_nothing_ = !nearest;
+    if (nearest && !stays) session.select(*nearest);
+    ImGui::OpenPopup("what is here");
 }
 
 void Viewport::hover(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
     const std::vector<Pick> hits = picks(*list_, pixel);
     place_.reset();
-    session.hovered = {};
     if (hits.empty()) return;
     const ObjectId& id = hits.front().id;
     place_ = hits.front().place;
-    session.hovered = {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
-                       agent_in_view(session.fitted(), session.view(), id.agent), id.index};
+    ui.hovered = selection_of(session, id);
 }
 
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
@@ -365,8 +388,7 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
         return;
     }
     const ObjectId& id = hits[depth_ % hits.size()].id;
-    const AgentRef path = agent_in_view(session.fitted(), session.view(), id.agent);
-    session.select({id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample, path, id.index});
+    session.select(selection_of(session, id));
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <deque>
 #include <limits>
 #include <optional>
@@ -217,6 +218,7 @@ struct Shell::State {
     double lay_out(double now) {
         marks.clear();
         Ui ui{session, style, marks, drawn->painter, now, kNever};
+        if (session.attended()) ui.frame_seconds = frame_seconds;
         ImGui::NewFrame();
         viewports.resize(session.view_count());
         window_layout(ui, viewports, pictures);
@@ -232,6 +234,7 @@ struct Shell::State {
         renderer.context().make_current();
         if (!std::exchange(undrawn, false)) return;
         ++frames_drawn;
+        const auto began = Clock::now();
         for (std::size_t place = 0; place < viewports.size(); ++place) {
             if (const DrawList* picture = viewports[place].shown()) drawn->painter.paint_changes(place, *picture);
         }
@@ -240,6 +243,7 @@ struct Shell::State {
         drawn->target->clear({ground.x, ground.y, ground.z, 1});
         drawn->ui.draw(*ImGui::GetDrawData(), size);
         renderer.context().check("drawing the window");
+        frame_seconds = laid_out_in + std::chrono::duration<double>(Clock::now() - began).count();
     }
 
     Session& session;
@@ -251,6 +255,9 @@ struct Shell::State {
     PictureSize size;  ///< of the last frame
     bool undrawn = false;
     int frames_drawn = 0;
+    using Clock = std::chrono::steady_clock;
+    double laid_out_in = 0;    ///< seconds that the last frame's panels and draw lists took
+    double frame_seconds = 0;  ///< ... with its drawing
     InputQueue input;
     Marks marks;
     Style style{};
@@ -296,7 +303,9 @@ double Shell::frame(PictureSize size, double now) {
     if (s.session.job_count() != jobs) s.settling = kFramesToSettle;
     s.feed();
     s.follow_look();
+    const auto began = State::Clock::now();
     const double wanted = s.lay_out(now);
+    s.laid_out_in = std::chrono::duration<double>(State::Clock::now() - began).count();
     s.size = size;
     s.undrawn = true;
     if (s.session.run_queue()) s.settling = kFramesToSettle;
