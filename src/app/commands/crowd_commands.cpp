@@ -235,10 +235,6 @@ std::vector<Command> crowd_commands() {
                      [](const Session& session, const std::string& which) {
                          return which == kWhich[static_cast<std::size_t>(session.candidates.which)];
                      }}),
-        Command("crowd.filter_candidates", "List candidates with",
-                "Lists the candidates whose row has a text in it; without one all.",
-                [](Session& session, const std::string& text) { session.candidates.text = text; },
-                {.menu = kNoMenu, .argument = "[TEXT]"}),
         Command(
             "crowd.open_candidate", "Open the candidate as a scene",
             "Opens the candidate that is pointed out, and who rules it out, as a scene with the query between them.",

@@ -137,14 +137,14 @@ std::vector<Command> edit_commands() {
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .repeats = true,
                  .enabled = [](const Session& session) { return session.history().can_redo(); }}),
-        Command("edit.history", "History...", "Lists all that can be undone or redone; a click goes there.",
+        Command("edit.history", "History...", "Lists what was done; a click goes back or on to it.",
                 [](Session& session) {
                     DialogInput at;
                     at.picked = static_cast<int>(session.history().place());
                     session.open_dialog(Dialog::history, at);
                 }),
         Command("edit.go_to", "To a state of the history",
-                "Undoes or redoes up to a state, by its number from 0, the oldest.", go_to_state,
+                "Goes to a state of what was done, by its number from 0, the oldest.", go_to_state,
                 {.menu = kNoMenu, .argument = "N"}),
         Command("edit.copy_figures", "Copy figures", "Copies what is selected with all its numbers, a line each.",
                 copy_figures,
