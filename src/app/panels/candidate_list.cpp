@@ -14,7 +14,6 @@
 #include <cctype>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,7 +55,7 @@ std::string remark_of(const Session& session, const Choice& choice, std::size_t 
     if (outcome == CandidateOutcome::leaves_floor) return "off floor";
     if (outcome != CandidateOutcome::ruled_out) return std::string(outcome_words(outcome));
     const std::string& other = session.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
-    return "meets " + fitted_text(other, 60) + ' ' + at_time(candidate.blocker->contact.time);
+    return shortened(cleaned(other), 16) + formatted(" at %.2f s", candidate.blocker->contact.time);
 }
 
 /// What a row says and is ordered by.
@@ -125,7 +124,7 @@ void choice_button(Ui& ui, const std::string& label, const char* id, const std::
 void list_head(Ui& ui) {
     CandidateList& list = ui.session.candidates;
     ImGui::SetNextItemWidth(-1);
-    ImGui::InputTextWithHint("##filter", "Filter: part of a name, who is met", &list.text);
+    ImGui::InputTextWithHint("##filter", "Filter", &list.text);
     ui.mark("candidates.filter");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ui.px(3)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), 0});

@@ -7,7 +7,7 @@
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
 
-#include <algorithm>
+#include <memory>
 
 namespace mobbscope::app {
 

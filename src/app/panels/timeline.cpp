@@ -36,7 +36,7 @@ void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) 
         draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
         const std::string text = tick_text(t, step) + " s";
         const float wide = text_size(mono, text).x;
-        const float left = std::clamp(x - 0.5f * wide, corner.x, corner.x + width - wide);
+        const float left = std::max(corner.x, std::min(x - 0.5f * wide, corner.x + width - wide));
         draw_text(draw, mono, {left, corner.y + ui.px(5)}, ui.style.quiet, text);
     }
 }

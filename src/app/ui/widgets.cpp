@@ -69,7 +69,6 @@ bool section(Ui& ui, const std::string& title, const std::string& right) {
     }
     ui.mark("section." + id);
     const bool hovered = ImGui::IsItemHovered();
-    if (hovered) ImGui::SetTooltip(open ? "Click to fold" : "Click to unfold");
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 window = ImGui::GetWindowPos();
     draw.PushClipRect(window, {window.x + ImGui::GetWindowWidth(), window.y + ImGui::GetWindowHeight()});
@@ -257,12 +256,18 @@ bool row(Ui& ui, const Row& row) {
     const float pad = ui.px(6);
     const ImFont& mono = *ui.style.mono;
     const float y = corner.y + 0.5f * (height - ImGui::GetFontSize());
-    const ImVec2 remark = text_size(mono, row.remark);
     const float left = corner.x + pad + row.indent;
-    const std::string name = fitted_text(row.name, std::max(ui.px(24), end.x - pad - remark.x - ui.px(8) - left));
+    const float room = end.x - pad - left;
+    // The name keeps half of a narrow row.
+    const float name_width = std::min(ImGui::CalcTextSize(cleaned(row.name).c_str()).x, 0.5f * room);
+    ImGui::PushFont(ui.style.mono);
+    const std::string remark = fitted_text(row.remark, std::max(room - name_width - ui.px(8), 0.0f));
+    const float width_of_remark = ImGui::CalcTextSize(remark.c_str()).x;
+    ImGui::PopFont();
+    const std::string name = fitted_text(row.name, std::max(ui.px(24), room - width_of_remark - ui.px(8)));
     draw.AddText({left, y}, ui.style.text, name.c_str());
-    draw_text(draw, mono, {end.x - pad - remark.x, corner.y + 0.5f * (height - mono.FontSize)},
-              row.remark_color != 0 ? row.remark_color : ui.style.quiet, row.remark);
+    draw_text(draw, mono, {end.x - pad - width_of_remark, corner.y + 0.5f * (height - mono.FontSize)},
+              row.remark_color != 0 ? row.remark_color : ui.style.quiet, remark);
     return clicked;
 }
 
