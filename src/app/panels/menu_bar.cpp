@@ -55,7 +55,8 @@ void search(Ui& ui, float left, float right) {
     if (room < ui.px(kLeastSearchWidth)) return;
     const float width = std::min(room, ui.px(kSearchWidth));
     const float middle = ImGui::GetWindowWidth() / 2;
-    const float x = std::clamp(middle - width / 2, left + gap, right - gap - width);
+    // Rounding may leave less room than it takes.
+    const float x = std::max(left + gap, std::min(middle - width / 2, right - gap - width));
     const float height = ImGui::GetFrameHeight() - ui.px(4);
     ImGui::SetCursorPos({x, ui.px(2)});
     if (ImGui::InvisibleButton("##search", {width, height})) invoke(ui.session, "go.palette");
