@@ -219,7 +219,8 @@ TEST(Menus, TheHistoryIsAListToGoTo) {
     ASSERT_TRUE(w.has("history.3"));
     w.run("click history.1");
     EXPECT_EQ(w.session.scene().agents[0].placement.translate, glm::dvec2(1, 1));
-    EXPECT_EQ(w.session.scene().agents[0].placement.start, 0);
+    EXPECT_EQ(w.session.scene().agents[0].placement.rotate_deg, 0);
+    EXPECT_EQ(w.session.history().place(), 1u) << "two back at once";
     EXPECT_EQ(w.session.dialog, Dialog::history) << "to be looked at";
     w.run("key Down\nexpect /scene/agents/0/rotate_deg 20\nkey Down\nexpect /scene/agents/0/start 2");
     w.run("key Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect /dialog \"none\"\nexpect /modified false");

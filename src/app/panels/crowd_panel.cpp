@@ -40,7 +40,7 @@ void plays(Ui& ui) {
     if (!run_agent) return;
     const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(*run_agent)];
     const std::size_t now = play_at(agent, run_time(session.scene(), session.view()));
-    if (!section(ui, "PLAYS", std::to_string(agent.plays.size()) + " of " + cleaned(agent.name))) return;
+    if (!section(ui, "PLAYS", cleaned(agent.name) + ", " + std::to_string(agent.plays.size()) + " plays")) return;
     rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostCrowdRows, [&](int i) {
         const Play& play = agent.plays[static_cast<std::size_t>(i)];
         const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(play.move)];
