@@ -143,6 +143,21 @@ std::vector<Case> cases() {
     add({"edit.redo", "", {kSelectB, {"agent.move", "4 5"}, {"edit.undo", ""}}, [](CommandWorld& w) {
              EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(4, 5));
          }});
+    look("edit.history", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::history); });
+    add({"edit.go_to",
+         "1",
+         {kSelectB, {"agent.move", "4 5"}, {"agent.move", "6 7"}, {"agent.turn", "8"}},
+         [](CommandWorld& w) {
+             EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(4, 5));
+             EXPECT_EQ(w.agent(1).placement.rotate_deg, 90);
+             run_command(w.session, "edit.go_to", "3");
+             EXPECT_EQ(w.agent(1).placement.rotate_deg, 8) << "and on again";
+             EXPECT_NE(testing::refusal(w.session, "edit.go_to", "4"), "");
+         }});
+    add({"edit.copy_figures", "", {{"go.node", "B 1"}}, [](CommandWorld& w) {
+             EXPECT_TRUE(w.clipboard.starts_with("B 1.0\n")) << w.clipboard;
+             EXPECT_NE(w.clipboard.find("\nsamples\t0..29 (30)\n"), std::string::npos) << w.clipboard;
+         }});
     edit("agent.add", "stand", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "stand");
@@ -475,6 +490,32 @@ std::vector<Case> cases() {
          {kFirstQuery, {"query.expect", ""}},
          [](CommandWorld& w) { EXPECT_FALSE(w.session.scene().queries[0].expect); },
          true});
+    add({"query.capture", "0", {}, [](CommandWorld& w) {
+             ASSERT_TRUE(w.session.in_excerpt());
+             for (const SceneClip& clip : w.session.scene().clips) EXPECT_FALSE(clip.source) << clip.name;
+             ASSERT_EQ(w.session.scene().queries.size(), 1u);
+             ASSERT_TRUE(w.session.scene().queries[0].expect);
+             EXPECT_TRUE(w.session.scene().queries[0].expect->collides);
+             EXPECT_EQ(w.session.scene().queries[0].expect->contact, w.session.recorded()->contact);
+         }});
+    look("query.copy_command", "2", [](CommandWorld& w) {
+        EXPECT_EQ(w.view().query, 2);
+        EXPECT_NE(w.clipboard.find(" --query 2 "), std::string::npos) << w.clipboard;
+    });
+    look("query.copy_answer", "0", [](CommandWorld& w) {
+        EXPECT_EQ(w.view().query, 0);
+        EXPECT_TRUE(w.clipboard.starts_with("They collide at ")) << w.clipboard;
+    });
+    add({"step.next_of_node", "", {kFirstQuery, kFirstStep, {"go.node", "A 0"}}, [](CommandWorld& w) {
+             const mobb::Trace& trace = w.session.recorded()->trace;
+             EXPECT_EQ(w.session.step(), 1) << "the roots' boxes, behind their times";
+             for (int tests = 0; tests < 3; ++tests) {
+                 run_command(w.session, "step.next_of_node");
+                 EXPECT_EQ(trace[w.session.step()].a, 0);
+             }
+             w.session.select({});
+             EXPECT_NE(testing::refusal(w.session, "step.next_of_node"), "");
+         }});
     add({"step.first", "", {kFirstQuery}, [](CommandWorld& w) { EXPECT_EQ(w.session.step(), 0); }});
     look("step.first", "", [](CommandWorld& w) {
         EXPECT_EQ(w.view().query, 0) << "without a query in view the first is shown";

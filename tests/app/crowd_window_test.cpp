@@ -20,6 +20,8 @@
 #include <cstdlib>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
@@ -202,6 +204,55 @@ TEST(CrowdWindow, NothingFliesWhenFollowingEnds) {
     EXPECT_LT(difference(before, w.window.shell().viewport_picture()), 0.1);
 }
 
+TEST(CrowdWindow, CandidatesAreSortedAndFilteredAndTheHighlightFollows) {
+    CrowdWindow w;
+    run_command(w.session, "time.at", "6");
+    w.click("agent.1");
+    w.key("W");
+    ASSERT_TRUE(w.session.choice());
+    const auto listed = [&] {
+        std::vector<std::pair<float, int>> rows;
+        for (const auto& [name, rect] : w.window.shell().marks().all()) {
+            if (name.starts_with("candidate.")) rows.emplace_back(rect.min.y, std::stoi(name.substr(10)));
+        }
+        std::ranges::sort(rows);
+        std::vector<int> out;
+        for (const auto& [y, index] : rows) out.push_back(index);
+        return out;
+    };
+    const std::vector<int> by_outcome = listed();
+    ASSERT_GT(by_outcome.size(), 2u);
+    w.click("candidate." + std::to_string(by_outcome.front()));
+    EXPECT_EQ(w.session.candidate(), by_outcome.front());
+    w.click("crowd.sort_candidates.clip");
+    const std::vector<int> by_clip = listed();
+    w.click("crowd.sort_candidates.clip");
+    const std::vector<int> back = listed();
+    EXPECT_NE(by_clip, back);
+    EXPECT_EQ(w.session.candidate(), by_outcome.front()) << "it is a candidate, not a row";
+    w.click("crowd.list_candidates.free");
+    for (const int index : listed()) {
+        EXPECT_TRUE(w.session.choice()->choice.candidates[static_cast<std::size_t>(index)].is_free());
+    }
+    EXPECT_LT(listed().size(), by_outcome.size());
+    w.click("crowd.list_candidates.all");
+    w.click("candidates.filter");
+    for (const char c : std::string("OFF FL")) w.window.shell().feed(TypedText{static_cast<char32_t>(c)});
+    w.window.settle();
+    for (const int index : listed()) {
+        EXPECT_TRUE(w.session.choice()->choice.candidates[static_cast<std::size_t>(index)].leaves_floor);
+    }
+    EXPECT_LT(listed().size(), by_outcome.size());
+    // Another choice has candidates of its own; this one's is still pointed out on the way back.
+    const int play = w.session.choice()->play;
+    run_command(w.session, "crowd.next_choice");
+    ASSERT_NE(w.session.choice()->play, play);
+    EXPECT_EQ(w.session.candidate(), -1);
+    run_command(w.session, "crowd.previous_choice");
+    ASSERT_EQ(w.session.choice()->play, play);
+    EXPECT_EQ(w.session.candidate(), by_outcome.front());
+}
+
 TEST(CrowdWindow, CandidatesAndConflictsThatAreLookedAtArePointedOut) {
     CrowdWindow w;
     const auto roles = [&] {
@@ -215,10 +266,10 @@ TEST(CrowdWindow, CandidatesAndConflictsThatAreLookedAtArePointedOut) {
     ASSERT_TRUE(w.session.choice());
     ASSERT_FALSE(w.session.choice()->choice.candidates.empty());
     EXPECT_FALSE(roles().contains(HighlightLine::Role::candidate));
-    w.session.candidate = 0;
+    w.session.point_out(0);
     w.window.settle();
     EXPECT_TRUE(roles().contains(HighlightLine::Role::candidate));
-    w.session.candidate = -1;
+    w.session.point_out(-1);
     run_command(w.session, "conflicts.find");
     while (w.session.job()) w.session.poll();
     run_command(w.session, "conflicts.go", "0");

@@ -74,7 +74,7 @@ TEST(Panels, ARowsMenuRemovesItsAgent) {
     Window w;
     for (const std::size_t left : {2u, 1u}) {
         w.click("agent.0", 1);
-        w.click("agent.menu.agent.remove");
+        w.click("context.agent.remove");
         ASSERT_EQ(w.session.scene().agents.size(), left);
         EXPECT_EQ(w.session.selection, Selection{});
     }

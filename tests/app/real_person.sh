@@ -21,6 +21,10 @@ done
 reached over-box.txt
 xdotool click 1
 reached box.txt
+xdotool click 3
+reached menu.txt
+click menu.txt context.edit.copy_figures 0 0
+reached copied.txt
 
 click box.txt tree.kind 0 0
 reached kinds.txt
@@ -31,7 +35,7 @@ xdotool click --repeat 2 --delay 100 1 sleep 0.5 type 6
 xdotool key Return
 reached leaf.txt
 
-click leaf.txt query.row.0 0 0
+click leaf.txt query.0 0 0
 reached query.txt
 click query.txt agent.1 0 0
 reached agent.txt
@@ -46,7 +50,13 @@ reached third.txt
 xdotool key h
 reached stepped.txt
 
-again undone.txt ctrl+z
+xdotool key ctrl+p
+xdotool type --delay 30 history
+xdotool key Return
+reached history.txt
+click history.txt history.0 0 0
+reached gone-back.txt
+again undone.txt Escape
 again redone.txt ctrl+y
 xdotool key ctrl+s
 reached saved.txt
@@ -55,4 +65,8 @@ reached dialog.txt
 xdotool type --delay 30 crossing.json
 xdotool key Return
 reached reopened.txt
+reached narrow.txt
+click narrow.txt toolbar.more 0 0
+reached more.txt
+click more.txt toolbar.view.moment 0 0
 wait "$watching"

@@ -1,4 +1,5 @@
 // What is selected means the same in every picture, and never what is gone.
+#include <app/document/described.h>
 #include <app/document/selection.h>
 #include <app/viewport/selection_display.h>
 #include <scene/load_files.h>

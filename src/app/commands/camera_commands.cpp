@@ -113,7 +113,6 @@ bool follows(const Session& session) { return !session.view().follow.empty(); }
 
 void follow_agent(Session& session, const std::string& name, double metres) {
     index_of_name(agent_names(session), name, "agent");
-    session.candidate = -1;
     session.change_view([&](ViewState& view) { view.follow = name; });
     frame_followed(session, metres);
     select_agent_named(session, name);

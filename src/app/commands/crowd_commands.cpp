@@ -9,6 +9,7 @@
 #include <scene/motion_graph.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 
@@ -22,7 +23,6 @@ constexpr double kBefore = 0.5;  // seconds before a conflict
 // --- following
 
 void stop_following(Session& session) {
-    session.candidate = -1;
     const double time = shown_time(session);
     const glm::dvec3 anchor = camera_anchor(session.fitted(), session.view(), time);
     session.change_view([&](ViewState& view) {
@@ -49,7 +49,6 @@ const CrowdAgent* followed(const Session& session) {
 
 void to_time(Session& session, double time) {
     session.stop();
-    session.candidate = -1;
     session.change_view([&](ViewState& view) { view.time = time; });
 }
 
@@ -93,8 +92,29 @@ Command candidates_command() {
 
 void point_out(Session& session, const std::string& text) {
     const int count = static_cast<int>(session.choice()->choice.candidates.size());
-    session.candidate = whole_number_in(text, "the candidate", 0, count - 1);
+    session.point_out(whole_number_in(text, "the candidate", 0, count - 1));
     session.change_view([](ViewState& view) { view.candidates = true; });
+}
+
+constexpr std::array<std::string_view, 4> kColumns{"outcome", "clip", "reason", "contact"};
+constexpr std::array<std::string_view, 3> kWhich{"all", "free", "rejected"};
+
+/// Which of `names` it is. Throws std::invalid_argument if it is none.
+template <std::size_t N>
+std::size_t which_of(const std::array<std::string_view, N>& names, const char* what, const std::string& text) {
+    return static_cast<std::size_t>(index_of_name({names.begin(), names.end()}, text, what));
+}
+
+/// The same column once more turns the order round.
+void sort_candidates(Session& session, const std::string& text) {
+    const auto by = static_cast<CandidateList::Column>(which_of(kColumns, "column", text));
+    CandidateList& list = session.candidates;
+    list.descending = list.by == by && !list.descending;
+    list.by = by;
+}
+
+void list_candidates(Session& session, const std::string& text) {
+    session.candidates.which = static_cast<CandidateList::Which>(which_of(kWhich, "choice", text));
 }
 
 /// Who rules the pointed out candidate out; null if nobody does.
@@ -108,7 +128,7 @@ const Candidate* ruled_out(const Session& session, int candidate) {
 }
 
 void open_candidate(Session& session, const std::string& text) {
-    int index = session.candidate;
+    int index = session.candidate();
     if (!text.empty()) {
         index = whole_number_in(text, "the candidate", 0, std::numeric_limits<int>::max());
     }
@@ -197,6 +217,24 @@ std::vector<Command> crowd_commands() {
         Command("crowd.candidate", "Point out a candidate",
                 "Points out one of the moves that the followed agent could choose, by its number from 0.", point_out,
                 {.menu = kNoMenu, .argument = "N", .enabled = &Session::choice}),
+        Command("crowd.sort_candidates", "Sort candidates by",
+                "Lists the candidates of the last choice by a column; by the same one again the other way round.",
+                sort_candidates,
+                {.argument = "COLUMN",
+                 .choices = [](const Session&) { return std::vector<std::string>(kColumns.begin(), kColumns.end()); },
+                 .chosen =
+                     [](const Session& session, const std::string& column) {
+                         return column == kColumns[static_cast<std::size_t>(session.candidates.by)];
+                     }}),
+        Command("crowd.list_candidates", "List candidates",
+                "Lists all candidates of the last choice, those that were free, or those that were rejected.",
+                list_candidates,
+                {.argument = "WHICH",
+                 .choices = [](const Session&) { return std::vector<std::string>(kWhich.begin(), kWhich.end()); },
+                 .chosen =
+                     [](const Session& session, const std::string& which) {
+                         return which == kWhich[static_cast<std::size_t>(session.candidates.which)];
+                     }}),
         Command(
             "crowd.open_candidate", "Open the candidate as a scene",
             "Opens the candidate that is pointed out, and who rules it out, as a scene with the query between them.",

@@ -2,6 +2,7 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <app/document/described.h>
 #include <base/text.h>
 #include <render/layout/framing.h>
 #include <scene/scene_edits.h>
@@ -113,6 +114,17 @@ void set_color(Session& session, const std::string& text) {
                         [&](Scene& scene, int agent) { scene.agents[static_cast<std::size_t>(agent)].color = color; });
 }
 
+void go_to_state(Session& session, const std::string& text) {
+    const int last = static_cast<int>(session.history().count()) - 1;
+    session.go_to_state(static_cast<std::size_t>(whole_number_in(text, "the state", 0, last)));
+}
+
+void copy_figures(Session& session) {
+    const Described what = describe(session.fitted(), session.selection);
+    if (session.hooks.set_clipboard) session.hooks.set_clipboard(lines_of(what));
+    session.tell(Message::Level::info, "Copied the figures of " + what.name);
+}
+
 }  // namespace
 
 std::vector<Command> edit_commands() {
@@ -125,6 +137,19 @@ std::vector<Command> edit_commands() {
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .repeats = true,
                  .enabled = [](const Session& session) { return session.history().can_redo(); }}),
+        Command("edit.history", "History...", "Lists what was done; a click goes back or on to it.",
+                [](Session& session) {
+                    DialogInput at;
+                    at.picked = static_cast<int>(session.history().place());
+                    session.open_dialog(Dialog::history, at);
+                }),
+        Command("edit.go_to", "To a state of the history",
+                "Goes to a state of what was done, by its number from 0, the oldest.", go_to_state,
+                {.menu = kNoMenu, .argument = "N"}),
+        Command("edit.copy_figures", "Copy figures", "Copies what is selected with all its numbers, a line each.",
+                copy_figures,
+                {.enabled = {[](const Session& session) { return session.selection.kind != Selection::Kind::none; },
+                             [](const Session&) -> std::string_view { return "nothing is selected"; }}}),
         Command(
             "agent.add", "Add agent", "Adds an agent that plays a clip, a little aside from the others.", add,
             {.argument = "CLIP",

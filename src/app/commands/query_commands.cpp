@@ -2,9 +2,13 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <base/text.h>
+#include <explain/query_findings.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
 
 namespace mobbscope::app {
 
@@ -13,27 +17,24 @@ namespace {
 using mobb::Outcome;
 
 bool has_queries(const Session& session) { return !session.fitted().queries().empty(); }
+std::string_view why_no_query(const Session& session) {
+    return session.crowd() ? "a run is asked for its conflicts" : "there is no query";
+}
+bool may_capture(const Session& session) { return has_queries(session) && !session.job() && !session.in_excerpt(); }
 bool in_query(const Session& session) { return session.view().query.has_value(); }
 int query_total(const Session& session) { return static_cast<int>(session.fitted().queries().size()); }
 
-void show_query(Session& session, int query, Step step = {}) {
-    session.change_view([&](ViewState& view) {
-        view.query = query;
-        view.step = step;
-    });
-}
-
 void select(Session& session, const std::string& text) {
-    show_query(session, whole_number_in(text, "the query", 0, query_total(session) - 1));
+    session.show_query(whole_number_in(text, "the query", 0, query_total(session) - 1));
 }
 
 void leave(Session& session) {
     session.change_view([](ViewState& view) { view.query.reset(); });
 }
 
-void next(Session& session) { show_query(session, session.view().query.value_or(-1) + 1); }
+void next(Session& session) { session.show_query(session.view().query.value_or(-1) + 1); }
 
-void previous(Session& session) { show_query(session, session.view().query.value_or(query_total(session)) - 1); }
+void previous(Session& session) { session.show_query(session.view().query.value_or(query_total(session)) - 1); }
 
 // --- what is asked
 
@@ -57,7 +58,7 @@ void add_against(Session& session, const std::string& other) {
     const int a = selected_agent(session);
     const int b = index_of_name(path_names(session), other, "agent");
     // What is asked already is only shown.
-    if (const auto known = query_of(session, a, b)) return show_query(session, *known);
+    if (const auto known = query_of(session, a, b)) return session.show_query(*known);
     session.edit({"asking " + selected_agent_name(session) + " against " + other, ""}, [&](Scene& scene) {
         add_agents_for_clips(scene);
         scene.view.query = static_cast<int>(add_query(scene, a, b));
@@ -99,6 +100,46 @@ void expect(Session& session) {
     });
 }
 
+/// The query by its number; without one the edited one.
+int asked_query(const Session& session, const std::string& text) {
+    if (!text.empty()) return whole_number_in(text, "the query", 0, query_total(session) - 1);
+    const auto query = edited_query(session);
+    if (!query) throw std::invalid_argument("no query is selected or in view: choose one first");
+    return *query;
+}
+
+/// The two with their samples inside and the answer expected, as a scene that stands alone.
+void capture(Session& session, const std::string& text) {
+    const auto index = static_cast<std::size_t>(asked_query(session, text));
+    const SceneQuery query = session.fitted().queries()[index];
+    const std::optional<mobb::Contact> contact = session.answer_of(index).contact;
+    session.open_excerpt(query.a, query.b);
+    session.edit({"capturing", ""}, [&](Scene& scene) {
+        for (SceneClip& clip : scene.clips) {
+            clip.source.reset();
+            clip.options = {};
+        }
+        make_queries_explicit(scene);
+        scene.queries.front().expect = Expectation{contact.has_value(), contact};
+    });
+}
+
+void copy_query_command(Session& session, const std::string& text) {
+    session.show_query(asked_query(session, text));
+    run_command(session, "file.copy_command");
+}
+
+void copy_answer(Session& session, const std::string& text) {
+    session.show_query(asked_query(session, text));
+    const std::shared_ptr<const QueryFindings> findings = session.findings();
+    std::string answer = answer_words(findings->sides, findings->clearance) + ".\n";
+    for (const std::string& sentence : why_words(findings->sides, findings->clearance, findings->floor)) {
+        answer += sentence + '\n';
+    }
+    if (session.hooks.set_clipboard) session.hooks.set_clipboard(answer);
+    session.tell(Message::Level::info, "Copied: " + answer);
+}
+
 // --- steps
 
 void to_event(Session& session, int event) {
@@ -108,7 +149,7 @@ void to_event(Session& session, int event) {
 /// Without a query in view its first one is shown instead, at this step.
 bool entered(Session& session, Step step) {
     if (in_query(session)) return false;
-    show_query(session, 0, step);
+    session.show_query(0, step);
     return true;
 }
 
@@ -152,6 +193,23 @@ void to_next(Session& session, Outcome outcome, const char* what) {
     session.tell(Message::Level::info, std::string("There is no later test that ") + what);
 }
 
+/// Which side of the query in view the selected node is of; none if no node of it is selected.
+std::optional<int> side_of_node(const Session& session) {
+    if (!in_query(session) || session.selection.kind != Selection::Kind::node) return std::nullopt;
+    return index_in_view(session.fitted(), session.view(), session.selection.path);
+}
+
+/// To the next test of the selected node; behind the last one to the first again.
+void to_next_of_node(Session& session) {
+    const bool of_a = *side_of_node(session) == 0;
+    const mobb::Trace& trace = session.recorded()->trace;
+    for (int i = 1; i <= trace.size(); ++i) {
+        const int event = (session.step() + i) % trace.size();
+        if ((of_a ? trace[event].a : trace[event].b) == session.selection.index) return to_event(session, event);
+    }
+    session.tell(Message::Level::info, "The selected node is never tested: the search ended before it");
+}
+
 /// The next event of the same pair, or of the next pair that is not below it.
 std::optional<int> event_after_pair(const Session& session) {
     const mobb::Trace& trace = session.recorded()->trace;
@@ -190,6 +248,17 @@ std::vector<Command> query_commands() {
                 {.argument = "AGENT", .enabled = {has_selected_of_several, why_no_agent}, .choices = others}),
         Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,
                 {.enabled = [](const Session& session) { return edited_query(session) && query_total(session) > 1; }}),
+        Command(
+            "query.capture", "Open as a capture",
+            "Opens the two of a query as a scene of their own, their samples inside and the answer expected; saved, "
+            "it stands alone.",
+            capture, {.argument = "[N]", .enabled = {may_capture, why_no_query}}),
+        Command("query.copy_command", "Copy the query as command",
+                "Shows a query and copies the command line that draws it again without a window.", copy_query_command,
+                {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
+        Command("query.copy_answer", "Copy the answer in words",
+                "Shows a query and copies whether the two collide, and why.", copy_answer,
+                {.argument = "[N]", .enabled = {has_queries, why_no_query}}),
         Command("query.expect", "Expect this answer",
                 "Writes the present answer into the scene: `mobbscope query` then says when it has changed.", expect,
                 {.enabled = [](const Session& session) { return edited_query(session).has_value(); },
@@ -215,6 +284,12 @@ std::vector<Command> query_commands() {
         Command("step.next_hit", "Next hit", "Shows the test that found samples which collide.",
                 [](Session& session) { to_next(session, Outcome::hit, "found a hit"); },
                 {.shortcut = "H", .enabled = {has_queries, why_no_step}}),
+        Command("step.next_of_node", "Next test of the selected node",
+                "Shows the next test of the selected node, and behind the last one the first.", to_next_of_node,
+                {.enabled = {[](const Session& session) { return side_of_node(session).has_value(); },
+                             [](const Session& session) -> std::string_view {
+                                 return session.view().query ? "no node of the query is selected" : "no query is shown";
+                             }}}),
         Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
                 [](Session& session) { to_event(session, *event_after_pair(session)); },
                 {.shortcut = "Down",

@@ -1,5 +1,6 @@
 #include <app/document/history.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -26,6 +27,17 @@ std::string what_changes(const ViewState& from, const ViewState& to) {
 }
 
 }  // namespace
+
+QueryKey query_key(const FittedScene& fitted, int query) {
+    const Scene& scene = fitted.scene();
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
+    // Where all pairs are asked each is asked once.
+    const auto end = scene.queries.begin() + (scene.queries.empty() ? 0 : query);
+    const auto same = std::count_if(scene.queries.begin(), end, [&](const SceneQuery& other) {
+        return other.a.name == asked.a.name && other.b.name == asked.b.name;
+    });
+    return {asked.a.name, asked.b.name, static_cast<int>(same)};
+}
 
 void History::reset(Document document) {
     states_.clear();
@@ -86,13 +98,12 @@ void History::change_view(Document document) {
     open_ = false;
 }
 
-void History::undo() {
-    --now_;
-    open_ = false;
-}
+void History::undo() { go_to(now_ - 1); }
 
-void History::redo() {
-    ++now_;
+void History::redo() { go_to(now_ + 1); }
+
+void History::go_to(std::size_t state) {
+    now_ = state;
     open_ = false;
 }
 

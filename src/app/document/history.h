@@ -6,18 +6,27 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace mobbscope::app {
+
+/// A query as it is found again when others were added or removed: the names of its two, and how many queries before it
+/// ask the same names.
+using QueryKey = std::tuple<std::string, std::string, int>;
+/// Requires a query of that index.
+QueryKey query_key(const FittedScene& fitted, int query);
 
 /// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
 struct ExcerptSource {
     std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
     ViewState view;                             ///< of the whole, when it was left
     std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
+    std::map<QueryKey, Step> steps{};           ///< of the whole: where queries were left
 };
 
 /// One view of the document's scene: how it is seen, and with which of its fits.
@@ -36,6 +45,7 @@ struct Document {
     std::vector<SceneView> beside{};                    ///< the other views, from left to right
     std::size_t place = 0;                              ///< how many of them stand to the left of the active one
     bool linked_cameras = true;                         ///< all views have one camera
+    std::map<QueryKey, Step> steps{};                   ///< where queries were left
 };
 
 /// Groups what belongs together: one drag, one number typed.
@@ -79,7 +89,13 @@ class History {
     std::string undo_title() const { return can_undo() ? states_[now_].name.title : ""; }
     std::string redo_title() const { return can_redo() ? states_[now_ + 1].name.title : ""; }
 
+    // States count from the oldest that is left.
     std::size_t count() const { return states_.size(); }
+    std::size_t place() const { return now_; }
+    /// What led to a state < count(); empty for the oldest.
+    const std::string& title(std::size_t state) const { return states_[state].name.title; }
+    /// To a state < count(), as so many undos or redos do.
+    void go_to(std::size_t state);
     /// What the states hold beyond the oldest, roughly.
     std::size_t bytes() const;
 

@@ -163,7 +163,24 @@ void Session::edit_with_fits(const EditName& name, const std::function<void(Scen
         purpose);
 }
 
+/// Where a query was left is where it is opened again.
+void Session::remember_step(Document& next) const {
+    const std::optional<int>& left = view().query;
+    if (left && next.view.query != left) next.steps[query_key(*document().fitted, *left)] = view().step;
+}
+
+void Session::show_query(int query, std::optional<Step> step) {
+    const auto left = document().steps.find(query_key(*document().fitted, query));
+    if (!step && query == view().query) step = view().step;
+    if (!step && left != document().steps.end()) step = left->second;
+    change_view([&](ViewState& view) {
+        view.query = query;
+        view.step = step.value_or(Step{});
+    });
+}
+
 void Session::change_document(Document next, const EditName& name) {
+    remember_step(next);
     // A node of a tree that was fitted anew is another one, or none.
     if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
     next.view = fitting(next.view, *next.fitted);
@@ -185,6 +202,7 @@ void Session::change_view(const std::function<void(ViewState&)>& change) {
     next.view = fitting(next.view, *next.fitted);
     if (next.view == view()) return;
     if (next.view.theme != view().theme) settings.theme = next.view.theme;
+    remember_step(next);
     history_.change_view(std::move(next));
     changed();
 }
@@ -279,17 +297,17 @@ void Session::share_time_and_camera() {
 }
 
 void Session::undo() {
-    if (history_.can_undo()) step_in_history(&History::undo);
+    if (history_.can_undo()) go_to_state(history_.place() - 1);
 }
 
 void Session::redo() {
-    if (history_.can_redo()) step_in_history(&History::redo);
+    if (history_.can_redo()) go_to_state(history_.place() + 1);
 }
 
-void Session::step_in_history(void (History::*undo_or_redo)()) {
+void Session::go_to_state(std::size_t state) {
     const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
     stop();
-    (history_.*undo_or_redo)();
+    history_.go_to(state);
     // What is made for an excerpt is not put into the whole, nor the other way round.
     if (document().excerpt_of != before) {
         while (!jobs_.empty()) cancel_job(0);
@@ -399,6 +417,16 @@ const FollowedChoice* Session::choice() const {
     return choosing_.choice ? &*choosing_.choice : nullptr;
 }
 
+int Session::candidate() const {
+    const FollowedChoice* now = pointed_out_.candidate >= 0 ? choice() : nullptr;
+    return now && now->agent == pointed_out_.agent && now->play == pointed_out_.play ? pointed_out_.candidate : -1;
+}
+
+void Session::point_out(int candidate) {
+    const FollowedChoice* now = choice();
+    pointed_out_ = now && candidate >= 0 ? PointedOut{now->agent, now->play, candidate} : PointedOut{};
+}
+
 const std::vector<SceneConflict>* Session::conflicts() const {
     return found_ && &found_->in->scene() == &scene() ? &found_->conflicts : nullptr;
 }
@@ -430,8 +458,9 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
     excerpt.view.query = 0;
     Document next = document_of(std::move(excerpt), document().fitted.get());
     const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
-    next.excerpt_of = std::make_shared<const ExcerptSource>(
-        ExcerptSource{before ? before->fitted : document().fitted, before ? before->view : view(), next.fitted});
+    next.excerpt_of = std::make_shared<const ExcerptSource>(ExcerptSource{before ? before->fitted : document().fitted,
+                                                                          before ? before->view : view(), next.fitted,
+                                                                          before ? before->steps : document().steps});
     point_at_nothing();
     cameras_aside.clear();
     ++excerpts_opened_;
@@ -450,7 +479,9 @@ void Session::leave_excerpt() {
     const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
     point_at_nothing();
     cameras_aside.clear();
-    history_.change({origin->fitted, origin->view, nullptr}, {"going back to the whole", ""});
+    Document whole{origin->fitted, origin->view};
+    whole.steps = origin->steps;
+    history_.change(std::move(whole), {"going back to the whole", ""});
     changed();
 }
 
@@ -489,7 +520,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     // One that says no theme is seen in the person's.
     if (attended_ && settings.theme && document.view.theme == Theme{}) document.view.theme = *settings.theme;
     point_at_nothing();
-    candidate = -1;
+    pointed_out_ = {};
     conflict = -1;
     cameras_aside.clear();
     alone.reset();
@@ -680,7 +711,7 @@ void Session::save_as(const std::filesystem::path& file) {
         // The whole stays what is open; the excerpt has a file of its own.
         Document now = document();
         now.excerpt_of = std::make_shared<const ExcerptSource>(
-            ExcerptSource{now.excerpt_of->fitted, now.excerpt_of->view, now.fitted});
+            ExcerptSource{now.excerpt_of->fitted, now.excerpt_of->view, now.fitted, now.excerpt_of->steps});
         history_.amend(std::move(now));
     } else {
         // The document is the file's now: messages and further sources refer to it.

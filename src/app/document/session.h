@@ -44,7 +44,8 @@ enum class Dialog {
     about,
     messages,
     dropped,
-    import_clip
+    import_clip,
+    history
 };
 
 /// A command that a message offers; it is drawn as a button.
@@ -69,6 +70,15 @@ struct Message {
 
 /// Where a command sends the keys.
 enum class FocusMove { none, next_panel, previous_panel, menu_bar };
+/// In which order candidates are listed, and which of them.
+struct CandidateList {
+    enum class Column { outcome, clip, reason, contact };
+    enum class Which { all, free, rejected };
+    Column by = Column::outcome;
+    bool descending = false;
+    Which which = Which::all;
+    std::string text{};  ///< those with it in what their row says; empty: all
+};
 
 /// How the window's surroundings are reached; all may be empty.
 struct Hooks {
@@ -168,6 +178,11 @@ class Session {
     /// Back, and on again; what plays stops.
     void undo();
     void redo();
+    /// To a state of the history, < history().count().
+    void go_to_state(std::size_t state);
+
+    /// Shows a query, at that step; none: at the one where it was left, or its end.
+    void show_query(int query, std::optional<Step> step = {});
 
     /// What is asked in the view, recorded; null if no query is in the view.
     const RecordedQuery* recorded() const;
@@ -194,7 +209,11 @@ class Session {
     bool is_crowd() const;
     /// Of a run the last choice of the agent that the view follows; null: there is none.
     const FollowedChoice* choice() const;
-    int candidate = -1;  ///< of that choice, the one that is pointed out; -1: none
+    /// Of that choice, the candidate that is pointed out; -1: none. Another choice's stays that one's.
+    int candidate() const;
+    /// Requires choice() and a candidate of it; -1: none.
+    void point_out(int candidate);
+    CandidateList candidates;  ///< how they are listed
     /// All that collide, once they were looked for; null: not yet.
     const std::vector<SceneConflict>* conflicts() const;
     void find_conflicts();
@@ -367,9 +386,9 @@ class Session {
     void amend(const std::function<void(Document&)>& change);
     /// For another document: stops playing; nothing is selected or hovered.
     void point_at_nothing();
+    void remember_step(Document& next) const;
     void change_document(Document next, const EditName& name);
     void share_time_and_camera();
-    void step_in_history(void (History::*undo_or_redo)());
     void changed();
 
     bool attended_;
@@ -435,7 +454,12 @@ class Session {
         std::shared_ptr<const FittedScene> fitted;
     };
     std::shared_ptr<const FittedScene> shown_at(const SceneView& seen, Shown& kept) const;
-    mutable Shown shown_;                      ///< of the active view
+    mutable Shown shown_;  ///< of the active view
+    struct PointedOut {
+        int agent = -1, play = -1;  ///< of the choice
+        int candidate = -1;
+    };
+    PointedOut pointed_out_;
     mutable std::vector<Shown> shown_beside_;  ///< of the others, by place
     struct Choosing {
         std::shared_ptr<const FittedScene> of;

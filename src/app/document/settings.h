@@ -34,9 +34,10 @@ struct Settings {
     double left_width = 256;       ///< of the panels, pixels at scale 1
     double right_width = 320;
     double bottom_height = 150;
-    std::optional<Theme> theme;          ///< that was chosen last; none: never
-    std::optional<WindowPlace> window;   ///< none: it was never open
-    std::map<std::string, bool> folded;  ///< sections and panels by name: whether each is folded; others as is usual
+    std::optional<Theme> theme;         ///< that was chosen last; none: never
+    std::optional<WindowPlace> window;  ///< none: it was never open
+    std::map<std::string, bool>
+        folded;  ///< sections of panels, by their titles in small letters: whether each is folded
     std::string file_order =
         "name";  ///< of the file dialog: "name", "size" or "date", with "-" from the last to the first
     LastSession last;

@@ -32,7 +32,7 @@ void node_line(Ui& ui, const QueryFindings& findings, std::size_t side, int node
     ImGui::PopStyleColor();
     ui.mark(side == 0 ? "query.node_a" : "query.node_b");
     if (ImGui::IsItemHovered()) {
-        ui.session.hovered = selection;
+        ui.hovered = selection;
         ImGui::SetTooltip("%s, samples %s\nClick to select", name.c_str(), samples.c_str());
     }
     ImGui::PushFont(ui.style.mono);
@@ -180,7 +180,7 @@ constexpr std::size_t kMostPairs = 100;
 void current_test(Ui& ui, const QueryFindings& findings) {
     const mobb::Trace::Event event = ui.session.recorded()->trace[ui.session.step()];
     const EventMark mark = mark_of(event.test, event.outcome);
-    heading(ui, "THIS TEST", "depth " + std::to_string(event.depth));
+    if (!section(ui, "THIS TEST", "depth " + std::to_string(event.depth))) return;
     framed(ui, mark_color(ui.style, mark, 0.10f), mark_color(ui.style, mark), [&] {
         outcome_sign(ui, mark, ui.px(12));
         ImGui::SameLine(0, ui.px(7));
@@ -196,11 +196,9 @@ void current_test(Ui& ui, const QueryFindings& findings) {
 
 void why_axes(Ui& ui, const QueryFindings& findings) {
     const mobb::Trace::Event event = ui.session.recorded()->trace[ui.session.step()];
-    heading(ui, "IN TIME");
-    draw_row(ui, findings, axis_time_row(ui, findings, event));
+    if (section(ui, "IN TIME")) draw_row(ui, findings, axis_time_row(ui, findings, event));
     const std::vector<AxisInterval> axes = axis_intervals(findings.sides, event);
-    if (axes.empty()) return;
-    heading(ui, "ALONG EACH AXIS", "gap, m");
+    if (axes.empty() || !section(ui, "ALONG EACH AXIS", "gap, m")) return;
     // All to one scale, so that they can be compared.
     double span = 0;
     for (const AxisInterval& axis : axes) {
@@ -223,7 +221,7 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
     const auto clearance = [&](const mobb::MeasuredPair& p) { return p.distance - radii(p); };
     const auto least = std::min_element(event.pairs.begin(), event.pairs.end(),
                                         [&](const auto& p, const auto& q) { return clearance(p) < clearance(q); });
-    heading(ui, "PAIRS OF SAMPLES, METRES", std::to_string(event.pairs.size()));
+    if (!section(ui, "PAIRS OF SAMPLES, METRES", std::to_string(event.pairs.size()))) return;
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.px(2), ui.px(1)});
     if (ImGui::BeginTable("pairs", 5, ImGuiTableFlags_SizingStretchProp)) {
         for (const char* head : {"A", "B", "apart", "radii", "clear"}) {

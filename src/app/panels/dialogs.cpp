@@ -113,6 +113,9 @@ void dialogs(Ui& ui) {
         case Dialog::import_clip:
             import_dialog(ui);
             break;
+        case Dialog::history:
+            history_list(ui);
+            break;
     }
     // A field in it that is typed into is left first.
     const bool typing = ui.field.typing || escape_is_taken;

@@ -24,11 +24,12 @@ struct Line {
     const Command* command = nullptr;
 };
 
-constexpr std::array<std::pair<const char*, const char*>, 6> kMouse{{
+constexpr std::array<std::pair<const char*, const char*>, 7> kMouse{{
     {"Left drag", "Turn the scene"},
     {"Right drag", "Shift the scene"},
     {"Wheel", "Go nearer, or away"},
     {"Click", "Select"},
+    {"Right click", "What can be done with it"},
     {"Drop files", "Open or add them"},
     {"Hover", "Say what is there"},
 }};

@@ -1,5 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
+#include <app/ui/command_menu.h>
+#include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
 
 #include <algorithm>
@@ -14,74 +16,11 @@ namespace {
 
 constexpr float kSearchWidth = 360;       // pixels at scale 1
 constexpr float kLeastSearchWidth = 110;  // below, it only costs room
-constexpr std::size_t kMostChoices = 40;  // more than these are found by the palette
 
 std::string lower_case(std::string_view text) {
     std::string out(text);
     std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
     return out;
-}
-
-/// "Undo moving A".
-std::string title_of(const Session& session, const Command& command) {
-    std::string title(command.title);
-    if (command.id == "file.reopen_last" && session.has_last()) title += ": " + session.last_title();
-    if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
-    if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
-    return title;
-}
-
-std::string menu_mark(const Command& command) { return "menu." + std::string(command.id); }
-
-void ask_argument(Session& session, const Command& command) {
-    session.enqueue([&session, &command] {
-        session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
-    });
-}
-
-/// A menu that opens by mouse and keys.
-bool begin_menu(Ui& ui, const std::string& title, const std::string& mark, bool enabled = true) {
-    if (!ui.focus.take(mark).empty()) ImGui::OpenPopup(title.c_str());
-    const ImGuiID id = ImGui::GetID(title.c_str());
-    const std::optional<Rect> before = ui.focus.last_place(mark);
-    const bool open = ImGui::BeginMenu(title.c_str(), enabled);
-    // The last item of an open menu is the popup.
-    const Rect place = open && before ? *before : Ui::last_rect();
-    ui.marks.add(mark, place);
-    ui.focus.add_menu(mark, place, enabled ? id : 0, title, open);
-    return open;
-}
-
-void choices(Ui& ui, const Command& command) {
-    Session& session = ui.session;
-    const std::vector<std::string> all = command.choices(session);
-    const bool open =
-        begin_menu(ui, title_of(session, command), menu_mark(command), command.enabled(session) && !all.empty());
-    if (!open) return;
-    for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
-        const bool chosen = command.chosen && command.chosen(session, all[i]);
-        ImGui::PushID(static_cast<int>(i));
-        if (ImGui::MenuItem(all[i].c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
-        ImGui::PopID();
-        ui.mark(menu_mark(command) + '.' + all[i], OwnKeys::none, all[i]);
-        if (chosen) ui.focus.begin_here();
-    }
-    if (all.size() > kMostChoices) {
-        if (ImGui::MenuItem("More...")) ask_argument(session, command);
-        ui.mark(menu_mark(command) + "...", OwnKeys::none, "More");
-    }
-    ImGui::EndMenu();
-}
-
-void item(Ui& ui, const Command& command) {
-    Session& session = ui.session;
-    if (command.choices) return choices(ui, command);
-    const std::string shortcut(first_shortcut(command));
-    const bool checked = command.checked && command.checked(session);
-    if (ImGui::MenuItem(title_of(session, command).c_str(), shortcut.c_str(), checked, command.enabled(session))) {
-        command.needs_argument() ? ask_argument(session, command) : invoke(session, command.id);
-    }
-    ui.mark(menu_mark(command), OwnKeys::none, command.title);
 }
 
 std::string_view group_of(const Command& command) { return command.id.substr(0, command.id.find('.')); }
@@ -93,7 +32,7 @@ void items(Ui& ui, const std::string& menu) {
         if (command.menu == menu) {
             if (!group.empty() && group != group_of(command)) ImGui::Separator();
             group = group_of(command);
-            item(ui, command);
+            command_item(ui, {command.id}, "menu." + std::string(command.id));
         } else if (command.menu.starts_with(menu + '/') &&
                    std::find(submenus.begin(), submenus.end(), command.menu) == submenus.end()) {
             submenus.push_back(command.menu);
@@ -115,7 +54,7 @@ void search(Ui& ui, float left, float right) {
     if (room < ui.px(kLeastSearchWidth)) return;
     const float width = std::min(room, ui.px(kSearchWidth));
     const float middle = ImGui::GetWindowWidth() / 2;
-    // Where the room is just enough, rounding may put the right bound before the left one.
+    // Rounding may leave less room than it takes.
     const float x = std::max(left + gap, std::min(middle - width / 2, right - gap - width));
     const float height = ImGui::GetFrameHeight() - ui.px(4);
     ImGui::SetCursorPos({x, ui.px(2)});

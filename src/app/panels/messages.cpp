@@ -1,5 +1,4 @@
 #include <app/commands/command.h>
-#include <app/document/job.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
@@ -17,12 +16,11 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kWidest = 440;        // pixels at scale 1
-constexpr std::size_t kMostUp = 3;    // over the picture; the others are behind the bell
-constexpr float kLeastWithJob = 300;  // pixels at scale 1
-constexpr float kListWidth = 640;     // pixels at scale 1
-constexpr float kListHeight = 420;    // pixels at scale 1
-constexpr float kBarWidth = 3;        // pixels at scale 1: of the coloured edge that says how bad it is
+constexpr float kWidest = 440;      // pixels at scale 1
+constexpr std::size_t kMostUp = 3;  // over the picture; the others are behind the bell
+constexpr float kListWidth = 640;   // pixels at scale 1
+constexpr float kListHeight = 420;  // pixels at scale 1
+constexpr float kBarWidth = 3;      // pixels at scale 1: of the coloured edge that says how bad it is
 
 ImU32 color_of(const Ui& ui, Message::Level level) {
     return level == Message::Level::error     ? ui.style.error
@@ -122,39 +120,6 @@ Wish draw_message(Ui& ui, const Message& message, const std::string& mark, const
     return wish;
 }
 
-constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
-constexpr double kSweep = 1.6;               // seconds that the bar takes where nothing is known
-
-/// Draws the work under way; true if it is to be cancelled.
-bool draw_job(Ui& ui, const Job& job, std::size_t index) {
-    const std::string mark = "job." + std::to_string(index);
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float button = ImGui::CalcTextSize("Cancel").x + 2 * style.FramePadding.x;
-    ImGui::PushID(static_cast<int>(index));
-    ImGui::TextUnformatted(job.title().c_str());
-    ui.mark(mark);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x - button - ui.px(10);
-    const float height = ui.px(6);
-    const float y = at.y + (ImGui::GetTextLineHeight() - height) / 2;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled({at.x, y}, {at.x + width, y + height}, ui.style.raised, height / 2);
-    const double progress = job.progress();
-    float from = 0;
-    float to = static_cast<float>(progress);
-    if (progress < 0) {
-        from = static_cast<float>(0.75 * (0.5 - 0.5 * std::cos(ui.now / kSweep * 6.283)));
-        to = from + 0.25f;
-    }
-    draw.AddRectFilled({at.x + from * width, y}, {at.x + to * width, y + height}, ui.style.accent, height / 2);
-    ImGui::Dummy({width, height});
-    ui.mark(mark + ".bar");
-    ImGui::SameLine(0, ui.px(10));
-    const bool cancelled = small_button(ui, "Cancel", mark + ".cancel");
-    ImGui::PopID();
-    return cancelled;
-}
-
 /// What one needs on a single line.
 float width_of(const Ui& ui, const Message& message) {
     const float padding = 2 * ImGui::GetStyle().WindowPadding.x;
@@ -179,14 +144,13 @@ void draw_bell(ImDrawList& draw, ImVec2 middle, float height, ImU32 color) {
 
 void messages(Ui& ui) {
     Session& session = ui.session;
-    if (session.job_count() > 0) ui.want_frame_in(kProgressFrame);
     std::vector<std::size_t> up;
     for (std::size_t i = session.messages().size(); i-- > 0;) {
         if (session.messages()[i].up) up.push_back(i);
     }
-    if (up.empty() && session.job_count() == 0) return;
+    if (up.empty()) return;
     const std::size_t shown = std::min(up.size(), kMostUp);
-    float needed = session.job_count() > 0 ? ui.px(kLeastWithJob) : 0;
+    float needed = 0;
     for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, session.messages()[up[i]]));
     MessagePlace place = place_of(ui);
     place.width = std::min(place.width, needed);
@@ -202,10 +166,6 @@ void messages(Ui& ui) {
     ImGui::PopStyleVar(2);
     // Over dialogs too: what went wrong in one is read there.
     ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
-    std::optional<std::size_t> cancelled;
-    for (std::size_t i = 0; i < session.job_count(); ++i) {
-        if (draw_job(ui, session.job(i), i)) cancelled = i;
-    }
     std::optional<std::size_t> gone;
     // The latest at the bottom, where the eye goes first.
     for (std::size_t i = shown; i-- > 0;) {
@@ -218,7 +178,6 @@ void messages(Ui& ui) {
     const bool held = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
     ImGui::End();
     ui.want_frame_in(session.age_messages(ui.now, held));
-    if (cancelled) session.enqueue([&session, index = *cancelled] { session.cancel_job(index); });
     if (gone) session.enqueue([&session, index = *gone] { session.dismiss(index); });
 }
 

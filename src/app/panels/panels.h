@@ -13,15 +13,19 @@ namespace mobbscope::app {
 
 void menu_bar(Ui& ui);
 void scene_panel(Ui& ui);                           ///< agents, clips, queries
-void placement_panel(Ui& ui);                       ///< the selected agent by numbers
+float placement_height(const Ui& ui);               ///< pixels; 0: nobody is selected who can be placed
+void placement_panel(Ui& ui);                       ///< the selected agent by numbers; else nothing
 void tree_panel(Ui& ui);                            ///< how trees are fitted and how tight they are
 void query_panel(Ui& ui, QueryPictures& pictures);  ///< the answer, and why
 void crowd_panel(Ui& ui);                           ///< who is followed, its last choice, its plays, and who collides
+void last_choice(Ui& ui);                           ///< of who is followed in a run, with its candidates
 void selection_panel(Ui& ui);                       ///< all numbers of what is selected
 void timeline(Ui& ui, QueryPictures& pictures);     ///< two clocks: time and step
 void dialogs(Ui& ui);                               ///< open, save, palette, help, unsaved changes, messages
-void messages(Ui& ui);                              ///< those over the picture, and what is under way
+void messages(Ui& ui);                              ///< those over the picture
 float message_bell(Ui& ui);                         ///< at the menu bar's right end; returns where it begins
+float status_height(const Ui& ui);                  ///< pixels
+void status_bar(Ui& ui, ImVec2 size);  ///< how many there are of what, what is under the mouse, work under way
 
 /// The whole window: panels with movable borders between them.
 void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pictures);
@@ -37,5 +41,6 @@ void message_list(Ui& ui);
 void import_dialog(Ui& ui);  ///< how a clip is read from its file
 /// The clip in the import dialog as it is: path, skeleton, radius over time, trim.
 void import_preview(Ui& ui, const SceneClip& clip);
+void history_list(Ui& ui);  ///< what can be undone and redone, and the way there
 
 }  // namespace mobbscope::app

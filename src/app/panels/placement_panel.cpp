@@ -1,6 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
 #include <scene/scene_edits.h>
 
 #include <array>
@@ -50,16 +51,37 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
     });
 }
 
+/// The selected one, also by a node or a sample; none in a run, whose agents stand where they were simulated.
+std::optional<PlacedAgent> agent_to_place(const Session& session) {
+    if (session.crowd() || !session.selection.on_path()) return std::nullopt;
+    const auto who = placed_agent_of(session.fitted(), session.selection.path);
+    return who && who->agent >= 0 ? who : std::nullopt;
+}
+
 }  // namespace
+
+float placement_height(const Ui& ui) {
+    if (!agent_to_place(ui.session)) return 0;
+    const float spacing = ui.px(5);
+    const float around = 2 * ImGui::GetStyle().WindowPadding.y + ui.px(6) + spacing + ui.style.caption->FontSize;
+    if (ui.session.settings.folded.contains("placement")) return around;
+    const float fields = 6 * (ImGui::GetFrameHeight() + spacing);
+    return around + spacing + fields + ImGui::GetTextLineHeight();
+}
 
 void placement_panel(Ui& ui) {
     Session& session = ui.session;
-    if (!session.selection.on_path()) return;
-    const auto who = placed_agent_of(session.fitted(), session.selection.path);
-    if (!who || who->agent < 0) return;
+    const ImVec2 corner = ImGui::GetWindowPos();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 end{corner.x + ImGui::GetWindowWidth(), corner.y + ui.px(1)};
+    draw.PushClipRect(corner, end);
+    draw.AddRectFilled(corner, end, ui.style.border);
+    draw.PopClipRect();
+    // A list above may have selected something else in this frame.
+    const auto who = agent_to_place(session);
+    if (!who || !section(ui, "PLACEMENT", cleaned(who->name))) return;
     // Of this agent: what is half typed into a field is no other's.
     ImGui::PushID(who->agent);
-    heading(ui, "PLACEMENT");
     rename_agent(ui, who->agent, who->name);
     mobb::Placement placement = who->placement;
     const auto metres = [](const char* mark, const char* what) {

@@ -7,7 +7,7 @@
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
 
-#include <algorithm>
+#include <memory>
 
 namespace mobbscope::app {
 
@@ -35,46 +35,7 @@ void query_header(Ui& ui) {
     ImGui::PopStyleVar();
 }
 
-constexpr int kMostQueryRows = 12;  // a longer list scrolls by itself
-
-/// "A against B", the names shortened until it fits; the tooltip has them in full.
-std::string pair_that_fits(const SceneQuery& query, float room) {
-    const std::string a = cleaned(query.a.name);
-    const std::string b = cleaned(query.b.name);
-    std::string pair;
-    for (std::size_t most = 40; most >= 5; --most) {
-        pair = shortened(a, most) + " against " + shortened(b, most);
-        if (ImGui::CalcTextSize(pair.c_str()).x <= room) break;
-    }
-    return pair;
-}
-
-void query_row(Ui& ui, std::size_t index, float height) {
-    const SceneQuery query = ui.session.fitted().queries()[index];
-    const Answer& answer = ui.session.answer_of(index);
-    const EventMark mark = answer.contact ? EventMark::hit : EventMark::separated;
-    ImGui::PushID(static_cast<int>(index));
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    if (ImGui::Selectable("##query", false, 0, {width, height})) {
-        invoke(ui.session, "query.select", std::to_string(index));
-    }
-    ui.mark("query.row." + std::to_string(index));
-    if (ImGui::IsItemHovered()) {
-        ui.session.hovered = {Selection::Kind::query, {}, static_cast<int>(index)};
-        ImGui::SetTooltip("%s", sentence(query, answer.contact).c_str());
-    }
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float side = ui.px(11);
-    const float line = ImGui::GetTextLineHeight();
-    const ImVec2 cell{at.x + ui.px(2), at.y + 0.5f * (line - side) + ui.px(2)};
-    outcome_cell(list, ui.style, cell, {cell.x + side, cell.y + side}, mark, 1);
-    const float left = cell.x + side + ui.px(7);
-    list.AddText({left, at.y + ui.px(2)}, ui.style.text, pair_that_fits(query, at.x + width - left).c_str());
-    const std::string found = answer.contact ? "hit at " + with_unit(answer.contact->time, "s") : "never collide";
-    list.AddText({left, at.y + ui.px(3) + line}, mark_text(ui.style, mark), found.c_str());
-    ImGui::PopID();
-}
+constexpr float kLeastWords = 160;  // pixels at scale 1
 
 /// Two disks, apart or one over the other: the answer without words.
 void answer_sign(Ui& ui, bool collide, ImU32 color) {
@@ -87,7 +48,8 @@ void answer_sign(Ui& ui, bool collide, ImU32 color) {
     list.AddCircleFilled({at.x + r, y}, r, color);
     list.AddCircle({at.x + r + apart, y}, r, color, 0, ui.px(1.8f));
     ImGui::Dummy({2 * r + apart, height});
-    ImGui::SameLine(0, ui.px(8));
+    // In a narrow panel the words have a line of their own.
+    if (ImGui::GetContentRegionAvail().x >= ui.px(kLeastWords)) ImGui::SameLine(0, ui.px(8));
 }
 
 void expectation(Ui& ui) {
@@ -120,6 +82,18 @@ void right_aligned(const std::string& text, float right, ImU32 color) {
     text_line(color, text);
 }
 
+/// What to do to see one.
+void no_query(Ui& ui) {
+    const Session& session = ui.session;
+    if (!section(ui, "QUERY")) return;
+    const char* what = session.empty() ? "Open a scene to ask whether two agents collide."
+                       : session.fitted().queries().empty()
+                           ? "A query asks whether two agents ever collide. Add agents at the left (+ agent): every "
+                             "pair of them is asked by itself."
+                           : "Choose a query at the left to see why the two collide, or why not.";
+    words(ui.style.quiet, what);
+}
+
 }  // namespace
 
 void query_button(Ui& ui, const char* label, const char* command) {
@@ -129,10 +103,7 @@ void query_button(Ui& ui, const char* label, const char* command) {
 
 void query_panel(Ui& ui, QueryPictures& pictures) {
     const std::shared_ptr<const QueryFindings> findings = ui.session.findings();
-    if (!findings) {
-        query_list(ui);
-        return;
-    }
+    if (!findings) return no_query(ui);
     query_header(ui);
     query_answer(ui, *findings);
     if (!findings->recursion.pairs.empty()) {
@@ -141,42 +112,12 @@ void query_panel(Ui& ui, QueryPictures& pictures) {
         why_axes(ui, *findings);
         measured_pairs(ui, *findings);
         query_counters(ui, *findings);
-        heading(ui, "RECURSION: TIME OF A BY TIME OF B");
-        pictures.square(ui, *findings);
-        outcome_legend(ui);
-    }
-    heading(ui, "CLEARANCE OVER TIME");
-    pictures.clearance(ui, *findings, ui.px(110));
-}
-
-void query_list(Ui& ui) {
-    const std::size_t count = ui.session.fitted().queries().size();
-    heading(ui, "QUERIES", count > 0 ? std::to_string(count) : "");
-    if (count == 0) {
-        words(ui.style.quiet, ui.session.empty()
-                                  ? "Open a scene to ask whether two agents collide."
-                                  : "A query asks whether two agents ever collide. Add agents at the left (+ agent): "
-                                    "every pair of them is asked by itself.");
-        return;
-    }
-    words(ui.style.quiet, "Choose one to see why.");
-    const float height = 2 * ImGui::GetTextLineHeight() + ui.px(6);
-    const float spacing = ImGui::GetStyle().ItemSpacing.y;
-    const int rows = static_cast<int>(count);
-    const float room = (height + spacing) * static_cast<float>(std::min(rows, kMostQueryRows)) + spacing;
-    ImGui::BeginChild("queries", {0, room});
-    ui.focus.begin_list(ImGui::GetID("queries"), rows);
-    ImGuiListClipper clipper;
-    clipper.Begin(rows, height + spacing);
-    if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            ui.focus.row(i);
-            query_row(ui, static_cast<std::size_t>(i), height);
+        if (section(ui, "RECURSION: TIME OF A BY TIME OF B")) {
+            pictures.square(ui, *findings);
+            outcome_legend(ui);
         }
     }
-    ui.focus.end_list();
-    ImGui::EndChild();
+    if (section(ui, "CLEARANCE OVER TIME")) pictures.clearance(ui, *findings, ui.px(110));
 }
 
 void query_answer(Ui& ui, const QueryFindings& findings) {
@@ -200,7 +141,7 @@ void query_answer(Ui& ui, const QueryFindings& findings) {
 }
 
 void query_counters(Ui& ui, const QueryFindings& findings) {
-    heading(ui, "TESTS");
+    if (!section(ui, "TESTS")) return;
     const StepCounts total = findings.recursion.total();
     const StepCounts now = findings.recursion.so_far.empty()
                                ? StepCounts{}

@@ -18,9 +18,6 @@ namespace mobbscope::app {
 /// A button of this panel, marked "query.<the command's last word>".
 void query_button(Ui& ui, const char* label, const char* command);
 
-/// The scene's queries with their answers, each a click away.
-void query_list(Ui& ui);
-
 // These need a query in the view and its findings.
 void query_answer(Ui& ui, const QueryFindings& findings);
 void query_counters(Ui& ui, const QueryFindings& findings);

@@ -1,6 +1,7 @@
 #include <app/commands/command.h>
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
+#include <app/ui/thing_menus.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <render/text/labels.h>
@@ -30,6 +31,22 @@ struct Square {
     ChartAxis x, y;
 };
 
+bool contains(const PairCell& cell, ImVec2 at, ImVec2 mouse) {
+    return mouse.x >= at.x + static_cast<float>(cell.x0) && mouse.x < at.x + static_cast<float>(cell.x1) &&
+           mouse.y >= at.y + static_cast<float>(cell.y0) && mouse.y < at.y + static_cast<float>(cell.y1);
+}
+
+/// The last cell that the mouse was in when the menu of the last widget was opened, with its tests.
+void cell_menu(Ui& ui, const Recursion& recursion, const std::vector<PairCell>& cells, ImVec2 at) {
+    context_menu(ui, [&]() -> std::vector<MenuEntry> {
+        const ImVec2 mouse = ImGui::GetMousePosOnOpeningCurrentPopup();
+        const auto under =
+            std::find_if(cells.rbegin(), cells.rend(), [&](const PairCell& cell) { return contains(cell, at, mouse); });
+        if (under == cells.rend()) return test_menu(ui.session, ui.session.step());
+        return test_menu(ui.session, recursion.pairs[static_cast<std::size_t>(under->pair)].last);
+    });
+}
+
 /// Draws each cell with its pair, its corners and whether its test is past; null or the last one that the mouse is in.
 template <class Draw>
 const PairCell* draw_cells(const Recursion& recursion, const std::vector<PairCell>& cells, ImVec2 at, int step,
@@ -41,7 +58,7 @@ const PairCell* draw_cells(const Recursion& recursion, const std::vector<PairCel
         const ImVec2 min{at.x + static_cast<float>(cell.x0), at.y + static_cast<float>(cell.y0)};
         const ImVec2 max{at.x + static_cast<float>(cell.x1), at.y + static_cast<float>(cell.y1)};
         draw(cell, pair, min, max, pair.first <= step);
-        if (mouse.x >= min.x && mouse.x < max.x && mouse.y >= min.y && mouse.y < max.y) under = &cell;
+        if (contains(cell, at, mouse)) under = &cell;
     }
     return under;
 }
@@ -130,6 +147,7 @@ void QueryPictures::square(Ui& ui, const QueryFindings& findings) {
 
     const std::vector<PairCell>& cells = square_.of(
         ui.session.findings(), size, size, [&] { return square_cells(recursion, square.a, square.b, size, size); });
+    cell_menu(ui, recursion, cells, square.min);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(square.min, square.max, ui.style.raised);
     const int step = ui.session.step();
@@ -181,6 +199,7 @@ void QueryPictures::icicle(Ui& ui, ImVec2 size) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("icicle", size);
     ui.mark_only("query.icicle");
+    cell_menu(ui, recursion, cells, at);
     const bool hovered = ImGui::IsItemHovered();
     const bool clicked = ImGui::IsItemClicked();
     const int step = ui.session.step();
@@ -228,6 +247,12 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("strip", {width, height});
     ui.mark_only("query.strip");
+    const auto cell_at = [&](float x) {
+        const float inside = std::clamp(x - at.x, 0.0f, width - 1);
+        const auto index = static_cast<std::size_t>(inside / width * static_cast<float>(cells.size()));
+        return cells[std::min<std::size_t>(index, cells.size() - 1)];
+    };
+    context_menu(ui, [&] { return test_menu(ui.session, cell_at(ImGui::GetMousePosOnOpeningCurrentPopup().x).first); });
     const int step = ui.session.step();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, ui.style.raised);
@@ -244,10 +269,7 @@ void QueryPictures::strip(Ui& ui, float width, float height) {
 
     const bool active = ImGui::IsItemActive();
     if (!active && !ImGui::IsItemHovered()) return;
-    const float mouse = std::clamp(ImGui::GetIO().MousePos.x - at.x, 0.0f, width - 1);
-    const auto under = std::min<std::size_t>(static_cast<std::size_t>(mouse / width * static_cast<float>(cells.size())),
-                                             cells.size() - 1);
-    const StripCell& cell = cells[under];
+    const StripCell cell = cell_at(ImGui::GetIO().MousePos.x);
     ImGui::SetTooltip("%s", tooltip(*findings, trace, cell).c_str());
     if (active && (step < cell.first || step >= cell.end)) invoke(ui.session, "step.to", std::to_string(cell.first));
 }

@@ -1,9 +1,10 @@
 #include <app/commands/command.h>
+#include <app/document/described.h>
 #include <app/document/shown_agents.h>
 #include <app/panels/panels.h>
 #include <app/ui/agent_parts.h>
+#include <app/ui/thing_menus.h>
 #include <app/ui/widgets.h>
-#include <app/viewport/selection_display.h>
 #include <base/text.h>
 #include <render/drawlist/palette.h>
 #include <scene/arrangement.h>
@@ -48,28 +49,12 @@ void filter_field(Ui& ui) {
     ui.mark("scene.filter");
 }
 
-/// The menu of the last row; lists have their rows closer together than menus their items.
-void row_menu(Ui& ui, const std::function<void()>& fill) {
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(6)});
-    if (ImGui::BeginPopupContextItem()) {
-        fill();
-        ImGui::EndPopup();
-    }
-    ImGui::PopStyleVar();
-}
-
-void agent_menu_of(Ui& ui, const Selection& self, const ListedAgents& listed) {
-    ui.session.select(self);
-    const std::string mark = "agent.menu";
-    command_menu_item(ui, mark, "view.frame");
-    if (ui.session.is_crowd()) command_menu_item(ui, mark, "crowd.follow");
-    ImGui::Separator();
-    agent_menu_items(ui, mark, listed);
-    if (!ui.session.crowd()) {
-        ImGui::Separator();
-        command_menu_item(ui, mark, "agent.duplicate");
-        command_menu_item(ui, mark, "agent.remove");
-    }
+/// The right-click menu of a row, which is selected by it.
+void row_menu(Ui& ui, const Selection& self) {
+    context_menu(ui, [&] {
+        ui.session.select(self);
+        return selection_menu(ui.session);
+    });
 }
 
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
@@ -107,7 +92,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const ListedAgents listed{who.name, {who.name}};
     const bool hidden = are_hidden(session, listed.who);
     const auto about = [&] {
-        row_menu(ui, [&] { agent_menu_of(ui, self, listed); });
+        row_menu(ui, self);
         const float side = ui.px(10);
         const ImVec2 low{corner.x + ui.px(7), corner.y + 0.5f * (ImGui::GetFrameHeight() - side)};
         const ImVec2 high{low.x + side, low.y + side};
@@ -119,7 +104,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
             ImGui::GetWindowDrawList()->AddRectFilled(low, high, color, ui.px(2));
         }
         if (!ImGui::IsItemHovered()) return;
-        session.hovered = self;
+        ui.hovered = self;
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
     };
     const bool clicked = agents_row(ui,
@@ -170,11 +155,8 @@ void agents(Ui& ui) {
         return fitted.placed_agents()[static_cast<std::size_t>(i)].name;
     });
     const bool in_grid = is_in_grid(fitted.scene(), session.view());
-    heading(ui,
-            has_agents ? "AGENTS"
-            : in_grid  ? "CLIPS IN A GRID"
-                       : "CLIPS WHERE THEY ARE",
-            count_text(shown.size(), static_cast<std::size_t>(count)));
+    const char* title = has_agents ? "AGENTS" : in_grid ? "CLIPS IN A GRID" : "CLIPS WHERE THEY ARE";
+    if (!section(ui, title, count_text(shown.size(), static_cast<std::size_t>(count)))) return;
     rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
          [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)]); });
     if (!session.crowd()) {
@@ -186,6 +168,7 @@ void agents(Ui& ui) {
                 ImGui::PushID(&clip);  // names may look alike to ImGui
                 if (ImGui::MenuItem(clip.name.c_str())) invoke(session, "agent.add", clip.name);
                 ImGui::PopID();
+                ui.mark("scene.add_agent." + clip.name, OwnKeys::none, clip.name);
             }
             ImGui::EndPopup();
         }
@@ -200,13 +183,8 @@ void clip_row(Ui& ui, int index, float indent) {
     const bool warned = !clip.facts.warnings.empty();
     const ListedAgents listed{kOfClip + clip.name, agents_of_clip(session, index)};
     const auto about = [&] {
-        const auto menu = [&] {
-            session.select(self);
-            command_menu_item(ui, "clip.menu", "view.frame");
-            ImGui::Separator();
-            agent_menu_items(ui, "clip.menu", listed);
-        };
-        if (!listed.who.empty()) row_menu(ui, menu);
+        row_menu(ui, self);
+        if (ImGui::IsItemHovered()) ui.hovered = self;
         if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) &&
             find_command("clip.import")->enabled(session)) {
             invoke(session, "clip.import", clip.name);
@@ -258,7 +236,7 @@ void group_row(Ui& ui, int index) {
     const bool folded = session.folded_groups.contains(group.title);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const auto about = [&] {
-        if (!listed.who.empty()) row_menu(ui, [&] { agent_menu_items(ui, "group.menu", listed); });
+        if (!listed.who.empty()) context_menu(ui, [&] { return shown_menu(session, listed); });
         if (ImGui::IsItemHovered())
             ImGui::SetTooltip("%s\nClick to %s", group.title.c_str(), folded ? "unfold" : "fold");
         const float side = ui.px(3.5f);
@@ -290,7 +268,7 @@ void clips(Ui& ui) {
     const std::vector<int> shown = filtered(session, static_cast<int>(all.size()), [&](int i) -> const std::string& {
         return all[static_cast<std::size_t>(i)].name;
     });
-    heading(ui, "CLIPS", count_text(shown.size(), all.size()));
+    if (!section(ui, "CLIPS", count_text(shown.size(), all.size()))) return;
     const std::vector<ClipLine> lines = clip_lines(session, shown);
     rows(ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows, [&](int i) {
         const ClipLine& line = lines[static_cast<std::size_t>(i)];
@@ -305,21 +283,27 @@ void clips(Ui& ui) {
 void queries(Ui& ui) {
     Session& session = ui.session;
     const auto count = static_cast<int>(session.fitted().queries().size());
-    heading(ui, session.scene().queries.empty() && count > 0 ? "QUERIES (ALL PAIRS)" : "QUERIES",
-            std::to_string(count));
+    const bool all_pairs = session.scene().queries.empty() && count > 1;
+    if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
     rows(ui, "##queries", count, kMostSceneRows, [&](int i) {
         const SceneQuery query = session.fitted().queries()[static_cast<std::size_t>(i)];
         const Answer& answer = session.answer_of(static_cast<std::size_t>(i));
+        const Selection self{Selection::Kind::query, {}, i};
         const bool hit = answer.contact.has_value();
         const bool unexpected = query.expect && query.expect->collides != hit;
         const Palette& palette = ui.style.palette;
+        const std::string found = hit ? formatted("hit %.2f s", answer.contact->time) : "miss";
         if (row(ui, {"query." + std::to_string(i), query.a.name + " against " + query.b.name,
-                     std::string(unexpected ? "! " : "") + (hit ? "hit" : "miss"), session.view().query == i, false, 0,
+                     (unexpected ? "! " : "") + found, session.view().query == i, session.hovered == self, 0,
                      to_im(readable(hit ? palette.hit : palette.separated, palette))})) {
             invoke(session, session.view().query == i ? "query.none" : "query.select",
                    session.view().query == i ? "" : std::to_string(i));
         }
-        if (unexpected && ImGui::IsItemHovered()) ImGui::SetTooltip("The scene expects the other answer");
+        row_menu(ui, self);
+        if (!ImGui::IsItemHovered()) return;
+        ui.hovered = self;
+        ImGui::SetTooltip("%s%s", sentence(query, answer.contact).c_str(),
+                          unexpected ? "\nThe scene expects the other answer" : "");
     });
     if (count == 0)
         words(ui.style.quiet,
@@ -335,7 +319,6 @@ void scene_panel(Ui& ui) {
     }
     filter_field(ui);
     agents(ui);
-    if (!ui.session.crowd()) placement_panel(ui);
     clips(ui);
     // A run is asked for its conflicts.
     if (!ui.session.crowd()) queries(ui);
@@ -344,7 +327,7 @@ void scene_panel(Ui& ui) {
 void selection_panel(Ui& ui) {
     const Session& session = ui.session;
     if (session.empty()) return;
-    heading(ui, "SELECTION");
+    if (!section(ui, "SELECTION")) return;
     if (session.selection.kind == Selection::Kind::none || session.selection.kind == Selection::Kind::query) {
         words(ui.style.quiet,
               "Click a disk, a box or a name; click again for what lies behind.\n\nDrag to turn the view, Shift-drag "

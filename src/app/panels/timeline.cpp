@@ -2,6 +2,7 @@
 #include <app/document/agents.h>
 #include <app/panels/panels.h>
 #include <app/panels/query_parts.h>
+#include <app/ui/thing_menus.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
@@ -17,6 +18,7 @@ namespace mobbscope::app {
 
 namespace {
 
+constexpr float kLeastBars = 60;   // width, pixels at scale 1
 constexpr float kMostBar = 26;     // height of a path's bar, pixels at scale 1
 constexpr float kLeastStrip = 60;  // of the strip of steps, which else has a line of its own
 
@@ -36,7 +38,7 @@ void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) 
         draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
         const std::string text = tick_text(t, step) + " s";
         const float wide = text_size(mono, text).x;
-        const float left = std::clamp(x - 0.5f * wide, corner.x, corner.x + width - wide);
+        const float left = std::max(corner.x, std::min(x - 0.5f * wide, corner.x + width - wide));
         draw_text(draw, mono, {left, corner.y + ui.px(5)}, ui.style.quiet, text);
     }
 }
@@ -85,6 +87,10 @@ void time_bars(Ui& ui, float width, float height) {
     for (const Chord& chord : ui.focus.take("timeline.time")) {
         if (chord.key != Key::enter) invoke(session, chord.key == Key::right ? "time.forward" : "time.back");
     }
+    context_menu(ui, [&] {
+        const float x = ImGui::GetMousePosOnOpeningCurrentPopup().x;
+        return time_menu(session, axis.value(std::clamp(x, corner.x, corner.x + width)));
+    });
     if (ImGui::IsItemActive()) {
         const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
         session.enqueue([&session, at] {
@@ -133,9 +139,10 @@ void time_row(Ui& ui, bool tall) {
     ImGui::AlignTextToFramePadding();
     text_line(time ? ui.style.text : ui.style.quiet, time ? formatted("%7.3f s", *time) : "   off   ", ui.style.mono);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
-    ImGui::SameLine();
     const float clear = ImGui::GetFrameHeight();
-    const float width = std::max(ui.px(60), ImGui::GetContentRegionAvail().x - clear - ui.px(8));
+    // Of a narrow window the bars have a line of their own.
+    flow(ui.px(kLeastBars) + clear + ui.px(8));
+    const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - clear - ui.px(8));
     const float below = ui.px(24);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const std::size_t lanes = session.crowd() ? 1 : drawn_agents(session.fitted(), session.view()).size();
@@ -216,7 +223,7 @@ void timeline(Ui& ui, QueryPictures& pictures) {
 
 void step_transport(Ui& ui) {
     const int last = ui.session.recorded()->trace.size() - 1;
-    heading(ui, "STEPS");
+    if (!section(ui, "STEPS")) return;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(4), ui.px(4)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), ui.px(4)});
     icon_button(ui, "step.first", false, true);

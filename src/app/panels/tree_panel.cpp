@@ -180,7 +180,7 @@ int clip_in_focus(const Session& session) {
 void level_bars(Ui& ui, int clip) {
     const Session& session = ui.session;
     const auto& figures = session.figures_of(clip);
-    heading(ui, "VOLUME BY LEVEL", session.scene().clips[static_cast<std::size_t>(clip)].name);
+    if (!section(ui, "VOLUME BY LEVEL", session.scene().clips[static_cast<std::size_t>(clip)].name)) return;
     // Free boxes may take more room the finer they are: their fits overlap.
     double most = 1e-300;
     for (const mobb::LevelFigures& level : figures) most = std::max(most, level.volume);
@@ -240,13 +240,9 @@ void level_bars(Ui& ui, int clip) {
     words(ui.style.quiet, "m\u00B2\u00B7s, and how full of disks");
 }
 
-}  // namespace
-
-void tree_panel(Ui& ui) {
+/// How the trees are fitted, and which of their boxes are shown.
+void fit_fields(Ui& ui) {
     const Session& session = ui.session;
-    if (session.empty()) return;
-    ImGui::PushID("tree");
-    heading(ui, "TREE");
     const mobb::FitOptions fit = session.fitted().options();
     choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
     whole(ui, "Leaf samples", "tree.leaf", "The number of samples of a leaf", fit.leaf, 1,
@@ -257,10 +253,18 @@ void tree_panel(Ui& ui) {
     whole(ui, "Levels", "tree.levels", "The number of levels", fit.levels, 0,
           "0: all; 1 is the paper's \"1 level\" tree");
     time_scale(ui);
-    const int clip = clip_in_focus(session);
-    shown_levels(ui, session.fitted().tree(clip).depth());
+    shown_levels(ui, session.fitted().tree(clip_in_focus(session)).depth());
     choose(ui, "Colour by", "view.color_by", session.view().color_by, "What the boxes' colours mean");
-    level_bars(ui, clip);
+}
+
+}  // namespace
+
+void tree_panel(Ui& ui) {
+    const Session& session = ui.session;
+    if (session.empty()) return;
+    ImGui::PushID("tree");
+    if (section(ui, "TREE")) fit_fields(ui);
+    level_bars(ui, clip_in_focus(session));
     ImGui::PopID();
 }
 

@@ -79,7 +79,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
 
     Settings& settings = ui.session.settings;
     const float bar = ui.px(kSplitter);
-    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float status = status_height(ui);
+    const ImVec2 room{ImGui::GetContentRegionAvail().x, ImGui::GetContentRegionAvail().y - status};
     // Each side gives way before the picture does.
     const float least = std::min(ui.px(kLeastPanel), 0.3f * room.x);
     const float most = std::max(least, (room.x - ui.px(kLeastView) - 2 * bar) / 2);
@@ -92,10 +93,15 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
-    panel(ui, "left", {left, room.y}, [&] {
+    // The placement stands below the lists: they stay where they are when somebody is selected.
+    const float placement = std::min(placement_height(ui), 0.5f * room.y);
+    ImGui::BeginGroup();
+    panel(ui, "left", {left, room.y - placement}, [&] {
         scene_panel(ui);
         tree_panel(ui);
     });
+    if (placement > 0) panel(ui, "placement", {left, placement}, [&] { placement_panel(ui); });
+    ImGui::EndGroup();
     spacing();
     settings.left_width += splitter(ui, "splitter.left", {bar, room.y}, true) / ui.style.scale;
     spacing();
@@ -121,6 +127,8 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
         }
         selection_panel(ui);
     });
+    ui.session.hovered = ui.hovered;
+    status_bar(ui, {io.DisplaySize.x, status});
     ImGui::PopStyleVar();
     ImGui::End();
 

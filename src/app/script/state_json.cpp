@@ -112,7 +112,7 @@ Json crowd_json(const Session& session) {
                           {"time", choice.time},
                           {"candidates", choice.candidates.size()},
                           {"taken", choice.taken},
-                          {"pointed_out", session.candidate},
+                          {"pointed_out", session.candidate()},
                           {"sentence", choice_sentence(session.scene(), *followed)}};
     }
     if (const auto* conflicts = session.conflicts()) {
@@ -150,9 +150,9 @@ Json import_json(const Session& session) {
 }
 
 std::string_view kind_name(Dialog dialog) {
-    constexpr std::array<std::string_view, 12> kNames{
-        "none",    "open", "add",   "save_as",  "export_picture", "unsaved",
-        "palette", "help", "about", "messages", "dropped",        "import_clip"};
+    constexpr std::array<std::string_view, 13> kNames{"none",    "open",        "add",    "save_as", "export_picture",
+                                                      "unsaved", "palette",     "help",   "about",   "messages",
+                                                      "dropped", "import_clip", "history"};
     return kNames[static_cast<std::size_t>(dialog)];
 }
 

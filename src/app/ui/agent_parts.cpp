@@ -95,28 +95,4 @@ void agent_buttons(Ui& ui, const std::string& mark, const ListedAgents& listed, 
     draw_eye(draw, of_eye.middle, ui.px(1), of_eye.color, !hidden);
 }
 
-void command_menu_item(Ui& ui, const std::string& mark, const char* id) {
-    const Command& command = *find_command(id);
-    const std::string title(command.title);
-    const std::string shortcut(first_shortcut(command));
-    const bool chosen = ImGui::MenuItem(title.c_str(), shortcut.c_str(), false, command.enabled(ui.session));
-    ui.mark(mark + '.' + id);
-    if (chosen) invoke(ui.session, id);
-}
-
-void agent_menu_items(Ui& ui, const std::string& mark, const ListedAgents& listed) {
-    const Session& session = ui.session;
-    // The key is that of the command about the selected ones, as whose menu is open is selected.
-    const auto item = [&](const char* id, const char* by_key, const char* text) {
-        const std::string shortcut(first_shortcut(*find_command(by_key)));
-        const bool chosen = ImGui::MenuItem(text, shortcut.c_str());
-        ui.mark(mark + '.' + id);
-        if (chosen) invoke(ui.session, id, listed.text);
-    };
-    item("agents.hide", "agent.hide", are_hidden(session, listed.who) ? "Show" : "Hide");
-    item("agents.solo", "agent.solo", are_alone(session, listed.who) ? "Show what was there before" : "Show alone");
-    item("agents.pin", "agent.pin", are_pinned(session, listed.who) ? "Unpin" : "Pin");
-    command_menu_item(ui, mark, "agent.show_all");
-}
-
 }  // namespace mobbscope::app

@@ -22,11 +22,4 @@ float shown_buttons_width(const Ui& ui, const ListedAgents& listed);
 /// drawn that say something. `mark`: the row's; ".solo", ".pin" and ".eye" are added.
 void agent_buttons(Ui& ui, const std::string& mark, const ListedAgents& listed, bool lit);
 
-/// Menu items of the commands about them, and one that shows everybody. `mark`: "agent.menu" makes
-/// "agent.menu.agents.hide".
-void agent_menu_items(Ui& ui, const std::string& mark, const ListedAgents& listed);
-
-/// A menu item of a command: its title and shortcut.
-void command_menu_item(Ui& ui, const std::string& mark, const char* id);
-
 }  // namespace mobbscope::app

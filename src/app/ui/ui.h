@@ -65,6 +65,9 @@ struct Ui {
     double next_frame =
         0;  ///< in so many seconds another frame is wanted, whatever happens; infinity: none. Panels lower it
 
+    Selection hovered{};       ///< what is under the mouse in this frame, in any panel: the session's in the next
+    double frame_seconds = 0;  ///< that the last frame took; 0: not to be shown, as it is never the same
+
     /// Names the last widget for scripts.
     void mark_only(const std::string& name) const { marks.add(name, last_rect()); }
     /// ... and for the keys: they come to it where it can be pressed.

@@ -10,6 +10,8 @@
 #include <cctype>
 #include <cfloat>
 #include <cmath>
+#include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -32,6 +34,8 @@ std::vector<std::string> unbroken_words(const std::string& text) {
     return out;
 }
 
+constexpr float kLeastField = 56;  // pixels at scale 1
+
 }  // namespace
 
 void heading(Ui& ui, const char* text, const std::string& right) {
@@ -48,6 +52,41 @@ void heading(Ui& ui, const char* text, const std::string& right) {
     }
     ImGui::PopStyleColor();
     ImGui::PopFont();
+}
+
+bool section(Ui& ui, const std::string& title, const std::string& right) {
+    std::string id = title;
+    std::ranges::transform(id, id.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    bool& folded = ui.session.settings.folded[id];
+    const bool open = !folded;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    heading(ui, title.c_str(), right);
+    const ImVec2 below = ImGui::GetCursorScreenPos();
+    const float line = ui.style.caption->FontSize;
+    const float top = corner.y + ui.px(6) + ImGui::GetStyle().ItemSpacing.y;
+    // All of its line is the button, and the room beside it.
+    const float edge = ui.px(10);
+    ImGui::SetCursorScreenPos({corner.x - edge, top - ui.px(2)});
+    const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), line + ui.px(4)};
+    if (ImGui::InvisibleButton(("##section." + id).c_str(), size)) folded = open;
+    ui.mark("section." + id);
+    const bool hovered = ImGui::IsItemHovered();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 window = ImGui::GetWindowPos();
+    draw.PushClipRect(window, {window.x + ImGui::GetWindowWidth(), window.y + ImGui::GetWindowHeight()});
+    const ImU32 color = hovered ? ui.style.text : ui.style.quiet;
+    const float r = ui.px(3);
+    const ImVec2 middle{corner.x - ui.px(6), top + 0.5f * line};
+    if (open) {
+        draw.AddTriangleFilled({middle.x - r, middle.y - 0.6f * r}, {middle.x + r, middle.y - 0.6f * r},
+                               {middle.x, middle.y + 0.8f * r}, color);
+    } else {
+        draw.AddTriangleFilled({middle.x - 0.6f * r, middle.y - r}, {middle.x + 0.8f * r, middle.y},
+                               {middle.x - 0.6f * r, middle.y + r}, color);
+    }
+    draw.PopClipRect();
+    ImGui::SetCursorScreenPos(below);
+    return open;
 }
 
 void text_line(ImU32 color, const std::string& text, ImFont* font) {
@@ -103,7 +142,10 @@ void form_label(Ui& ui, const char* label, const char* help) {
     if (help && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
     // Below the longest label of all forms the columns still stand under one another.
     const float column = ImGui::GetWindowContentRegionMin().x + ImGui::CalcTextSize("Leaf samples").x + ui.px(12);
-    ImGui::SameLine(std::max(column, 0.34f * ImGui::GetWindowContentRegionMax().x));
+    const float right = ImGui::GetWindowContentRegionMax().x;
+    const float left = std::max(column, 0.34f * right);
+    // In a narrow panel the widget stands below its label.
+    if (right - left >= ui.px(kLeastField)) ImGui::SameLine(left);
     ImGui::SetNextItemWidth(-1);
 }
 
@@ -392,12 +434,18 @@ bool row(Ui& ui, const Row& row) {
     const float pad = ui.px(6);
     const ImFont& mono = *ui.style.mono;
     const float y = corner.y + 0.5f * (height - ImGui::GetFontSize());
-    const ImVec2 remark = text_size(mono, row.remark);
     const float left = corner.x + pad + row.indent;
-    const std::string name = fitted_text(row.name, std::max(ui.px(24), end.x - pad - remark.x - ui.px(8) - left));
+    const float room = end.x - pad - left;
+    // The name keeps half of a narrow row.
+    const float name_width = std::min(ImGui::CalcTextSize(cleaned(row.name).c_str()).x, 0.5f * room);
+    ImGui::PushFont(ui.style.mono);
+    const std::string remark = fitted_text(row.remark, std::max(room - name_width - ui.px(8), 0.0f));
+    const float width_of_remark = ImGui::CalcTextSize(remark.c_str()).x;
+    ImGui::PopFont();
+    const std::string name = fitted_text(row.name, std::max(ui.px(24), room - width_of_remark - ui.px(8)));
     draw.AddText({left, y}, row.quiet ? ui.style.quiet : ui.style.text, name.c_str());
-    draw_text(draw, mono, {end.x - pad - remark.x, corner.y + 0.5f * (height - mono.FontSize)},
-              row.remark_color != 0 ? row.remark_color : ui.style.quiet, row.remark);
+    draw_text(draw, mono, {end.x - pad - width_of_remark, corner.y + 0.5f * (height - mono.FontSize)},
+              row.remark_color != 0 ? row.remark_color : ui.style.quiet, remark);
     return clicked;
 }
 

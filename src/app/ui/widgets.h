@@ -13,6 +13,10 @@ namespace mobbscope::app {
 /// A quiet heading with room above it; `right` stands at the other end of its line if there is room.
 void heading(Ui& ui, const char* text, const std::string& right = "");
 
+/// A heading that folds what stands below it at a click: whether that is to be drawn. Settings remember it by the
+/// title, which is not made of names that change; `section.<title in small letters>` for scripts.
+[[nodiscard]] bool section(Ui& ui, const std::string& title, const std::string& right = "");
+
 /// A line of text in a colour, and in a font; null: the present one.
 void text_line(ImU32 color, const std::string& text, ImFont* font = nullptr);
 

@@ -1,6 +1,8 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
+#include <app/document/described.h>
 #include <app/document/shown_agents.h>
+#include <app/ui/thing_menus.h>
 #include <app/viewport/selection_display.h>
 #include <app/viewport/viewport.h>
 #include <base/text.h>
@@ -87,6 +89,11 @@ std::optional<OverlayClick> overlay_click(const DrawList& list, glm::vec2 pixel)
     }
     if (!overlay->more || !contains(*overlay->more, pixel)) return std::nullopt;
     return OverlayClick{*overlay->more, "view.whole_legend", "Show all rows, or six"};
+}
+
+Selection selection_of(const Session& session, const ObjectId& id) {
+    return {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
+            agent_in_view(session.fitted(), session.view(), id.agent), id.index};
 }
 
 /// Nothing is open: what to do.
@@ -312,6 +319,8 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     update_highlights(ui);
     show(ui, corner);
     if (is_active(ui)) decorate(ui, {*list_, corner});
+    context_menu(ui, "what is here",
+                 [&] { return over_nothing_ ? picture_menu(ui.session) : selection_menu(ui.session); });
     if (ui.session.view_count() > 1) name_trees(ui, corner);
 }
 
@@ -367,9 +376,8 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
         lit_ = held && !on_overlay ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
         if (over && list_ && is_active(ui) && lit_ == Handle::none && !on_overlay) {
             hover(ui, pixel);
-        } else if (place_) {
+        } else {
             place_.reset();
-            ui.session.hovered = {};
         }
     }
     last_ = pixel;
@@ -418,8 +426,8 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     last_ = pixel;
     moved_ = false;
     drag_ = Drag::orbit;
+    asks_ = io.MouseDown[1];
     place_.reset();
-    ui.session.hovered = {};
     const auto on_overlay = list_ ? overlay_click(*list_, pixel) : std::nullopt;
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
@@ -462,21 +470,36 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
 void Viewport::release(Ui& ui, glm::vec2 pixel) {
     // With a button still down it was broken off.
     const bool was_click = !moved_ && drag_ != Drag::pan && !ImGui::IsAnyMouseDown();
+    const bool asked = !moved_ && asks_;
     drag_ = Drag::none;
     ui.session.enqueue([&session = ui.session] { session.close_group(); });
     if (was_click && list_ && is_active(ui)) click(ui, pixel);
+    if (asked && list_ && is_active(ui)) ask(ui, pixel);
+}
+
+/// A right click: a menu of what is there, which is selected; what is selected already stays so, also behind something.
+void Viewport::ask(Ui& ui, glm::vec2 pixel) {
+    Session& session = ui.session;
+    std::optional<Selection> nearest;
+    bool stays = false;
+    for (const Pick& hit : picks(*list_, pixel)) {
+        const Selection here = selection_of(session, hit.id);
+        if (!nearest) nearest = here;
+        stays = stays || here == session.selection;
+    }
+    over_nothing_ = !nearest;
+    if (nearest && !stays) session.select(*nearest);
+    ImGui::OpenPopup("what is here");
 }
 
 void Viewport::hover(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
     const std::vector<Pick> hits = picks(*list_, pixel);
     place_.reset();
-    session.hovered = {};
     if (hits.empty()) return;
     const ObjectId& id = hits.front().id;
     place_ = hits.front().place;
-    session.hovered = {id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample,
-                       agent_in_view(session.fitted(), session.view(), id.agent), id.index};
+    ui.hovered = selection_of(session, id);
 }
 
 /// The first click takes what is in front, one more at the same place what lies behind it; on nothing, nothing.
@@ -492,8 +515,7 @@ void Viewport::click(Ui& ui, glm::vec2 pixel) {
         return;
     }
     const ObjectId& id = hits[depth_ % hits.size()].id;
-    const AgentRef path = agent_in_view(session.fitted(), session.view(), id.agent);
-    session.select({id.kind == ObjectId::Kind::box ? Selection::Kind::node : Selection::Kind::sample, path, id.index});
+    session.select(selection_of(session, id));
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "view.frame");
 }
 

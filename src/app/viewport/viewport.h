@@ -56,6 +56,7 @@ class Viewport {
     void release(Ui& ui, glm::vec2 pixel);
     void hover(Ui& ui, glm::vec2 pixel);
     void click(Ui& ui, glm::vec2 pixel);
+    void ask(Ui& ui, glm::vec2 pixel);
     void tooltip(Ui& ui) const;
     void handle_tooltip(Ui& ui, const mobb::Placement& placement) const;
     void decorate(Ui& ui, const ShownPicture& picture);
@@ -86,8 +87,10 @@ class Viewport {
     Handle lit_ = Handle::none;  ///< under the mouse or held
     glm::vec2 pressed_at_{0};
     glm::vec2 last_{0};
-    bool moved_ = false;     ///< since the button went down: no click
-    std::size_t depth_ = 0;  ///< of the last click: another click at its place selects what lies behind
+    bool moved_ = false;         ///< since the button went down: no click
+    bool asks_ = false;          ///< it is the right button: a click opens a menu
+    bool over_nothing_ = false;  ///< the menu is the picture's
+    std::size_t depth_ = 0;      ///< of the last click: another click at its place selects what lies behind
     glm::vec2 clicked_at_{-1e6f};
     std::optional<glm::dvec3> place_;  ///< under the mouse: x, y, t; in the picture of a moment the height
 };

@@ -306,6 +306,7 @@ struct Shell::State {
     double lay_out(double now) {
         marks.clear();
         Ui ui{session, style, marks, focus, field, drawn->painter, now, kNever};
+        if (session.attended()) ui.frame_seconds = frame_seconds;
         focus.follow_commands();
         ImGui::NewFrame();
         focus.begin_frame();
@@ -339,6 +340,7 @@ struct Shell::State {
         ImGui::SetCurrentContext(imgui.get());
         renderer.context().make_current();
         if (!std::exchange(undrawn, false)) return;
+        const double began = clock();
         for (std::size_t place = 0; place < viewports.size(); ++place) {
             if (const DrawList* picture = viewports[place].shown()) drawn->painter.paint_changes(place, *picture);
         }
@@ -351,6 +353,7 @@ struct Shell::State {
         drawn->target->clear({ground.x, ground.y, ground.z, 1});
         drawn->ui.draw(*ImGui::GetDrawData(), size);
         renderer.context().check("drawing the window");
+        frame_seconds = laid_out_in + clock() - began;
     }
 
     Session& session;
@@ -365,6 +368,8 @@ struct Shell::State {
     bool laid_out = false;      ///< since the last was drawn: more than a picture has changed
     double laid_out_until = 0;  ///< the time at which another frame may show something new
     int frames_drawn = 0;
+    double laid_out_in = 0;    ///< seconds that the last frame's panels and draw lists took
+    double frame_seconds = 0;  ///< ... with its drawing
     InputQueue input;
     Focus focus{session};
     FieldInput field;
@@ -421,7 +426,9 @@ double Shell::frame(PictureSize size, double now) {
     if (s.session.job_count() != jobs) s.settling = kFramesToSettle;
     s.feed();
     s.follow_look();
+    const double began = s.clock();
     const double wanted = s.lay_out(now);
+    s.laid_out_in = s.clock() - began;
     s.size = size;
     s.laid_out_until = now + std::min(wanted, kSignFrame);
     if (s.session.run_queue()) s.settling = kFramesToSettle;

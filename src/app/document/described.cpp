@@ -1,0 +1,122 @@
+#include <app/document/described.h>
+#include <base/text.h>
+#include <explain/query_sentence.h>
+#include <mobb/kinds.h>
+#include <render/parts/node_boxes.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace mobbscope::app {
+
+namespace {
+
+void describe_node(Described& out, const DrawnAgent& agent, int index) {
+    const mobb::PlacedTree& tree = agent.placed;
+    const mobb::Node& node = tree.node(index);
+    out.name = node_name(agent, index);
+    const mobb::Box world = world_box(tree, index);
+    const bool upright = mobb::info(world.kind).axes != mobb::BoxAxes::space_time;
+    out.facts = {{"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + ", " +
+                              std::string(mobb::info(world.kind).title)},
+                 {"level", std::to_string(node.level)},
+                 {"samples", std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" +
+                                 std::to_string(node.count) + ")"},
+                 {"time", formatted("%.3f..%.3f s", tree.begin(node), tree.end(node))},
+                 {"centre", formatted("%.3f, %.3f m", world.center.x, world.center.y)},
+                 {upright ? "sides" : "sides 1, 2", formatted("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1])}};
+    if (world.kind == mobb::BoxKind::moving && world.half.z > 0) {
+        const glm::dvec2 velocity = world.drift * (tree.time_scale() / world.half.z);
+        out.facts.emplace_back("velocity", formatted("%.3f, %.3f m/s", velocity.x, velocity.y));
+    }
+    if (!upright) out.facts.emplace_back("side 3", formatted("%.3f m", 2 * world.half[2]));
+    const double volume = mobb::volume(node.box, tree.time_scale());
+    double cylinders = 0;
+    for (int i = node.first; i < node.end(); ++i) {
+        const double r = tree.tree().clip().samples()[static_cast<std::size_t>(i)].r;
+        cylinders += std::numbers::pi * r * r * tree.tree().clip().dt();
+    }
+    out.facts.emplace_back("volume", formatted("%.4g m\u00B2\u00B7s", volume));
+    if (volume > 0) out.facts.emplace_back("tightness", formatted("%.3f", cylinders / volume));
+}
+
+void describe_sample(Described& out, const DrawnAgent& agent, int index) {
+    const mobb::PlacedClip& clip = agent.clip();
+    const mobb::Disk disk = clip.disk(index);
+    out.name = agent.name + ", sample " + std::to_string(index);
+    out.facts = {{"time", formatted("%.3f..%.3f s", clip.time(index), clip.time(index + 1))},
+                 {"place", formatted("%.3f, %.3f m", disk.x, disk.y)},
+                 {"radius", formatted("%.3f m", disk.r)}};
+    if (index + 1 < clip.count()) {
+        const mobb::Disk next = clip.disk(index + 1);
+        out.facts.emplace_back("speed",
+                               formatted("%.2f m/s", std::hypot(next.x - disk.x, next.y - disk.y) / clip.clip().dt()));
+    }
+}
+
+void describe_path(Described& out, const FittedScene& fitted, const PlacedAgent& who) {
+    const mobb::PlacedTree tree = fitted.placed(who);
+    const mobb::PlacedClip& clip = tree.placed_clip();
+    out.name = who.name;
+    out.facts = {{"clip", fitted.scene().clips[static_cast<std::size_t>(who.clip)].name},
+                 {"samples", std::to_string(clip.count())},
+                 {"time", formatted("%.3f..%.3f s", clip.time(0), clip.time(clip.count()))},
+                 {"starts at", formatted("%.3f, %.3f m", clip.disk(0).x, clip.disk(0).y)},
+                 {"tree", std::to_string(tree.tree().nodes().size()) + " nodes, " +
+                              std::to_string(tree.tree().depth()) + " levels"}};
+}
+
+void describe_clip(Described& out, const SceneClip& clip) {
+    double length = 0;
+    const auto samples = clip.clip->samples();
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        length += std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y);
+    }
+    out.name = clip.name;
+    out.facts = {{"source", clip.source.value_or("samples in the scene")},
+                 {"samples", std::to_string(clip.clip->count())},
+                 {"lasts", formatted("%.3f s at %.5g a second", clip.clip->duration(), 1 / clip.clip->dt())},
+                 {"path", formatted("%.2f m, %.2f m/s", length, length / clip.clip->duration())}};
+    if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
+    for (const std::string& warning : clip.facts.warnings) out.facts.emplace_back("note", warning);
+}
+
+}  // namespace
+
+DrawnAgent drawn_agent_of(const FittedScene& fitted, const PlacedAgent& who) {
+    return {fitted.placed(who), who.name, who.name, Rgba(1), 0};
+}
+
+Described describe(const FittedScene& fitted, const Selection& what) {
+    Described out;
+    switch (what.kind) {
+        case Selection::Kind::none:
+            return out;
+        case Selection::Kind::clip:
+            describe_clip(out, fitted.scene().clips[static_cast<std::size_t>(what.index)]);
+            return out;
+        case Selection::Kind::query: {
+            const SceneQuery query = fitted.queries()[static_cast<std::size_t>(what.index)];
+            out.name = query.a.name + " against " + query.b.name;
+            return out;
+        }
+        case Selection::Kind::path:
+        case Selection::Kind::node:
+        case Selection::Kind::sample:
+            break;
+    }
+    const auto who = placed_agent_of(fitted, what.path);
+    if (!who) return out;
+    if (what.kind == Selection::Kind::path) describe_path(out, fitted, *who);
+    if (what.kind == Selection::Kind::node) describe_node(out, drawn_agent_of(fitted, *who), what.index);
+    if (what.kind == Selection::Kind::sample) describe_sample(out, drawn_agent_of(fitted, *who), what.index);
+    return out;
+}
+
+std::string lines_of(const Described& what) {
+    std::string out = what.name + '\n';
+    for (const auto& [key, value] : what.facts) out += key + '\t' + value + '\n';
+    return out;
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,27 @@
+/// What is selected, under the mouse and the like, in words and numbers.
+#pragma once
+
+#include <app/document/selection.h>
+#include <scene/drawn_agent.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// What a selection is, a line each: first its name.
+struct Described {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> facts;  ///< "time", "1.20..1.53 s"
+};
+/// Of nothing, nothing.
+Described describe(const FittedScene& fitted, const Selection& what);
+
+/// A line for the name and one for each fact, its value behind a tab.
+std::string lines_of(const Described& what);
+
+/// An agent with its tree, in no colour.
+DrawnAgent drawn_agent_of(const FittedScene& fitted, const PlacedAgent& who);
+
+}  // namespace mobbscope::app

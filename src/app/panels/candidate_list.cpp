@@ -1,0 +1,187 @@
+#include <app/commands/command.h>
+#include <app/panels/panels.h>
+#include <app/ui/thing_menus.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+#include <render/pictures/candidates.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr int kMostCandidateRows = 9;
+using Column = CandidateList::Column;
+using Which = CandidateList::Which;
+
+/// The line that the picture draws it with.
+void fate_line(Ui& ui, ImVec2 corner, CandidateOutcome outcome) {
+    const LineStyle style = outcome_style_of(outcome, ui.style.palette);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float y = corner.y + 0.5f * ImGui::GetFrameHeight();
+    const float end = corner.x + ui.px(26);
+    float x = corner.x + ui.px(6);
+    const bool solid = style.dash == kSolid;
+    for (bool on = true; x < end; on = !on) {
+        const float length = solid ? end - x : ui.px(0.7f * (on ? style.dash.x : style.dash.y));
+        const float to = std::min(x + length, end);
+        if (on) draw.AddLine({x, y}, {to, y}, to_im(style.color), ui.px(std::max(style.width, 1.5f)));
+        x = to;
+    }
+}
+
+/// "turn_left, 45": the move's name, and how far it was turned for.
+std::string move_name(const Session& session, const Candidate& candidate) {
+    const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
+    std::string name = session.scene().clips[static_cast<std::size_t>(move.clip)].name;
+    if (candidate.turn_deg == 0) return name;
+    return name + formatted(", %+.0f\u00B0", candidate.turn_deg);
+}
+
+std::string remark_of(const Session& session, const Choice& choice, std::size_t index) {
+    const Candidate& candidate = choice.candidates[index];
+    const CandidateOutcome outcome = outcome_of(choice, index);
+    if (outcome == CandidateOutcome::leaves_floor) return "off floor";
+    if (outcome != CandidateOutcome::ruled_out) return std::string(outcome_words(outcome));
+    const std::string& other = session.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
+    return shortened(cleaned(other), 16) + formatted(" at %.2f s", candidate.blocker->contact.time);
+}
+
+/// What a row says and is ordered by.
+struct ListedCandidate {
+    std::size_t index = 0;  ///< in the choice
+    std::string name;
+    std::string remark;
+    CandidateOutcome outcome = CandidateOutcome::free;
+    double contact = std::numeric_limits<double>::infinity();  ///< seconds; of one that meets nobody never
+};
+
+bool has_text(const ListedCandidate& candidate, const std::string& text) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
+    const std::string all = candidate.name + ' ' + candidate.remark;
+    return !std::ranges::search(all, text, same).empty() || text.empty();
+}
+
+/// What was taken first, then why the others were not.
+int rank_of(CandidateOutcome outcome) {
+    constexpr std::array<int, 5> kRanks{0, 2, 3, 4, 1};
+    return kRanks[static_cast<std::size_t>(outcome)];
+}
+
+/// Those that the list shows, in its order; candidates that are equal in it stay as they were asked.
+std::vector<ListedCandidate> listed(const Session& session, const Choice& choice) {
+    const CandidateList& list = session.candidates;
+    std::vector<ListedCandidate> out;
+    for (const std::size_t index : shown_candidates(choice)) {
+        const Candidate& candidate = choice.candidates[index];
+        if (list.which != Which::all && candidate.is_free() != (list.which == Which::free)) continue;
+        ListedCandidate row{index, move_name(session, candidate), remark_of(session, choice, index),
+                            outcome_of(choice, index)};
+        if (candidate.blocker) row.contact = candidate.blocker->contact.time;
+        if (has_text(row, list.text)) out.push_back(std::move(row));
+    }
+    const auto before = [&](const ListedCandidate& a, const ListedCandidate& b) {
+        switch (list.by) {
+            case Column::outcome:
+                return rank_of(a.outcome) < rank_of(b.outcome);
+            case Column::clip:
+                return a.name < b.name;
+            case Column::reason:
+                return a.remark < b.remark;
+            case Column::contact:
+                return a.contact < b.contact;
+        }
+        return false;
+    };
+    std::ranges::stable_sort(
+        out, [&](const auto& a, const auto& b) { return list.descending ? before(b, a) : before(a, b); });
+    return out;
+}
+
+/// A small button that is lit while it is what is now.
+void choice_button(Ui& ui, const std::string& label, const char* id, const std::string& argument, bool on) {
+    flow(button_width(label.c_str()));
+    ImGui::PushStyleColor(ImGuiCol_Text, on ? ui.style.text : ui.style.quiet);
+    ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.style.raised : IM_COL32_BLACK_TRANS);
+    if (small_button(ui, label.c_str(), id + ('.' + argument))) invoke(ui.session, id, argument);
+    ImGui::PopStyleColor(2);
+}
+
+/// The text to look for, which of them, and the order.
+void list_head(Ui& ui) {
+    CandidateList& list = ui.session.candidates;
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##filter", "Filter", &list.text);
+    ui.mark("candidates.filter");
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ui.px(3)});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6), 0});
+    const auto line = [&](const char* label, const char* id, const auto& down) {
+        const Command& command = command_named(id);
+        text_line(ui.style.quiet, label);
+        for (const std::string& choice : command.choices(ui.session)) {
+            const bool on = command.chosen(ui.session, choice);
+            choice_button(ui, choice + (on ? down : ""), id, choice, on);
+        }
+    };
+    line("show", "crowd.list_candidates", "");
+    line("by", "crowd.sort_candidates", list.descending ? " \u2193" : " \u2191");
+    ImGui::PopStyleVar(2);
+}
+
+void candidate_row(Ui& ui, const Choice& choice, const ListedCandidate& candidate) {
+    Session& session = ui.session;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const Rgba color = outcome_style_of(candidate.outcome, ui.style.palette).color;
+    const std::string index = std::to_string(candidate.index);
+    const bool pointed_out = session.candidate() == static_cast<int>(candidate.index);
+    if (row(ui, {"candidate." + index, candidate.name, candidate.remark, pointed_out, false, ui.px(26),
+                 to_im(readable(color, ui.style.palette))})) {
+        invoke(session, "crowd.candidate", index);
+    }
+    context_menu(ui, [&] { return candidate_menu(session, static_cast<int>(candidate.index)); });
+    fate_line(ui, corner, candidate.outcome);
+    if (!ImGui::IsItemHovered()) return;
+    ImGui::SetTooltip("%s", candidate_sentence(session.scene(), choice, candidate.index).c_str());
+    if (candidate.outcome == CandidateOutcome::ruled_out && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        invoke(session, "crowd.open_candidate", index);
+    }
+}
+
+}  // namespace
+
+void last_choice(Ui& ui) {
+    Session& session = ui.session;
+    const FollowedChoice* followed = session.choice();
+    if (!followed) {
+        if (!session.view().follow.empty()) words(ui.style.quiet, "No choice yet at this time.");
+        return;
+    }
+    const Choice& choice = followed->choice;
+    if (!section(ui, "LAST CHOICE", formatted("%.2f s", choice.time))) return;
+    words(ui.style.text, choice_sentence(session.scene(), *followed));
+    list_head(ui);
+    const std::vector<ListedCandidate> all = listed(session, choice);
+    if (all.empty()) words(ui.style.quiet, "None of them is as asked for.");
+    rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
+         [&](int i) { candidate_row(ui, choice, all[static_cast<std::size_t>(i)]); });
+    const int pointed_out = session.candidate();
+    const bool opens = pointed_out >= 0 && choice.candidates[static_cast<std::size_t>(pointed_out)].blocker;
+    ImGui::BeginDisabled(!opens);
+    command_button(ui, "open as a scene", "crowd.open_candidate", "crowd.open_candidate");
+    ImGui::EndDisabled();
+}
+
+}  // namespace mobbscope::app

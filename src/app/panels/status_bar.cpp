@@ -1,0 +1,144 @@
+#include <app/document/described.h>
+#include <app/document/job.h>
+#include <app/panels/panels.h>
+#include <app/ui/widgets.h>
+#include <base/text.h>
+#include <scene/answer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr float kStatusPad = 12;             // pixels at scale 1
+constexpr float kProgressWidth = 120;        // pixels at scale 1
+constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
+constexpr double kSweep = 1.6;               // seconds that the bar takes where nothing is known
+
+std::string counted(std::size_t count, const char* one) {
+    return std::to_string(count) + ' ' + one + (count == 1 ? "" : "s");
+}
+
+/// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view.
+std::string counts(const Session& session) {
+    if (session.empty()) return "";
+    const FittedScene& fitted = *session.document().fitted;
+    const std::size_t agents = session.crowd() ? session.crowd()->agents.size() : session.scene().agents.size();
+    std::size_t nodes = 0;
+    for (int clip = 0; clip < static_cast<int>(session.scene().clips.size()); ++clip) {
+        nodes += fitted.tree(clip).nodes().size();
+    }
+    std::string out = agents > 0 ? counted(agents, "agent") + ", " : "";
+    out += counted(session.scene().clips.size(), "clip") + ", " + counted(nodes, "node");
+    if (const RecordedQuery* recorded = session.recorded()) {
+        out += ", " + counted(static_cast<std::size_t>(recorded->trace.size()), "test");
+    }
+    return out;
+}
+
+/// What is under the mouse, as short as it can be said.
+std::string hover_facts(const Session& session) {
+    const Selection& what = session.hovered;
+    if (what.kind == Selection::Kind::none || !exists(session.fitted(), what)) return "";
+    if (what.kind == Selection::Kind::query) {
+        const auto index = static_cast<std::size_t>(what.index);
+        return sentence(session.fitted().queries()[index], session.answer_of(index).contact);
+    }
+    constexpr std::array<std::string_view, 7> kFacts{"clip",  "samples",   "time", "radius",
+                                                     "speed", "tightness", "lasts"};
+    const Described described = describe(session.fitted(), what);
+    std::string out = cleaned(described.name);
+    for (const auto& [key, value] : described.facts) {
+        if (std::ranges::find(kFacts, key) != kFacts.end()) out += "   " + key + ' ' + cleaned(value);
+    }
+    return out;
+}
+
+/// The work under way, the oldest first, from `right` to the left; returns where it begins.
+float job_part(Ui& ui, float right) {
+    Session& session = ui.session;
+    const Job& job = *session.job();
+    ui.want_frame_in(kProgressFrame);
+    std::string title = job.title();
+    if (session.job_count() > 1) title += formatted(" (and %d more)", static_cast<int>(session.job_count()) - 1);
+    const float gap = ui.px(8);
+    const float width = ui.px(kProgressWidth);
+    const float height = ui.px(6);
+    const float line = ImGui::GetTextLineHeight();
+    const float button = ImGui::CalcTextSize("Cancel").x + 2 * ImGui::GetStyle().FramePadding.x;
+    const float text = ImGui::CalcTextSize(title.c_str()).x;
+    const float left = std::max(ui.px(kStatusPad), right - button - width - text - 2 * gap);
+    const float y = ImGui::GetCursorPosY();
+    ImGui::SetCursorPos({left, y});
+    ImGui::TextUnformatted(fitted_text(title, right - button - width - 2 * gap - left).c_str());
+    ui.mark("job.0");
+    ImGui::SetCursorPos({right - button - gap - width, y});
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + (line - height) / 2;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({at.x, top}, {at.x + width, top + height}, ui.style.raised, height / 2);
+    const double progress = job.progress();
+    float from = 0;
+    float to = static_cast<float>(progress);
+    if (progress < 0) {
+        from = static_cast<float>(0.75 * (0.5 - 0.5 * std::cos(ui.now / kSweep * 6.283)));
+        to = from + 0.25f;
+    }
+    draw.AddRectFilled({at.x + from * width, top}, {at.x + to * width, top + height}, ui.style.accent, height / 2);
+    ImGui::Dummy({width, line});
+    ui.mark("job.0.bar");
+    ImGui::SetCursorPos({right - button, y});
+    if (small_button(ui, "Cancel", "job.0.cancel")) session.enqueue([&session] { session.cancel_job(0); });
+    return left;
+}
+
+}  // namespace
+
+float status_height(const Ui& ui) { return std::floor(ui.style.caption->FontSize + ui.px(6)); }
+
+void status_bar(Ui& ui, ImVec2 size) {
+    ImGui::SetCursorScreenPos({0, ImGui::GetIO().DisplaySize.y - size.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::BeginChild("status", size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar();
+    ImGui::PushFont(ui.style.caption);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.style.quiet);
+    const ImVec2 corner = ImGui::GetWindowPos();
+    ImGui::GetWindowDrawList()->AddLine(corner, {corner.x + size.x, corner.y}, ui.style.border);
+    const float pad = ui.px(kStatusPad);
+    const float y = 0.5f * (size.y - ImGui::GetTextLineHeight());
+    float right = size.x - pad;
+    if (ui.frame_seconds > 0) {
+        const std::string time = formatted("%.0f ms", 1000 * ui.frame_seconds);
+        // As wide as the longest, so that nothing beside it moves.
+        right -= ImGui::CalcTextSize("0000 ms").x;
+        ImGui::SetCursorPos({size.x - pad - ImGui::CalcTextSize(time.c_str()).x, y});
+        ImGui::TextUnformatted(time.c_str());
+        ui.mark("status.frame");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the last frame took");
+    }
+    ImGui::SetCursorPosY(y);
+    if (ui.session.job()) right = job_part(ui, right) - pad;
+    // What there is least room for is what is under the mouse: its tooltip says it too.
+    const std::string all = fitted_text(counts(ui.session), std::max(right - pad, 0.0f));
+    ImGui::SetCursorPos({pad, y});
+    ImGui::TextUnformatted(all.c_str());
+    ui.mark("status.counts");
+    const float left = pad + ImGui::CalcTextSize(all.c_str()).x + 2 * pad;
+    const std::string facts = hover_facts(ui.session);
+    if (!facts.empty() && right - left > ui.px(40)) {
+        ImGui::SetCursorPos({left, y});
+        text_line(ui.style.text, fitted_text(facts, right - left));
+        ui.mark("status.hover");
+    }
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    ImGui::EndChild();
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,191 @@
+#include <app/ui/thing_menus.h>
+#include <base/text.h>
+#include <explain/query_findings.h>
+#include <explain/query_sentence.h>
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+using Ids = std::span<const std::string_view>;
+
+constexpr auto kPicture = std::to_array<std::string_view>({"view.frame",
+                                                           "view.frame_all",
+                                                           "",
+                                                           "view.iso",
+                                                           "view.top",
+                                                           "view.front",
+                                                           "view.side",
+                                                           "",
+                                                           "view.moment",
+                                                           "view.perspective",
+                                                           "view.disks",
+                                                           "view.boxes",
+                                                           "view.floor",
+                                                           "view.labels",
+                                                           "view.legend",
+                                                           "view.past",
+                                                           "view.theme",
+                                                           "",
+                                                           "agent.show_all",
+                                                           "view.arrange",
+                                                           "",
+                                                           "file.export_picture",
+                                                           "file.copy_command"});
+constexpr auto kNode =
+    std::to_array<std::string_view>({"view.frame", "go.parent", "go.child", "step.next_of_node", "edit.copy_figures"});
+constexpr auto kSample =
+    std::to_array<std::string_view>({"view.frame", "go.parent", "view.projection", "edit.copy_figures"});
+constexpr auto kPath = std::to_array<std::string_view>({"view.frame", "go.child", "edit.copy_figures"});
+constexpr auto kAgent = std::to_array<std::string_view>(
+    {"query.add", "agent.rename", "agent.duplicate", "agent.remove"});  ///< not of a run
+constexpr auto kInCrowd = std::to_array<std::string_view>({"crowd.follow", "crowd.open_pair"});
+constexpr auto kQuery = std::to_array<std::string_view>({"query.expect", "query.remove"});
+constexpr auto kTime = std::to_array<std::string_view>({"time.play", "time.start", "time.end", "time.clear"});
+
+std::vector<MenuEntry> entries_of(Ids ids) {
+    std::vector<MenuEntry> out;
+    for (const std::string_view id : ids) out.push_back({id});
+    return out;
+}
+
+/// A group of its own.
+void append(std::vector<MenuEntry>& menu, const std::vector<MenuEntry>& more) {
+    if (more.empty()) return;
+    if (!menu.empty()) menu.push_back({""});
+    menu.insert(menu.end(), more.begin(), more.end());
+}
+
+/// What can be done with the agent that the selection is of.
+void append_agent(std::vector<MenuEntry>& menu, const Session& session) {
+    const auto who = placed_agent_of(session.fitted(), session.selection.path);
+    if (who && session.selection.kind != Selection::Kind::path) {
+        append(menu, {{"go.agent", who->name, "Select all of " + shortened(cleaned(who->name), 30)}});
+    }
+    if (who) append(menu, shown_menu(session, {who->name, {who->name}}));
+    if (session.is_crowd()) append(menu, entries_of(kInCrowd));
+    if (!session.crowd()) append(menu, entries_of(kAgent));
+}
+
+std::vector<MenuEntry> node_menu(const Session& session) {
+    std::vector<MenuEntry> menu = entries_of(kNode);
+    const auto who = placed_agent_of(session.fitted(), session.selection.path);
+    if (who) {
+        const mobb::Node& node =
+            session.fitted().tree(who->clip).nodes()[static_cast<std::size_t>(session.selection.index)];
+        const std::string level = std::to_string(node.level);
+        menu.push_back({"view.level", level, "Show level " + level + " alone"});
+    }
+    append_agent(menu, session);
+    return menu;
+}
+
+std::vector<MenuEntry> sample_menu(const Session& session) {
+    std::vector<MenuEntry> menu = entries_of(kSample);
+    if (const auto who = placed_agent_of(session.fitted(), session.selection.path)) {
+        const double time = session.fitted().placed(*who).placed_clip().time(session.selection.index);
+        menu.push_back({"time.at", short_double(time), formatted("Time cursor to %.3f s", time)});
+    }
+    append_agent(menu, session);
+    return menu;
+}
+
+std::vector<MenuEntry> query_menu(const Session& session) {
+    const std::string query = std::to_string(session.selection.index);
+    std::vector<MenuEntry> menu{{"query.select", query, "Show this query"},
+                                {"query.copy_answer", query},
+                                {"query.copy_command", query, "Copy as command"},
+                                {"query.capture", query}};
+    append(menu, entries_of(kQuery));
+    return menu;
+}
+
+std::vector<MenuEntry> clip_menu(const Session& session) {
+    std::vector<MenuEntry> menu;
+    const std::string& name = session.scene().clips[static_cast<std::size_t>(session.selection.index)].name;
+    if (!session.crowd()) menu.push_back({"agent.add", name, "Add an agent that plays it"});
+    menu.push_back({"clip.import", name, "How it is read..."});
+    menu.push_back({"edit.copy_figures"});
+    const AgentNames who = agents_of_clip(session, session.selection.index);
+    if (!who.empty()) append(menu, shown_menu(session, {kOfClip + name, who}));
+    return menu;
+}
+
+}  // namespace
+
+std::vector<MenuEntry> shown_menu(const Session& session, const ListedAgents& listed) {
+    return {{"agents.hide", listed.text, are_hidden(session, listed.who) ? "Show" : "Hide"},
+            {"agents.solo", listed.text, are_alone(session, listed.who) ? "Show what was there before" : "Show alone"},
+            {"agents.pin", listed.text, are_pinned(session, listed.who) ? "Unpin" : "Pin"},
+            {"agent.show_all"}};
+}
+
+std::vector<MenuEntry> picture_menu(const Session&) { return entries_of(kPicture); }
+
+std::vector<MenuEntry> selection_menu(const Session& session) {
+    switch (session.selection.kind) {
+        case Selection::Kind::none:
+            return {};
+        case Selection::Kind::path: {
+            std::vector<MenuEntry> menu = entries_of(kPath);
+            append_agent(menu, session);
+            return menu;
+        }
+        case Selection::Kind::node:
+            return node_menu(session);
+        case Selection::Kind::sample:
+            return sample_menu(session);
+        case Selection::Kind::clip:
+            return clip_menu(session);
+        case Selection::Kind::query:
+            return query_menu(session);
+    }
+    return {};
+}
+
+std::vector<MenuEntry> test_menu(const Session& session, int event) {
+    const mobb::Trace::Event& test = session.recorded()->trace[event];
+    std::vector<MenuEntry> menu{{"step.to", std::to_string(event), "Go to this test, " + std::to_string(event)}};
+    const std::vector<DrawnAgent>& sides = session.findings()->sides;
+    for (const auto& [side, node] : {std::pair(&sides[0], test.a), std::pair(&sides[1], test.b)}) {
+        menu.push_back({"go.node", side->name + ' ' + std::to_string(node), "Select " + node_name(*side, node)});
+    }
+    append(menu, {{"step.first"}, {"step.last"}, {"go.contact", "", "Go to contact"}, {"file.copy_command"}});
+    return menu;
+}
+
+std::vector<MenuEntry> time_menu(const Session&, double time) {
+    std::vector<MenuEntry> menu{{"time.at", short_double(time), formatted("Time cursor to %.3f s", time)}};
+    append(menu, entries_of(kTime));
+    return menu;
+}
+
+std::vector<MenuEntry> candidate_menu(const Session& session, int candidate) {
+    const std::string index = std::to_string(candidate);
+    std::vector<MenuEntry> menu{{"crowd.candidate", index, "Point it out"}};
+    const FollowedChoice* followed = session.choice();
+    if (!followed) return menu;
+    const auto& blocker = followed->choice.candidates[static_cast<std::size_t>(candidate)].blocker;
+    if (!blocker) return menu;
+    const std::string& other = session.crowd()->agents[static_cast<std::size_t>(blocker->agent)].name;
+    menu.push_back({"crowd.open_candidate", index});
+    menu.push_back({"crowd.follow", other, "Follow " + other + ", who rules it out"});
+    return menu;
+}
+
+std::vector<MenuEntry> play_menu(int play) {
+    return {{"crowd.play", std::to_string(play), "Go to this play"}, {"crowd.previous_choice"}, {"crowd.next_choice"}};
+}
+
+std::vector<MenuEntry> conflict_menu(int conflict) {
+    const std::string index = std::to_string(conflict);
+    return {{"conflicts.go", index, "Go to just before it"}, {"conflicts.open", index}};
+}
+
+}  // namespace mobbscope::app

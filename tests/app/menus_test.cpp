@@ -1,0 +1,252 @@
+// Right-click menus, what a toolbar has no room for, folded sections, the status bar, the list of the history.
+#include <app/commands/command.h>
+#include <app/script/script.h>
+#include <app/window/headless_window.h>
+#include <render/gl/gl_context.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+struct MenuWindow {
+    testing::CrossingFolder folder;
+    Session session;
+    HeadlessWindow window;
+    std::string clipboard;
+
+    explicit MenuWindow(PictureSize size = {1280, 900}, double scale = 1, bool attended = false)
+        : session(attended), window(GlContext::open(Backend::automatic), session, size, scale) {
+        session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
+        session.open({folder.scene});
+        while (session.job()) session.poll();
+        window.settle();
+    }
+    void run(const std::string& script) {
+        std::ostringstream out;
+        Script::parse(script, "test").run(session, window, out);
+    }
+    const std::map<std::string, Rect>& marks() { return window.shell().marks().all(); }
+    bool has(const std::string& mark) { return marks().contains(mark); }
+    bool has_menu() {
+        return std::ranges::any_of(marks(), [](const auto& mark) { return mark.first.starts_with("context."); });
+    }
+    /// Where the first thing that holds for a box of the picture stands in the window.
+    std::string place_of_box() {
+        const DrawList& list = *window.shell().shown();
+        const glm::vec2 corner = marks().at("viewport").min;
+        const glm::vec2 at = corner + list.projection.project(list.boxes.front().center).value();
+        return std::to_string(at.x) + ' ' + std::to_string(at.y);
+    }
+};
+
+TEST(Menus, ARightClickSelectsWhatIsThereAndSaysWhatCanBeDoneWithIt) {
+    MenuWindow w;
+    w.run("click " + w.place_of_box() + " right");
+    ASSERT_EQ(w.session.selection.kind, Selection::Kind::node);
+    for (const char* id : {"view.frame", "go.parent", "step.next_of_node", "view.level", "agent.remove", "go.agent"}) {
+        EXPECT_TRUE(w.has(std::string("context.") + id)) << id;
+    }
+    const Selection selected = w.session.selection;
+    w.run("click context.edit.copy_figures");
+    EXPECT_FALSE(w.has_menu());
+    EXPECT_NE(w.clipboard.find("samples\t"), std::string::npos) << w.clipboard;
+    EXPECT_EQ(w.session.selection, selected);
+    w.run("click " + w.place_of_box() + " right\nclick context.go.agent");
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::path);
+}
+
+TEST(Menus, WhatIsSelectedBehindSomethingStaysSelected) {
+    MenuWindow w;
+    const std::string there = w.place_of_box();
+    w.run("click " + there + "\nwait 1\nclick " + there);
+    const Selection behind = w.session.selection;
+    w.run("key Escape\nclick " + there);
+    ASSERT_NE(w.session.selection, behind);
+    w.session.select(behind);
+    w.run("click " + there + " right");
+    EXPECT_EQ(w.session.selection, behind);
+}
+
+TEST(Menus, WhatCannotBeDoneDoesNothing) {
+    MenuWindow w;
+    w.run("click " + w.place_of_box() + " right\nclick context.step.next_of_node");
+    EXPECT_FALSE(w.session.view().query);
+    EXPECT_TRUE(w.has("context.step.next_of_node")) << "the menu stays";
+    w.run("key Escape");
+    EXPECT_FALSE(w.has_menu());
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::node) << "Escape closed the menu alone";
+}
+
+TEST(Menus, ARightDragShiftsAndOpensNothing) {
+    MenuWindow w;
+    const Camera before = w.session.view().camera;
+    w.run("drag viewport 60 20 right");
+    EXPECT_FALSE(w.has_menu());
+    EXPECT_NE(w.session.view().camera, before);
+    EXPECT_EQ(w.session.selection, Selection{});
+}
+
+TEST(Menus, NothingUnderTheMouseHasThePicturesMenu) {
+    MenuWindow w;
+    const Rect rect = w.marks().at("viewport");
+    const std::string corner = std::to_string(rect.max.x - 12) + ' ' + std::to_string(rect.min.y + 40);
+    w.run("run go.agent A\nclick " + corner + " right");
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::path) << "it is not about what is selected";
+    w.run("click context.view.boxes");
+    EXPECT_FALSE(w.session.view().boxes);
+    EXPECT_FALSE(w.has_menu());
+}
+
+TEST(Menus, RowsTestsAndTimesHaveMenus) {
+    MenuWindow w;
+    w.run("click clip.1 right\nclick context.agent.add");
+    EXPECT_EQ(w.session.scene().agents.back().name, "stand");
+    w.run("click query.1 right\nclick context.query.select\nexpect /view/query 1");
+    w.run("click query.0 right\nclick context.query.copy_answer\nexpect /view/query 0");
+    EXPECT_NE(w.clipboard, "");
+    w.run("run step.first\nclick query.icicle right");
+    EXPECT_EQ(w.session.step(), 0) << "a right click goes nowhere by itself";
+    w.run("click context.step.to");
+    EXPECT_GT(w.session.step(), 0);
+    w.run("click query.icicle right\nclick context.go.node.2");
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::node);
+    EXPECT_EQ(w.session.selection.path.agent, 1) << "the node of B";
+    const mobb::Interval span = w.session.time_span();
+    w.run("click timeline.time right");
+    EXPECT_FALSE(w.session.view().time);
+    w.run("click context.time.at");
+    EXPECT_NEAR(w.session.view().time.value_or(-1), 0.5 * (span.t0 + span.t1), 0.02);
+}
+
+TEST(Menus, TheMoreMenuHoldsWhatHasNoRoom) {
+    for (const PictureSize size : {PictureSize{800, 600}, {1024, 700}, {1280, 800}, {1600, 900}}) {
+        for (const double scale : {1.0, 1.5, 2.0}) {
+            SCOPED_TRACE(std::to_string(size.width) + " at " + std::to_string(scale));
+            MenuWindow w(size, scale);
+            std::set<std::string> all;
+            const auto take = [&] {
+                for (const auto& [name, rect] : w.marks()) {
+                    if (name.starts_with("toolbar.")) all.insert(name);
+                }
+            };
+            take();
+            const float right = w.marks().at("viewport").max.x;
+            for (const std::string& name : all) EXPECT_LE(w.marks().at(name).max.x, right) << name;
+            if (all.erase("toolbar.more") > 0) {
+                w.run("click toolbar.more");
+                take();
+                all.erase("toolbar.more");
+            }
+            EXPECT_EQ(all.size(), 12u);
+            w.run("click toolbar.view.moment\nexpect /view/show \"moment\"");
+        }
+    }
+    EXPECT_FALSE(MenuWindow({1280, 800}, 1).has("toolbar.more")) << "the usual window has room for all";
+}
+
+TEST(Menus, PanelsKeepToTheirWidthInSmallWindows) {
+    for (const PictureSize size : {PictureSize{800, 600}, {1024, 700}, {1280, 800}}) {
+        for (const double scale : {1.0, 1.5, 2.0}) {
+            MenuWindow w(size, scale);
+            w.run("run query.select 0\nclick agent.0");
+            const float left = w.marks().at("splitter.left").min.x;
+            const float middle = w.marks().at("splitter.right").min.x;
+            for (const char* name : {"agent.0", "clip.0", "query.0", "tree.kind", "agent.name", "agent.x"}) {
+                if (!w.has(name)) continue;
+                EXPECT_LE(w.marks().at(name).max.x, left) << name << size.width << ' ' << scale;
+            }
+            for (const char* name : {"timeline.clear", "timeline.time", "query.strip"}) {
+                ASSERT_TRUE(w.has(name)) << name;
+                EXPECT_LE(w.marks().at(name).max.x, middle) << name << size.width << ' ' << scale;
+            }
+        }
+    }
+}
+
+TEST(Menus, ASectionFoldsAndStaysSo) {
+    MenuWindow w;
+    w.run("click section.clips");
+    EXPECT_FALSE(w.has("clip.0"));
+    EXPECT_EQ(w.session.settings.folded, std::set<std::string>{"clips"});
+    const float below = w.marks().at("section.queries").min.y;
+    w.run("click section.clips");
+    EXPECT_TRUE(w.has("clip.0"));
+    EXPECT_GT(w.marks().at("section.queries").min.y, below);
+    EXPECT_TRUE(w.session.settings.folded.empty());
+}
+
+TEST(Menus, NoListJumpsWhenSomebodyIsSelected) {
+    MenuWindow w;
+    const std::map<std::string, Rect> before = w.marks();
+    w.run("click agent.1");
+    ASSERT_TRUE(w.has("agent.x"));
+    for (const auto& [name, rect] : before) {
+        if (!name.starts_with("agent.") && !name.starts_with("clip.") && !name.starts_with("query.")) continue;
+        ASSERT_TRUE(w.has(name)) << name;
+        EXPECT_EQ(w.marks().at(name).min, rect.min) << name;
+    }
+}
+
+TEST(Menus, AQueryOpensWhereItWasLeft) {
+    MenuWindow w;
+    w.run("run query.select 0\nrun step.to 2\nclick query.1\nexpect /query/index 1");
+    const int end = w.session.recorded()->trace.size() - 1;
+    EXPECT_EQ(w.session.step(), end) << "its first opening shows the answer";
+    w.run("key Escape\nclick query.0\nexpect /query/step 2\nkey PageDown\nkey PageUp\nexpect /query/step 2");
+    // Undo goes where one was, and what it left is still known.
+    w.run("run step.to 1\nkey Escape\nkey Ctrl+Z\nexpect /query/step 1\nkey Ctrl+Z\nexpect /query/step 2");
+    // The queries before it may go.
+    w.run("run query.select 2\nrun step.to 0\nrun query.select 0\nrun query.remove\nrun query.select 1");
+    EXPECT_EQ(w.session.step(), 0);
+    // Of a shorter trace the end is what is nearest.
+    w.run("run query.select 0\nrun step.last\nrun query.none\nrun tree.levels 1\nrun query.select 0");
+    EXPECT_EQ(w.session.step(), w.session.recorded()->trace.size() - 1);
+}
+
+TEST(Menus, TheHistoryIsAListToGoTo) {
+    MenuWindow w;
+    w.run("run go.agent A\nrun agent.move 1 1\nrun agent.turn 20\nrun agent.start 2\nrun edit.history");
+    ASSERT_EQ(w.session.history().count(), 4u);
+    ASSERT_TRUE(w.has("history.3"));
+    w.run("click history.1");
+    EXPECT_EQ(w.session.scene().agents[0].placement.translate, glm::dvec2(1, 1));
+    EXPECT_EQ(w.session.scene().agents[0].placement.rotate_deg, 0);
+    EXPECT_EQ(w.session.history().place(), 1u) << "two back at once";
+    EXPECT_EQ(w.session.dialog, Dialog::history) << "to be looked at";
+    w.run("key Down\nexpect /scene/agents/0/rotate_deg 20\nkey Down\nexpect /scene/agents/0/start 2");
+    w.run("key Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect /dialog \"none\"\nexpect /modified false");
+    EXPECT_EQ(w.session.history().redo_title(), "moving A");
+}
+
+TEST(Menus, TheStatusBarCountsAndSaysWhatIsUnderTheMouse) {
+    MenuWindow w;
+    const Rect bar = w.marks().at("status.counts");
+    EXPECT_LT(bar.max.y - bar.min.y, 20);
+    EXPECT_FALSE(w.has("status.hover"));
+    EXPECT_FALSE(w.has("status.frame")) << "a picture is the same every time";
+    w.run("move agent.0");
+    EXPECT_TRUE(w.has("status.hover"));
+    w.run("move " + w.place_of_box());
+    EXPECT_EQ(w.session.hovered.kind, Selection::Kind::node);
+    w.run("move clip.0");
+    EXPECT_EQ(w.session.hovered, (Selection{Selection::Kind::clip, {}, 0}));
+    w.run("move menu.search");
+    EXPECT_EQ(w.session.hovered, Selection{}) << "what the mouse has left is not under it";
+    EXPECT_FALSE(w.has("status.hover"));
+    MenuWindow attended({1280, 800}, 1, true);
+    attended.window.shell().read_back();
+    attended.window.settle();
+    EXPECT_TRUE(attended.has("status.frame"));
+}
+
+}  // namespace
+}  // namespace mobbscope::app
