@@ -4,6 +4,7 @@
 
 #include <app/document/history.h>
 #include <app/document/job.h>
+#include <app/document/review.h>
 #include <app/document/selection.h>
 #include <app/document/settings.h>
 #include <conflicts/conflicts.h>
@@ -27,7 +28,7 @@
 namespace mobbscope::app {
 
 /// What is asked or shown over the panels, one at a time.
-enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about };
+enum class Dialog { none, open, add, save_as, export_picture, unsaved, palette, help, about, review };
 
 /// A line for the person: what went wrong and what to do, or what was done.
 struct Message {
@@ -192,6 +193,25 @@ class Session {
     enum class Unsaved { save, discard, cancel };
     void answer_unsaved(Unsaved choice);
 
+    // Picture tests.
+    /// Shows the picture tests of a folder in place of the scene, and draws them, unless an `output` of theirs is to be
+    /// looked at. Throws InputError as Review does: what is shown stays then.
+    void review(const std::filesystem::path& folder, const std::filesystem::path& output = {});
+    /// The picture tests that are looked at, shown or not; null if there are none.
+    Review* review() { return review_.get(); }
+    const Review* review() const { return review_.get(); }
+    /// Whether they are shown: commands and panels are about them then, not about the scene.
+    bool reviewing() const { return reviewing_; }
+    /// Shows what was open before the picture tests, or them again; asks about unsaved changes of a case's scene.
+    void leave_review();
+    /// Requires review().
+    void back_to_review();
+    /// Opens what a case draws as a scene; what is open is put aside until the picture tests are left.
+    void open_case(std::size_t index);
+    /// The name of the case whose scene is open; empty if none is.
+    const std::string& open_case_name() const { return open_case_; }
+    picture_tests::CaseDrawer case_drawer;  ///< what draws the cases
+
     // Dialogs and messages.
     Dialog dialog = Dialog::none;  ///< the open one
     DialogInput input;             ///< ... and what was put into it
@@ -254,6 +274,8 @@ class Session {
     void share_time_and_camera();
     void step_in_history(void (History::*undo_or_redo)());
     void changed();
+    /// The scene of a case goes, after asking if it has unsaved changes, and what was open before it is back.
+    void close_case(const std::function<void()>& then);
 
     bool attended_;
     History history_;
@@ -274,6 +296,17 @@ class Session {
     bool has_played_ = false;        ///< since play(): the time that passes has a state
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes
     bool closed_ = false;
+    std::shared_ptr<Review> review_;
+    bool reviewing_ = false;
+    std::string open_case_;
+    /// What was open before the scene of a case was.
+    struct Aside {
+        History history;
+        std::shared_ptr<const FittedScene> saved;
+        std::optional<std::filesystem::path> file;
+        std::vector<std::filesystem::path> opened;
+    };
+    std::optional<Aside> aside_;
 
     /// What is computed from the present scene when asked for.
     struct Derived {

@@ -35,6 +35,8 @@ Purpose purpose_of(Dialog dialog) {
             return {"Save as", "Save", "save", "file.save_as", kScenes, ".json"};
         case Dialog::export_picture:
             return {"Export picture", "Export", "export", "file.export_picture", kPictures, ".png"};
+        case Dialog::review:
+            return {"Review picture tests", "Review this folder", "review", "file.review", kScenes, nullptr};
         default:
             return {"Open", "Open", "open", "file.open", openable_extensions(), nullptr};
     }
@@ -159,7 +161,7 @@ void file_dialog(Ui& ui) {
     const PathCompletion completion = complete_path(input.text, purpose.extensions);
 
     const float foot = ImGui::GetFrameHeightWithSpacing() + ui.px(4);
-    const bool has_recent = !purpose.extension && !session.settings.recent.empty();
+    const bool has_recent = !purpose.extension && session.dialog != Dialog::review && !session.settings.recent.empty();
     const float side = has_recent ? ui.px(180) : 0;
     bool accepted = false;
     ImGui::BeginChild("files", {ImGui::GetContentRegionAvail().x - side, -foot}, false);
@@ -197,7 +199,8 @@ void file_dialog(Ui& ui) {
     if (input.confirming) {
         text_line(ui.style.warning, "This file exists. Enter overwrites it.");
     } else if (!purpose.extension) {
-        ImGui::TextDisabled("Enter goes into a folder; Open opens all clips in it.");
+        ImGui::TextDisabled("Enter goes into a folder; %s.",
+                            session.dialog == Dialog::review ? "the button takes it" : "Open opens all clips in it");
     }
     end_dialog();
     if (accepted) session.enqueue([&session, purpose] { accept(session, purpose); });

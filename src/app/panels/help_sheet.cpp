@@ -32,11 +32,11 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kMouse{{
 }};
 
 /// All shortcuts by menu, then the mouse.
-std::vector<Line> lines() {
+std::vector<Line> lines(const Session& session) {
     std::vector<Line> out;
     std::string_view menu;
     for (const Command& command : commands()) {
-        if (command.shortcut.empty()) continue;
+        if (command.shortcut.empty() || !belongs_here(session, command)) continue;
         const std::string_view of = command.menu.substr(0, command.menu.find('/'));
         if (of != menu) out.push_back({"", std::string(of), true});
         menu = of;
@@ -68,7 +68,7 @@ std::span<const std::pair<const char*, const char*>> mouse_help() { return kMous
 void help_sheet(Ui& ui) {
     begin_dialog(ui, "help", {980, 640});
     dialog_title(ui, "Shortcuts");
-    const std::vector<Line> all = lines();
+    const std::vector<Line> all = lines(ui.session);
     float keys_width = 0, what_width = 0;
     for (const Line& line : all) {
         keys_width = std::max(keys_width, text_size(*ui.style.mono, line.keys).x);

@@ -9,6 +9,10 @@
 /// scene files, so what is as always is left out. `query` is what is asked in the view: {"index", "a", "b", "collides",
 /// "contact_time", "step", "steps", "tests": one count for each kind of test, "outcome",
 /// "sentence"}, the last two of the step. `undo` and `redo` are titles.
+///
+/// While there are picture tests to look at: "review": {"shown", "folder", "cases": {NAME: outcome, "waiting" or
+/// "not drawn"}, "listed": [NAME], "marked": [NAME], "case", "outcome", "accepted", "mode", "blink_seconds", "divider",
+/// "zoom", "middle", "failed_only", "order", "drawing", "undo", "redo", "open_case"}.
 #pragma once
 
 #include <app/document/session.h>

@@ -4,10 +4,12 @@
 #include <app/document/session.h>
 #include <app/ui/style.h>
 #include <render/drawlist/draw_list.h>
+#include <render/image/image.h>
 
 #include <imgui.h>
 
 #include <map>
+#include <memory>
 #include <string>
 
 namespace mobbscope::app {
@@ -32,6 +34,9 @@ class Painter {
     /// changed since the last call is painted anew when a frame is next looked at. `still`: it will stay a while, so it
     /// is worth smooth edges.
     virtual ImTextureID picture(std::size_t place, Changed changed, bool still) = 0;
+    /// The texture of a picture, its upper row at v = 0, transparent parts on a grey chequer. What was in the slot
+    /// before is gone. `smooth`: blended between pixels, not each a square. Null if it is larger than OpenGL can hold.
+    virtual ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) = 0;
 };
 
 /// All that a panel gets.

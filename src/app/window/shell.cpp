@@ -83,6 +83,11 @@ class TexturePainter final : public Painter {
         return texture_id(asked.copy.texture());
     }
 
+    ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) override {
+        while (images_.size() <= slot) images_.emplace_back();
+        return images_[slot].take(image, smooth) ? texture_id(images_[slot].texture()) : ImTextureID{};
+    }
+
     /// Paints what has changed since the last time.
     void paint_changes(std::size_t place, const DrawList& list) {
         if (place >= pictures_.size()) return;
@@ -101,7 +106,8 @@ class TexturePainter final : public Painter {
         int samples = kPictureSamples;
     };
     Renderer& renderer_;
-    std::deque<Picture> pictures_;  ///< by place
+    std::deque<Picture> pictures_;     ///< by place
+    std::deque<ImageTexture> images_;  ///< by slot
 };
 
 }  // namespace
@@ -144,7 +150,7 @@ struct Shell::State {
 
     /// Runs the command of a chord, unless the keys are somebody else's; whether it did.
     bool press(const Chord& chord, bool repeated) {
-        const Command* command = command_for(chord);
+        const Command* command = command_for(session, chord);
         if (!command || (repeated && !command->repeats) || session.dialog != Dialog::none) {
             return false;
         }
@@ -174,7 +180,7 @@ struct Shell::State {
     bool waits_for_field() {
         const Dialog open = session.dialog;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
-                               open == Dialog::export_picture || open == Dialog::palette;
+                               open == Dialog::export_picture || open == Dialog::review || open == Dialog::palette;
         if (!has_field || !session.input.fresh || ImGui::GetIO().WantTextInput)
             waited = 0;
         else if (++waited <= kFramesToFocus)
