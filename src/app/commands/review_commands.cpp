@@ -188,7 +188,7 @@ void zoom_to_difference(Session& session) {
     const double height = pictures.golden->height;
     constexpr double kRoom = 0.7;  // of the view that the difference fills
     constexpr double kEnough = 16;
-    const double larger = kRoom * std::min(width / bounds.width, height / bounds.height);
+    const double larger = std::max(kRoom * std::min(width / bounds.width, height / bounds.height), 1.0);
     set_zoom(review.look, std::min(review.look.fits * larger, kEnough));
     review.look.middle = {(bounds.x + bounds.width / 2.0) / width, (bounds.y + bounds.height / 2.0) / height};
 }

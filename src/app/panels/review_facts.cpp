@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -117,13 +118,24 @@ std::string difference_at(const ReviewPictures& pictures, const std::optional<gl
                      after[3] - before[3]);
 }
 
+/// A label, and at `right` the end of a text; below the label where both have no room.
+void labelled(Ui& ui, const char* label, const std::string& text, float right) {
+    text_line(ui.style.quiet, label);
+    const float x = right - text_size(*ui.style.mono, text).x;
+    const float label_end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetScrollX();
+    if (x > label_end + ui.px(8)) {
+        ImGui::SameLine(x);
+    } else {
+        ImGui::SetCursorPosX(std::max(x, ImGui::GetCursorPosX()));
+    }
+    text_line(ui.style.text, text, ui.style.mono);
+}
+
 void pixel_row(Ui& ui, const char* label, const std::string& numbers, const std::shared_ptr<const Image>* image,
                const std::optional<glm::ivec2>& pixel) {
-    text_line(ui.style.quiet, label);
     const float side = ui.px(12);
     const float right = ImGui::GetWindowContentRegionMax().x;
-    ImGui::SameLine(right - side - ui.px(8) - text_size(*ui.style.mono, numbers).x);
-    text_line(ui.style.text, numbers, ui.style.mono);
+    labelled(ui, label, numbers, right - side - ui.px(8));
     ImGui::SameLine(right - side);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::Dummy({side, ImGui::GetTextLineHeight()});
@@ -144,10 +156,13 @@ void pixel_section(Ui& ui, const ReviewPictures& pictures, const std::optional<g
 
 // --- what differs
 
-void findings(Ui& ui, const ReviewCase& one) {
-    if (one.accepted || one.result.findings.empty()) return;
-    heading(ui, "WHAT DIFFERS");
+void findings(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
+    if (one.accepted) return;
+    bool has_heading = false;
     for (const picture_tests::Finding& finding : one.result.findings) {
+        // Its pixels are told already.
+        if (pictures.diff && finding.golden == pictures.golden_file) continue;
+        if (!std::exchange(has_heading, true)) heading(ui, "WHAT DIFFERS BESIDES");
         text_line(ui.style.text, finding.golden.filename().string());
         ui.mark("finding." + finding.golden.filename().string());
         ImGui::Indent(ui.px(10));
@@ -158,11 +173,7 @@ void findings(Ui& ui, const ReviewCase& one) {
 }
 
 void text_row(Ui& ui, const char* label, const std::string& text) {
-    const float room = ImGui::GetContentRegionAvail().x;
-    const float left = ImGui::GetCursorPosX();
-    text_line(ui.style.quiet, label);
-    ImGui::SameLine(left + room - text_size(*ui.style.mono, text).x);
-    text_line(ui.style.text, text, ui.style.mono);
+    labelled(ui, label, text, ImGui::GetWindowContentRegionMax().x);
 }
 
 void numbers(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
@@ -232,7 +243,7 @@ void review_facts(Ui& ui, const std::optional<glm::ivec2>& pixel) {
     actions(ui, review);
     pixel_section(ui, pictures, pixel);
     numbers(ui, one, pictures);
-    findings(ui, one);
+    findings(ui, one, pictures);
     files(ui, review, one, pictures);
 }
 

@@ -131,19 +131,23 @@ double fitting_scale(glm::dvec2 size, ImVec2 room) {
     return fits >= 1 ? std::floor(fits) : fits;
 }
 
+float title_height(const Ui& ui) { return ui.style.caption->FontSize + ui.px(6); }
+
 /// Side by side or one below the other, whichever shows more.
-void lay_out(std::vector<PictureView>& views, ImVec2 min, ImVec2 max, glm::dvec2 size, float gap) {
+void lay_out(std::vector<PictureView>& views, ImVec2 min, ImVec2 max, glm::dvec2 size, float gap, float title) {
     const float count = static_cast<float>(views.size());
     const ImVec2 room{max.x - min.x, max.y - min.y};
     const ImVec2 beside{std::floor((room.x - gap * (count - 1)) / count), room.y};
     const ImVec2 below{room.x, std::floor((room.y - gap * (count - 1)) / count)};
-    const bool is_beside = fitting_scale(size, beside) >= fitting_scale(size, below);
+    const bool is_beside =
+        fitting_scale(size, {beside.x, beside.y - title}) >= fitting_scale(size, {below.x, below.y - title});
     const ImVec2 each = is_beside ? beside : below;
     for (std::size_t i = 0; i < views.size(); ++i) {
         const float at = static_cast<float>(i);
         views[i].min =
             is_beside ? ImVec2(min.x + at * (each.x + gap), min.y) : ImVec2(min.x, min.y + at * (each.y + gap));
         views[i].max = {views[i].min.x + each.x, views[i].min.y + each.y};
+        views[i].min.y = std::min(views[i].min.y + title, views[i].max.y - 1);
     }
 }
 
@@ -156,14 +160,14 @@ PicturePlace place_in(const PictureView& view, const ReviewLook& look, glm::dvec
     return place;
 }
 
-void tag(Ui& ui, ImVec2 at, const std::string& text, bool to_the_left = false) {
+/// Above a picture, so that it covers nothing.
+void title_over(Ui& ui, const PictureView& view) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImVec2 size = text_size(*ui.style.caption, text);
-    const float pad = ui.px(6);
-    const float x = to_the_left ? at.x - size.x - 2 * pad : at.x;
-    draw.AddRectFilled({x, at.y}, {x + size.x + 2 * pad, at.y + size.y + ui.px(4)}, ui.style.panel, ui.px(4));
-    draw.AddRect({x, at.y}, {x + size.x + 2 * pad, at.y + size.y + ui.px(4)}, ui.style.border, ui.px(4));
-    draw_text(draw, *ui.style.caption, {x + pad, at.y + ui.px(2)}, ui.style.text, text);
+    const float y = view.min.y - title_height(ui) + ui.px(2);
+    draw_text(draw, *ui.style.caption, {view.min.x, y}, ui.style.quiet, view.title);
+    if (view.second_title.empty()) return;
+    const float width = text_size(*ui.style.caption, view.second_title).x;
+    draw_text(draw, *ui.style.caption, {view.max.x - width, y}, ui.style.quiet, view.second_title);
 }
 
 void draw_image(Ui& ui, const PicturePlace& place, std::size_t slot, const std::shared_ptr<const Image>& image) {
@@ -231,10 +235,9 @@ void draw_view(Ui& ui, const ReviewLook& look, const PictureView& view, const Pi
         draw.AddText({view.middle().x - size.x / 2, view.middle().y - size.y / 2}, ui.style.quiet, view.why_none);
     }
     if (view.second) draw_divider(ui, view, line);
-    tag(ui, {view.min.x + ui.px(8), view.min.y + ui.px(8)}, view.title);
-    if (view.second) tag(ui, {view.max.x - ui.px(8), view.min.y + ui.px(8)}, view.second_title, true);
     draw.PopClipRect();
     draw.AddRect(view.min, view.max, ui.style.border);
+    title_over(ui, view);
 }
 
 /// Changes how the pictures are looked at once the frame is drawn.
@@ -299,7 +302,7 @@ std::optional<glm::ivec2> review_pictures(Ui& ui) {
         return std::nullopt;
     }
     std::vector<PictureView> views = views_of(ui, review, pictures);
-    lay_out(views, min, max, glm::max(size, 1.0), ui.px(6));
+    lay_out(views, min, max, glm::max(size, 1.0), ui.px(6), title_height(ui));
     const PictureView& first = views.front();
     review.look.fits =
         std::clamp(fitting_scale(glm::max(size, 1.0), {first.max.x - first.min.x, first.max.y - first.min.y}),
