@@ -139,7 +139,8 @@ TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
 TEST(CommandTable, NumbersThatNobodyMeansAreRefusedEverywhere) {
     CrossingFolder folder;
     for (const Command& command : commands()) {
-        if (command.argument.empty() || command.argument.find("FILE") != std::string_view::npos) continue;
+        const bool names_files = command.argument.find("FILE") != std::string_view::npos || command.id == "file.review";
+        if (command.argument.empty() || names_files) continue;
         for (const char* text : {"nan", "1e999", "1 2 3 4", "\xff", "-"}) {
             Session session(false);
             session.open({folder.scene});
@@ -184,7 +185,8 @@ TEST(CommandTable, WhatIsInvokedRunsInOrderOnceTheFrameIsDrawn) {
 TEST(CommandTable, ChoicesCanAllBeChosen) {
     CrossingFolder folder;
     for (const Command& command : commands()) {
-        if (!command.choices) continue;
+        // review_test.cpp has picture tests.
+        if (!command.choices || command.id.starts_with("review.")) continue;
         SCOPED_TRACE(command.id);
         Session session(false);
         session.settings.recent = {folder.file("walk.csv")};

@@ -314,13 +314,13 @@ TEST(Review, TheWheelKeepsThePixelUnderTheMouse) {
     w.show("moved");
     w.key("3");
     const double fits = w.review().look.fits;
-    const glm::vec2 at = w.middle("review.pictures") + glm::vec2(40, 30);
+    const glm::vec2 at = w.middle("picture.0") + glm::vec2(40, 30);
     w.move(at);
     for (int i = 0; i < 6; ++i) w.wheel(1);
     const ReviewLook look = w.review().look;
     EXPECT_NEAR(look.zoom, fits * std::pow(1.25, 6), 1e-6);
     const glm::dvec2 size(160, 120);
-    const glm::dvec2 middle = w.middle("review.pictures");
+    const glm::dvec2 middle = w.middle("picture.0");
     const glm::dvec2 was = size / 2.0 + (glm::dvec2(at) - middle) / fits;
     const glm::dvec2 is = look.middle * size + (glm::dvec2(at) - middle) / look.zoom;
     EXPECT_NEAR(was.x, is.x, 0.5);

@@ -24,6 +24,17 @@ Condition when(std::function<bool(const Review&)> holds, std::string_view (*else
     return {[holds](const Session& session) { return session.review() && holds(*session.review()); }, else_};
 }
 
+/// Of what is on or chosen: false where there are no picture tests.
+std::function<bool(const Session&)> so(std::function<bool(const Review&)> holds) {
+    return [holds](const Session& session) { return session.review() && holds(*session.review()); };
+}
+std::function<bool(const Session&, const std::string&)> so(
+    std::function<bool(const Review&, const std::string&)> holds) {
+    return [holds](const Session& session, const std::string& choice) {
+        return session.review() && holds(*session.review(), choice);
+    };
+}
+
 Condition if_failing(int by) {
     return when([by](const Review& review) { return review.next(by, true).has_value(); },
                 [](const Session&) -> std::string_view { return "there is none from here"; });
@@ -82,23 +93,22 @@ std::vector<Command> case_commands() {
                 {.argument = "CASE",
                  .enabled = has_review,
                  .choices = case_names,
-                 .chosen = [](const Session& session,
-                              const std::string& name) { return session.review()->shown().file.name == name; }}),
+                 .chosen = so(
+                     [](const Review& review, const std::string& name) { return review.shown().file.name == name; })}),
         Command("review.failed_only", "Only failing cases", "Leaves out of the list what passed.",
                 [](Session& session) { session.review()->look.failed_only = !session.review()->look.failed_only; },
-                {.shortcut = "L",
-                 .enabled = has_review,
-                 .checked = [](const Session& session) { return session.review()->look.failed_only; }}),
+                {.shortcut = "L", .enabled = has_review, .checked = so([](const Review& review) {
+                                                             return review.look.failed_only;
+                                                         })}),
         Command(
             "review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.", order_by,
             {.argument = "ORDER",
              .enabled = has_review,
              .choices =
                  [](const Session&) { return std::vector<std::string>(kReviewOrders.begin(), kReviewOrders.end()); },
-             .chosen =
-                 [](const Session& session, const std::string& name) {
-                     return kReviewOrders[static_cast<std::size_t>(session.review()->look.order)] == name;
-                 }}),
+             .chosen = so([](const Review& review, const std::string& name) {
+                 return kReviewOrders[static_cast<std::size_t>(review.look.order)] == name;
+             })}),
     };
 }
 
@@ -139,12 +149,11 @@ std::vector<Command> mode_commands() {
     for (std::size_t i = 0; i < kReviewModes.size(); ++i) {
         const auto mode = static_cast<ReviewMode>(i);
         const ReviewModeWords& words = kReviewModes[i];
-        out.push_back(
-            Command(ids[i], words.title, words.doc, [mode](Session& session) { set_mode(session, mode); },
-                    {.menu = "Review/Pictures",
-                     .shortcut = words.shortcut,
-                     .enabled = has_review,
-                     .checked = [mode](const Session& session) { return session.review()->look.mode == mode; }}));
+        out.push_back(Command(ids[i], words.title, words.doc, [mode](Session& session) { set_mode(session, mode); },
+                              {.menu = "Review/Pictures",
+                               .shortcut = words.shortcut,
+                               .enabled = has_review,
+                               .checked = so([mode](const Review& review) { return review.look.mode == mode; })}));
     }
     out.push_back(Command("review.flip", "Flip", "Shows the other of golden and actual picture.", flip,
                           {.menu = "Review/Pictures", .shortcut = "Space", .enabled = has_review}));
@@ -160,10 +169,9 @@ std::vector<Command> mode_commands() {
                                [](const Session&) {
                                    return std::vector<std::string>{"0.2", "0.5", "1", "2"};
                                },
-                           .chosen =
-                               [](const Session& session, const std::string& text) {
-                                   return short_double(session.review()->look.blink_seconds) == text;
-                               }}));
+                           .chosen = so([](const Review& review, const std::string& text) {
+                               return short_double(review.look.blink_seconds) == text;
+                           })}));
     out.push_back(divider_command("review.divider_left", "Slider to the left", "Left", -kDividerStep));
     out.push_back(divider_command("review.divider_right", "Slider to the right", "Right", kDividerStep));
     return out;
@@ -249,10 +257,9 @@ std::vector<Command> golden_commands() {
                              [](const Session&) -> std::string_view { return "this case has nothing to accept"; })}),
         Command("review.mark", "Mark", "Marks a case, to accept it with others; without a name the one that is shown.",
                 toggle_mark,
-                {.shortcut = "M",
-                 .argument = "[CASE]",
-                 .enabled = has_review,
-                 .checked = [](const Session& session) { return session.review()->shown().marked; }}),
+                {.shortcut = "M", .argument = "[CASE]", .enabled = has_review, .checked = so([](const Review& review) {
+                                                                                   return review.shown().marked;
+                                                                               })}),
         Command("review.mark_failing", "Mark all failing cases", "Marks every case that did not pass.", mark_failing,
                 {.shortcut = "Ctrl+A", .enabled = has_review}),
         Command("review.accept_marked", "Accept marked cases", "Makes the pictures of all marked cases their goldens.",

@@ -325,6 +325,8 @@ std::optional<glm::ivec2> review_pictures(Ui& ui) {
     }
     if (active && size.x > 0) drag_pictures(ui, review.look, first, place_in(first, review.look, size));
     for (std::size_t i = 0; i < views.size(); ++i) {
+        ui.marks.add("picture." + std::to_string(i),
+                     {{views[i].min.x, views[i].min.y}, {views[i].max.x, views[i].max.y}});
         draw_view(ui, review.look, views[i], place_in(views[i], review.look, glm::max(size, 1.0)), 2 * i, pointed);
     }
     return pointed;
