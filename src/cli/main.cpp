@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
     add_info_command(program);
     add_query_command(program, status);
     add_render_command(program);
+    add_review_command(program, status);
     add_simulate_command(program);
     add_test_command(program, status);
     for (Command& command : program.subcommands()) command.add_version(version);

@@ -1,6 +1,9 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <cases/case_file.h>
+#include <cases/case_result.h>
+#include <cases/result_line.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
@@ -45,6 +48,7 @@ struct TestCommandArguments {
     bool new_reference = false;             ///< with update_all, of all cases
     std::filesystem::path output = "mobbscope-test";
     bool json = false;
+    bool json_lines = false;
     std::filesystem::path junit, html, contact_sheet;  ///< empty: none
     std::optional<int> columns;                        ///< of the contact sheet
 };
@@ -88,6 +92,10 @@ std::vector<CaseFile> cases_of(const TestCommandArguments& arguments, const std:
 /// Throws InputError if a report would replace a golden or has a name that its kind does not, or if the pictures would
 /// go where the goldens are; MachineError if they cannot go where they are to.
 void check_reports(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
+    const bool reports = !arguments.junit.empty() || !arguments.html.empty() || !arguments.contact_sheet.empty();
+    if (arguments.json_lines && (arguments.update || reports)) {
+        throw InputError("--json-lines: nothing else is written then; leave out --update and the reports");
+    }
     if (arguments.columns && arguments.contact_sheet.empty()) {
         throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
     }
@@ -280,6 +288,19 @@ void print_results(const TestCommandArguments& arguments, const RunFacts& facts,
     flush_results();
 }
 
+/// Each result goes as soon as it is told; the exit status.
+int tell_lines(const std::vector<CaseFile>& cases, const Drawer& drawer) {
+    picture_tests::Summary sum;
+    for (const CaseFile& file : cases) {
+        const CaseResult result = run_case(file, drawer.maker.get(), drawer.no_opengl);
+        ++sum[result.outcome];
+        write_result_line(std::cout, result, {drawer.facts.backend, drawer.facts.renderer});
+        flush_results();
+    }
+    if (!drawer.maker) throw MachineError(drawer.no_opengl);
+    return sum.ok() ? kDone : kFailed;
+}
+
 int run_test(const TestCommandArguments& arguments) {
     const std::vector<CaseFile> all = picture_tests::find_cases(arguments.folder);
     const std::vector<CaseFile> cases = cases_of(arguments, all);
@@ -300,6 +321,7 @@ int run_test(const TestCommandArguments& arguments) {
         check_references(cases, picture_tests::reference_of(drawer.maker->renderer()));
     const picture_tests::GoldenSource source =
         renews ? picture_tests::GoldenSource::here : picture_tests::GoldenSource::reference;
+    if (arguments.json_lines) return tell_lines(cases, drawer);
     std::vector<CaseResult> results;
     for (const CaseFile& file : cases) {
         results.push_back(run_case(file, drawer.maker.get(), drawer.no_opengl, source));
@@ -361,7 +383,11 @@ void add_test_command(Command& program, int& status) {
                      "text that hold with anything else");
     add_parsed(command, "--output", arguments->output, parse_file_name,
                "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
-    command.add_flag("--json", arguments->json, "The report as JSON on standard output");
+    const Option json = command.add_flag("--json", arguments->json, "The report as JSON on standard output");
+    Option json_lines = command.add_flag("--json-lines", arguments->json_lines,
+                                         "Each result as a line of JSON as soon as it is there, with its pictures, for "
+                                         "other programs; nothing else is written");
+    json_lines.excludes(json);
     add_parsed(command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
     add_parsed(command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
                "OUT.html");

@@ -37,6 +37,22 @@ Scene load_all(const Command& program, const std::vector<std::filesystem::path>&
     return load_files(files);
 }
 
+/// Those that hold whatever is opened.
+void add_common_options(Command& program, WindowArguments& arguments) {
+    add_parsed(program, "--size", arguments.size, parse_size, "The window's size in pixels", "WxH");
+    add_parsed(program, "--ui-scale", arguments.ui_scale, number_within(app::kLeastUiScale, app::kMostUiScale),
+               "Size of text and panels, 0.5 to 4; default: the monitor's", "X");
+    program.add_option("--script", arguments.script, "Run commands and input from this file, then end", "SCRIPT");
+    program.add_flag("--headless", arguments.headless, "With --script: without a display");
+}
+
+/// What the arguments name is shown.
+void show_named(app::Session& session, const Scene& scene, const WindowArguments& arguments) {
+    if (arguments.cases.empty()) return session.open_scene(scene, arguments.files);
+    session.case_drawer.backend = arguments.backend;
+    session.review(arguments.cases, arguments.output);
+}
+
 /// Scripts find the same everywhere: they neither read nor write a person's settings.
 int run_script(const Scene& scene, const WindowArguments& arguments) {
     const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string());
@@ -50,7 +66,7 @@ int run_script(const Scene& scene, const WindowArguments& arguments) {
         return std::make_unique<app::HeadlessWindow>(GlContext::open(Backend::automatic), session,
                                                      arguments.size.value_or(app::kDefaultSize), 1);
     }();
-    session.open_scene(scene, arguments.files);
+    show_named(session, scene, arguments);
     try {
         script.run(session, *host, std::cout);
     } catch (const app::ExpectationError& error) {
@@ -69,8 +85,8 @@ void show_window(const Scene& scene, const WindowArguments& arguments) {
     const double usual_scale = session.settings.ui_scale;
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
-    session.open_scene(scene, arguments.files);
-    if (arguments.files.empty() && session.has_last()) {
+    show_named(session, scene, arguments);
+    if (arguments.files.empty() && !session.reviewing() && session.has_last()) {
         session.tell(app::Message::Level::info, "Last time: " + session.last_title(),
                      app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
     }
@@ -81,15 +97,49 @@ void show_window(const Scene& scene, const WindowArguments& arguments) {
     app::save_settings(file, session.settings);
 }
 
+/// The exit status.
+int show(const Scene& scene, const WindowArguments& arguments) {
+    if (arguments.headless && arguments.script.empty()) {
+        throw InputError("--headless: give a --script to run; pictures without a display come from mobbscope render");
+    }
+    if (!arguments.script.empty()) return run_script(scene, arguments);
+    show_window(scene, arguments);
+    // A job that was given up may still be at work, on what an ordinary end destroys.
+    if (app::Job::any_left()) {
+        flush_results();
+        std::quick_exit(kDone);
+    }
+    return kDone;
+}
+
 }  // namespace
 
 void add_window_options(Command& program, WindowArguments& arguments) {
     program.add_option("FILE", arguments.files, "Scenes, captures or clips to open in the window, as one scene");
-    add_parsed(program, "--size", arguments.size, parse_size, "The window's size in pixels", "WxH");
-    add_parsed(program, "--ui-scale", arguments.ui_scale, number_within(app::kLeastUiScale, app::kMostUiScale),
-               "Size of text and panels, 0.5 to 4; default: the monitor's", "X");
-    program.add_option("--script", arguments.script, "Run commands and input from this file, then end", "SCRIPT");
-    program.add_flag("--headless", arguments.headless, "With --script: without a display");
+    add_common_options(program, arguments);
+}
+
+void add_review_command(Command& program, int& status) {
+    Command& command =
+        program.add_subcommand("review", "Look at picture tests in the window: what differs, and take it or not");
+    const auto arguments = std::make_shared<WindowArguments>();
+    command.add_option("DIR", arguments->cases, "The folder of the cases, NAME.case.json").required();
+    add_parsed(command, "--output", arguments->output, parse_file_name,
+               "Look at the pictures that mobbscope test --output left there; without it, all cases are drawn",
+               "FOLDER");
+    add_parsed(
+        command, "--backend", arguments->backend,
+        [](const std::string& text) {
+            static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
+            return text;
+        },
+        "OpenGL that draws the cases: auto, osmesa or egl", "NAME");
+    add_common_options(command, *arguments);
+    command.callback([arguments, &status] {
+        // Bad input is told before there is a window.
+        app::Review::check(arguments->cases, arguments->output);
+        status = show({}, *arguments);
+    });
 }
 
 void check_not_before_command(const Command& program) {
@@ -102,18 +152,7 @@ void check_not_before_command(const Command& program) {
 }
 
 int open_window(const Command& program, const WindowArguments& arguments) {
-    if (arguments.headless && arguments.script.empty()) {
-        throw InputError("--headless: give a --script to run; pictures without a display come from mobbscope render");
-    }
-    const Scene scene = load_all(program, arguments.files);
-    if (!arguments.script.empty()) return run_script(scene, arguments);
-    show_window(scene, arguments);
-    // A job that was given up may still be at work, on what an ordinary end destroys.
-    if (app::Job::any_left()) {
-        flush_results();
-        std::quick_exit(kDone);
-    }
-    return kDone;
+    return show(load_all(program, arguments.files), arguments);
 }
 
 }  // namespace mobbscope::cli

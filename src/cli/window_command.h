@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace mobbscope::cli {
@@ -17,10 +18,16 @@ struct WindowArguments {
     std::optional<double> ui_scale;
     std::filesystem::path script;  ///< empty: none
     bool headless = false;         ///< the script runs without a window
+    std::filesystem::path cases;   ///< the folder of picture tests to review; empty: none
+    std::filesystem::path output;  ///< ... and where an earlier run left pictures; empty: nowhere
+    std::string backend = "auto";  ///< ... and what draws them
 };
 
 /// Adds FILE... and the window's options. `arguments` must live until the program has run.
 void add_window_options(Command& program, WindowArguments& arguments);
+
+/// `mobbscope review DIR`: the window on picture tests.
+void add_review_command(Command& program, int& status);
 
 /// Throws InputError if an argument of the window stands before a command.
 void check_not_before_command(const Command& program);

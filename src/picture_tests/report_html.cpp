@@ -1,3 +1,4 @@
+#include <base/base64.h>
 #include <base/text.h>
 #include <picture_tests/reports.h>
 #include <render/image/png.h>

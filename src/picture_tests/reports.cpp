@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <cases/case_result.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/reports.h>
 #include <render/image/image_diff.h>
@@ -42,16 +43,6 @@ void write_problem(std::ostream& out, const char* element, const RunFacts& facts
 std::string drawn_by(const RunFacts& facts) {
     if (facts.backend.empty()) return "nothing: there is no OpenGL";
     return facts.renderer.empty() ? facts.backend : facts.backend + ", " + facts.renderer;
-}
-
-std::string sum_of(const Summary& summary) {
-    std::string out;
-    for (std::size_t i = 0; i < summary.counts.size(); ++i) {
-        if (summary.counts[i] == 0) continue;
-        out +=
-            (out.empty() ? "" : ", ") + std::to_string(summary.counts[i]) + ' ' + std::string(kOutcomeWords[i].in_sum);
-    }
-    return out.empty() ? "no cases" : out;
 }
 
 std::vector<std::string> not_compared(std::span<const CaseResult> results) {
@@ -159,22 +150,6 @@ std::string escaped(std::string_view text) {
         }
         const std::size_t special = kSpecial.find(clean[i]);
         special == kSpecial.npos ? out += clean[i] : out += kEntities[special];
-    }
-    return out;
-}
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t k) {
-            return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
-        };
-        const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (unsigned k = 0; k < 4; ++k) {
-            out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-        }
     }
     return out;
 }

@@ -32,9 +32,6 @@ void write_html(std::ostream& out, const RunFacts& facts, std::span<const CaseRe
 /// "osmesa (llvmpipe)", or that nothing was drawn.
 std::string drawn_by(const RunFacts& facts);
 
-/// "1 passed, 2 different, 3 without a golden, 4 failed, 5 skipped"; what there is none of is left out.
-std::string sum_of(const Summary& summary);
-
 /// For each folder whose goldens are from elsewhere (reference.h) a sentence: that pixels of text are not compared, and
 /// what is other here.
 std::vector<std::string> not_compared(std::span<const CaseResult> results);
@@ -45,8 +42,5 @@ std::string update_command(const RunFacts& facts, std::span<const std::string_vi
 /// Text fit for content and for attributes in either kind of quotes, in HTML and XML 1.0. Characters that XML does not
 /// allow, or that steer terminals, and bytes that are not UTF-8 become '?'.
 std::string escaped(std::string_view text);
-
-/// RFC 4648, with padding.
-std::string base64(std::string_view bytes);
 
 }  // namespace mobbscope::picture_tests

@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <picture_tests/reference.h>
 #include <picture_tests/run_cases.h>
+#include <picture_tests/test_case.h>
 #include <render/drawlist/draw_list_json.h>
 #include <render/image/image_diff.h>
 #include <render/image/png.h>
@@ -18,11 +19,20 @@ namespace mobbscope::picture_tests {
 namespace {
 
 /// What was found of one golden is added to what was found of those before.
-void add_finding(CaseResult& result, CaseOutcome outcome, const std::string& message, FreshGolden fresh) {
+void add_finding(CaseResult& result, CaseOutcome outcome, Finding finding, GoldenChange fresh) {
     if (result.outcome == CaseOutcome::passed) result.outcome = outcome;
-    result.message += (result.message.empty() ? "" : "; ") + message;
+    result.message += (result.message.empty() ? "" : "; ") + finding.message;
+    result.findings.push_back(std::move(finding));
     result.fresh.push_back(std::move(fresh));
 }
+
+void add_missing(CaseResult& result, const std::filesystem::path& file, std::string bytes) {
+    add_finding(result, CaseOutcome::missing_golden, {file, "there is no golden " + file.string(), {}},
+                {file, std::move(bytes)});
+}
+
+/// Lines of what differs in a draw list: a report is read, not searched.
+constexpr std::size_t kMostWords = 12;
 
 bool is_there(const std::filesystem::path& file) {
     std::error_code ignored;
@@ -34,7 +44,7 @@ bool is_there(const std::filesystem::path& file) {
 void compare_pictures(CaseResult& result, const Image& actual, const std::filesystem::path& file, Tolerance tolerance,
                       const std::string& which = "") {
     const bool shows_another = std::any_of(result.fresh.begin(), result.fresh.end(),
-                                           [](const FreshGolden& fresh) { return fresh.file.extension() == ".png"; });
+                                           [](const GoldenChange& fresh) { return fresh.file.extension() == ".png"; });
     const auto show = [&](Image golden, std::optional<ImageDiff> image) {
         if (shows_another) return;
         result.actual = actual;
@@ -44,46 +54,51 @@ void compare_pictures(CaseResult& result, const Image& actual, const std::filesy
     };
     if (!is_there(file)) {
         show({}, {});
-        return add_finding(result, CaseOutcome::missing_golden, "there is no golden " + file.string(),
-                           {file, png_bytes(actual)});
+        return add_missing(result, file, png_bytes(actual));
     }
+    std::optional<std::string> before;
     Image golden;
     try {
+        before = golden_bytes(file);
         golden = read_png(file);
     } catch (const InputError& error) {
         show({}, {});
-        return add_finding(result, CaseOutcome::different, which + "the golden cannot be read: " + error.what(),
-                           {file, png_bytes(actual)});
+        return add_finding(result, CaseOutcome::different,
+                           {file, which + "the golden cannot be read: " + error.what(), {}},
+                           {file, png_bytes(actual), before});
     }
     ImageDiff image = diff(actual, golden, diff_options(tolerance));
     if (image.same && result.image) return;
     if (image.same) return show(std::move(golden), std::move(image));
     const std::string why = which + what_differs(image);
     show(std::move(golden), std::move(image));
-    add_finding(result, CaseOutcome::different, why, {file, png_bytes(actual)});
+    add_finding(result, CaseOutcome::different, {file, why, {}}, {file, png_bytes(actual), before});
 }
 
 /// Holds numbers, as JSON, against a golden that is there. `what` stands for them in messages.
 void compare_numbers(CaseResult& result, const std::string& actual, const std::string& what,
                      const std::filesystem::path& file) {
+    std::string golden;
     std::string why;
+    std::vector<std::string> words;
     try {
-        const std::string golden = read_file(file);
+        golden = read_file(file);
         const std::optional<std::string> found =
             golden.empty() ? "it is empty" : first_difference(actual, what, golden, file.string());
         if (!found) return;
         why = file.filename().string() + ": " + *found;
+        if (!golden.empty()) words = differences_in_words(actual, what, golden, file.string(), kMostWords);
     } catch (const InputError& error) {
         why = error.what();
     }
-    add_finding(result, CaseOutcome::different, why, {file, actual});
+    add_finding(result, CaseOutcome::different, {file, why, std::move(words)}, {file, actual, golden});
 }
 
 /// The same with one that must be there.
 void require_numbers(CaseResult& result, const std::string& actual, const std::string& what,
                      const std::filesystem::path& file) {
     if (is_there(file)) return compare_numbers(result, actual, what, file);
-    add_finding(result, CaseOutcome::missing_golden, "there is no golden " + file.string(), {file, actual});
+    add_missing(result, file, actual);
 }
 
 /// Holds the picture, and what is drawn where there is a NAME.draw.json, against the goldens.
@@ -161,21 +176,11 @@ CaseResult run_case(const CaseFile& file, PictureMaker* maker, std::string_view 
         result.actual = {};
         result.golden = {};
         result.image.reset();
+        result.findings.clear();
         result.fresh.clear();
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
-}
-
-bool can_be_taken(const CaseResult& result) {
-    const bool is_no_golden = result.outcome == CaseOutcome::different || result.outcome == CaseOutcome::missing_golden;
-    return is_no_golden && result.other_here.empty();
-}
-
-Summary summary(std::span<const CaseResult> results) {
-    Summary sum;
-    for (const CaseResult& result : results) ++sum[result.outcome];
-    return sum;
 }
 
 void make_folder_of(const std::filesystem::path& file) {
@@ -203,21 +208,6 @@ std::vector<std::filesystem::path> keep_pictures(const CaseResult& result, const
     keep("actual", &result.actual);
     keep("golden", &result.golden);
     keep("heat", result.image ? &result.image->heat : nullptr);
-    return written;
-}
-
-std::vector<std::filesystem::path> take(CaseResult& result) {
-    std::vector<std::filesystem::path> written;
-    for (const FreshGolden& golden : result.fresh) {
-        write_file(golden.file, golden.bytes);
-        written.push_back(golden.file);
-    }
-    result.fresh.clear();
-    result.golden = {};
-    result.image = diff(result.actual, result.actual, diff_options(result.tolerance));
-    result.image->heat = {};
-    result.outcome = CaseOutcome::passed;
-    result.message.clear();
     return written;
 }
 

@@ -2,9 +2,8 @@
 
 #include <base/file.h>
 #include <base/text.h>
+#include <cases/case_scene.h>
 #include <render/drawlist/picture_options.h>
-#include <scene/scene_json.h>
-#include <scene/view_options.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -16,31 +15,11 @@ namespace {
 
 constexpr int kMostColumns = 64;
 
-/// What is read because of a place, or what is wrong with it, at that place.
-template <class Read>
-auto read_at(const JsonPlace& place, const Read& read) {
-    try {
-        return read();
-    } catch (const InputError& error) {
-        place.fail(error.what());
-    } catch (const std::invalid_argument& error) {
-        place.fail(error.what());
-    }
-}
-
-/// A file that a case names. Throws InputError if it is none that could be.
-std::filesystem::path read_path(const JsonPlace& place, const std::filesystem::path& folder) {
-    const std::string& name = place.string();
-    read_at(place, [&] { check_file_name(name); });
-    return folder / name;
-}
-
 /// A scene under several fits; equal ones are shared.
 class Fits {
   public:
     explicit Fits(Scene scene) : scene_(std::move(scene)) {}
 
-    const Scene& scene() const { return scene_; }
     std::shared_ptr<const FittedScene> with(const mobb::FitOptions& options) {
         for (const auto& fitted : made_) {
             if (fitted->options() == options) return fitted;
@@ -51,19 +30,6 @@ class Fits {
   private:
     Scene scene_;
     std::vector<std::shared_ptr<const FittedScene>> made_;
-};
-
-/// What `view` and `fit` of an object say, over what is so already.
-struct FitAndView {
-    mobb::FitOptions fit;
-    ViewState view;
-
-    FitAndView over(const JsonPlace& place) const {
-        FitAndView out = *this;
-        if (const auto fit_place = place.find("fit")) out.fit = read_fit(*fit_place, fit);
-        if (const auto view_place = place.find("view")) out.view = read_view(*view_place, view);
-        return out;
-    }
 };
 
 std::vector<PicturePanel> read_panels(const JsonPlace& place, const FitAndView& common, Fits& fits) {
@@ -121,9 +87,7 @@ void refuse_with_window(const JsonPlace& place) {
 }  // namespace
 
 Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
-    const JsonPlace scene = place.require("scene");
     Shot shot;
-    shot.scene_file = read_path(scene, folder).lexically_normal();
     shot.picture = read_picture_options(place);
     if (const auto select = place.find("select")) {
         shot.select = read_at(*select, [&] { return parse_named_part(select->string()); });
@@ -133,8 +97,10 @@ Shot read_shot(const JsonPlace& place, const std::filesystem::path& folder) {
         shot.window = read_window(*window, folder);
     }
 
-    Fits fits(read_at(scene, [&] { return load_scene(shot.scene_file); }));
-    const FitAndView common = FitAndView{fits.scene().fit, fits.scene().view}.over(place);
+    CaseScene read = read_case_scene(place, folder);
+    shot.scene_file = read.file;
+    const FitAndView common = std::move(read.seen);
+    Fits fits(std::move(read.scene));
     if (const auto panels = place.find("panels")) {
         shot.panels = read_panels(*panels, common, fits);
     } else {

@@ -43,7 +43,8 @@ TEST(Fuzzy, StartsOfWordsAndRunsCountMore) {
 TEST(PaletteEntries, WithoutTextAreAllCommandsThatCanBeDoneFirst) {
     const Palette p;
     const auto entries = palette_entries(p.session, "");
-    ASSERT_EQ(entries.size(), commands().size());
+    const auto belongs = [&](const Command& command) { return belongs_here(p.session, command); };
+    ASSERT_EQ(static_cast<std::ptrdiff_t>(entries.size()), std::ranges::count_if(commands(), belongs));
     EXPECT_EQ(entries.front().command->id, "file.open");
     const auto first_not =
         std::find_if(entries.begin(), entries.end(), [](const auto& e) { return !e.why_not.empty(); });

@@ -2,6 +2,8 @@
 #include <render/image/png.h>
 #include <support/temp_folder.h>
 
+#include "app/three_cases.h"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <nlohmann/json.hpp>
@@ -174,6 +176,22 @@ TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
     const Json two = state(folder / "two.json");
     EXPECT_EQ(two["view"]["hidden"].size(), 15u);
     EXPECT_EQ(two["modified"], false) << "how clips are seen is no edit";
+}
+
+// Picture tests by hand: one of the failing is accepted and given back, and opened as a scene. real_review.script
+// asserts each state.
+TEST(RealWindow, APersonReviewsPictureTests) {
+    const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_review";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    const app::testing::ThreeCases files(folder);
+    const std::string golden = files.bytes("moved.png");
+    const int status = under_xvfb("'" + kHere + "real_review.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "real_review.script' '" + folder.string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    ASSERT_EQ(status, 0);
+    EXPECT_EQ(files.bytes("moved.png"), golden) << "the very bytes, given back";
+    EXPECT_FALSE(std::filesystem::exists(files.file("missing.png")));
 }
 
 }  // namespace

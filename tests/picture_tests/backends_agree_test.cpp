@@ -1,5 +1,6 @@
 // OSMesa and EGL draw the same picture of every case.
 #include <picture_tests/run_cases.h>
+#include <picture_tests/test_case.h>
 
 #include "render/backends.h"
 

@@ -1,5 +1,6 @@
 // Cases found and read, and what is said of bad ones.
-#include <picture_tests/case_file.h>
+#include <cases/case_file.h>
+#include <picture_tests/test_case.h>
 #include <support/input_error.h>
 
 #include "picture_tests/case_folder.h"

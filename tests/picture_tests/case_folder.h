@@ -1,7 +1,7 @@
 /// A folder with a scene, for cases to be written into.
 #pragma once
 
-#include <picture_tests/case_file.h>
+#include <cases/case_file.h>
 #include <support/temp_folder.h>
 
 #include <filesystem>

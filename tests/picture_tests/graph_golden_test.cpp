@@ -1,6 +1,6 @@
 // What the picture of a motion graph looks like: goldens as of a case (picture_tests/reference.h), though there is no
 // case of it.
-#include <picture_tests/case_file.h>
+#include <cases/case_file.h>
 #include <picture_tests/reference.h>
 #include <render/image/png.h>
 #include <render/pictures/graph_picture.h>

@@ -1,5 +1,6 @@
 // Panels are seen from one place, so that what differs is what is drawn.
 #include <picture_tests/picture_maker.h>
+#include <picture_tests/test_case.h>
 #include <render/drawlist/draw_list.h>
 
 #include "picture_tests/case_folder.h"

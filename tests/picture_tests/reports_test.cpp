@@ -1,3 +1,4 @@
+#include <base/base64.h>
 #include <picture_tests/reports.h>
 
 #include "support/temp_folder.h"

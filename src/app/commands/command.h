@@ -91,8 +91,11 @@ void run_command(Session& session, std::string_view id, const std::string& argum
 /// Runs a command for a person once the frame is drawn (Session::enqueue).
 void invoke(Session& session, std::string_view id, const std::string& argument = "");
 
-/// The command that a chord calls; null if none.
-const Command* command_for(const Chord& chord);
+/// The command that a chord calls where the session is: with the scene or with picture tests; null if none.
+const Command* command_for(const Session& session, const Chord& chord);
+
+/// Whether a command is about what is shown, the scene or picture tests: menus have no others.
+bool belongs_here(const Session& session, const Command& command);
 
 /// The first of a command's shortcuts, as menus show it; empty if it has none.
 std::string_view first_shortcut(const Command& command);
@@ -110,6 +113,7 @@ std::vector<Command> tree_commands();
 std::vector<Command> query_commands();
 std::vector<Command> go_commands();
 std::vector<Command> crowd_commands();
+std::vector<Command> review_commands();
 
 /// Rows of a part: those that say no menu stand in this one.
 std::vector<Command> in_menu(std::string_view menu, std::vector<Command> rows);

@@ -4,6 +4,7 @@
 #include <base/text.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace mobbscope::app {
@@ -26,18 +27,46 @@ std::vector<Command> help_commands() {
     return in_menu("Help", rows);
 }
 
+/// What is about neither the scene nor picture tests.
+constexpr auto kEverywhere = std::to_array<std::string_view>(
+    {"file.open", "file.recent", "file.reopen_last", "file.demo", "file.review", "file.quit", "go.palette",
+     "go.next_panel", "go.previous_panel", "go.menu", "view.theme", "window.scale", "window.larger", "window.smaller",
+     "window.scale_reset", "help.shortcuts", "help.messages", "help.clear_messages", "help.about"});
+
+bool is_everywhere(const Command& command) { return std::ranges::find(kEverywhere, command.id) != kEverywhere.end(); }
+
+bool is_of_review(const Command& command) { return command.id.starts_with("review.") && command.id != "review.back"; }
+
+/// Nothing is done to what is not shown.
+std::vector<Command> only_where_shown(std::vector<Command> rows) {
+    for (Command& row : rows) {
+        if (is_everywhere(row)) continue;
+        row.enabled.holds = [shown_there = is_of_review(row), holds = row.enabled.holds](const Session& session) {
+            return session.reviewing() == shown_there && holds(session);
+        };
+    }
+    return rows;
+}
+
 }  // namespace
 
 std::span<const Command> commands() {
-    static const std::vector<Command> table =
+    static const std::vector<Command> table = only_where_shown(
         joined({file_commands(), edit_commands(), clip_commands(), view_commands(), shown_commands(), tree_commands(),
-                query_commands(),
-                go_commands(), crowd_commands(), help_commands()});
+                query_commands(), go_commands(), crowd_commands(), review_commands(), help_commands()}));
     return table;
+}
+
+bool belongs_here(const Session& session, const Command& command) {
+    return is_everywhere(command) || is_of_review(command) == session.reviewing();
 }
 
 std::string_view why_not(const Session& session, const Command& command) {
     if (command.enabled(session)) return "";
+    if (!belongs_here(session, command)) {
+        return session.reviewing() ? "picture tests are shown: leave them first" : "no picture tests are shown";
+    }
+    if (session.reviewing()) return command.enabled.why_not(session);
     if (session.job()) return "something is under way";
     return session.empty() ? "nothing is open" : command.enabled.why_not(session);
 }
@@ -74,8 +103,9 @@ void invoke(Session& session, std::string_view id, const std::string& argument) 
     session.enqueue([&session, id = std::string(id), argument] { run_command(session, id, argument); });
 }
 
-const Command* command_for(const Chord& chord) {
+const Command* command_for(const Session& session, const Chord& chord) {
     for (const Command& command : commands()) {
+        if (!belongs_here(session, command)) continue;
         for (const std::string& name : words_of(command.shortcut)) {
             if (chord_from_name(name) == chord) return &command;
         }

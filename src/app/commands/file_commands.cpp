@@ -27,6 +27,11 @@ void add_file(Session& session, const std::string& file) {
     session.add(paths_in(file));
 }
 
+void review_folder(Session& session, const std::string& folder) {
+    if (folder.empty()) return session.open_dialog(Dialog::review);
+    session.review(folder);
+}
+
 std::vector<std::string> recent_names(const Session& session) {
     std::vector<std::string> out;
     for (const auto& file : session.settings.recent) out.push_back(file.string());
@@ -180,6 +185,9 @@ std::vector<Command> file_commands() {
         Command("file.demo", "Open the demo",
                 "Opens the scene that comes with the program: two walkers whose paths cross, but not in time.",
                 &Session::open_demo, {.enabled = always}),
+        Command("file.review", "Review picture tests...",
+                "Draws the picture tests of a folder and shows what differs from their goldens.", review_folder,
+                {.argument = "[FOLDER]", .enabled = always}),
         Command("file.reload", "Reload",
                 "Reads what is open again from its files, when another program has changed them.",
                 [](Session& session) { session.open(std::vector<std::filesystem::path>(session.opened())); },

@@ -121,6 +121,12 @@ void add_things(Collector& out, const Session& session) {
     }
 }
 
+void add_cases(Collector& out, const Review& review) {
+    for (const ReviewCase& one : review.cases()) {
+        out.add("review.show", one.file.name, one.file.name, "Case", {{one.file.name}, {"case"}});
+    }
+}
+
 constexpr double kLetter = 1;
 constexpr double kWordStart = 6;
 constexpr double kRun = 7;
@@ -134,9 +140,13 @@ bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || sta
 
 std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text) {
     Collector out(session, text);
-    if (out.has_words()) add_node(out, session, text);
-    for (const Command& command : commands()) add_command(out, session, command);
-    if (out.has_words()) add_things(out, session);
+    const bool names = out.has_words();
+    if (names && !session.reviewing()) add_node(out, session, text);
+    for (const Command& command : commands()) {
+        if (belongs_here(session, command)) add_command(out, session, command);
+    }
+    if (names && session.reviewing()) add_cases(out, *session.review());
+    if (names && !session.reviewing()) add_things(out, session);
     return std::move(out).sorted();
 }
 

@@ -78,7 +78,7 @@ void describe_clip(Described& out, const SceneClip& clip) {
                  {"lasts", formatted("%.3f s at %.5g a second", clip.clip->duration(), 1 / clip.clip->dt())},
                  {"path", formatted("%.2f m, %.2f m/s", length, length / clip.clip->duration())}};
     if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
-    for (const std::string& warning : clip.facts.warnings) out.facts.emplace_back("note", warning);
+    for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", warning.text);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <cases/case_scene.h>
 #include <explain/query_progress.h>
 #include <render/drawlist/camera.h>
 #include <render/layout/follow.h>
@@ -510,6 +511,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     import_changes_.clear();
     import_file_.reset();
     if (dialog == Dialog::import_clip) close_dialog();
+    reviewing_ = false;
     document.view = fitting(document.view, *document.fitted);
     document.excerpt_of = nullptr;
     saved_ = document.fitted;
@@ -537,6 +539,8 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
 
 void Session::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
                    const std::optional<ViewState>& view) {
+    // What is opened takes the place of what was open before the picture tests.
+    if (aside_) return close_case([this, title, load_all, files, view] { load(title, load_all, files, view); });
     after_asking([this, title, load_all, files, view] {
         // What is opened last is meant.
         std::erase_if(jobs_, [](const Running& running) { return running.purpose == Purpose::opens; });
@@ -727,6 +731,7 @@ void Session::save_as(const std::filesystem::path& file) {
 }
 
 void Session::request_close() {
+    if (aside_) return close_case([this] { request_close(); });
     after_asking([this] { closed_ = true; });
 }
 
@@ -774,6 +779,62 @@ void Session::close_dialog() {
 void Session::ask_anew(DialogInput with) {
     with.opening = input.opening + 1;
     input = std::move(with);
+}
+
+// --- picture tests
+
+void Session::review(const std::filesystem::path& folder, const std::filesystem::path& output) {
+    const auto opened = std::make_shared<Review>(
+        folder, output,
+        Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); }, case_drawer});
+    close_case([this, opened] {
+        stop();
+        review_ = opened;
+        reviewing_ = true;
+        if (review_->output().empty()) review_->draw_all();
+        poll();
+    });
+}
+
+void Session::leave_review() {
+    close_case([this] { reviewing_ = false; });
+}
+
+void Session::back_to_review() {
+    stop();
+    reviewing_ = true;
+}
+
+void Session::open_case(std::size_t index) {
+    const picture_tests::CaseFile file = review_->cases()[index].file;
+    const auto work = [this, file](JobControl& control) -> Job::Finish {
+        Document document = document_of(picture_tests::scene_of(file), nullptr, progress_of(control));
+        return [this, document = std::move(document), file] {
+            // The scene of another case may be in its place.
+            close_case([this, document, file] {
+                Aside before{history_, saved_, file_, opened_};
+                replace(document, {});
+                aside_ = std::move(before);
+                open_case_ = file.name;
+            });
+        };
+    };
+    start("Opening " + file.name, work, Purpose::opens);
+}
+
+void Session::close_case(const std::function<void()>& then) {
+    if (!aside_) return then();
+    after_asking([this, then] {
+        const Aside before = std::move(*aside_);
+        aside_.reset();
+        open_case_.clear();
+        replace(before.history.now(), before.opened);
+        history_ = before.history;
+        saved_ = before.saved;
+        file_ = before.file;
+        changed();
+        then();
+    });
 }
 
 // --- messages, queue and jobs
@@ -853,6 +914,9 @@ void Session::cancel_job(std::size_t index) {
 }
 
 void Session::poll() {
+    if (review_) {
+        for (const std::string& news : review_->poll()) tell(Message::Level::info, news);
+    }
     for (;;) {
         const auto done = std::find_if(jobs_.begin(), jobs_.end(), [](const Running& r) { return r.job->done(); });
         if (done == jobs_.end()) return;

@@ -8,6 +8,7 @@
 #include <app/document/file_preview.h>
 #include <app/document/history.h>
 #include <app/document/job.h>
+#include <app/document/review.h>
 #include <app/document/selection.h>
 #include <app/document/settings.h>
 #include <conflicts/conflicts.h>
@@ -45,7 +46,8 @@ enum class Dialog {
     messages,
     dropped,
     import_clip,
-    history
+    history,
+    review
 };
 
 /// A command that a message offers; it is drawn as a button.
@@ -296,6 +298,24 @@ class Session {
     BeforeDrag before_drag() const { return {history_, settings}; }
     /// Brings it back, as if nothing had been dragged.
     void restore(BeforeDrag before);
+    // Picture tests.
+    /// Shows the picture tests of a folder in place of the scene, and draws them, unless an `output` of theirs is to be
+    /// looked at. Throws InputError as Review does: what is shown stays then.
+    void review(const std::filesystem::path& folder, const std::filesystem::path& output = {});
+    /// The picture tests that are looked at, shown or not; null if there are none.
+    Review* review() { return review_.get(); }
+    const Review* review() const { return review_.get(); }
+    /// Whether they are shown: commands and panels are about them then, not about the scene.
+    bool reviewing() const { return reviewing_; }
+    /// Shows what was open before the picture tests, or them again; asks about unsaved changes of a case's scene.
+    void leave_review();
+    /// Requires review().
+    void back_to_review();
+    /// Opens what a case draws as a scene; what is open is put aside until the picture tests are left.
+    void open_case(std::size_t index);
+    /// The name of the case whose scene is open; empty if none is.
+    const std::string& open_case_name() const { return open_case_; }
+    picture_tests::CaseDrawer case_drawer;  ///< what draws the cases
 
     // Dialogs and messages.
     Dialog dialog = Dialog::none;  ///< the open one
@@ -390,6 +410,8 @@ class Session {
     void change_document(Document next, const EditName& name);
     void share_time_and_camera();
     void changed();
+    /// The scene of a case goes, after asking if it has unsaved changes, and what was open before it is back.
+    void close_case(const std::function<void()>& then);
 
     bool attended_;
     History history_;
@@ -411,6 +433,17 @@ class Session {
     std::pair<Dialog, DialogInput> behind_help_{Dialog::none, {}};
     std::function<void()> pending_;  ///< waits for the answer about unsaved changes
     bool closed_ = false;
+    std::shared_ptr<Review> review_;
+    bool reviewing_ = false;
+    std::string open_case_;
+    /// What was open before the scene of a case was.
+    struct Aside {
+        History history;
+        std::shared_ptr<const FittedScene> saved;
+        std::optional<std::filesystem::path> file;
+        std::vector<std::filesystem::path> opened;
+    };
+    std::optional<Aside> aside_;
 
     // Imports: one change after the other.
     struct ImportChange {

@@ -90,6 +90,7 @@ void dialogs(Ui& ui) {
         case Dialog::add:
         case Dialog::save_as:
         case Dialog::export_picture:
+        case Dialog::review:
             file_dialog(ui);
             break;
         case Dialog::unsaved:

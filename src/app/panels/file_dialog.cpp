@@ -59,6 +59,8 @@ Purpose purpose_of(Dialog dialog) {
             return {"Save as", "Save", "save", "file.save_as", kScenes, ".json"};
         case Dialog::export_picture:
             return {"Export picture", "Export", "export", "file.export_picture", kPictures, ".png"};
+        case Dialog::review:
+            return {"Review picture tests", "Review this folder", "review", "file.review", kScenes, nullptr};
         default:
             return {"Open", "Open", "open", "file.open", openable_extensions(), nullptr};
     }
@@ -527,7 +529,8 @@ void file_dialog(Ui& ui) {
     const float room = ImGui::GetContentRegionAvail().x;
     const bool has_places = room >= ui.px(kPlacesWidth + kLeastList);
     const float preview_room = room - (has_places ? ui.px(kPlacesWidth) : 0);
-    const bool has_preview = !purpose.writes() && preview_room >= ui.px(kPreviewWidth + kLeastList);
+    const bool has_preview =
+        !purpose.writes() && session.dialog != Dialog::review && preview_room >= ui.px(kPreviewWidth + kLeastList);
     const bool one_line = room >= ui.px(600);
     const float foot = (one_line ? 1.0f : 2.0f) * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
     if (has_places) {
@@ -546,13 +549,16 @@ void file_dialog(Ui& ui) {
         ImGui::EndChild();
     }
 
-    accepted |= marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true);
+    const bool of_folder = session.dialog == Dialog::review;
+    const bool agreed =
+        marked_button(ui, input.confirming ? "Overwrite" : purpose.button, (prefix + ".ok").c_str(), true);
+    accepted |= agreed && !of_folder;
     ImGui::SameLine();
     if (marked_button(ui, "Cancel", (prefix + ".cancel").c_str())) {
         session.enqueue([&session] { session.close_dialog(); });
     }
-    bool as_clips = false;
-    if (!purpose.writes()) {
+    bool as_clips = agreed && of_folder;
+    if (!purpose.writes() && !of_folder) {
         const bool has_clips =
             std::ranges::any_of(browser.entries(), is_clip) || folder_of_clips(browser) != browser.listed();
         if (has_clips) {
@@ -568,6 +574,7 @@ void file_dialog(Ui& ui) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Files and folders whose names begin with a dot (Ctrl+H)");
     const std::string line = input.confirming   ? "This file exists. Enter overwrites it."
                              : purpose.writes() ? ""
+                             : of_folder        ? "Enter goes into a folder; the button takes it."
                                                 : in_a_line(ui, has_preview);
     if (!line.empty()) {
         if (one_line) ImGui::SameLine();

@@ -29,6 +29,7 @@ void items(Ui& ui, const std::string& menu) {
     std::string_view group;
     std::vector<std::string_view> submenus;
     for (const Command& command : commands()) {
+        if (!belongs_here(ui.session, command)) continue;
         if (command.menu == menu) {
             if (!group.empty() && group != group_of(command)) ImGui::Separator();
             group = group_of(command);
@@ -69,7 +70,8 @@ void search(Ui& ui, float left, float right) {
     const std::string key(first_shortcut(*find_command("go.palette")));
     const float key_width = text_size(*ui.style.mono, key).x;
     const float y = (min.y + max.y - ui.style.body->FontSize) / 2;
-    for (const char* text : {"Search commands, agents, nodes", "Search commands", "Search"}) {
+    const char* all = ui.session.reviewing() ? "Search commands, cases" : "Search commands, agents, nodes";
+    for (const char* text : {all, "Search commands", "Search"}) {
         if (ImGui::CalcTextSize(text).x + key_width + 3 * pad > width) continue;
         draw.AddText({min.x + pad, y}, ui.style.quiet, text);
         break;
@@ -81,21 +83,22 @@ void search(Ui& ui, float left, float right) {
 /// name loses its end.
 float file_title(Ui& ui, float left, float right) {
     const Session& session = ui.session;
-    const std::string title = session.title();
+    const std::string title = session.reviewing() ? session.review()->folder().string() : session.title();
     const float pad = ui.px(12);
-    const float dot = session.modified() ? ui.px(14) : 0;
+    const bool modified = session.modified() && !session.reviewing();
+    const float dot = modified ? ui.px(14) : 0;
     const float room = right - left - 2 * pad - dot;
     const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, std::max(room, ui.px(40)));
     const float x = right - pad - width;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float middle = ImGui::GetFrameHeight() / 2;
-    if (session.modified()) draw.AddCircleFilled({x - dot + ui.px(4), middle}, ui.px(3.5f), ui.style.warning);
+    if (modified) draw.AddCircleFilled({x - dot + ui.px(4), middle}, ui.px(3.5f), ui.style.warning);
     ImGui::SetCursorPos({x - dot, 0});
     ImGui::InvisibleButton("##title", {width + dot, ImGui::GetFrameHeight()});
     ui.mark_only("menu.title");
     if (ImGui::IsItemHovered()) {
-        const std::string file = session.file() ? session.file()->string() : title;
-        ImGui::SetTooltip("%s%s", file.c_str(), session.modified() ? "\nnot saved" : "");
+        const std::string file = session.file() && !session.reviewing() ? session.file()->string() : title;
+        ImGui::SetTooltip("%s%s", file.c_str(), modified ? "\nnot saved" : "");
     }
     draw.PushClipRect({x, 0}, {x + width, 2 * middle}, true);
     draw.AddText({x, middle - ImGui::GetFontSize() / 2}, ui.style.quiet, title.c_str());
@@ -110,6 +113,7 @@ void menu_bar(Ui& ui) {
     std::vector<std::string> menus;
     for (const Command& command : commands()) {
         const std::string menu(command.menu.substr(0, command.menu.find('/')));
+        if (!belongs_here(ui.session, command)) continue;
         if (!menu.empty() && std::find(menus.begin(), menus.end(), menu) == menus.end()) menus.push_back(menu);
     }
     for (const std::string& menu : menus) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -93,10 +94,13 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     const auto spacing = [] { ImGui::SameLine(0, 0); };
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
 
+    const bool reviewing = ui.session.reviewing();
     // The placement stands below the lists: they stay where they are when somebody is selected.
-    const float placement = std::min(placement_height(ui), 0.5f * room.y);
+    const float placement = reviewing ? 0 : std::min(placement_height(ui), 0.5f * room.y);
     ImGui::BeginGroup();
-    panel(ui, "left", {left, room.y - placement}, [&] {
+    panel(ui, reviewing ? "cases" : "left", {left, room.y - placement}, [&] {
+        if (reviewing) return review_list(ui);
+        review_way_back(ui);
         scene_panel(ui);
         tree_panel(ui);
     });
@@ -107,19 +111,25 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
     spacing();
     ImGui::BeginGroup();
     const float middle = room.x - left - right - 2 * bar;
-    // Up to its borders.
-    ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
-    ui.focus.panel("view");
-    viewport_toolbar(ui);
-    draw_views(ui, viewports);
-    ImGui::EndChild();
-    settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
-    panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui, pictures); });
+    std::optional<glm::ivec2> pixel;
+    if (reviewing) {
+        panel(ui, "pictures", {middle, room.y}, [&] { pixel = review_pictures(ui); });
+    } else {
+        // Up to its borders.
+        ImGui::BeginChild("viewport", {middle, room.y - bottom - bar}, false, ImGuiWindowFlags_NoBackground);
+        ui.focus.panel("view");
+        viewport_toolbar(ui);
+        draw_views(ui, viewports);
+        ImGui::EndChild();
+        settings.bottom_height -= splitter(ui, "splitter.bottom", {middle, bar}, false) / ui.style.scale;
+        panel(ui, "timeline", {middle, bottom}, [&] { timeline(ui, pictures); });
+    }
     ImGui::EndGroup();
     spacing();
     settings.right_width -= splitter(ui, "splitter.right", {bar, room.y}, true) / ui.style.scale;
     spacing();
-    panel(ui, "right", {right, room.y}, [&] {
+    panel(ui, reviewing ? "facts" : "right", {right, room.y}, [&] {
+        if (reviewing) return review_facts(ui, pixel);
         if (ui.session.is_crowd() && !ui.session.view().query) {
             crowd_panel(ui);
         } else {

@@ -150,10 +150,45 @@ Json import_json(const Session& session) {
 }
 
 std::string_view kind_name(Dialog dialog) {
-    constexpr std::array<std::string_view, 13> kNames{"none",    "open",        "add",    "save_as", "export_picture",
-                                                      "unsaved", "palette",     "help",   "about",   "messages",
-                                                      "dropped", "import_clip", "history"};
+    constexpr std::array<std::string_view, 14> kNames{"none",    "open",        "add",     "save_as", "export_picture",
+                                                      "unsaved", "palette",     "help",    "about",   "messages",
+                                                      "dropped", "import_clip", "history", "review"};
     return kNames[static_cast<std::size_t>(dialog)];
+}
+
+Json review_json(const Session& session) {
+    const Review& review = *session.review();
+    const ReviewLook& look = review.look;
+    const ReviewCase& shown = review.shown();
+    const auto state_of = [](const ReviewCase& one) -> Json {
+        if (one.state == ReviewCase::State::not_drawn) return "not drawn";
+        return one.drawn() ? Json(picture_tests::name(one.outcome())) : Json("waiting");
+    };
+    Json cases;
+    for (const ReviewCase& one : review.cases()) cases[one.file.name] = state_of(one);
+    Json listed = Json::array();
+    for (const std::size_t index : review.listed()) listed.push_back(review.cases()[index].file.name);
+    Json marked = Json::array();
+    for (const std::size_t index : review.marked()) marked.push_back(review.cases()[index].file.name);
+    return {{"shown", session.reviewing()},
+            {"folder", review.folder().string()},
+            {"cases", std::move(cases)},
+            {"listed", std::move(listed)},
+            {"marked", std::move(marked)},
+            {"case", shown.file.name},
+            {"outcome", state_of(shown)},
+            {"accepted", shown.accepted},
+            {"mode", kReviewModes[static_cast<std::size_t>(look.mode)].name},
+            {"blink_seconds", look.blink_seconds},
+            {"divider", look.divider},
+            {"zoom", look.zoom},
+            {"middle", {look.middle.x, look.middle.y}},
+            {"failed_only", look.failed_only},
+            {"order", kReviewOrders[static_cast<std::size_t>(look.order)]},
+            {"drawing", review.drawing()},
+            {"undo", text_or_null(review.undo_title())},
+            {"redo", text_or_null(review.redo_title())},
+            {"open_case", text_or_null(session.open_case_name())}};
 }
 
 // --- what is expected of it
@@ -252,6 +287,7 @@ Json state_json(const Session& session) {
     json["job"] = nullptr;
     if (const Job* job = session.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
     if (session.dialog == Dialog::import_clip) json["import"] = import_json(session);
+    if (session.review()) json["review"] = review_json(session);
     if (session.view_count() > 1) {
         json["views"] = Json::array();
         for (std::size_t place = 0; place < session.view_count(); ++place) {

@@ -18,6 +18,8 @@ std::string title_of(const Session& session, const Command& command) {
     if (command.id == "file.reopen_last" && session.has_last()) title += ": " + session.last_title();
     if (command.id == "edit.undo" && session.history().can_undo()) title += ' ' + session.history().undo_title();
     if (command.id == "edit.redo" && session.history().can_redo()) title += ' ' + session.history().redo_title();
+    if (command.id == "review.undo") title += ' ' + session.review()->undo_title();
+    if (command.id == "review.redo") title += ' ' + session.review()->redo_title();
     return title;
 }
 

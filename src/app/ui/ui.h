@@ -5,11 +5,13 @@
 #include <app/ui/focus.h>
 #include <app/ui/style.h>
 #include <render/drawlist/draw_list.h>
+#include <render/image/image.h>
 
 #include <imgui.h>
 #include <imgui_internal.h>
 
 #include <map>
+#include <memory>
 #include <string>
 
 namespace mobbscope::app {
@@ -40,6 +42,9 @@ class Painter {
     /// What the viewport at that place shows. What has changed since the last call is painted anew when a frame is next
     /// looked at. `now`: seconds.
     virtual Shown picture(std::size_t place, Changed changed, Hand hand, double now) = 0;
+    /// The texture of a picture, its upper row at v = 0, transparent parts on a grey chequer. What was in the slot
+    /// before is gone. `smooth`: blended between pixels, not each a square. Null if it is larger than OpenGL can hold.
+    virtual ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) = 0;
 };
 
 /// What is under way in a field of a panel: a text that is typed, or a number that is dragged.

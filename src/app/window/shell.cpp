@@ -84,6 +84,11 @@ class TexturePainter final : public Painter {
         return {texture_id(asked.copy.texture()), asked.is_fine ? 0 : now - asked.changed_at};
     }
 
+    ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) override {
+        while (images_.size() <= slot) images_.emplace_back();
+        return images_[slot].take(image, smooth) ? texture_id(images_[slot].texture()) : ImTextureID{};
+    }
+
     /// Paints what has changed since the last time.
     void paint_changes(std::size_t place, const DrawList& list) {
         if (place >= pictures_.size()) return;
@@ -171,7 +176,8 @@ class TexturePainter final : public Painter {
 
     Renderer& renderer_;
     const Shell::Clock& clock_;
-    std::deque<Picture> pictures_;  ///< by place
+    std::deque<Picture> pictures_;     ///< by place
+    std::deque<ImageTexture> images_;  ///< by slot
     Shell::Painted painted_;
 };
 
@@ -223,7 +229,7 @@ struct Shell::State {
             return chord.key == Key::escape ? Taken::opened : Taken::nobodys;
         }
         if (focus.press(chord, repeated)) return Taken::opened;
-        const Command* command = command_for(chord);
+        const Command* command = command_for(session, chord);
         if (!command || (repeated && !command->repeats)) return Taken::nobodys;
         if (!works_under(session.dialog, *command)) return Taken::nobodys;
         if (ImGui::GetIO().WantTextInput && edits_text(chord)) return Taken::nobodys;
@@ -262,7 +268,8 @@ struct Shell::State {
     bool waits_for_field() {
         const Dialog open = session.dialog;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
-                               open == Dialog::export_picture || open == Dialog::palette || open == Dialog::help;
+                               open == Dialog::export_picture || open == Dialog::review || open == Dialog::palette ||
+                               open == Dialog::help;
         if (!has_field || !session.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)

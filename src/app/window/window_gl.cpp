@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -28,6 +29,26 @@ void attach(const Texture& texture) {
 }
 
 static_assert(sizeof(ImDrawIdx) == 2, "indices are drawn as GL_UNSIGNED_SHORT");
+
+constexpr int kChequer = 8;  // pixels of a square
+
+/// What is transparent shows a chequer of two greys.
+std::vector<std::uint8_t> on_chequer(const Image& image) {
+    std::vector<std::uint8_t> out = image.rgba;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const std::uint8_t* from = image.at(x, y);
+            if (from[3] == 255) continue;
+            const int grey = (x / kChequer + y / kChequer) % 2 == 0 ? 150 : 110;
+            std::uint8_t* to = out.data() + (from - image.rgba.data());
+            for (int c = 0; c < 3; ++c) {
+                to[c] = static_cast<std::uint8_t>((from[c] * from[3] + grey * (255 - from[3]) + 127) / 255);
+            }
+            to[3] = 255;
+        }
+    }
+    return out;
+}
 
 const void* at_byte(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
 
@@ -166,6 +187,28 @@ void WindowTarget::present() const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size_.width, size_.height, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);
+}
+
+bool ImageTexture::take(const std::shared_ptr<const Image>& image, bool smooth) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (image->width > most || image->height > most) return false;
+    const bool other = image_ != image;
+    if (!other && smooth == smooth_) return true;
+    reset_state();
+    glActiveTexture(GL_TEXTURE0);
+    if (other) {
+        allocate(texture_, {image->width, image->height});
+        const std::vector<std::uint8_t> pixels = on_chequer(*image);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image->width, image->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+        glGenerateMipmap(GL_TEXTURE_2D);
+    }
+    glBindTexture(GL_TEXTURE_2D, texture_.name());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, smooth ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
+    image_ = image;
+    smooth_ = smooth;
+    return true;
 }
 
 void PictureCopy::take(const Texture& picture, PictureSize size) {

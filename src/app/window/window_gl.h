@@ -8,6 +8,8 @@
 
 #include <imgui.h>
 
+#include <memory>
+
 namespace mobbscope::app {
 
 /// The texture as Dear ImGui hands it around.
@@ -59,6 +61,19 @@ class PictureCopy {
     PictureSize size_;
     Framebuffer from_;
     Texture copy_;
+};
+
+/// A picture of the CPU as a texture, upper row first.
+class ImageTexture {
+  public:
+    /// Whether OpenGL can hold it. Uploads it if it is another than the last.
+    bool take(const std::shared_ptr<const Image>& image, bool smooth);
+    const Texture& texture() const { return texture_; }
+
+  private:
+    std::shared_ptr<const Image> image_;
+    bool smooth_ = false;
+    Texture texture_;
 };
 
 }  // namespace mobbscope::app

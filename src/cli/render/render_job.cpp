@@ -4,8 +4,8 @@
 #include <cli/command_line.h>
 #include <cli/program.h>
 #include <cli/render/render_job.h>
-#include <picture_tests/case_file.h>
 #include <picture_tests/picture_maker.h>
+#include <picture_tests/test_case.h>
 #include <picture_tests/window_picture.h>
 #include <render/drawlist/draw_list_json.h>
 #include <render/gl/renderer.h>

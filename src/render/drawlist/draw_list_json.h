@@ -28,10 +28,12 @@
 
 #include <render/drawlist/draw_list.h>
 
+#include <cstddef>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope {
 
@@ -48,5 +50,11 @@ Image id_picture(const DrawList& list, const IdImage& ids);
 /// files.
 std::optional<std::string> first_difference(std::string_view actual, const std::string& actual_name,
                                             std::string_view golden, const std::string& golden_name);
+
+/// All that differs, for people: "box of A, node 3, extents: 1.02 instead of 1", at most `most` lines and one that says
+/// how many there are more. Throws as first_difference does.
+std::vector<std::string> differences_in_words(std::string_view actual, const std::string& actual_name,
+                                              std::string_view golden, const std::string& golden_name,
+                                              std::size_t most);
 
 }  // namespace mobbscope

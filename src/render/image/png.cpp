@@ -158,21 +158,22 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     if (!out) throw MachineError(file.string() + ": cannot be written: " + std::generic_category().message(errno));
 }
 
-Image read_png(const std::filesystem::path& file) {
-    const std::string bytes = read_file(file);
+Image read_png(const std::filesystem::path& file) { return read_png_bytes(read_file(file), file.string()); }
+
+Image read_png_bytes(std::string_view bytes, const std::string& name) {
     if (png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, std::min<std::size_t>(bytes.size(), 8)) != 0) {
-        throw InputError(file.string(), "", "is no PNG picture; give a .png file");
+        throw InputError(name, "", "is no PNG picture; give a .png file");
     }
     PngReader reader(bytes);
     const auto refuse = [&] {
-        throw InputError(file.string(), "byte " + std::to_string(reader.at()),
+        throw InputError(name, "byte " + std::to_string(reader.at()),
                          "the PNG picture cannot be read up to here: " + reader.reason() + "; write or copy it again");
     };
     if (!reader.read_header()) refuse();
     const long long width = reader.width();
     const long long height = reader.height();
     if (width > kMostPngPixels / height) {
-        throw InputError(file.string(), "",
+        throw InputError(name, "",
                          "the picture of " + std::to_string(width) + "x" + std::to_string(height) +
                              " pixels is too large; up to 134 million pixels are read");
     }

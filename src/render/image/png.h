@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace mobbscope {
 
@@ -18,5 +19,7 @@ void write_png(const std::filesystem::path& file, const Image& image);
 /// Grey, palettes and 16 bits (their upper 8) become RGBA; what a file says of its colours' gamma is ignored. Throws
 /// InputError if the file is missing, no PNG, damaged, cut short or of more than 2^27 pixels.
 Image read_png(const std::filesystem::path& file);
+/// The same of the bytes of a file; `name` stands for it in messages.
+Image read_png_bytes(std::string_view bytes, const std::string& name = "a picture");
 
 }  // namespace mobbscope

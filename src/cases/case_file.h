@@ -1,14 +1,14 @@
-/// A picture test: a shot, and what its picture must look like. `NAME.case.json` holds the keys of a shot (shot.h) and
+/// A picture test as files: `NAME.case.json` says what to draw (picture_tests/shot.h), and besides
 ///
 ///      "mobbscope_case": 1,
 ///      "tolerance": "tight",          or "loose"
 ///      "skip": "why"                  the case is reported as skipped
 ///
 /// Beside it stand its golden `NAME.png` and, if the numbers are to be held too, `NAME.draw.json` (draw_list_json.h);
-/// where the folder has a reference, the goldens `NAME.plain.*` too (reference.h).
+/// where the folder has a reference, the goldens `NAME.plain.*` too (picture_tests/reference.h).
 #pragma once
 
-#include <picture_tests/shot.h>
+#include <base/json.h>
 #include <render/image/image_diff.h>
 
 #include <filesystem>
@@ -25,30 +25,38 @@ enum class Tolerance {
     loose,  ///< across rasterisers: edges may lie a pixel aside, 8/255 a channel, 0.5 % of the pixels beyond
 };
 std::string_view name(Tolerance tolerance);
+/// Nothing if there is none of that name.
+std::optional<Tolerance> tolerance_from_name(std::string_view name);
 DiffOptions diff_options(Tolerance tolerance);
 
 /// What is known of a case before its scene is read.
 struct CaseFile {
     std::string name;  ///< of the file relative to the folder of the cases, without ".case.json"
     std::filesystem::path file;
-    std::filesystem::path golden() const;       ///< NAME.png
-    std::filesystem::path draw() const;         ///< NAME.draw.json
-    std::filesystem::path plain() const;        ///< NAME.plain.png
-    std::filesystem::path plain_draw() const;   ///< NAME.plain.draw.json
-    std::filesystem::path plain_state() const;  ///< NAME.plain.state.json
+    std::filesystem::path golden() const { return beside(".png"); }
+    std::filesystem::path draw() const { return beside(".draw.json"); }
+    std::filesystem::path plain() const { return beside(".plain.png"); }
+    std::filesystem::path plain_draw() const { return beside(".plain.draw.json"); }
+    std::filesystem::path plain_state() const { return beside(".plain.state.json"); }
+    /// NAME and this ending.
+    std::filesystem::path beside(std::string_view ending) const;
+    /// The ending of a file that stands beside it.
+    std::string ending_of(const std::filesystem::path& other) const;
 };
 
 /// All cases in a folder and the folders in it, by name. Throws InputError if there is no such folder, or no case in
 /// it.
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder);
 
-struct Case {
-    Shot shot;
+/// What a case says about how it is tested.
+struct CaseTerms {
     Tolerance tolerance = Tolerance::tight;
-    std::optional<std::string> skip;  ///< why; the shot is then not read
+    std::optional<std::string> skip;  ///< why
 };
 
-/// Throws InputError.
-Case read_case(const std::filesystem::path& file);
+/// Of the text of a case. Throws InputError if it is no case, or one of another version.
+CaseTerms read_terms(const JsonPlace& root);
+/// Of a case's file.
+CaseTerms read_terms(const CaseFile& file);
 
 }  // namespace mobbscope::picture_tests

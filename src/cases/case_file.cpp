@@ -1,4 +1,4 @@
-#include <picture_tests/case_file.h>
+#include <cases/case_file.h>
 
 #include <base/error.h>
 #include <base/file.h>
@@ -15,15 +15,13 @@ namespace {
 constexpr int kVersion = 1;
 constexpr std::string_view kExtension = ".case.json";
 
-std::filesystem::path beside(const CaseFile& file, std::string_view extension) {
+std::string stem_of(const CaseFile& file) {
     const std::string name = file.file.filename().string();
-    return file.file.parent_path() / (name.substr(0, name.size() - kExtension.size()) + std::string(extension));
+    return name.substr(0, name.size() - kExtension.size());
 }
 
 Tolerance read_tolerance(const JsonPlace& place) {
-    for (const Tolerance tolerance : {Tolerance::tight, Tolerance::loose}) {
-        if (place.string() == name(tolerance)) return tolerance;
-    }
+    if (const auto named = tolerance_from_name(place.string())) return *named;
     place.fail(in_quotes(place.string()) + " is no tolerance; give tight or loose");
 }
 
@@ -31,20 +29,25 @@ Tolerance read_tolerance(const JsonPlace& place) {
 
 std::string_view name(Tolerance tolerance) { return tolerance == Tolerance::tight ? "tight" : "loose"; }
 
+std::optional<Tolerance> tolerance_from_name(std::string_view text) {
+    for (const Tolerance tolerance : {Tolerance::tight, Tolerance::loose}) {
+        if (text == name(tolerance)) return tolerance;
+    }
+    return std::nullopt;
+}
+
 DiffOptions diff_options(Tolerance tolerance) {
     if (tolerance == Tolerance::tight) return {.channel_tolerance = 3, .pixel_fraction = 0.001, .shift = 0};
     return {.channel_tolerance = 8, .pixel_fraction = 0.005, .shift = 1};
 }
 
-std::filesystem::path CaseFile::golden() const { return beside(*this, ".png"); }
+std::filesystem::path CaseFile::beside(std::string_view ending) const {
+    return file.parent_path() / (stem_of(*this) + std::string(ending));
+}
 
-std::filesystem::path CaseFile::draw() const { return beside(*this, ".draw.json"); }
-
-std::filesystem::path CaseFile::plain() const { return beside(*this, ".plain.png"); }
-
-std::filesystem::path CaseFile::plain_draw() const { return beside(*this, ".plain.draw.json"); }
-
-std::filesystem::path CaseFile::plain_state() const { return beside(*this, ".plain.state.json"); }
+std::string CaseFile::ending_of(const std::filesystem::path& other) const {
+    return other.filename().string().substr(stem_of(*this).size());
+}
 
 std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
     std::vector<CaseFile> cases;
@@ -65,28 +68,25 @@ std::vector<CaseFile> find_cases(const std::filesystem::path& folder) {
     return cases;
 }
 
-Case read_case(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    const JsonValue value = parse_json(read_file(file), name);
-    const JsonPlace root(value, name);
-    root.allow_only({"$schema", "mobbscope_case", "tolerance", "skip", "scene", "fit", "view", "panels", "columns",
-                     "select", "size", "scale", "samples", "background", "window"});
-    if (const auto schema = root.find("$schema")) schema->string();
+CaseTerms read_terms(const JsonPlace& root) {
     const JsonPlace version = root.require("mobbscope_case");
     if (version.number() != kVersion) {
         version.fail("the case has version " + short_double(version.number()) + "; this program reads version " +
                      std::to_string(kVersion));
     }
-    Case out;
+    CaseTerms out;
     if (const auto tolerance = root.find("tolerance")) out.tolerance = read_tolerance(*tolerance);
     if (const auto skip = root.find("skip")) {
         if (skip->string().empty()) skip->fail("say why the case is skipped");
         out.skip = skip->string();
-    } else {
-        out.shot = read_shot(root, file.parent_path());
-        out.shot.file = file;
     }
     return out;
+}
+
+CaseTerms read_terms(const CaseFile& file) {
+    const std::string name = file.file.string();
+    const JsonValue value = parse_json(read_file(file.file), name);
+    return read_terms(JsonPlace(value, name));
 }
 
 }  // namespace mobbscope::picture_tests

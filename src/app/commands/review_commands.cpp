@@ -1,0 +1,343 @@
+#include <app/commands/arguments.h>
+#include <app/commands/command.h>
+#include <app/document/review.h>
+#include <base/text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+constexpr double kDividerStep = 0.025;  // shares of the picture's width
+constexpr double kPanStep = 0.1;        // shares of what is seen
+constexpr double kLeastBlink = 0.1;     // seconds
+constexpr double kMostBlink = 5;
+
+/// The rule of all that needs picture tests; that they are shown is everybody's rule.
+bool has_review(const Session& session) { return session.review() != nullptr; }
+
+Condition when(std::function<bool(const Review&)> holds, std::string_view (*else_)(const Session&)) {
+    return {[holds](const Session& session) { return session.review() && holds(*session.review()); }, else_};
+}
+
+/// Of what is on or chosen: false where there are no picture tests.
+std::function<bool(const Session&)> so(std::function<bool(const Review&)> holds) {
+    return [holds](const Session& session) { return session.review() && holds(*session.review()); };
+}
+std::function<bool(const Session&, const std::string&)> so(
+    std::function<bool(const Review&, const std::string&)> holds) {
+    return [holds](const Session& session, const std::string& choice) {
+        return session.review() && holds(*session.review(), choice);
+    };
+}
+
+Condition if_failing(int by) {
+    return when([by](const Review& review) { return review.next(by, true).has_value(); },
+                [](const Session&) -> std::string_view { return "there is none from here"; });
+}
+
+Command go_to_failing(std::string_view id, std::string_view title, std::string_view doc, std::string_view shortcut,
+                      int by) {
+    const auto go = [by](Session& session) { session.review()->show(*session.review()->next(by, true)); };
+    return {id, title, doc, go, {.shortcut = shortcut, .repeats = true, .enabled = if_failing(by)}};
+}
+
+Command go_to_case(std::string_view id, std::string_view title, std::string_view doc, std::string_view shortcut,
+                   int by) {
+    const auto go = [by](Session& session) { session.review()->show(*session.review()->next(by, false)); };
+    const Condition enabled = when([by](const Review& review) { return review.next(by, false).has_value(); },
+                                   [](const Session&) -> std::string_view { return "there is none from here"; });
+    return {id, title, doc, go, {.shortcut = shortcut, .repeats = true, .enabled = enabled}};
+}
+
+std::vector<std::string> case_names(const Session& session) {
+    std::vector<std::string> out;
+    if (!session.review()) return out;
+    for (const ReviewCase& one : session.review()->cases()) out.push_back(one.file.name);
+    return out;
+}
+
+void show_case(Session& session, const std::string& name) { session.review()->show(session.review()->index_of(name)); }
+
+/// Marks a case, or the one that is shown.
+void toggle_mark(Session& session, const std::string& name) {
+    Review& review = *session.review();
+    const std::size_t index = name.empty() ? review.current() : review.index_of(name);
+    review.mark(index, !review.cases()[index].marked);
+}
+
+void mark_failing(Session& session) {
+    Review& review = *session.review();
+    for (std::size_t i = 0; i < review.cases().size(); ++i) review.mark(i, review.cases()[i].failing());
+}
+
+void order_by(Session& session, const std::string& name) {
+    const auto at = std::ranges::find(kReviewOrders, name);
+    if (at == kReviewOrders.end()) throw std::invalid_argument("give one of " + listed(kReviewOrders));
+    session.review()->look.order = static_cast<ReviewOrder>(at - kReviewOrders.begin());
+}
+
+std::vector<Command> case_commands() {
+    return {
+        go_to_failing("review.next_failing", "Next failing case", "Goes on to the next case that did not pass.",
+                      "N PageDown", 1),
+        go_to_failing("review.previous_failing", "Previous failing case", "Goes back to a case that did not pass.",
+                      "P PageUp", -1),
+        go_to_case("review.next", "Next case", "Goes on to the next case of the list.", "Down", 1),
+        go_to_case("review.previous", "Previous case", "Goes back to the case before.", "Up", -1),
+        Command("review.show", "Show case", "Shows the pictures of a case.", show_case,
+                {.argument = "CASE",
+                 .enabled = has_review,
+                 .choices = case_names,
+                 .chosen = so(
+                     [](const Review& review, const std::string& name) { return review.shown().file.name == name; })}),
+        Command("review.failed_only", "Only failing cases", "Leaves out of the list what passed.",
+                [](Session& session) { session.review()->look.failed_only = !session.review()->look.failed_only; },
+                {.shortcut = "L", .enabled = has_review, .checked = so([](const Review& review) {
+                                                             return review.look.failed_only;
+                                                         })}),
+        Command(
+            "review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.", order_by,
+            {.argument = "ORDER",
+             .enabled = has_review,
+             .choices =
+                 [](const Session&) { return std::vector<std::string>(kReviewOrders.begin(), kReviewOrders.end()); },
+             .chosen = so([](const Review& review, const std::string& name) {
+                 return kReviewOrders[static_cast<std::size_t>(review.look.order)] == name;
+             })}),
+    };
+}
+
+/// A mode that is on already stays; blinking ends.
+void set_mode(Session& session, ReviewMode mode) {
+    ReviewLook& look = session.review()->look;
+    const bool ends = mode == ReviewMode::blink && look.mode == ReviewMode::blink;
+    look.mode = ends ? ReviewMode::actual : mode;
+}
+
+/// The other of golden and actual picture.
+void flip(Session& session) {
+    ReviewLook& look = session.review()->look;
+    look.mode = look.mode == ReviewMode::golden ? ReviewMode::actual : ReviewMode::golden;
+}
+
+Command divider_command(std::string_view id, std::string_view title, std::string_view shortcut, double by) {
+    const auto move = [by](Session& session) {
+        double& divider = session.review()->look.divider;
+        divider = std::clamp(divider + by, 0.0, 1.0);
+    };
+    const Condition enabled = when([](const Review& review) { return review.look.mode == ReviewMode::slider; },
+                                   [](const Session&) -> std::string_view { return "the slider is not shown"; });
+    return {id,
+            title,
+            "Moves the line between golden and actual picture.",
+            move,
+            {.menu = "Review/Pictures", .shortcut = shortcut, .repeats = true, .enabled = enabled}};
+}
+
+std::vector<Command> mode_commands() {
+    static const std::vector<std::string> ids = [] {
+        std::vector<std::string> out;
+        for (const ReviewModeWords& words : kReviewModes) out.push_back("review." + std::string(words.name));
+        return out;
+    }();
+    std::vector<Command> out;
+    for (std::size_t i = 0; i < kReviewModes.size(); ++i) {
+        const auto mode = static_cast<ReviewMode>(i);
+        const ReviewModeWords& words = kReviewModes[i];
+        out.push_back(Command(ids[i], words.title, words.doc, [mode](Session& session) { set_mode(session, mode); },
+                              {.menu = "Review/Pictures",
+                               .shortcut = words.shortcut,
+                               .enabled = has_review,
+                               .checked = so([mode](const Review& review) { return review.look.mode == mode; })}));
+    }
+    out.push_back(Command("review.flip", "Flip", "Shows the other of golden and actual picture.", flip,
+                          {.menu = "Review/Pictures", .shortcut = "Space", .enabled = has_review}));
+    out.push_back(Command("review.blink_rate", "Blink every so many seconds",
+                          "Sets how long each picture stays while they blink.",
+                          [](Session& session, const std::string& text) {
+                              session.review()->look.blink_seconds = parse_number_within(text, kLeastBlink, kMostBlink);
+                          },
+                          {.menu = "Review/Pictures",
+                           .argument = "SECONDS",
+                           .enabled = has_review,
+                           .choices =
+                               [](const Session&) {
+                                   return std::vector<std::string>{"0.2", "0.5", "1", "2"};
+                               },
+                           .chosen = so([](const Review& review, const std::string& text) {
+                               return short_double(review.look.blink_seconds) == text;
+                           })}));
+    out.push_back(divider_command("review.divider_left", "Slider to the left", "Left", -kDividerStep));
+    out.push_back(divider_command("review.divider_right", "Slider to the right", "Right", kDividerStep));
+    return out;
+}
+
+void set_zoom(ReviewLook& look, double zoom) { look.zoom = std::clamp(zoom, kLeastReviewZoom, kMostReviewZoom); }
+
+/// To the next power of two.
+void zoom_by(Session& session, bool in) {
+    ReviewLook& look = session.review()->look;
+    const double power = std::log2(look.scale());
+    constexpr double kAlmost = 0.01;
+    set_zoom(look, std::exp2(in ? std::floor(power + kAlmost) + 1 : std::ceil(power - kAlmost) - 1));
+}
+
+void zoom_to_difference(Session& session) {
+    Review& review = *session.review();
+    const ReviewPictures& pictures = review.pictures();
+    if (!pictures.diff || !pictures.diff->bounds) throw std::invalid_argument("no pixels differ in this case");
+    const PixelRect& bounds = *pictures.diff->bounds;
+    const double width = pictures.golden->width;
+    const double height = pictures.golden->height;
+    constexpr double kRoom = 0.7;  // of the view that the difference fills
+    constexpr double kEnough = 16;
+    const double larger = std::max(kRoom * std::min(width / bounds.width, height / bounds.height), 1.0);
+    set_zoom(review.look, std::min(review.look.fits * larger, kEnough));
+    review.look.middle = {(bounds.x + bounds.width / 2.0) / width, (bounds.y + bounds.height / 2.0) / height};
+}
+
+Command pan_command(std::string_view id, std::string_view title, std::string_view shortcut, double right, double down) {
+    const auto pan = [right, down](Session& session) {
+        ReviewLook& look = session.review()->look;
+        const double step = kPanStep / std::max(look.scale() / look.fits, 1.0);
+        look.middle = glm::clamp(look.middle + step * glm::dvec2(right, down), 0.0, 1.0);
+    };
+    return {id,
+            title,
+            "Moves over the pictures; a drag does the same.",
+            pan,
+            {.menu = "Review/Zoom", .shortcut = shortcut, .repeats = true, .enabled = has_review}};
+}
+
+std::vector<Command> zoom_commands() {
+    const std::string_view menu = "Review/Zoom";
+    return {
+        Command("review.fit", "Whole picture", "Shows all of the pictures.",
+                [](Session& session) {
+                    session.review()->look.zoom = 0;
+                    session.review()->look.middle = glm::dvec2(0.5);
+                },
+                {.menu = menu, .shortcut = "F Home", .enabled = has_review}),
+        Command("review.actual_size", "Actual size", "One pixel of the window for each pixel of the pictures.",
+                [](Session& session) { set_zoom(session.review()->look, 1); },
+                {.menu = menu, .shortcut = "0", .enabled = has_review}),
+        Command("review.zoom_in", "Zoom in", "Shows the pictures twice as large.",
+                [](Session& session) { zoom_by(session, true); },
+                {.menu = menu, .shortcut = "= Shift+=", .repeats = true, .enabled = has_review}),
+        Command("review.zoom_out", "Zoom out", "Shows the pictures half as large.",
+                [](Session& session) { zoom_by(session, false); },
+                {.menu = menu, .shortcut = "-", .repeats = true, .enabled = has_review}),
+        Command("review.zoom_to_difference", "Zoom to the difference",
+                "Shows the part of the pictures that holds all pixels that differ.", zoom_to_difference,
+                {.menu = menu, .shortcut = "D", .enabled = has_review}),
+        pan_command("review.pan_left", "Move to the left", "Shift+Left", -1, 0),
+        pan_command("review.pan_right", "Move to the right", "Shift+Right", 1, 0),
+        pan_command("review.pan_up", "Move up", "Shift+Up", 0, -1),
+        pan_command("review.pan_down", "Move down", "Shift+Down", 0, 1),
+    };
+}
+
+void accept_cases(Session& session, const std::vector<std::size_t>& indices) {
+    session.tell(Message::Level::info, session.review()->accept(indices));
+    session.poll();
+}
+
+std::vector<Command> golden_commands() {
+    return {
+        Command(
+            "review.accept", "Accept", "Makes the picture the case's golden.",
+            [](Session& session) { accept_cases(session, {session.review()->current()}); },
+            {.shortcut = "A",
+             .enabled = when([](const Review& review) { return review.why_not_accept(review.current()).empty(); },
+                             [](const Session&) -> std::string_view { return "this case has nothing to accept"; })}),
+        Command("review.mark", "Mark", "Marks a case, to accept it with others; without a name the one that is shown.",
+                toggle_mark,
+                {.shortcut = "M", .argument = "[CASE]", .enabled = has_review, .checked = so([](const Review& review) {
+                                                                                   return review.shown().marked;
+                                                                               })}),
+        Command("review.mark_failing", "Mark all failing cases", "Marks every case that did not pass.", mark_failing,
+                {.shortcut = "Ctrl+A", .enabled = has_review}),
+        Command("review.accept_marked", "Accept marked cases", "Makes the pictures of all marked cases their goldens.",
+                [](Session& session) { accept_cases(session, session.review()->marked()); },
+                {.shortcut = "Shift+A",
+                 .enabled = when([](const Review& review) { return !review.marked().empty(); },
+                                 [](const Session&) -> std::string_view { return "no case is marked"; })}),
+        Command("review.accept_viewed", "Accept all that were viewed",
+                "Makes goldens of the pictures of all failing cases that were looked at.",
+                [](Session& session) { accept_cases(session, session.review()->viewed_failing()); },
+                {.shortcut = "Ctrl+Shift+A",
+                 .enabled = when([](const Review& review) { return !review.viewed_failing().empty(); },
+                                 [](const Session&) -> std::string_view { return "no failing case was looked at"; })}),
+        Command("review.undo", "Undo", "Gives back the goldens that were there before.",
+                [](Session& session) { session.review()->undo(); },
+                {.shortcut = "Ctrl+Z",
+                 .enabled = when([](const Review& review) { return review.can_undo(); },
+                                 [](const Session&) -> std::string_view { return "nothing was accepted"; })}),
+        Command("review.redo", "Redo", "Takes again the goldens that were given back.",
+                [](Session& session) { session.review()->redo(); },
+                {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
+                 .enabled = when([](const Review& review) { return review.can_redo(); },
+                                 [](const Session&) -> std::string_view { return "nothing was undone"; })}),
+    };
+}
+
+Condition if_idle() {
+    return when([](const Review& review) { return !review.drawing(); },
+                [](const Session&) -> std::string_view { return "cases are being drawn"; });
+}
+
+void copy_line(Session& session) {
+    const Review& review = *session.review();
+    const std::string line = test_command_line(review.drawer(), review.folder(), review.shown().file.name);
+    if (session.hooks.set_clipboard) session.hooks.set_clipboard(line);
+    session.tell(Message::Level::info, "Copied: " + line);
+}
+
+std::vector<Command> run_commands() {
+    return {
+        Command("review.draw", "Draw the case again", "Draws the case anew and compares it.",
+                [](Session& session) {
+                    session.review()->draw({session.review()->current()});
+                    session.poll();
+                },
+                {.shortcut = "R", .enabled = if_idle()}),
+        Command("review.draw_all", "Draw all cases again", "Draws all cases anew and compares them.",
+                [](Session& session) {
+                    session.review()->draw_all();
+                    session.poll();
+                },
+                {.shortcut = "Shift+R F5", .enabled = if_idle()}),
+        Command("review.cancel", "Stop drawing", "Leaves the cases that are not drawn yet as they were.",
+                [](Session& session) { session.review()->cancel(); },
+                {.enabled = when([](const Review& review) { return review.drawing(); },
+                                 [](const Session&) -> std::string_view { return "nothing is drawn"; })}),
+        Command("review.open", "Open the case as a scene",
+                "Opens what the case draws in place of the picture tests; what was open is back when they are left.",
+                [](Session& session) { session.open_case(session.review()->current()); },
+                {.shortcut = "Enter", .enabled = has_review}),
+        Command("review.copy_command", "Copy as command", "Copies the command line that draws and compares the case.",
+                copy_line, {.shortcut = "Ctrl+Shift+C", .enabled = has_review}),
+        Command("review.leave", "Leave the picture tests", "Shows the scene again that was open before.",
+                &Session::leave_review, {.shortcut = "Escape", .enabled = has_review}),
+    };
+}
+
+}  // namespace
+
+std::vector<Command> review_commands() {
+    std::vector<Command> rows = in_menu(
+        "Review", joined({case_commands(), mode_commands(), zoom_commands(), golden_commands(), run_commands()}));
+    rows.push_back(
+        Command("review.back", "Back to the picture tests", "Shows the picture tests again.", &Session::back_to_review,
+                {.menu = "File", .shortcut = "Ctrl+R", .enabled = {has_review, [](const Session&) -> std::string_view {
+                                                                       return "no picture tests were shown";
+                                                                   }}}));
+    return rows;
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,198 @@
+/// Picture tests that are looked at: their results, which one is shown and how, and goldens that are taken and given
+/// back.
+#pragma once
+
+#include <app/document/job.h>
+#include <cases/case_file.h>
+#include <cases/case_result.h>
+#include <cases/drawing_child.h>
+#include <cases/golden_change.h>
+#include <cases/result_line.h>
+#include <render/image/image.h>
+#include <render/image/image_diff.h>
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// How the pictures of a case are laid out.
+enum class ReviewMode { side_by_side, golden, actual, difference, slider, blink };
+struct ReviewModeWords {
+    std::string_view name;   ///< for scripts
+    std::string_view title;  ///< on its button
+    std::string_view doc;    ///< of its command
+    std::string_view shortcut;
+};
+inline constexpr std::array<ReviewModeWords, 6> kReviewModes{
+    {{"side", "Side by side", "Shows golden, actual picture and difference beside one another.", "1"},
+     {"golden", "Golden", "Shows the golden.", "2"},
+     {"actual", "Actual", "Shows the picture as it is drawn now.", "3"},
+     {"difference", "Difference", "Shows where the pictures differ: the brighter, the more.", "4"},
+     {"slider", "Slider", "Shows the golden left of a line and the actual picture right of it; drag the line.", "5"},
+     {"blink", "Blink", "Shows golden and actual picture in turn.", "6 B"}}};
+
+enum class ReviewOrder { name, difference, outcome };
+inline constexpr std::array<std::string_view, 3> kReviewOrders{"name", "difference", "outcome"};
+
+inline constexpr double kLeastReviewZoom = 1.0 / 32;
+inline constexpr double kMostReviewZoom = 64;
+
+/// How the cases are looked at; any value may be set at any time.
+struct ReviewLook {
+    ReviewMode mode = ReviewMode::side_by_side;
+    double blink_seconds = 0.5;  ///< that each picture stays
+    double divider = 0.5;        ///< of the slider: share of the picture's width that shows the golden
+    double zoom = 0;             ///< pixels of the window for one of the picture; 0: all of it is seen
+    double fits = 1;             ///< the zoom at which all is seen, as the panel last had it
+    glm::dvec2 middle{0.5};      ///< what is in the middle, as shares of width and height
+    bool failed_only = false;    ///< of the list
+    ReviewOrder order = ReviewOrder::name;
+
+    double scale() const { return zoom > 0 ? zoom : fits; }
+};
+
+/// One case, and what is known of it.
+struct ReviewCase {
+    enum class State { not_drawn, waiting, drawn };
+
+    picture_tests::CaseFile file;
+    State state = State::not_drawn;
+    picture_tests::PackedResult result{};  ///< of what is drawn
+    bool from_output = false;              ///< the picture is one that an earlier run left
+    bool accepted = false;                 ///< its fresh goldens are written
+    bool viewed = false;                   ///< somebody has seen its pictures
+    bool marked = false;                   ///< chosen, among several
+    /// The picture that is accepted if the case, drawn anew, still looks like it.
+    std::optional<std::string> accept_if{};
+
+    bool drawn() const { return state == State::drawn; }
+    /// Passed, if its goldens were taken; only of what is drawn.
+    picture_tests::CaseOutcome outcome() const;
+    /// Drawn, and neither passed nor skipped.
+    bool failing() const;
+    /// Share of the pixels that differ, 0..1; 1 where there is nothing to compare.
+    double difference() const;
+};
+
+/// The pictures of one case. Null where there is none.
+struct ReviewPictures {
+    std::shared_ptr<const Image> golden, actual, difference;
+    std::optional<ImageDiff> diff;      ///< without its heat map
+    std::filesystem::path golden_file;  ///< that is compared: the case's own, or the one without text
+    std::string why_not;                ///< a picture cannot be read; else empty
+};
+
+class Review {
+  public:
+    /// What a review needs of the program around it.
+    struct Surroundings {
+        bool attended = true;                                                 ///< false: runs are waited for
+        std::function<void()> wake{};                                         ///< from any thread: there is news
+        std::function<void(const std::filesystem::path&)> check_may_write{};  ///< throws if that file may not be
+        picture_tests::CaseDrawer drawer{};
+    };
+
+    /// `output`: where an earlier `mobbscope test --output` left pictures; empty: none. Throws InputError if there are
+    /// no cases or no such output.
+    Review(std::filesystem::path folder, std::filesystem::path output, Surroundings surroundings);
+    /// Throws InputError as the constructor does.
+    static void check(const std::filesystem::path& folder, const std::filesystem::path& output);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& output() const { return output_; }
+    const picture_tests::CaseDrawer& drawer() const { return surroundings_.drawer; }
+    const std::vector<ReviewCase>& cases() const { return cases_; }
+    picture_tests::Summary summary() const;  ///< of those that are drawn
+    ReviewLook look;
+
+    // Which one.
+    std::size_t current() const { return current_; }
+    const ReviewCase& shown() const { return cases_[current_]; }
+    void show(std::size_t index);
+    /// The cases of the list, in its order.
+    std::vector<std::size_t> listed() const;
+    /// The listed case `by` rows further that is wanted; none if there is none.
+    std::optional<std::size_t> next(int by, bool failing_only) const;
+    /// Throws std::invalid_argument if there is none of that name.
+    std::size_t index_of(const std::string& name) const;
+    void mark(std::size_t index, bool marked) { cases_[index].marked = marked; }
+    std::vector<std::size_t> marked() const;
+    std::vector<std::size_t> viewed_failing() const;
+    /// Of the case that is shown, unpacked; counts as seen.
+    const ReviewPictures& pictures();
+
+    // Runs.
+    /// Draws them anew, beside the window.
+    void draw(const std::vector<std::size_t>& indices);
+    void draw_all();
+    bool drawing() const { return job_ != nullptr; }
+    /// 0..1 of the run.
+    double progress() const { return job_ ? job_->progress() : 1; }
+    void cancel();
+    /// Takes in what was drawn; call it before each frame. Returns what to tell the person: each a line of its own.
+    std::vector<std::string> poll();
+
+    // Goldens.
+    /// Why the case's picture cannot become its golden; empty if it can.
+    std::string why_not_accept(std::size_t index) const;
+    /// Those that can be: their pictures become goldens, as `mobbscope test --update` makes them, and undo takes all
+    /// back at once. A picture of an earlier run is drawn anew first, and taken if it is still the same. Returns in
+    /// words what it did. Throws std::invalid_argument if it can be done with none; InputError and MachineError if
+    /// nothing could be written.
+    std::string accept(const std::vector<std::size_t>& indices);
+    bool can_undo() const { return done_ > 0; }
+    bool can_redo() const { return done_ < steps_.size(); }
+    std::string undo_title() const { return can_undo() ? steps_[done_ - 1].title : ""; }
+    std::string redo_title() const { return can_redo() ? steps_[done_].title : ""; }
+    /// The very bytes of before, or of after. Require can_undo() or can_redo(). Throw InputError if a golden was
+    /// changed by somebody else meanwhile, MachineError: nothing is changed then.
+    void undo();
+    void redo();
+
+  private:
+    /// Goldens that were taken together.
+    struct Step {
+        std::string title;
+        struct Taken {
+            std::size_t index;
+            picture_tests::PackedResult before;  ///< whose fresh goldens were written
+        };
+        std::vector<Taken> taken;
+    };
+    /// What a run's thread hands over.
+    struct News {
+        std::mutex mutex;
+        std::vector<picture_tests::NamedResult> results;
+    };
+
+    void read_output();
+    void take_in(const picture_tests::NamedResult& result, std::vector<std::string>& to_tell);
+    /// Writes the goldens of the cases; those that refuse are left out of the step, and said.
+    std::string write(const std::vector<std::size_t>& indices);
+    void end_run();
+    void changed(std::size_t index);
+
+    std::filesystem::path folder_, output_;
+    Surroundings surroundings_;
+    std::vector<ReviewCase> cases_;
+    std::size_t current_ = 0;
+    std::optional<std::size_t> unpacked_;
+    ReviewPictures pictures_;
+    std::shared_ptr<News> news_;
+    std::vector<Step> steps_;
+    std::size_t done_ = 0;  ///< steps that are not undone
+    std::unique_ptr<Job> job_;
+};
+
+}  // namespace mobbscope::app

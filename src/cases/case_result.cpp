@@ -1,0 +1,50 @@
+#include <cases/case_result.h>
+
+#include <algorithm>
+
+namespace mobbscope::picture_tests {
+
+std::optional<CaseOutcome> outcome_from_name(std::string_view name) {
+    const auto at = std::ranges::find(kOutcomeWords, name, &OutcomeWords::name);
+    if (at == kOutcomeWords.end()) return std::nullopt;
+    return static_cast<CaseOutcome>(at - kOutcomeWords.begin());
+}
+
+bool can_be_taken(CaseOutcome outcome, std::string_view other_here) {
+    const bool is_no_golden = outcome == CaseOutcome::different || outcome == CaseOutcome::missing_golden;
+    return is_no_golden && other_here.empty();
+}
+
+bool can_be_taken(const CaseResult& result) { return can_be_taken(result.outcome, result.other_here); }
+
+Summary summary(std::span<const CaseResult> results) {
+    Summary sum;
+    for (const CaseResult& result : results) ++sum[result.outcome];
+    return sum;
+}
+
+std::string sum_of(const Summary& summary) {
+    std::string out;
+    for (std::size_t i = 0; i < summary.counts.size(); ++i) {
+        if (summary.counts[i] == 0) continue;
+        out +=
+            (out.empty() ? "" : ", ") + std::to_string(summary.counts[i]) + ' ' + std::string(kOutcomeWords[i].in_sum);
+    }
+    return out.empty() ? "no cases" : out;
+}
+
+std::vector<std::filesystem::path> take(CaseResult& result) {
+    write_goldens(result.fresh);
+    std::vector<std::filesystem::path> written;
+    for (const GoldenChange& golden : result.fresh) written.push_back(golden.file);
+    result.fresh.clear();
+    result.findings.clear();
+    result.golden = {};
+    result.image = diff(result.actual, result.actual, diff_options(result.tolerance));
+    result.image->heat = {};
+    result.outcome = CaseOutcome::passed;
+    result.message.clear();
+    return written;
+}
+
+}  // namespace mobbscope::picture_tests

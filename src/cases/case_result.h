@@ -1,0 +1,97 @@
+/// What came of a case: its outcome, its pictures, and the goldens that it would have.
+#pragma once
+
+#include <cases/case_file.h>
+#include <cases/golden_change.h>
+#include <render/image/image.h>
+#include <render/image/image_diff.h>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope::picture_tests {
+
+enum class CaseOutcome {
+    passed,
+    different,       ///< the picture, or what is drawn, is not the golden's
+    missing_golden,  ///< there is a picture, but nothing to hold it against
+    failed,          ///< no picture: the case cannot be read or drawn
+    skipped,         ///< by the case, or as there is no OpenGL
+};
+
+/// What reports and the window call an outcome.
+struct OutcomeWords {
+    std::string_view name;
+    std::string_view key;          ///< of the summary in JSON
+    std::string_view in_sum;       ///< "3 without a golden"
+    std::string_view mark, badge;  ///< on the page: a sign that needs no colour, and words
+    std::string_view kind;         ///< which colour on the page: good, bad or quiet
+};
+inline constexpr std::array<OutcomeWords, 5> kOutcomeWords{
+    {{"passed", "passed", "passed", "✓", "passed", "good"},
+     {"different", "different", "different", "≠", "different", "bad"},
+     {"missing golden", "missing", "without a golden", "∅", "no golden", "bad"},
+     {"failed", "failed", "failed", "✕", "failed", "bad"},
+     {"skipped", "skipped", "skipped", "–", "skipped", "quiet"}}};
+static_assert(kOutcomeWords.size() == static_cast<std::size_t>(CaseOutcome::skipped) + 1);
+inline const OutcomeWords& words_of(CaseOutcome outcome) { return kOutcomeWords[static_cast<std::size_t>(outcome)]; }
+inline std::string_view name(CaseOutcome outcome) { return words_of(outcome).name; }
+
+/// Nothing if there is none of that name.
+std::optional<CaseOutcome> outcome_from_name(std::string_view name);
+
+/// What is wrong with one golden.
+struct Finding {
+    std::filesystem::path golden;
+    std::string message;             ///< one line
+    std::vector<std::string> words;  ///< of numbers what differs, one line each; else empty
+};
+
+struct CaseResult {
+    CaseFile file;
+    CaseOutcome outcome = CaseOutcome::passed;
+    std::string message;            ///< one line: why it did not pass; empty for one that did
+    std::vector<Finding> findings;  ///< of a case that is different or lacks a golden
+    double seconds = 0;             ///< drawing and comparing
+    Tolerance tolerance = Tolerance::tight;
+    Image actual;                    ///< empty where there is none; without text if only that picture is different
+    Image golden;                    ///< likewise, and of a case that passed
+    std::optional<ImageDiff> image;  ///< where both exist; of a case that passed without its heat map
+    /// Of a case that is different or lacks a golden: the files to write if it is accepted.
+    std::vector<GoldenChange> fresh;
+    /// What is other here than where the goldens are from, which is why pixels of text are not held against them; empty
+    /// if they are.
+    std::string other_here;
+};
+
+/// Whether there is a picture that is not the golden's, and goldens are taken here.
+bool can_be_taken(const CaseResult& result);
+bool can_be_taken(CaseOutcome outcome, std::string_view other_here);
+
+/// How many cases had each outcome.
+struct Summary {
+    std::array<int, kOutcomeWords.size()> counts{};  ///< in the order of the outcomes
+
+    int& operator[](CaseOutcome outcome) { return counts[static_cast<std::size_t>(outcome)]; }
+    int operator[](CaseOutcome outcome) const { return counts[static_cast<std::size_t>(outcome)]; }
+    /// Those with a picture that is not the golden's, or nothing to hold it against.
+    int not_golden() const { return (*this)[CaseOutcome::different] + (*this)[CaseOutcome::missing_golden]; }
+    int bad() const { return not_golden() + (*this)[CaseOutcome::failed]; }
+    bool ok() const { return bad() == 0; }
+};
+Summary summary(std::span<const CaseResult> results);
+
+/// "1 passed, 2 different, 3 without a golden, 4 failed, 5 skipped"; what there is none of is left out.
+std::string sum_of(const Summary& summary);
+
+/// Makes the goldens of a case what is drawn now (write_goldens); then the case has passed. Returns what it wrote.
+/// Throws as write_goldens does.
+std::vector<std::filesystem::path> take(CaseResult& result);
+
+}  // namespace mobbscope::picture_tests

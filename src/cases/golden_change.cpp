@@ -1,0 +1,50 @@
+#include <base/error.h>
+#include <base/file.h>
+#include <cases/golden_change.h>
+
+#include <cstddef>
+#include <exception>
+#include <system_error>
+
+namespace mobbscope::picture_tests {
+
+namespace {
+
+void write_one(const GoldenChange& change) {
+    if (change.bytes) return write_file(change.file, *change.bytes);
+    std::error_code error;
+    std::filesystem::remove(change.file, error);
+    if (error) throw MachineError(change.file.string() + ": cannot be removed: " + error.message());
+}
+
+}  // namespace
+
+std::optional<std::string> golden_bytes(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+    return read_file(file);
+}
+
+std::vector<GoldenChange> taken_back(std::span<const GoldenChange> changes) {
+    std::vector<GoldenChange> out;
+    for (const GoldenChange& change : changes) out.push_back({change.file, change.replaces, change.bytes});
+    return out;
+}
+
+void write_goldens(std::span<const GoldenChange> changes) {
+    for (const GoldenChange& change : changes) {
+        if (golden_bytes(change.file) == change.replaces) continue;
+        throw InputError(change.file.string(), "",
+                         "has changed on the disk since the case was drawn; run the case again and look at it");
+    }
+    for (std::size_t done = 0; done < changes.size(); ++done) {
+        try {
+            write_one(changes[done]);
+        } catch (const std::exception&) {
+            for (const GoldenChange& back : taken_back(changes.first(done))) write_one(back);
+            throw;
+        }
+    }
+}
+
+}  // namespace mobbscope::picture_tests

@@ -1,0 +1,29 @@
+/// Goldens are written in one place, whoever takes them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mobbscope::picture_tests {
+
+/// The bytes of a golden, and those that they take the place of; none: there is no such file.
+struct GoldenChange {
+    std::filesystem::path file;
+    std::optional<std::string> bytes;
+    std::optional<std::string> replaces{};
+};
+
+/// What a file holds now; nothing if there is none. Throws InputError if it cannot be read.
+std::optional<std::string> golden_bytes(const std::filesystem::path& file);
+
+/// What takes the changes back.
+std::vector<GoldenChange> taken_back(std::span<const GoldenChange> changes);
+
+/// Makes all these changes or none of them, each file whole. Throws InputError if a file is no longer what its change
+/// takes the place of, MachineError if one cannot be written.
+void write_goldens(std::span<const GoldenChange> changes);
+
+}  // namespace mobbscope::picture_tests

@@ -1,0 +1,129 @@
+#include <base/base64.h>
+#include <base/json.h>
+#include <base/json_writer.h>
+#include <base/text.h>
+#include <cases/result_line.h>
+#include <render/image/image_diff.h>
+#include <render/image/png.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+namespace mobbscope::picture_tests {
+
+namespace {
+
+constexpr double kMostPixels = 1e12;
+
+std::optional<std::string> packed(const std::optional<std::string>& bytes) {
+    if (!bytes) return std::nullopt;
+    return base64(*bytes);
+}
+
+std::optional<std::string> packed(const Image& image) {
+    if (image.rgba.empty()) return std::nullopt;
+    return base64(png_bytes(image));
+}
+
+std::optional<std::string> unpacked(const JsonPlace& place) {
+    if (place.is_null()) return std::nullopt;
+    std::optional<std::string> bytes = from_base64(place.string());
+    if (!bytes) place.fail("is no base64");
+    return bytes;
+}
+
+template <class Value, class FromName>
+Value named(const JsonPlace& place, const FromName& from_name) {
+    const std::optional<Value> value = from_name(place.string());
+    if (!value) place.fail(in_quotes(place.string()) + " is none of the names");
+    return *value;
+}
+
+DiffFigures read_figures(const JsonPlace& place) {
+    DiffFigures out;
+    out.same_size = place.require("same_size").boolean();
+    out.pixels = static_cast<std::int64_t>(place.require("pixels").number(0, kMostPixels));
+    out.differing = static_cast<std::int64_t>(place.require("failing").number(0, kMostPixels));
+    out.largest = place.require("maximum").integer(0, 255);
+    out.mean = place.require("mean").number(0, 255);
+    return out;
+}
+
+}  // namespace
+
+DiffFigures figures_of(const ImageDiff& diff) {
+    return {diff.same_size, diff.pixels, diff.differing, diff.largest, diff.mean};
+}
+
+void write_result_line(std::ostream& out, const CaseResult& result, const DrawnBy& drawn_by) {
+    JsonWriter json(out);
+    json.begin_object(JsonWriter::Layout::row);
+    json.member("name", result.file.name);
+    json.member("outcome", name(result.outcome));
+    json.member("message", result.message);
+    json.member("tolerance", name(result.tolerance));
+    json.member("other_here", result.other_here);
+    json.member("backend", drawn_by.backend);
+    json.member("renderer", drawn_by.renderer);
+    json.key("diff");
+    if (result.image) {
+        write_diff(json, *result.image);
+    } else {
+        json.null();
+    }
+    json.list("findings", result.findings, [&](const Finding& finding) {
+        json.begin_object();
+        json.member("golden", result.file.ending_of(finding.golden));
+        json.member("message", finding.message);
+        json.values("words", finding.words);
+        json.end_object();
+    });
+    json.member("actual", packed(result.actual));
+    json.member("golden", packed(result.golden));
+    json.list("fresh", result.fresh, [&](const GoldenChange& fresh) {
+        json.begin_object();
+        json.member("golden", result.file.ending_of(fresh.file));
+        json.member("bytes", packed(fresh.bytes));
+        json.member("replaces", packed(fresh.replaces));
+        json.end_object();
+    });
+    json.end_object();
+}
+
+NamedResult read_result_line(std::string_view line, const std::vector<CaseFile>& cases) {
+    const std::string name = "a result";
+    const JsonValue value = parse_json(line, name);
+    const JsonPlace root(value, name);
+    NamedResult out;
+    out.name = root.require("name").string();
+    const auto file = std::ranges::find(cases, out.name, &CaseFile::name);
+    if (file == cases.end()) root.require("name").fail(in_quotes(out.name) + " is none of the cases");
+    PackedResult& result = out.result;
+    result.outcome = named<CaseOutcome>(root.require("outcome"), outcome_from_name);
+    result.message = root.require("message").string();
+    result.tolerance = named<Tolerance>(root.require("tolerance"), tolerance_from_name);
+    result.other_here = root.require("other_here").string();
+    result.drawn_by = {root.require("backend").string(), root.require("renderer").string()};
+    const JsonPlace diff = root.require("diff");
+    if (!diff.is_null()) result.figures = read_figures(diff);
+    const JsonPlace findings = root.require("findings");
+    for (int i = 0; i < findings.size(); ++i) {
+        const JsonPlace finding = findings[i];
+        Finding read{file->beside(finding.require("golden").string()), finding.require("message").string(), {}};
+        const JsonPlace words = finding.require("words");
+        for (int k = 0; k < words.size(); ++k) read.words.push_back(words[k].string());
+        result.findings.push_back(std::move(read));
+    }
+    result.actual = unpacked(root.require("actual")).value_or("");
+    result.golden = unpacked(root.require("golden")).value_or("");
+    const JsonPlace fresh = root.require("fresh");
+    for (int i = 0; i < fresh.size(); ++i) {
+        const JsonPlace one = fresh[i];
+        result.fresh.push_back({file->beside(one.require("golden").string()), unpacked(one.require("bytes")),
+                                unpacked(one.require("replaces"))});
+    }
+    return out;
+}
+
+}  // namespace mobbscope::picture_tests

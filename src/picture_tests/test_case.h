@@ -1,0 +1,22 @@
+/// A picture test: a shot, and what its picture must look like (cases/case_file.h).
+#pragma once
+
+#include <cases/case_file.h>
+#include <picture_tests/shot.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace mobbscope::picture_tests {
+
+struct Case {
+    Shot shot;
+    Tolerance tolerance = Tolerance::tight;
+    std::optional<std::string> skip;  ///< why; the shot is then not read
+};
+
+/// Throws InputError.
+Case read_case(const std::filesystem::path& file);
+
+}  // namespace mobbscope::picture_tests

@@ -1,0 +1,96 @@
+// Results as lines for other programs, and goldens that are written together.
+#include <base/base64.h>
+#include <cases/golden_change.h>
+#include <cases/result_line.h>
+#include <render/drawlist/draw_list_json.h>
+#include <render/image/png.h>
+#include <support/input_error.h>
+
+#include "picture_tests/case_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace mobbscope::picture_tests {
+namespace {
+
+using mobbscope::testing::CaseFolder;
+using mobbscope::testing::input_error;
+using mobbscope::testing::slurp;
+
+TEST(Base64, ReadsWhatItWrites) {
+    std::string bytes;
+    for (int i = 0; i < 300; ++i) {
+        EXPECT_EQ(from_base64(base64(bytes)), bytes);
+        bytes += static_cast<char>(i * 37);
+    }
+    for (const char* bad : {"A", "AB=C", "A===", "====", "AA A", "AAA\n"}) EXPECT_FALSE(from_base64(bad)) << bad;
+}
+
+TEST(ResultLine, IsReadAsItIsWritten) {
+    const CaseFolder cases;
+    const CaseFile file = cases.add("a");
+    CaseResult result;
+    result.file = file;
+    result.outcome = CaseOutcome::different;
+    result.message = "two\tthings";
+    result.tolerance = Tolerance::loose;
+    result.actual = Image(2, 1);
+    result.golden = Image(2, 1);
+    result.actual.at(1, 0)[3] = 200;
+    result.image = diff(result.actual, result.golden);
+    result.findings = {{file.golden(), "pixels", {}}, {file.draw(), "numbers", {"box of A", "and 1 more"}}};
+    result.fresh = {{file.golden(), "new", "old"}, {file.draw(), "{}", {}}};
+    std::ostringstream line;
+    write_result_line(line, result, {"osmesa", "llvmpipe"});
+    ASSERT_EQ(line.str().find('\n'), line.str().size() - 1) << "one line";
+
+    const NamedResult read = read_result_line(line.str(), {file});
+    EXPECT_EQ(read.name, "a");
+    EXPECT_EQ(read.result.outcome, CaseOutcome::different);
+    EXPECT_EQ(read.result.message, result.message);
+    EXPECT_EQ(read.result.tolerance, Tolerance::loose);
+    EXPECT_EQ(read.result.drawn_by.backend, "osmesa");
+    EXPECT_EQ(read_png_bytes(read.result.actual).rgba, result.actual.rgba);
+    ASSERT_TRUE(read.result.figures);
+    EXPECT_EQ(read.result.figures->differing, result.image->differing);
+    ASSERT_EQ(read.result.findings.size(), 2u);
+    EXPECT_EQ(read.result.findings[1].golden, file.draw());
+    EXPECT_EQ(read.result.findings[1].words, result.findings[1].words);
+    ASSERT_EQ(read.result.fresh.size(), 2u);
+    EXPECT_EQ(read.result.fresh[0].file, file.golden());
+    EXPECT_EQ(read.result.fresh[0].bytes, "new");
+    EXPECT_EQ(read.result.fresh[0].replaces, "old");
+    EXPECT_FALSE(read.result.fresh[1].replaces);
+    EXPECT_NE(input_error([&] { read_result_line("{}", {file}); }), "");
+    EXPECT_NE(input_error([&] { read_result_line(line.str(), {}); }), "");
+}
+
+TEST(GoldenChange, IsTakenBackToTheByteAndRefusedWhereAnotherWas) {
+    const CaseFolder cases;
+    const CaseFile file = cases.add("a");
+    const std::vector<GoldenChange> changes{{file.golden(), "new", {}}};
+    write_goldens(changes);
+    EXPECT_EQ(slurp(file.golden()), "new");
+    EXPECT_NE(input_error([&] { write_goldens(changes); }).find("has changed on the disk"), std::string::npos);
+    write_goldens(taken_back(changes));
+    EXPECT_FALSE(std::filesystem::exists(file.golden()));
+}
+
+TEST(DifferencesInWords, NameWhatIsOther) {
+    const std::string golden = R"({"participants": ["A", "B"], "camera": {"eye": [1, 2, 3]},
+        "boxes": [{"participant": 1, "node": 3, "extents": [1, 2]}], "texts": [{"text": "hi", "at": [0, 0]}]})";
+    const std::string actual = R"({"participants": ["A", "B"], "camera": {"eye": [1, 5, 6]},
+        "boxes": [{"participant": 1, "node": 3, "extents": [4, 2]}], "texts": [{"text": "hi", "at": [9, 0]}]})";
+    const auto words = [&](std::size_t most) { return differences_in_words(actual, "a", golden, "b", most); };
+    EXPECT_EQ(words(9),
+              (std::vector<std::string>{"camera, eye: 5 instead of 2", "box of B, node 3, extents: 4 instead of 1",
+                                        "text 'hi', at: 9 instead of 0"}));
+    EXPECT_EQ(words(1), (std::vector<std::string>{"camera, eye: 5 instead of 2", "and 2 more"}));
+}
+
+}  // namespace
+}  // namespace mobbscope::picture_tests
