@@ -43,7 +43,8 @@ def main():
     write("levels", {"half": {"source": "circle", "trim": [0, 5]}}, {
         "agents": [{"name": "A", "clip": "half", "color": ORANGE}],
         "fit": {"tree": "mobb", "leaf": 10},
-        "view": {"camera": {"preset": "iso", "perspective": False}, "levels": "1", "time_height": 1, "theme": "light"},
+        "view": {"camera": {"preset": "iso", "perspective": False, "target": [-0.19, 1.37, 2.4], "distance": 38},
+                 "levels": "1", "time_height": 1, "theme": "light"},
     })
 
     # Fig. 3: the roots overlap; of the four pairs of children the first is separated, the second apart in time, the

@@ -77,7 +77,7 @@ TEST(Keyboard, TabGoesThroughAllWidgetsAndAround) {
         if (!seen.insert(w.session.focus).second) break;
     }
     for (const char* mark : {"agent.0", "clip.0", "query.0", "scene.add_agent", "tree.kind", "tree.leaf", "view.level",
-                             "view.leaves", "toolbar.view.top", "timeline.time.play", "query.row.0"}) {
+                             "view.leaves", "toolbar.view.top", "timeline.time.play"}) {
         EXPECT_TRUE(seen.contains(mark)) << mark;
     }
     for (const char* mark : {"viewport", "splitter.left", "agent.1", "menu.file", "tree.time_scale"}) {
@@ -124,6 +124,8 @@ TEST(Keyboard, AListIsGoneThroughBeyondWhatIsDrawn) {
     w.open(w.folder.file("many.json"));
     ASSERT_EQ(all_messages(w.session), "");
     w.key("Tab");
+    EXPECT_EQ(w.session.focus, "scene.filter") << "long lists have a filter";
+    w.key("Tab");
     EXPECT_EQ(w.session.focus, "agent.0");
     w.key("Down", 30);
     EXPECT_EQ(w.session.focus, "agent.30");
@@ -157,7 +159,7 @@ TEST(Keyboard, TabGoesOnWhereWhatHadTheFocusIsGone) {
     KeyboardWindow w;
     run_command(w.session, "go.agent", "A");
     w.window.settle();
-    w.key("Tab", 10);
+    for (int i = 0; i < 100 && w.session.focus != "agent.remove"; ++i) w.key("Tab");
     ASSERT_EQ(w.session.focus, "agent.remove");
     w.key("Enter");
     EXPECT_EQ(w.session.scene().agents.size(), 2u);
@@ -182,12 +184,12 @@ TEST(Keyboard, EscapeClosesOneThingAfterTheOther) {
     EXPECT_TRUE(w.session.focus.starts_with("menu.file.")) << w.session.focus;
     w.key("Escape");
     EXPECT_EQ(w.session.focus, focus) << "the menu is closed, the focus where it was";
-    EXPECT_EQ(w.session.messages().size(), 1u);
+    EXPECT_TRUE(w.session.messages().front().up);
     w.key("Escape");
     EXPECT_EQ(w.session.focus, "");
-    EXPECT_EQ(w.session.messages().size(), 1u);
+    EXPECT_TRUE(w.session.messages().front().up);
     w.key("Escape");
-    EXPECT_EQ(w.session.messages().size(), 0u);
+    EXPECT_FALSE(w.session.messages().front().up) << "it is behind the bell";
     EXPECT_EQ(w.session.selection.kind, Selection::Kind::path);
     w.key("Escape");
     EXPECT_EQ(w.session.selection.kind, Selection::Kind::none);

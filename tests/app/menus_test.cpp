@@ -176,12 +176,12 @@ TEST(Menus, ASectionFoldsAndStaysSo) {
     MenuWindow w;
     w.run("click section.clips");
     EXPECT_FALSE(w.has("clip.0"));
-    EXPECT_EQ(w.session.settings.folded, std::set<std::string>{"clips"});
+    EXPECT_TRUE(w.session.settings.folded.at("clips"));
     const float below = w.marks().at("section.queries").min.y;
     w.run("click section.clips");
     EXPECT_TRUE(w.has("clip.0"));
     EXPECT_GT(w.marks().at("section.queries").min.y, below);
-    EXPECT_TRUE(w.session.settings.folded.empty());
+    EXPECT_FALSE(w.session.settings.folded.at("clips"));
 }
 
 TEST(Menus, NoListJumpsWhenSomebodyIsSelected) {
@@ -192,7 +192,7 @@ TEST(Menus, NoListJumpsWhenSomebodyIsSelected) {
     for (const auto& [name, rect] : before) {
         if (!name.starts_with("agent.") && !name.starts_with("clip.") && !name.starts_with("query.")) continue;
         ASSERT_TRUE(w.has(name)) << name;
-        EXPECT_EQ(w.marks().at(name).min, rect.min) << name;
+        EXPECT_EQ(w.marks().at(name).min.y, rect.min.y) << name;
     }
 }
 
@@ -201,9 +201,9 @@ TEST(Menus, AQueryOpensWhereItWasLeft) {
     w.run("run query.select 0\nrun step.to 2\nclick query.1\nexpect /query/index 1");
     const int end = w.session.recorded()->trace.size() - 1;
     EXPECT_EQ(w.session.step(), end) << "its first opening shows the answer";
-    w.run("key Escape\nclick query.0\nexpect /query/step 2\nkey PageDown\nkey PageUp\nexpect /query/step 2");
+    w.run("key Q\nclick query.0\nexpect /query/step 2\nkey PageDown\nkey PageUp\nexpect /query/step 2");
     // Undo goes where one was, and what it left is still known.
-    w.run("run step.to 1\nkey Escape\nkey Ctrl+Z\nexpect /query/step 1\nkey Ctrl+Z\nexpect /query/step 2");
+    w.run("run step.to 1\nkey Q\nkey Ctrl+Z\nexpect /query/step 1\nkey Ctrl+Z\nexpect /query/step 2");
     // The queries before it may go.
     w.run("run query.select 2\nrun step.to 0\nrun query.select 0\nrun query.remove\nrun query.select 1");
     EXPECT_EQ(w.session.step(), 0);

@@ -10,11 +10,11 @@ namespace {
 
 using testing::CrossingFolder;
 
-struct Palette {
+struct PaletteWindow {
     CrossingFolder folder;
     Session session{false};
 
-    Palette() { session.open({folder.scene}); }
+    PaletteWindow() { session.open({folder.scene}); }
     PaletteEntry first(const std::string& text) const {
         const auto entries = palette_entries(session, text);
         return entries.empty() ? PaletteEntry{} : entries.front();
@@ -41,7 +41,7 @@ TEST(Fuzzy, StartsOfWordsAndRunsCountMore) {
 }
 
 TEST(PaletteEntries, WithoutTextAreAllCommandsThatCanBeDoneFirst) {
-    const Palette p;
+    const PaletteWindow p;
     const auto entries = palette_entries(p.session, "");
     const auto belongs = [&](const Command& command) { return belongs_here(p.session, command); };
     ASSERT_EQ(static_cast<std::ptrdiff_t>(entries.size()), std::ranges::count_if(commands(), belongs));
@@ -53,7 +53,7 @@ TEST(PaletteEntries, WithoutTextAreAllCommandsThatCanBeDoneFirst) {
 }
 
 TEST(PaletteEntries, CommandsAreFoundByAFewLetters) {
-    const Palette p;
+    const PaletteWindow p;
     EXPECT_EQ(p.first_id("tree kind"), "tree.kind");
     EXPECT_EQ(p.first_id("kind tree"), "tree.kind");
     EXPECT_EQ(p.first_id("above"), "view.top");
@@ -67,7 +67,7 @@ TEST(PaletteEntries, CommandsAreFoundByAFewLetters) {
 }
 
 TEST(PaletteEntries, ChoicesAreFoundWithTheirCommand) {
-    const Palette p;
+    const PaletteWindow p;
     const PaletteEntry kind = p.first("tk umobb");
     EXPECT_EQ(kind.command->id, "tree.kind");
     EXPECT_EQ(kind.argument, "umobb");
@@ -77,7 +77,7 @@ TEST(PaletteEntries, ChoicesAreFoundWithTheirCommand) {
 }
 
 TEST(PaletteEntries, AgentsClipsQueriesAndNodesAreFound) {
-    const Palette p;
+    const PaletteWindow p;
     EXPECT_EQ(p.first("stand").argument, "stand");
     const PaletteEntry query = p.first("a against c");
     EXPECT_EQ(query.command->id, "query.select");
@@ -92,7 +92,7 @@ TEST(PaletteEntries, AgentsClipsQueriesAndNodesAreFound) {
 }
 
 TEST(PaletteEntries, WhatCannotBeDoneSaysWhy) {
-    const Palette p;
+    const PaletteWindow p;
     EXPECT_EQ(p.first("duplicate").why_not, "no agent is selected");
     for (const PaletteEntry& entry : palette_entries(p.session, "step over")) {
         if (entry.command->id == "step.over") {
@@ -117,7 +117,7 @@ TEST(PaletteEntries, WhatIsOfferedCanBeRun) {
 }
 
 TEST(PaletteEntries, ChoicesOfOneCommand) {
-    const Palette p;
+    const PaletteWindow p;
     const Command& kind = *find_command("tree.kind");
     EXPECT_EQ(matching_choices(p.session, kind, "").size(), mobb::tree_kind_names().size());
     EXPECT_EQ(matching_choices(p.session, kind, "um"), std::vector<std::string>{"umobb"});

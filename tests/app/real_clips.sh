@@ -41,7 +41,7 @@ xdotool key shift+v
 reached all.txt
 click all.txt agent.4 3
 reached open.txt
-click open.txt agent.menu.agents.hide
+click open.txt context.agents.hide
 reached menu.txt
 trap - EXIT
 wait "$watching"

@@ -40,7 +40,7 @@ keys submenu.txt t Escape alt+t Right
 keys kind.txt Down Return
 keys kept.txt Escape Escape
 keys focus.txt Tab
-keys dropdown.txt Tab Tab Tab Tab Tab Return
+keys dropdown.txt Tab Tab Tab Tab Tab Tab Return
 keys chosen.txt Up Return
 keys left.txt Escape
 keys alone.txt alt

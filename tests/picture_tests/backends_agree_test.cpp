@@ -28,6 +28,8 @@ TEST_P(BackendsAgreeTest, OnEveryCase) {
     const std::unique_ptr<PictureMaker> egl = osmesa ? maker_or_skip(Backend::egl) : nullptr;
     if (!egl) return;
     for (const CaseFile& file : find_cases(kSource / GetParam())) {
+        // Those in the picture are drawn by another process of the program, which this is not.
+        if (file.name.starts_with("review/")) continue;
         const Case tested = read_case(file.file);
         if (tested.skip) continue;
         CaseResult result;

@@ -196,6 +196,7 @@ TEST_P(HighlightPixelsTest, ShowThroughTheWorldBelowTheWords) {
             list.panels = {{{{0, at->y - 20}, {40, at->y + 20}}, 0, {0, 1, 0, 1}}};
             list.marks.clear();
             list.texts.clear();
+            list.overlay_lines.clear();
             const Image image = renderer().draw(list);
             const auto is = [&](int x, std::array<int, 3> rgb) {
                 return std::equal(rgb.begin(), rgb.end(), image.at(x, y));

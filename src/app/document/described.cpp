@@ -37,7 +37,7 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
         cylinders += std::numbers::pi * r * r * tree.tree().clip().dt();
     }
     out.facts.emplace_back("volume", formatted("%.4g m\u00B2\u00B7s", volume));
-    if (volume > 0) out.facts.emplace_back("tightness", formatted("%.3f", cylinders / volume));
+    if (volume > 0) out.facts.emplace_back("tightness", formatted("%.1f %%", 100 * cylinders / volume));
 }
 
 void describe_sample(Described& out, const DrawnAgent& agent, int index) {

@@ -21,7 +21,7 @@ namespace {
 constexpr float kFieldsWidth = 410;      // pixels at scale 1
 constexpr std::size_t kFewChoices = 12;  // more are searched
 constexpr int kMostChoiceRows = 12;      // before their list scrolls
-constexpr double kLeastNumber = 0.001;   // what a drag moves a number by, at least
+constexpr double kFirstNumber = 0.3;     // that a drag begins with where there is none
 constexpr double kTrimStep = 0.01;       // seconds
 
 struct ImportField {
@@ -130,42 +130,41 @@ void choice_field(Ui& ui, const ImportField& field) {
     ImGui::EndCombo();
 }
 
-/// A number to drag or to type; true when it has changed.
-bool number_to_drag(const std::string& name, double& value, double step, const std::string& format) {
-    const bool changed = ImGui::DragScalar(("##" + name).c_str(), ImGuiDataType_Double, &value,
-                                           static_cast<float>(step), nullptr, nullptr, format.c_str());
-    return changed && std::isfinite(value);
-}
-
-void number_field(Ui& ui, const ImportField& field) {
+void number_option(Ui& ui, const ImportField& field) {
     const std::optional<double> taken = field.offer ? parse_double(field.offer->taken) : std::nullopt;
-    double value = parse_double(field.text()).value_or(taken.value_or(0));
-    const std::string number = std::string("%.5g ") + field.option.unit;
-    const std::string format = field.given() ? number : taken ? "auto: " + number : label_of_default(field);
-    ImGui::PushFont(field.given() ? ui.style.mono : ImGui::GetFont());
-    const double step = std::max(kLeastNumber, 0.01 * value);
-    if (number_to_drag(field.mark(), value, step, format)) set_option(ui, field, formatted("%.6g", value));
-    ImGui::PopFont();
-    ui.mark(field.mark());
+    const std::optional<double> given = parse_double(field.text());
+    const auto wanted = number_field(ui, {.mark = field.mark(),
+                                          .what = field.option.label,
+                                          .now = given.value_or(taken.value_or(kFirstNumber)),
+                                          .before = given ? "" : "auto: ",
+                                          .unit = field.option.unit,
+                                          .instead = given || taken ? "" : label_of_default(field),
+                                          .by_factors = true});
+    if (wanted) set_option(ui, field, formatted("%.6g", *wanted));
 }
 
 void trim_field(Ui& ui, const ImportField& field) {
     const double seconds = ui.session.importing.offer ? ui.session.importing.offer->seconds : 0;
-    auto [begin, end] = field.clip.options.trim.value_or(std::pair(0.0, seconds));
+    const auto [begin, end] = field.clip.options.trim.value_or(std::pair(0.0, seconds));
     const float spacing = ui.px(6);
     const float width = (ImGui::CalcItemWidth() - spacing) / 2;
-    ImGui::PushFont(ui.style.mono);
-    ImGui::SetNextItemWidth(width);
-    bool changed = number_to_drag(field.mark() + ".from", begin, kTrimStep, "%.3f s");
-    ui.mark(field.mark() + ".from");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Where it begins, in seconds from the file's first key");
+    const auto edge = [&](const char* which, const char* what, double now) {
+        ImGui::SetNextItemWidth(width);
+        const auto wanted = number_field(ui, {.mark = field.mark() + which,
+                                              .what = what,
+                                              .now = now,
+                                              .unit = "s",
+                                              .decimals = 3,
+                                              .step = kTrimStep,
+                                              .least = 0,
+                                              .most = std::max(seconds, now)});
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, in seconds from the file's first key", what);
+        return wanted.value_or(now);
+    };
+    const double from = edge(".from", "Where it begins", begin);
     ImGui::SameLine(0, spacing);
-    ImGui::SetNextItemWidth(width);
-    changed |= number_to_drag(field.mark() + ".to", end, kTrimStep, "%.3f s");
-    ui.mark(field.mark() + ".to");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Where it ends, likewise");
-    ImGui::PopFont();
-    if (changed) set_option(ui, field, formatted("%.6g %.6g", begin, end));
+    const double to = edge(".to", "Where it ends", end);
+    if (from != begin || to != end) set_option(ui, field, formatted("%.6g %.6g", from, to));
 }
 
 /// Why the file alone leads to what is taken, what looks wrong with it, and what was refused.
@@ -209,7 +208,7 @@ void import_field(Ui& ui, const ImportField& field) {
     if (field.option.key == std::string_view("trim")) {
         trim_field(ui, field);
     } else if (field.option.is_number()) {
-        number_field(ui, field);
+        number_option(ui, field);
     } else {
         choice_field(ui, field);
     }

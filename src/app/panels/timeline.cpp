@@ -33,13 +33,19 @@ void time_ticks(Ui& ui, ImVec2 corner, float width, const mobb::Interval& span) 
     const ImFont& mono = *ui.style.mono;
     const ChartAxis axis = time_axis(span, corner.x, width);
     const double step = nice_step(axis.to - axis.from, std::max(2.0f, width / ui.px(90)));
+    const float apart = ui.px(8);
+    const float end = corner.x + width;
+    float taken = corner.x - apart;
     for (const double t : ticks(span.t0, span.t1, step)) {
         const float x = axis.pixel(t);
         draw.AddLine({x, corner.y}, {x, corner.y + ui.px(4)}, ui.style.quiet);
         const std::string text = tick_text(t, step) + " s";
         const float wide = text_size(mono, text).x;
-        const float left = std::max(corner.x, std::min(x - 0.5f * wide, corner.x + width - wide));
+        const float left = std::max(corner.x, std::min(x - 0.5f * wide, end - wide));
+        // Those at the ends are moved inwards: there may be no room for their neighbours.
+        if (left < taken + apart) continue;
         draw_text(draw, mono, {left, corner.y + ui.px(5)}, ui.style.quiet, text);
+        taken = left + wide;
     }
 }
 

@@ -180,7 +180,7 @@ void tool_row(Ui& ui, std::span<const ToolButton> buttons) {
             ImGui::EndPopup();
         }
     }
-    ImGui::NewLine();
+    if (fit == buttons.size()) ImGui::NewLine();
 }
 
 }  // namespace mobbscope::app

@@ -57,8 +57,9 @@ void heading(Ui& ui, const char* text, const std::string& right) {
 bool section(Ui& ui, const std::string& title, const std::string& right) {
     std::string id = title;
     std::ranges::transform(id, id.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    bool& folded = ui.session.settings.folded[id];
-    const bool open = !folded;
+    std::map<std::string, bool>& folded = ui.session.settings.folded;
+    const auto known = folded.find(id);
+    const bool open = known == folded.end() || !known->second;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
     const ImVec2 below = ImGui::GetCursorScreenPos();
@@ -68,8 +69,8 @@ bool section(Ui& ui, const std::string& title, const std::string& right) {
     const float edge = ui.px(10);
     ImGui::SetCursorScreenPos({corner.x - edge, top - ui.px(2)});
     const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), line + ui.px(4)};
-    if (ImGui::InvisibleButton(("##section." + id).c_str(), size)) folded = open;
-    ui.mark("section." + id);
+    if (ImGui::InvisibleButton(("##section." + id).c_str(), size)) folded[id] = open;
+    ui.mark_only("section." + id);
     const bool hovered = ImGui::IsItemHovered();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 window = ImGui::GetWindowPos();
@@ -365,7 +366,9 @@ std::optional<double> number_field(Ui& ui, const NumberField& field) {
     const bool held = ui.field.mark == field.mark;
     const bool over = ImGui::IsItemHovered();
     const bool enabled = (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) == 0;
-    if (over && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    const bool ctrl_clicked =
+        ImGui::IsItemDeactivated() && io.KeyCtrl && !ImGui::IsMouseDragPastThreshold(ImGuiMouseButton_Left);
+    if (ctrl_clicked || (over && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) {
         const std::string text = number_text(field, field.now);
         ui.field = {.mark = field.mark, .text = text, .before = text, .fresh = true, .typing = true};
         ui.want_frame_in(0);
@@ -384,7 +387,8 @@ std::optional<double> number_field(Ui& ui, const NumberField& field) {
                                         : ImGuiCol_TextDisabled));
     const double shown = held ? whole_or_not(field, ui.field.value) : field.now;
     const std::string gap = field.unit.empty() || field.unit == "\u00B0" ? "" : " ";
-    const std::string text = field.before + number_text(field, shown) + gap + field.unit;
+    const std::string text =
+        field.instead.empty() || held ? field.before + number_text(field, shown) + gap + field.unit : field.instead;
     ImGui::PushFont(ui.style.mono);
     const std::string fits = fitted_text(text, size.x - style.FramePadding.x - grip);
     draw_text(draw, *ui.style.mono, {corner.x + style.FramePadding.x, corner.y + style.FramePadding.y},

@@ -80,10 +80,11 @@ struct NumberField {
     std::string mark;  ///< its name for scripts
     std::string what;  ///< "The samples of a leaf", for what is said of a number that is out of range
     double now = 0;
-    std::string before{};  ///< shown in front of it
-    std::string unit{};    ///< ... and behind it, as "m" or "\u00B0"
-    int decimals = 0;      ///< shown; of a whole number 0
-    double step = 1;       ///< of an arrow key; a pixel of a drag is a tenth of it
+    std::string before{};   ///< shown in front of it
+    std::string unit{};     ///< ... and behind it, as "m" or "\u00B0"
+    std::string instead{};  ///< shown until it is another number: nobody has given it; empty: the number is
+    int decimals = 0;       ///< shown; of a whole number 0
+    double step = 1;        ///< of an arrow key; a pixel of a drag is a tenth of it
     double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
     bool by_factors = false;  ///< steps are of a tenth of the number, which is shown with three digits
     bool live = true;         ///< the number follows a drag, not only where it ends
