@@ -5,8 +5,8 @@
 #include <mobb/predicate.h>
 #include <scene/crowd_run.h>
 #include <scene/file_summary.h>
-#include <scene/path_figures.h>
 #include <scene/motion_graph.h>
+#include <scene/path_figures.h>
 
 #include <algorithm>
 #include <cmath>

@@ -184,8 +184,8 @@ std::vector<Command> go_commands() {
                 move_focus<FocusMove::previous_panel>, {.shortcut = "Ctrl+Shift+F6", .enabled = always}),
         Command("go.menu", "Menus", "Opens the menus; arrows and letters go through them.",
                 move_focus<FocusMove::menu_bar>, {.shortcut = "F10 Alt", .enabled = always}),
-        Command("go.none", "Select nothing",
-                "Puts messages away; else selects nothing. The query in view stays.", put_away,
+        Command("go.none", "Select nothing", "Puts messages away; else selects nothing. The query in view stays.",
+                put_away,
                 {.shortcut = "Escape",
                  .enabled =
                      [](const Session& session) {

@@ -75,7 +75,7 @@ void mark_failing(Session& session) {
     for (std::size_t i = 0; i < review.cases().size(); ++i) review.mark(i, review.cases()[i].failing());
 }
 
-void order_by(Session& session, const std::string& name) {
+void order_cases(Session& session, const std::string& name) {
     const auto at = std::ranges::find(kReviewOrders, name);
     if (at == kReviewOrders.end()) throw std::invalid_argument("give one of " + listed(kReviewOrders));
     session.review()->look.order = static_cast<ReviewOrder>(at - kReviewOrders.begin());
@@ -101,7 +101,7 @@ std::vector<Command> case_commands() {
                                                              return review.look.failed_only;
                                                          })}),
         Command(
-            "review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.", order_by,
+            "review.order", "Order of the list", "Sorts the list by name, by difference or by outcome.", order_cases,
             {.argument = "ORDER",
              .enabled = has_review,
              .choices =

@@ -201,7 +201,7 @@ void numbers(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
 }
 
 /// A file's name; its tooltip is all of the path, which a click copies.
-void file_row(Ui& ui, const char* label, const std::string& path) {
+void path_of_file(Ui& ui, const char* label, const std::string& path) {
     text_line(ui.style.quiet, label);
     ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + ui.px(64));
     const std::string shown = fitted_text(path, ImGui::GetContentRegionAvail().x);
@@ -213,9 +213,9 @@ void file_row(Ui& ui, const char* label, const std::string& path) {
 
 void files(Ui& ui, const Review& review, const ReviewCase& one, const ReviewPictures& pictures) {
     heading(ui, "FILES");
-    file_row(ui, "case", one.file.file.string());
-    file_row(ui, "golden", pictures.golden_file.string());
-    if (one.from_output) file_row(ui, "actual", (review.output() / (one.file.name + ".actual.png")).string());
+    path_of_file(ui, "case", one.file.file.string());
+    path_of_file(ui, "golden", pictures.golden_file.string());
+    if (one.from_output) path_of_file(ui, "actual", (review.output() / (one.file.name + ".actual.png")).string());
     // "llvmpipe (LLVM 15.0.6, 256 bits)": the processor makes no difference.
     const std::string& renderer = one.result.drawn_by.renderer;
     if (one.from_output) {

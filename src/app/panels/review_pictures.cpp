@@ -14,9 +14,9 @@ namespace mobbscope::app {
 namespace {
 
 constexpr double kWheelStep = 1.25;
-constexpr double kSharp = 2;  // from this zoom on each pixel is a square
-constexpr double kGrid = 8;   // ... and squares have borders
-constexpr float kGrip = 10;   // to each side of the slider's line, pixels at scale 1
+constexpr double kSharp = 2;        // from this zoom on each pixel is a square
+constexpr double kGrid = 8;         // ... and squares have borders
+constexpr float kDividerGrip = 10;  // to each side of the slider's line, pixels at scale 1
 
 /// One place where pictures are seen; `second` right of the slider's line.
 struct PictureView {
@@ -117,7 +117,7 @@ std::vector<PictureView> views_of(Ui& ui, const Review& review, const ReviewPict
 }
 
 /// The larger of both, where they differ; none: nothing is there.
-glm::dvec2 size_of(const ReviewPictures& pictures) {
+glm::dvec2 picture_size(const ReviewPictures& pictures) {
     glm::dvec2 size(0);
     for (const auto* picture : {&pictures.golden, &pictures.actual}) {
         if (*picture) size = glm::max(size, glm::dvec2((*picture)->width, (*picture)->height));
@@ -206,7 +206,7 @@ void draw_divider(Ui& ui, const PictureView& view, float x) {
         draw.AddTriangleFilled({knob.x + side * ui.px(7), knob.y}, {knob.x + side * ui.px(3), knob.y - ui.px(4)},
                                {knob.x + side * ui.px(3), knob.y + ui.px(4)}, ui.style.text);
     }
-    ui.marks.add("review.divider", {{x - ui.px(kGrip), view.min.y}, {x + ui.px(kGrip), view.max.y}});
+    ui.marks.add("review.divider", {{x - ui.px(kDividerGrip), view.min.y}, {x + ui.px(kDividerGrip), view.max.y}});
 }
 
 void draw_view(Ui& ui, const ReviewLook& look, const PictureView& view, const PicturePlace& place, std::size_t slot,
@@ -267,7 +267,7 @@ void drag_pictures(Ui& ui, const ReviewLook& look, const PictureView& view, cons
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     bool& moves_divider = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("moves divider"), false);
     if (ImGui::IsItemActivated()) {
-        const bool near = view.second && std::abs(mouse.x - divider_pixel(look, view, place)) <= ui.px(kGrip);
+        const bool near = view.second && std::abs(mouse.x - divider_pixel(look, view, place)) <= ui.px(kDividerGrip);
         // Where all is seen there is nothing else to drag.
         moves_divider = near || (view.second && look.zoom == 0);
     }
@@ -295,7 +295,7 @@ std::optional<glm::ivec2> review_pictures(Ui& ui) {
     ui.mark("review.pictures");
     const bool hovered = ImGui::IsItemHovered();
     const bool active = ImGui::IsItemActive();
-    const glm::dvec2 size = size_of(pictures);
+    const glm::dvec2 size = picture_size(pictures);
     if (!pictures.why_not.empty()) {
         ImGui::SetCursorScreenPos({min.x + ui.px(12), min.y + ui.px(12)});
         words(ui.style.error, pictures.why_not);
@@ -319,7 +319,8 @@ std::optional<glm::ivec2> review_pictures(Ui& ui) {
         }
         const float notches = ImGui::GetIO().MouseWheel;
         if (hovered && notches != 0) zoom_at_mouse(ui, view, place, notches);
-        if (view.second && hovered && std::abs(mouse.x - divider_pixel(review.look, view, place)) <= ui.px(kGrip)) {
+        if (view.second && hovered &&
+            std::abs(mouse.x - divider_pixel(review.look, view, place)) <= ui.px(kDividerGrip)) {
             ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
         }
     }

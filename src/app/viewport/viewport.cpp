@@ -65,11 +65,11 @@ const char* fold_command(Overlay::Kind kind) {
     return "view.fold_inset";
 }
 
-bool contains(const Rect& rect, glm::vec2 pixel) { return rect.contains({pixel, pixel}); }
+bool holds(const Rect& rect, glm::vec2 pixel) { return rect.contains({pixel, pixel}); }
 
 /// The overlay under a pixel; null: none.
 const Overlay* overlay_at(const DrawList& list, glm::vec2 pixel) {
-    const auto at = std::ranges::find_if(list.overlays, [&](const Overlay& o) { return contains(o.rect, pixel); });
+    const auto at = std::ranges::find_if(list.overlays, [&](const Overlay& o) { return holds(o.rect, pixel); });
     return at == list.overlays.end() ? nullptr : &*at;
 }
 
@@ -83,11 +83,11 @@ struct OverlayClick {
 std::optional<OverlayClick> overlay_click(const DrawList& list, glm::vec2 pixel) {
     const Overlay* overlay = overlay_at(list, pixel);
     if (!overlay) return std::nullopt;
-    if (contains(overlay->fold, pixel)) {
+    if (holds(overlay->fold, pixel)) {
         if (overlay->no_room) return OverlayClick{overlay->fold, nullptr, "A larger picture has room for it"};
         return OverlayClick{overlay->fold, fold_command(overlay->kind), overlay->folded ? "Unfold" : "Fold"};
     }
-    if (!overlay->more || !contains(*overlay->more, pixel)) return std::nullopt;
+    if (!overlay->more || !holds(*overlay->more, pixel)) return std::nullopt;
     return OverlayClick{*overlay->more, "view.whole_legend", "Show all rows, or six"};
 }
 

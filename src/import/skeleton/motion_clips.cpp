@@ -117,9 +117,9 @@ class MotionImport {
         const double height = median_height(grounded_, root);
         const double guess = body_unit(height);
         const auto tall = [height](double unit) { return "a body " + brief_length(height * unit) + " tall"; };
-        OptionOffer out{"unit", unit_word(file_unit_.value_or(guess)),
-                        file_unit_ ? "as the file says: " + tall(*file_unit_)
-                                   : "guessed: " + tall(guess) + " (its median height)"};
+        OptionOffer out{
+            "unit", unit_word(file_unit_.value_or(guess)),
+            file_unit_ ? "as the file says: " + tall(*file_unit_) : "guessed: " + tall(guess) + " (its median height)"};
         if (file_unit_) out.choices.push_back({"auto", "auto: " + tall(guess)});
         for (const auto& [value, label] : kUnitChoices) {
             out.choices.push_back({value, label + std::string(": ") + tall(*metres_per_unit(value))});

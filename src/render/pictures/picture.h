@@ -66,7 +66,6 @@ class Picture {
     void say_what_view_does(Caption& caption) const;
 };
 
-
 /// Paths and boxes of a scene in space-time. `kept`: of the scene; outlives the picture.
 std::unique_ptr<Picture> space_time_picture(KeptPaths& kept, const ViewState& view, const PictureOptions& options);
 
