@@ -103,11 +103,11 @@ Option Command::add_option(const std::string& name, std::function<void(const std
     return Option(*app_->add_option_function<std::string>(name, set_or_refuse, help)->type_name(placeholder));
 }
 
-Option Command::add_list_option(const std::string& name, std::function<void(const std::vector<std::string>&)> set,
+Option Command::add_list_option(const std::string& name,
+                                const std::function<void(const std::vector<std::string>&)>& set,
                                 const std::string& help, const std::string& placeholder) {
-    return Option(*app_->add_option_function<std::vector<std::string>>(name, std::move(set), help)
-                       ->type_name(placeholder)
-                       ->expected(1, -1));
+    return Option(
+        *app_->add_option_function<std::vector<std::string>>(name, set, help)->type_name(placeholder)->expected(1, -1));
 }
 
 template <class T>

@@ -72,7 +72,7 @@ class Command {
     Option add_option(const std::string& name, std::function<void(const std::string&)> set, const std::string& help,
                       const std::string& placeholder);
     /// The same with as many texts as follow.
-    Option add_list_option(const std::string& name, std::function<void(const std::vector<std::string>&)> set,
+    Option add_list_option(const std::string& name, const std::function<void(const std::vector<std::string>&)>& set,
                            const std::string& help, const std::string& placeholder);
     /// `target`: a text, a path, a path that need not be given, or a list of texts or paths.
     template <class T>

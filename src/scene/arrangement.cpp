@@ -46,8 +46,8 @@ std::vector<GridCell> grid_of(const Scene& scene, std::span<const PlacedAgent> a
         1, static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(agents.size()) * step.y / step.x))));
     std::vector<GridCell> out;
     for (std::size_t i = 0; i < agents.size(); ++i) {
-        const glm::dvec2 middle =
-            step * glm::dvec2(static_cast<double>(i % columns), -static_cast<double>(i / columns));
+        const std::size_t row = i / columns;
+        const glm::dvec2 middle = step * glm::dvec2(static_cast<double>(i % columns), -static_cast<double>(row));
         const glm::dvec2 offset = middle - 0.5 * (reach[i].low + reach[i].high);
         out.push_back({offset, reach[i].low + offset, reach[i].high + offset, step});
     }

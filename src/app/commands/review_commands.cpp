@@ -20,16 +20,16 @@ constexpr double kMostBlink = 5;
 /// The rule of all that needs picture tests; that they are shown is everybody's rule.
 bool has_review(const Session& session) { return session.review() != nullptr; }
 
-Condition when(std::function<bool(const Review&)> holds, std::string_view (*else_)(const Session&)) {
+Condition when(const std::function<bool(const Review&)>& holds, std::string_view (*else_)(const Session&)) {
     return {[holds](const Session& session) { return session.review() && holds(*session.review()); }, else_};
 }
 
 /// Of what is on or chosen: false where there are no picture tests.
-std::function<bool(const Session&)> so(std::function<bool(const Review&)> holds) {
+std::function<bool(const Session&)> so(const std::function<bool(const Review&)>& holds) {
     return [holds](const Session& session) { return session.review() && holds(*session.review()); };
 }
 std::function<bool(const Session&, const std::string&)> so(
-    std::function<bool(const Review&, const std::string&)> holds) {
+    const std::function<bool(const Review&, const std::string&)>& holds) {
     return [holds](const Session& session, const std::string& choice) {
         return session.review() && holds(*session.review(), choice);
     };

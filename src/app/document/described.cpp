@@ -115,7 +115,7 @@ Described describe(const FittedScene& fitted, const Selection& what) {
 
 std::string lines_of(const Described& what) {
     std::string out = what.name + '\n';
-    for (const auto& [key, value] : what.facts) out += key + '\t' + value + '\n';
+    for (const auto& [key, value] : what.facts) out.append(key).append(1, '\t').append(value).append(1, '\n');
     return out;
 }
 

@@ -99,8 +99,8 @@ std::string complete_path(const std::string& typed, const std::filesystem::path&
     const auto [parent, beginning] = split_path(typed);
     std::error_code error;
     std::vector<FileEntry> entries = entries_in(typed_path(parent, folder), extensions, error);
-    std::erase_if(entries, [&](const FileEntry& entry) {
-        return !entry.name.starts_with(beginning) || (entry.name.front() == '.' && beginning.empty());
+    std::erase_if(entries, [&typed_name = beginning](const FileEntry& entry) {
+        return !entry.name.starts_with(typed_name) || (entry.name.front() == '.' && typed_name.empty());
     });
     if (entries.empty()) return typed;
     std::string common = entries.front().name;

@@ -220,7 +220,7 @@ const ReviewPictures& Review::pictures() {
             pictures_.golden = picture_of(one.file.golden());
         }
         if (!pictures_.golden || !pictures_.actual) return pictures_;
-        if (one.result.findings.size() > 0 || one.from_output) {
+        if (!one.result.findings.empty() || one.from_output) {
             pictures_.golden_file = golden_like(one.file, pictures_.actual);
         }
         ImageDiff found = diff(*pictures_.actual, *pictures_.golden, diff_options(one.result.tolerance));

@@ -72,7 +72,7 @@ bool has_text(const ListedCandidate& candidate, const std::string& text) {
         return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
     };
     const std::string all = candidate.name + ' ' + candidate.remark;
-    return !std::ranges::search(all, text, same).empty() || text.empty();
+    return std::search(all.begin(), all.end(), text.begin(), text.end(), same) != all.end() || text.empty();
 }
 
 /// What was taken first, then why the others were not.

@@ -185,11 +185,11 @@ void draw_image(Ui& ui, const PicturePlace& place, std::size_t slot, const std::
 void draw_grid(Ui& ui, const PictureView& view, const PicturePlace& place) {
     if (place.scale < kGrid) return;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const glm::dvec2 first = glm::max(glm::floor(place.pixel(view.min)), 0.0);
-    const glm::dvec2 last = glm::min(glm::ceil(place.pixel(view.max)), place.size);
+    const glm::ivec2 first(glm::max(glm::floor(place.pixel(view.min)), 0.0));
+    const glm::ivec2 last(glm::min(glm::ceil(place.pixel(view.max)), place.size));
     const ImU32 color = ui.style.palette.dark ? IM_COL32(255, 255, 255, 28) : IM_COL32(0, 0, 0, 36);
-    for (double x = first.x; x <= last.x; ++x) draw.AddLine(place.at(x, first.y), place.at(x, last.y), color);
-    for (double y = first.y; y <= last.y; ++y) draw.AddLine(place.at(first.x, y), place.at(last.x, y), color);
+    for (int x = first.x; x <= last.x; ++x) draw.AddLine(place.at(x, first.y), place.at(x, last.y), color);
+    for (int y = first.y; y <= last.y; ++y) draw.AddLine(place.at(first.x, y), place.at(last.x, y), color);
 }
 
 float divider_pixel(const ReviewLook& look, const PictureView& view, const PicturePlace& place) {

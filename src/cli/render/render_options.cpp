@@ -116,10 +116,10 @@ void add_shown_options(Command& command, ViewArguments& view) {
         Option(added).group(kShownGroup);
         if (option.short_form.option.empty()) continue;
         const std::string value(option.short_form.value);
+        const std::string long_form = name + ' ' + value;
         command
             .add_flag(
-                std::string(option.short_form.option), [set, value](bool) { set(value); },
-                "Short for " + name + ' ' + value)
+                std::string(option.short_form.option), [set, value](bool) { set(value); }, "Short for " + long_form)
             .group(kShownGroup);
     }
 }

@@ -420,7 +420,7 @@ const Held* held(const JsonValue::Object& object, std::string_view key) {
 /// "box of A, node 3", "line 4", "text 'A'". `list`: the draw list, which names the participants.
 std::string element_words(const ElementName& name, const JsonValue& element, std::size_t index,
                           const JsonValue::Object& list) {
-    const std::string numbered = std::string(name.element) + ' ' + std::to_string(index + 1);
+    std::string numbered = std::string(name.element) + ' ' + std::to_string(index + 1);
     const auto* object = std::get_if<JsonValue::Object>(&element.data);
     if (!object) return numbered;
     if (const auto* text = held<std::string>(*object, "text"))

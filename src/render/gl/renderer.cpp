@@ -226,8 +226,8 @@ struct Renderer::State {
     void paint_coarse(const DrawList& list, int divisor, Rgba ground) {
         const auto part = [&](int side) { return (side + divisor - 1) / divisor; };
         DrawList small;
-        static_cast<PictureFrame&>(small) = list;
-        static_cast<DrawnWorld&>(small) = list;
+        static_cast<PictureFrame&>(small) = static_cast<const PictureFrame&>(list);
+        static_cast<DrawnWorld&>(small) = static_cast<const DrawnWorld&>(list);
         small.palette = list.palette;
         small.size = small.projection.size = {part(list.size.width), part(list.size.height)};
         begin(small.size);
