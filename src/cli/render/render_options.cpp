@@ -116,10 +116,10 @@ void add_shown_options(Command& command, ViewArguments& view) {
         Option(added).group(kShownGroup);
         if (option.short_form.option.empty()) continue;
         const std::string value(option.short_form.value);
-        const std::string long_form = name + ' ' + value;
+        const std::string help_of_short = formatted("Short for %s %s", name.c_str(), value.c_str());
         command
             .add_flag(
-                std::string(option.short_form.option), [set, value](bool) { set(value); }, "Short for " + long_form)
+                std::string(option.short_form.option), [set, value](bool) { set(value); }, help_of_short)
             .group(kShownGroup);
     }
 }
