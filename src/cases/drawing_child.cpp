@@ -150,7 +150,21 @@ std::vector<std::string> arguments_of(const CaseDrawer& drawer, const std::files
 void draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::vector<CaseFile>& cases,
                 const std::function<void(const NamedResult&)>& tell, const std::function<void()>& go_on) {
     std::vector<CaseFile> left = cases;
+    const auto fail = [&](const CaseFile& file, std::string why) {
+        NamedResult failed{file.name, {}};
+        failed.result.outcome = CaseOutcome::failed;
+        failed.result.message = std::move(why);
+        tell(failed);
+    };
     while (!left.empty()) {
+        // One that is gone would be refused, and all others with it.
+        std::erase_if(left, [&](const CaseFile& file) {
+            std::error_code ignored;
+            const bool is_gone = !std::filesystem::exists(file.file, ignored);
+            if (is_gone) fail(file, file.file.string() + " is gone; draw all again");
+            return is_gone;
+        });
+        if (left.empty()) return;
         std::vector<std::string> arguments = arguments_of(drawer, folder);
         for (const CaseFile& file : left) arguments.push_back(file.name);
         TestProcess process(drawer.program, std::move(arguments));
@@ -167,11 +181,9 @@ void draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder, c
             if (std::erase_if(left, [&](const CaseFile& file) { return file.name == result.name; }) > 0) tell(result);
         }
         if (left.empty()) return;
-        NamedResult failed{left.front().name, {}};
-        failed.result.outcome = CaseOutcome::failed;
-        failed.result.message = "mobbscope test " + process.end();
+        const CaseFile blamed = left.front();
         left.erase(left.begin());
-        tell(failed);
+        fail(blamed, "mobbscope test " + process.end());
     }
 }
 

@@ -105,7 +105,7 @@ TEST(Panels, KeysDoNothingToWhatIsBeingDragged) {
 
 /// A click on the panel itself folds it; neither the camera nor the selection notices.
 TEST(Panels, OverlaysFoldByAClick) {
-    Window w;
+    Window w({1440, 900});
     run_command(w.session, "query.select", "0");
     run_command(w.session, "time.at", "1");
     run_command(w.session, "view.past", "all");

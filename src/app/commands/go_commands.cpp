@@ -119,15 +119,9 @@ void move_focus(Session& session) {
     session.focus_move = move;
 }
 
-/// A warning or an error lies over the picture: what was only done goes by itself.
-bool has_message_up(const Session& session) {
-    return std::ranges::any_of(
-        session.messages(), [](const Message& message) { return message.up && message.level != Message::Level::info; });
-}
-
 /// One thing after the other, what lies in front first.
 void put_away(Session& session) {
-    if (has_message_up(session)) return session.put_messages_away();
+    if (session.has_message_up()) return session.put_messages_away();
     session.select({});
 }
 
@@ -189,7 +183,7 @@ std::vector<Command> go_commands() {
                 {.shortcut = "Escape",
                  .enabled =
                      [](const Session& session) {
-                         return session.selection.kind != Selection::Kind::none || has_message_up(session);
+                         return session.selection.kind != Selection::Kind::none || session.has_message_up();
                      }}),
     };
     return in_menu("Go", rows);

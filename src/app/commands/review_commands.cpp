@@ -17,6 +17,12 @@ constexpr double kPanStep = 0.1;        // shares of what is seen
 constexpr double kLeastBlink = 0.1;     // seconds
 constexpr double kMostBlink = 5;
 
+/// One thing after the other, what lies in front first.
+void leave_or_put_away(Session& session) {
+    if (session.has_message_up()) return session.put_messages_away();
+    session.leave_review();
+}
+
 /// The rule of all that needs picture tests; that they are shown is everybody's rule.
 bool has_review(const Session& session) { return session.review() != nullptr; }
 
@@ -323,7 +329,7 @@ std::vector<Command> run_commands() {
         Command("review.copy_command", "Copy as command", "Copies the command line that draws and compares the case.",
                 copy_line, {.shortcut = "Ctrl+Shift+C", .enabled = has_review}),
         Command("review.leave", "Leave the picture tests", "Shows the scene again that was open before.",
-                &Session::leave_review, {.shortcut = "Escape", .enabled = has_review}),
+                leave_or_put_away, {.shortcut = "Escape", .enabled = has_review}),
     };
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 bool in_file_dialog(const Session& session) {
     const Dialog open = session.behind_help();
-    return open == Dialog::open || open == Dialog::add || open == Dialog::save_as || open == Dialog::export_picture;
+    return open == Dialog::open || open == Dialog::add || open == Dialog::save_as || open == Dialog::export_picture ||
+           open == Dialog::review;
 }
 
 template <Dialog dialog>
@@ -43,6 +44,18 @@ std::span<const Situation> situations() {
          in_dialog<Dialog::palette>,
          {},
          {{"Up, Down", "Pick a line"}, {"Enter", "Run it, or give what it asks for"}, {"Escape", "Close the search"}}},
+        {"A clip's import is looked at",
+         "Each option says what was taken by itself, and why; what is changed is imported at once.",
+         in_dialog<Dialog::import_clip>,
+         {},
+         {{"Tab, Enter", "Go to the next option, and change it"},
+          {"Ctrl+Z, Ctrl+Y", "Undo and redo what was changed"},
+          {"Escape", "Close it"}}},
+        {"You look at picture tests",
+         "Go through the cases that differ; accept what is right, and leave the rest to be mended.",
+         [](const Session& session) { return session.reviewing(); },
+         {"review.next_failing", "review.previous_failing", "review.accept", "review.undo", "review.blink",
+          "review.open", "review.draw_all", "review.leave"}},
         {"Nothing is open",
          "Open a scene, motion clips or tracked people; they can also be dropped on the window.",
          [](const Session& session) { return session.empty(); },

@@ -66,7 +66,9 @@ void Session::set_import(int clip, bool whole_file, const std::string& option, c
         return refuse_import(change, error.what());
     }
     // Of one that is dragged only the last value counts.
-    std::erase_if(import_changes_, [&](const ImportChange& other) { return other.option == option; });
+    std::erase_if(import_changes_, [&](const ImportChange& other) {
+        return other.option == option && other.clip == clip && other.whole_file == whole_file;
+    });
     import_changes_.push_back(change);
     import_next();
 }
@@ -123,7 +125,8 @@ void Session::ask_for_offer() {
     if (dialog != Dialog::import_clip || importing.clip >= static_cast<int>(scene().clips.size())) return;
     const SceneClip& clip = scene().clips[static_cast<std::size_t>(importing.clip)];
     const ImportOptions asked = offer_depends_on(clip.options);
-    if (!clip.source || (importing.offer && importing.offered_for == asked)) return;
+    if (!clip.source || (importing.asked && importing.offered_for == asked)) return;
+    importing.asked = true;
     importing.offered_for = asked;
     const auto work = [this, asked, index = importing.clip, path = source_path(scene(), clip),
                        known = import_file_](JobControl&) -> Job::Finish {

@@ -20,9 +20,10 @@ struct ClipImport {
     std::string field{};      ///< the option that the dialog was opened for: it is lit
     bool scroll = true;       ///< ... and not in sight yet
     bool whole_file = false;  ///< what is changed of a file's options changes for all clips of the file
-    std::shared_ptr<const ImportOffer> offer{};      ///< null until the file has been read
-    ImportOptions offered_for{};                     ///< what the offer depends on
-    std::string unreadable{};                        ///< why there is no offer; empty: it is being made
+    std::shared_ptr<const ImportOffer> offer{};  ///< null until the file has been read
+    bool asked = false;                          ///< the offer was asked for: it is there, or comes, or cannot be had
+    ImportOptions offered_for{};                 ///< what the offer depends on
+    std::string unreadable{};                    ///< why there is no offer; empty: it is being made
     std::map<std::string, RefusedImport> refused{};  ///< by option
     double time = 0;                                 ///< seconds of the clip: of the skeleton in the preview
     std::string search{};                            ///< in an open list of choices

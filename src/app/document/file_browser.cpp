@@ -121,6 +121,7 @@ void FileBrowser::begin(const std::filesystem::path& folder, std::span<const std
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         if (entries_[i].name == cursor) choose(i, Choose::only);
     }
+    by_hand_ = false;
 }
 
 void FileBrowser::go(const std::filesystem::path& folder) {
@@ -133,6 +134,7 @@ void FileBrowser::go(const std::filesystem::path& folder) {
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         if (whole_path(folder_ / entries_[i].name) == from) choose(i, Choose::only);
     }
+    by_hand_ = false;
 }
 
 void FileBrowser::go_up() {
@@ -162,6 +164,7 @@ void FileBrowser::follow(const std::string& typed, bool filters) {
     auto best = std::ranges::find_if(entries_, called);
     if (best == entries_.end()) best = std::ranges::find_if(entries_, begins);
     choose(best == entries_.end() ? 0 : static_cast<std::size_t>(best - entries_.begin()), Choose::only);
+    by_hand_ = !filter.empty();
 }
 
 void FileBrowser::order_by(const std::string& order) {
@@ -213,12 +216,16 @@ void FileBrowser::list() {
     }
     anchor_ = cursor_;
     chosen_ = std::move(left);
-    if (chosen_.empty() && !entries_.empty()) choose(cursor_, Choose::only);
+    if (chosen_.empty() && !entries_.empty()) {
+        choose(cursor_, Choose::only);
+        by_hand_ = false;
+    }
 }
 
 void FileBrowser::choose(std::size_t index, Choose how) {
     const std::string& name = entries_[index].name;
     cursor_ = index;
+    by_hand_ = true;
     if (how == Choose::none) return;
     if (how == Choose::range) {
         chosen_.clear();

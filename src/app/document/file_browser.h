@@ -72,6 +72,8 @@ class FileBrowser {
     void choose(std::size_t index, Choose how);
     void choose_all();
     bool is_chosen(const FileEntry& entry) const { return chosen_.contains(entry.name); }
+    /// Whether what is chosen was chosen by the person, and not as the first there is.
+    bool is_chosen_by_hand() const { return by_hand_; }
     std::size_t chosen_count() const { return chosen_.size(); }
     /// In the order of the list.
     std::vector<std::filesystem::path> chosen() const;
@@ -89,6 +91,7 @@ class FileBrowser {
     bool hidden_ = false;
     std::size_t cursor_ = 0, anchor_ = 0;
     std::set<std::string> chosen_;
+    bool by_hand_ = false;
 };
 
 }  // namespace mobbscope::app

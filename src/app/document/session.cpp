@@ -312,13 +312,26 @@ void Session::go_to_state(std::size_t state) {
     // What is made for an excerpt is not put into the whole, nor the other way round.
     if (document().excerpt_of != before) {
         while (!jobs_.empty()) cancel_job(0);
+        cameras_aside.clear();
     }
     changed();
 }
 
+Session::BeforeDrag Session::before_drag() const {
+    return {history_, settings, handed_over_, hooks.viewport_size ? hooks.viewport_size() : PictureSize{}};
+}
+
 void Session::restore(BeforeDrag before) {
+    if (before.handed_over != handed_over_) return;
+    const PictureSize size = hooks.viewport_size ? hooks.viewport_size() : before.size;
     history_ = std::move(before.history);
     settings = std::move(before.settings);
+    // A border between panels may be what was dragged: the picture is as high as it is until the next frame.
+    if (size.height != before.size.height) {
+        history_.amend_views([&](ViewState& view) {
+            if (view.camera.target) view.camera = resized(view.camera, before.size, size);
+        });
+    }
     changed();
 }
 
@@ -463,6 +476,7 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
                                                                           before ? before->view : view(), next.fitted,
                                                                           before ? before->steps : document().steps});
     point_at_nothing();
+    filter.clear();
     cameras_aside.clear();
     ++excerpts_opened_;
     history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
@@ -479,6 +493,7 @@ void Session::leave_excerpt() {
     require_no_job();
     const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
     point_at_nothing();
+    filter.clear();
     cameras_aside.clear();
     Document whole{origin->fitted, origin->view};
     whole.steps = origin->steps;
@@ -527,6 +542,11 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     cameras_aside.clear();
     alone.reset();
     filter.clear();
+    ++handed_over_;
+    // No case of picture tests is open any more; who opens one says so afterwards.
+    aside_.reset();
+    open_case_.clear();
+    if (behind_help_.first == Dialog::import_clip) behind_help_ = {Dialog::none, {}};
     // What went wrong with the last document is over, and what was offered for it.
     for (Message& message : messages_) {
         if (files_opened_ > 1) message.offer.reset();
@@ -807,6 +827,8 @@ void Session::back_to_review() {
 
 void Session::open_case(std::size_t index) {
     const picture_tests::CaseFile file = review_->cases()[index].file;
+    // What is opened last is meant.
+    std::erase_if(jobs_, [](const Running& running) { return running.purpose == Purpose::opens; });
     const auto work = [this, file](JobControl& control) -> Job::Finish {
         Document document = document_of(picture_tests::scene_of(file), nullptr, progress_of(control));
         return [this, document = std::move(document), file] {
@@ -878,6 +900,11 @@ double Session::age_messages(double now, bool held) {
     return next;
 }
 
+bool Session::has_message_up() const {
+    return std::ranges::any_of(
+        messages_, [](const Message& message) { return message.up && message.level != Message::Level::info; });
+}
+
 void Session::dismiss(std::size_t message) {
     if (message < messages_.size()) messages_.erase(messages_.begin() + static_cast<std::ptrdiff_t>(message));
 }
@@ -922,6 +949,7 @@ void Session::poll() {
         if (done == jobs_.end()) return;
         // What it hands over may start the next one.
         const std::unique_ptr<Job> job = std::move(done->job);
+        ++handed_over_;
         jobs_.erase(done);
         finish(*job);
         import_next();

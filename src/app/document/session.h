@@ -294,10 +294,13 @@ class Session {
     struct BeforeDrag {
         History history;
         Settings settings;
+        int handed_over = 0;  ///< documents and edits that did not come from the hand
+        PictureSize size;     ///< of the viewport
     };
-    BeforeDrag before_drag() const { return {history_, settings}; }
-    /// Brings it back, as if nothing had been dragged.
+    BeforeDrag before_drag() const;
+    /// Brings it back, as if nothing had been dragged; not where a job or another document has come meanwhile.
     void restore(BeforeDrag before);
+
     // Picture tests.
     /// Shows the picture tests of a folder in place of the scene, and draws them, unless an `output` of theirs is to be
     /// looked at. Throws InputError as Review does: what is shown stays then.
@@ -332,6 +335,8 @@ class Session {
     void tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
     /// The oldest first, at most 50; the list behind the bell.
     const std::vector<Message>& messages() const { return messages_; }
+    /// Whether a warning or an error lies over the picture: what was only done goes by itself.
+    bool has_message_up() const;
     /// How many warnings and errors nobody has looked at in the list.
     std::size_t unread() const;
     /// Takes one out of the list.
@@ -428,6 +433,7 @@ class Session {
         Purpose purpose = Purpose::other;
     };
     std::vector<Running> jobs_;
+    int handed_over_ = 0;  ///< documents that were opened, and jobs that were done
     bool playing_ = false;
     bool has_played_ = false;  ///< since play(): the time that passes has a state
     std::pair<Dialog, DialogInput> behind_help_{Dialog::none, {}};

@@ -173,7 +173,8 @@ void take_read(Session& session, const Purpose& purpose) {
 /// The folder whose clips are opened together: the one that is chosen, else the one that is listed.
 std::filesystem::path folder_of_clips(const FileBrowser& browser) {
     const std::vector<std::filesystem::path> chosen = browser.chosen();
-    return chosen.size() == 1 && is_folder(chosen.front()) ? chosen.front() : browser.listed();
+    const bool is_one = browser.is_chosen_by_hand() && chosen.size() == 1 && is_folder(chosen.front());
+    return is_one ? chosen.front() : browser.listed();
 }
 
 // --- what stands above the list

@@ -307,8 +307,9 @@ void import_dialog(Ui& ui) {
     Session& session = ui.session;
     const int index = session.importing.clip;
     const auto& clips = session.scene().clips;
-    if (index < 0 || static_cast<std::size_t>(index) >= clips.size()) {
-        session.enqueue([&session] { session.close_dialog(); });  // the clip was undone
+    const bool is_there = index >= 0 && static_cast<std::size_t>(index) < clips.size();
+    if (!is_there || !clips[static_cast<std::size_t>(index)].source) {
+        session.enqueue([&session] { session.close_dialog(); });  // the clip, or that it has a file, was undone
         return;
     }
     const SceneClip& clip = clips[static_cast<std::size_t>(index)];

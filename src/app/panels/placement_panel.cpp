@@ -64,7 +64,7 @@ float placement_height(const Ui& ui) {
     if (!agent_to_place(ui.session)) return 0;
     const float spacing = ui.px(5);
     const float around = 2 * ImGui::GetStyle().WindowPadding.y + ui.px(6) + spacing + ui.style.caption->FontSize;
-    if (ui.session.settings.folded.contains("placement")) return around;
+    if (is_folded(ui.session, "placement")) return around;
     const float fields = 6 * (ImGui::GetFrameHeight() + spacing);
     return around + spacing + fields + ImGui::GetTextLineHeight();
 }

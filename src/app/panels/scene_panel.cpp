@@ -42,7 +42,7 @@ std::string count_text(std::size_t shown, std::size_t all) {
 void filter_field(Ui& ui) {
     Session& session = ui.session;
     const std::size_t longest = std::max(agent_count(session), session.scene().clips.size());
-    if (longest <= static_cast<std::size_t>(kMostSceneRows)) return;
+    if (longest <= static_cast<std::size_t>(kMostSceneRows) && session.filter.empty()) return;
     ImGui::Dummy({0, ui.px(2)});
     ImGui::SetNextItemWidth(-1);
     ImGui::InputTextWithHint("##filter", "Filter the lists by name", &session.filter);

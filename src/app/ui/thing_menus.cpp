@@ -68,7 +68,10 @@ void append_agent(std::vector<MenuEntry>& menu, const Session& session) {
     if (who && session.selection.kind != Selection::Kind::path) {
         append(menu, {{"go.agent", who->name, "Select all of " + shortened(cleaned(who->name), 30)}});
     }
-    if (who) append(menu, shown_menu(session, {who->name, {who->name}}));
+    if (who) {
+        const std::string& name = name_in_view(session.fitted().scene(), *who);
+        append(menu, shown_menu(session, {name, {name}}));
+    }
     if (session.is_crowd()) append(menu, entries_of(kInCrowd));
     if (!session.crowd()) append(menu, entries_of(kAgent));
 }

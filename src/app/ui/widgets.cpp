@@ -54,12 +54,15 @@ void heading(Ui& ui, const char* text, const std::string& right) {
     ImGui::PopFont();
 }
 
+bool is_folded(const Session& session, const std::string& title) {
+    const auto known = session.settings.folded.find(title);
+    return known != session.settings.folded.end() && known->second;
+}
+
 bool section(Ui& ui, const std::string& title, const std::string& right) {
     std::string id = title;
     std::ranges::transform(id, id.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    std::map<std::string, bool>& folded = ui.session.settings.folded;
-    const auto known = folded.find(id);
-    const bool open = known == folded.end() || !known->second;
+    const bool open = !is_folded(ui.session, id);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
     const ImVec2 below = ImGui::GetCursorScreenPos();
@@ -69,7 +72,7 @@ bool section(Ui& ui, const std::string& title, const std::string& right) {
     const float edge = ui.px(10);
     ImGui::SetCursorScreenPos({corner.x - edge, top - ui.px(2)});
     const ImVec2 size{std::max(1.0f, ImGui::GetContentRegionAvail().x), line + ui.px(4)};
-    if (ImGui::InvisibleButton(("##section." + id).c_str(), size)) folded[id] = open;
+    if (ImGui::InvisibleButton(("##section." + id).c_str(), size)) ui.session.settings.folded[id] = open;
     ui.mark_only("section." + id);
     const bool hovered = ImGui::IsItemHovered();
     ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -13,6 +13,8 @@ namespace mobbscope::app {
 /// A quiet heading with room above it; `right` stands at the other end of its line if there is room.
 void heading(Ui& ui, const char* text, const std::string& right = "");
 
+/// Whether the section with that title in small letters is folded.
+bool is_folded(const Session& session, const std::string& title);
 /// A heading that folds what stands below it at a click: whether that is to be drawn. Settings remember it by the
 /// title, which is not made of names that change; `section.<title in small letters>` for scripts.
 [[nodiscard]] bool section(Ui& ui, const std::string& title, const std::string& right = "");

@@ -470,7 +470,7 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
 void Viewport::release(Ui& ui, glm::vec2 pixel) {
     // With a button still down it was broken off.
     const bool was_click = !moved_ && drag_ != Drag::pan && !ImGui::IsAnyMouseDown();
-    const bool asked = !moved_ && asks_;
+    const bool asked = !moved_ && asks_ && !ImGui::IsAnyMouseDown();
     drag_ = Drag::none;
     ui.session.enqueue([&session = ui.session] { session.close_group(); });
     if (was_click && list_ && is_active(ui)) click(ui, pixel);
@@ -479,6 +479,7 @@ void Viewport::release(Ui& ui, glm::vec2 pixel) {
 
 /// A right click: a menu of what is there, which is selected; what is selected already stays so, also behind something.
 void Viewport::ask(Ui& ui, glm::vec2 pixel) {
+    if (overlay_at(*list_, pixel)) return;
     Session& session = ui.session;
     std::optional<Selection> nearest;
     bool stays = false;

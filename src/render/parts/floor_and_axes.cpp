@@ -158,24 +158,6 @@ void add_time_cursor(DrawList& list, const FloorExtent& s, double time, float sc
                                           {DrawLayer::time_cursor}));
 }
 
-std::string longest_tick(const FloorExtent& s) {
-    std::string longest;
-    for (const double t : ticks(s.t0, s.t1, s.time_step)) {
-        const std::string text = tick_text(t, s.time_step) + " s";
-        if (text.size() > longest.size()) longest = text;
-    }
-    return longest;
-}
-
-std::string longest_distance(const FloorExtent& s) {
-    std::string longest;
-    for (const double v : {s.x0, s.x1, s.y0, s.y1}) {
-        const std::string text = tick_text(v, s.step);
-        if (text.size() > longest.size()) longest = text;
-    }
-    return longest;
-}
-
 std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const FloorExtent& s, bool floor, bool time_axis,
                                                 float size) {
     std::vector<LabelRequest> out;

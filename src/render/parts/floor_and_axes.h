@@ -41,12 +41,6 @@ void add_time_cursor(DrawList& list, const FloorExtent& floor_extent, double tim
 std::vector<LabelRequest> floor_and_axis_labels(const DrawList& list, const FloorExtent& floor_extent, bool floor,
                                                 bool time_axis, float size);
 
-/// The widest label of the time axis.
-std::string longest_tick(const FloorExtent& floor_extent);
-
-/// The widest label of the floor.
-std::string longest_distance(const FloorExtent& floor_extent);
-
 /// True if the camera looks along the floor (its grid is a line) or along the axis of time (it is a point).
 bool floor_on_edge(const ViewProjection& projection);
 bool time_on_end(const ViewProjection& projection);

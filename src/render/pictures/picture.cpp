@@ -35,6 +35,8 @@ Picture::Picture(const FittedScene& fitted, const ViewState& view, const Picture
 
 /// Of so many that they are not told apart by name, the followed and the selected one stand out: the rest dims.
 void Picture::let_stand_out() {
+    // The two of a query are told apart as they are.
+    if (view_.query) return;
     const Scene& scene = fitted_.scene();
     // In a grid each has its name.
     const std::size_t all = names_in_view(scene).size();
