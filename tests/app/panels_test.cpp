@@ -257,6 +257,35 @@ TEST(StillCamera, ItFramesOnCommandAndKeepsItsScaleWhenTheWindowIsResized) {
         << "where undo leads, too";
 }
 
+TEST(StillCamera, HomeFindsAnotherHeightOfASecondUnlessOneWasChosen) {
+    Window w;
+    const double opened = w.session.view().time_height;
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.move", "300 0");
+    w.window.settle();
+    EXPECT_EQ(w.session.view().time_height, opened) << "an edit moves nothing";
+    w.key("Home");
+    w.window.settle();
+    EXPECT_GT(w.session.view().time_height, 5 * opened) << "about as tall as wide again";
+    run_command(w.session, "view.time_height", "2");
+    w.key("Home");
+    w.window.settle();
+    EXPECT_EQ(w.session.view().time_height, 2);
+}
+
+TEST(StillCamera, ASplitQueryIsAsFarOnInBothHalves) {
+    Window w;
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "step.last");
+    run_command(w.session, "view.split");
+    w.window.settle();
+    ASSERT_EQ(w.session.view_count(), 2u);
+    for (std::size_t place : {0u, 1u}) {
+        const SceneView seen = w.session.view_at(place);
+        EXPECT_NO_THROW(build_draw_list(*seen.fitted, seen.view, PictureSize{400, 300})) << place;
+    }
+}
+
 TEST(StillCamera, ItFollowsTheTestWhereThatIsAskedFor) {
     Window w;
     run_command(w.session, "query.select", "0");

@@ -49,7 +49,11 @@ bool may_have_perspective(const Session& session) {
 }
 
 void frame_all(Session& session) {
-    session.change_view([](ViewState& view) { frame_by_itself(view.camera); });
+    session.change_view([&](ViewState& view) {
+        frame_by_itself(view.camera);
+        // What is framed may have become larger since, by another unit or a longer clip.
+        if (view.show == Show::space_time && !session.has_chosen_height()) view.time_height = 0;
+    });
 }
 
 /// Whether an agent is selected, and no part of its path; in the picture of a moment an agent stands where a sample is.

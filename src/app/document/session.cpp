@@ -225,7 +225,12 @@ void Session::split_view(const std::string& name, const mobb::FitOptions& option
             other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
         }
     }
-    next.beside.push_back({std::make_shared<const FittedScene>(fitted.using_fit(index)), next.view});
+    SceneView added{std::make_shared<const FittedScene>(fitted.using_fit(index)), next.view};
+    // Other trees take other tests: as far on in theirs.
+    if (const RecordedQuery* query = recorded(); query && query->trace.size() > 1) {
+        added.view.step = {Step::Unit::percent, 100.0 * step() / (query->trace.size() - 1)};
+    }
+    next.beside.push_back(std::move(added));
     change_document(std::move(next), {"splitting the view", ""});
 }
 
@@ -257,6 +262,7 @@ void Session::settle_camera(std::size_t place, const Camera& camera, double time
         view.camera = camera;
         if (time_height > 0) view.time_height = time_height;
     });
+    if (time_height > 0) settled_height_ = time_height;
 }
 
 void Session::resize_pictures(PictureSize from, PictureSize to) {

@@ -172,6 +172,8 @@ class Session {
     /// Says where the camera of the view at a place stands, which framed the scene by itself so far, and how high a
     /// second is drawn (metres; 0: as before). No step of its own for undo.
     void settle_camera(std::size_t place, const Camera& camera, double time_height);
+    /// Whether the height of a second is one that somebody has chosen, not that of the last framing.
+    bool has_chosen_height() const { return view().time_height != settled_height_; }
     /// The pictures have another height: cameras that stand keep their scale, also those that undo leads to.
     void resize_pictures(PictureSize from, PictureSize to);
     /// Whether all views have one camera.
@@ -433,7 +435,8 @@ class Session {
         Purpose purpose = Purpose::other;
     };
     std::vector<Running> jobs_;
-    int handed_over_ = 0;  ///< documents that were opened, and jobs that were done
+    int handed_over_ = 0;        ///< documents that were opened, and jobs that were done
+    double settled_height_ = 0;  ///< metres a second, of the last framing
     bool playing_ = false;
     bool has_played_ = false;  ///< since play(): the time that passes has a state
     std::pair<Dialog, DialogInput> behind_help_{Dialog::none, {}};
