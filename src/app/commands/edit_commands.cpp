@@ -138,11 +138,7 @@ std::vector<Command> edit_commands() {
                  .repeats = true,
                  .enabled = [](const Session& session) { return session.history().can_redo(); }}),
         Command("edit.history", "History...", "Lists what was done; a click goes back or on to it.",
-                [](Session& session) {
-                    DialogInput at;
-                    at.picked = static_cast<int>(session.history().place());
-                    session.open_dialog(Dialog::history, at);
-                }),
+                [](Session& session) { session.open_dialog(Dialog::history); }),
         Command("edit.go_to", "To a state of the history",
                 "Goes to a state of what was done, by its number from 0, the oldest.", go_to_state,
                 {.menu = kNoMenu, .argument = "N"}),

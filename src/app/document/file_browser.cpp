@@ -4,7 +4,6 @@
 
 #include <sys/stat.h>
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
@@ -20,17 +19,12 @@ std::pair<std::string, std::string> split_path(const std::string& typed) {
     return {typed.substr(0, slash + 1), typed.substr(slash + 1)};
 }
 
-std::string in_lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Whatever the case, and "walk2" before "walk10".
 bool before_by_name(const FileEntry& a, const FileEntry& b) {
-    const std::string x = in_lower_case(a.name);
-    const std::string y = in_lower_case(b.name);
+    const std::string x = lower(a.name);
+    const std::string y = lower(b.name);
     std::size_t i = 0;
     std::size_t j = 0;
     const auto number_at = [](const std::string& text, std::size_t& at) {
@@ -158,9 +152,9 @@ void FileBrowser::follow(const std::string& typed, bool filters) {
     moved ? read() : list();
     if (entries_.empty()) return;
     // What is called so is meant, else what begins so.
-    const std::string wanted = in_lower_case(filter);
+    const std::string wanted = lower(filter);
     const auto called = [&](const FileEntry& entry) { return entry.name == filter; };
-    const auto begins = [&](const FileEntry& entry) { return in_lower_case(entry.name).starts_with(wanted); };
+    const auto begins = [&](const FileEntry& entry) { return lower(entry.name).starts_with(wanted); };
     auto best = std::ranges::find_if(entries_, called);
     if (best == entries_.end()) best = std::ranges::find_if(entries_, begins);
     choose(best == entries_.end() ? 0 : static_cast<std::size_t>(best - entries_.begin()), Choose::only);
@@ -190,12 +184,12 @@ void FileBrowser::read() {
 /// Filters and orders what was read; the cursor stays on its entry.
 void FileBrowser::list() {
     const std::string at = cursor_ < entries_.size() ? entries_[cursor_].name : "";
-    const std::string wanted = in_lower_case(filter_);
+    const std::string wanted = lower(filter_);
     const bool hidden = hidden_ || filter_.starts_with('.');
     entries_.clear();
     for (const FileEntry& entry : all_) {
         if (entry.name.front() == '.' && !hidden) continue;
-        if (in_lower_case(entry.name).find(wanted) != std::string::npos) entries_.push_back(entry);
+        if (lower(entry.name).find(wanted) != std::string::npos) entries_.push_back(entry);
     }
     const bool last_first = order_.starts_with('-');
     const std::string by = last_first ? order_.substr(1) : order_;

@@ -3,9 +3,9 @@
 #include <app/ui/command_menu.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
+#include <base/text.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,12 +16,6 @@ namespace {
 
 constexpr float kSearchWidth = 360;       // pixels at scale 1
 constexpr float kLeastSearchWidth = 110;  // below, it only costs room
-
-std::string lower_case(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-    return out;
-}
 
 std::string_view group_of(const Command& command) { return command.id.substr(0, command.id.find('.')); }
 
@@ -42,7 +36,7 @@ void items(Ui& ui, const std::string& menu) {
     if (!submenus.empty()) ImGui::Separator();
     for (const std::string_view submenu : submenus) {
         const std::string name(submenu.substr(menu.size() + 1));
-        if (!begin_menu(ui, name, "menu." + lower_case(menu) + '.' + lower_case(name))) continue;
+        if (!begin_menu(ui, name, "menu." + lower(menu) + '.' + lower(name))) continue;
         items(ui, std::string(submenu));
         ImGui::EndMenu();
     }
@@ -117,7 +111,7 @@ void menu_bar(Ui& ui) {
         if (!menu.empty() && std::find(menus.begin(), menus.end(), menu) == menus.end()) menus.push_back(menu);
     }
     for (const std::string& menu : menus) {
-        if (!begin_menu(ui, menu, "menu." + lower_case(menu))) continue;
+        if (!begin_menu(ui, menu, "menu." + lower(menu))) continue;
         items(ui, menu);
         ImGui::EndMenu();
     }

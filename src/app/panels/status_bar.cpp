@@ -20,10 +20,6 @@ constexpr float kProgressWidth = 120;        // pixels at scale 1
 constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
 constexpr double kSweep = 1.6;               // seconds that the bar takes where nothing is known
 
-std::string counted(std::size_t count, const char* one) {
-    return std::to_string(count) + ' ' + one + (count == 1 ? "" : "s");
-}
-
 /// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view.
 std::string counts(const Session& session) {
     if (session.empty()) return "";
@@ -33,10 +29,10 @@ std::string counts(const Session& session) {
     for (int clip = 0; clip < static_cast<int>(session.scene().clips.size()); ++clip) {
         nodes += fitted.tree(clip).nodes().size();
     }
-    std::string out = agents > 0 ? counted(agents, "agent") + ", " : "";
-    out += counted(session.scene().clips.size(), "clip") + ", " + counted(nodes, "node");
+    std::string out = agents > 0 ? counted(agents, "agent", "agents") + ", " : "";
+    out += counted(session.scene().clips.size(), "clip", "clips") + ", " + counted(nodes, "node", "nodes");
     if (const RecordedQuery* recorded = session.recorded()) {
-        out += ", " + counted(static_cast<std::size_t>(recorded->trace.size()), "test");
+        out += ", " + counted(recorded->trace.size(), "test", "tests");
     }
     return out;
 }

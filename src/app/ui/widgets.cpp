@@ -60,8 +60,7 @@ bool is_folded(const Session& session, const std::string& title) {
 }
 
 bool section(Ui& ui, const std::string& title, const std::string& right) {
-    std::string id = title;
-    std::ranges::transform(id, id.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string id = lower(title);
     const bool open = !is_folded(ui.session, id);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     heading(ui, title.c_str(), right);
