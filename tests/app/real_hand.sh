@@ -2,9 +2,9 @@
 # is reached: each file of marks that it writes says that a state is.
 command -v xdotool >/dev/null || { echo "xdotool is not installed" >&2; exit 77; }
 
-# begin PROGRAM SCRIPT SCENE: the window, once the script has written opened.txt.
+# begin PROGRAM SCRIPT ARGUMENT...: the window of these arguments, once the script has written opened.txt.
 begin() {
-  "$1" --size 1280x800 --script "$2" "$3" &
+  "$1" "${@:3}" --size 1280x800 --script "$2" &
   watching=$!
   trap 'kill "$watching" 2>/dev/null || true' EXIT
   reached opened.txt
@@ -28,19 +28,21 @@ reached() {
     sleep 0.02
   done
 }
-# to MARKS NAME RIGHT DOWN: the mouse to pixels from the middle of a widget; from its left or right end with L or R.
+# to MARKS NAME [RIGHT DOWN]: the mouse to pixels from the middle of a widget.
 to() {
   local x y
-  read -r x y < <(awk -v name="$2" -v right="$3" -v down="$4" '
+  read -r x y < <(awk -v name="$2" -v right="${3:-0}" -v down="${4:-0}" '
     $1 == name { printf "%d %d\n", ($2 + $4) / 2 + right, ($3 + $5) / 2 + down }' "$1") || {
     echo "no $2 in $1" >&2
     exit 1
   }
   xdotool mousemove $((x0 + x)) $((y0 + y))
 }
+# click MARKS NAME [RIGHT DOWN [BUTTON]]: a frame goes by under the mouse before the button goes down.
 click() {
   to "$@"
-  xdotool click 1
+  sleep 0.2
+  xdotool click "${5:-1}"
 }
 # pull FILE RIGHT DOWN: with the button held, step by step until the script has written the file.
 pull() {
