@@ -115,7 +115,9 @@ TEST(ImportOffer, OfTracksSaysWhatWasAssumed) {
     EXPECT_NE(offer.find("dt")->why.find("2.5 points a second are assumed"), std::string::npos);
     EXPECT_EQ(offer.find("radius")->taken, "0.2");
     // The warnings of its clips lead to the same options.
-    for (const ImportWarning& warning : file.clips({}).front().facts.warnings) {
+    const std::vector<ImportedClip> clips = file.clips({});
+    ASSERT_FALSE(clips.front().facts.warnings.empty());
+    for (const ImportWarning& warning : clips.front().facts.warnings) {
         EXPECT_NE(offer.find(warning.option), nullptr) << warning.text;
     }
 }
