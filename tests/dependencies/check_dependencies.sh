@@ -6,7 +6,7 @@ set -euo pipefail
 check=$1 folder=$2
 command -v dpkg-query >/dev/null || { echo "there is no dpkg to ask for packages"; exit 77; }
 rm -rf "$folder"
-mkdir -p "$folder"/{.ci,scripts,third_party,tests/app,own,build/bin}
+mkdir -p "$folder"/{.ci,scripts,third_party,tests/app/real_window,own,build/bin}
 cd "$folder"
 cp "$check" .ci/
 cat >main.c <<'C'
@@ -14,10 +14,10 @@ cat >main.c <<'C'
 #include <stb/stb_image.h>
 int main(void) { return dlopen("libEGL.so.1", RTLD_NOW) ? 0 : 3; }
 C
-printf '#!/bin/sh\nexec "$@"\n' >tests/app/under_xvfb.sh
+printf '#!/bin/sh\nexec "$@"\n' >tests/app/real_window/under_xvfb.sh
 printf '#!/bin/sh\ncat "$(dirname "$0")/packages"\n' >scripts/setup
 printf '#!/bin/sh\n# no git here\nwords=(git)\nif Xvfb -help; then echo there; fi\n' >scripts/demo
-chmod +x tests/app/under_xvfb.sh scripts/setup
+chmod +x tests/app/real_window/under_xvfb.sh scripts/setup
 printf 'opens egl libEGL.so.1\ncalls xdotool # moves the mouse\n' >third_party/run_time.txt
 
 cat >build/CMakeCache.txt <<EOF2

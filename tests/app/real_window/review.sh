@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# real_review.sh PROGRAM SCRIPT FOLDER: looks at the picture tests in FOLDER/cases with the mouse and keys of the display,
+# review.sh PROGRAM SCRIPT FOLDER: looks at the picture tests in FOLDER/cases with the mouse and keys of the display,
 # while the script says what is reached.
 set -euo pipefail
-source "$(dirname "$0")/real_hand.sh"
+source "$(dirname "$0")/hand.sh"
 cd "$3"
 begin "$1" "$2" review cases
 

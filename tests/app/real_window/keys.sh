@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# real_keys.sh PROGRAM ASSETS SCRIPT FOLDER: works the window by the keyboard of the display alone, while a script
+# keys.sh PROGRAM ASSETS SCRIPT FOLDER: works the window by the keyboard of the display alone, while a script
 # watches and says by files of marks which state is reached.
 set -euo pipefail
 command -v xdotool >/dev/null || { echo "xdotool is not installed" >&2; exit 77; }

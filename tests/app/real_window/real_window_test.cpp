@@ -21,7 +21,7 @@ namespace {
 using mobbscope::testing::TempFolder;
 using testing::slurp;
 
-const std::string kHere = MOBBSCOPE_SOURCE_DIR "/tests/app/";
+const std::string kHere = MOBBSCOPE_SOURCE_DIR "/tests/app/real_window/";
 constexpr int kLacking = 77;
 
 /// The exit status of a command line on a virtual display.
@@ -54,7 +54,7 @@ TEST(RealWindow, AnExpectationThatFailsIsStatusOne) {
 TEST(RealWindow, FollowsTheDisplaysMouse) {
     const TempFolder folder;
     const int status =
-        under_xvfb("'" + kHere + "real_input.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
+        under_xvfb("'" + kHere + "input.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     // The left border before and after, as the script printed it.
@@ -74,7 +74,7 @@ Json state(const std::filesystem::path& file) { return Json::parse(slurp(file));
 /// What the document is, whatever is selected or said.
 Json document(const Json& state) { return {state["title"], state["scene"], state["view"]}; }
 
-// The whole of a session by hand. real_person.script asserts each state; pictures of them stay in the build tree.
+// The whole of a session by hand. person.script asserts each state; pictures of them stay in the build tree.
 TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
     const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_person";
     std::filesystem::remove_all(folder);
@@ -82,8 +82,8 @@ TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
     std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder / "assets", std::filesystem::copy_options::recursive);
     const std::filesystem::path scene = folder / "assets/scenes/crossing.json";
     const std::string before = slurp(scene);
-    const int status = under_xvfb("'" + kHere + "real_person.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "real_person.script' '" + folder.string() + "'");
+    const int status = under_xvfb("'" + kHere + "person.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "person.script' '" + folder.string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
 
@@ -110,17 +110,17 @@ TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
     EXPECT_EQ(document(state(folder / "anew.json")), document(saved));
 }
 
-// Menus, a dropdown and Escape by the keys of the display; real_keys.script asserts each state.
+// Menus, a dropdown and Escape by the keys of the display; keys.script asserts each state.
 TEST(RealWindow, APersonWorksByKeysAlone) {
     const TempFolder folder;
     const int status =
-        under_xvfb("'" + kHere + "real_keys.sh' '" MOBBSCOPE_PROGRAM "' '" MOBBSCOPE_SOURCE_DIR "/assets' '" + kHere +
-                   "real_keys.script' '" + folder.path().string() + "'");
+        under_xvfb("'" + kHere + "keys.sh' '" MOBBSCOPE_PROGRAM "' '" MOBBSCOPE_SOURCE_DIR "/assets' '" + kHere +
+                   "keys.script' '" + folder.path().string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     EXPECT_EQ(status, 0);
 }
 
-// A clip in the wrong unit, mended by hand: real_import.script asserts each state.
+// A clip in the wrong unit, mended by hand: import.script asserts each state.
 TEST(RealWindow, APersonMendsAUnit) {
     const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_import";
     std::filesystem::remove_all(folder);
@@ -133,8 +133,8 @@ TEST(RealWindow, APersonMendsAUnit) {
            "MOTION\nFrames: 90\nFrame Time: 0.0333333\n";
     for (int i = 0; i < 90; ++i) bvh << 4 * i << " 90 0\n";
     bvh.close();
-    const int status = under_xvfb("'" + kHere + "real_import.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "real_import.script' '" + (folder / "scene.json").string() + "'");
+    const int status = under_xvfb("'" + kHere + "import.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "import.script' '" + (folder / "scene.json").string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     EXPECT_EQ(status, 0);
 }
@@ -145,7 +145,7 @@ TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
     std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder.path() / "assets",
                           std::filesystem::copy_options::recursive);
     const int status =
-        under_xvfb("'" + kHere + "real_files.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
+        under_xvfb("'" + kHere + "files.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     const Json settings = state(folder.path() / "config/mobbscope/settings.json");
@@ -159,7 +159,7 @@ TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
     EXPECT_NE(geometry.find("WIDTH=1100\nHEIGHT=720"), std::string::npos) << geometry;
 }
 
-// Of a folder with 17 clips all but two are hidden, by the buttons in the lists; real_clips.script asserts each state.
+// Of a folder with 17 clips all but two are hidden, by the buttons in the lists; clips.script asserts each state.
 TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
     const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_clips";
     std::filesystem::remove_all(folder);
@@ -169,8 +169,8 @@ TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
         std::ofstream(folder / "clips" / ("clip" + number + ".csv"))
             << "t,x,y,r\n0,0,0,0.3\n0.5,1,0,0.3\n1,2,0.5,0.3\n";
     }
-    const int status = under_xvfb("'" + kHere + "real_clips.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "real_clips.script' '" + folder.string() + "'");
+    const int status = under_xvfb("'" + kHere + "clips.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "clips.script' '" + folder.string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     const Json two = state(folder / "two.json");
@@ -178,7 +178,7 @@ TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
     EXPECT_EQ(two["modified"], false) << "how clips are seen is no edit";
 }
 
-// Picture tests by hand: one of the failing is accepted and given back, and opened as a scene. real_review.script
+// Picture tests by hand: one of the failing is accepted and given back, and opened as a scene. review.script
 // asserts each state.
 TEST(RealWindow, APersonReviewsPictureTests) {
     const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_review";
@@ -186,8 +186,8 @@ TEST(RealWindow, APersonReviewsPictureTests) {
     std::filesystem::create_directories(folder);
     const app::testing::ThreeCases files(folder);
     const std::string golden = files.bytes("moved.png");
-    const int status = under_xvfb("'" + kHere + "real_review.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "real_review.script' '" + folder.string() + "'");
+    const int status = under_xvfb("'" + kHere + "review.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
+                                  "review.script' '" + folder.string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     EXPECT_EQ(files.bytes("moved.png"), golden) << "the very bytes, given back";

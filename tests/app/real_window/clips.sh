@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# real_clips.sh PROGRAM SCRIPT FOLDER: opens FOLDER/clips and hides all but two of them with the mouse and keys of the
+# clips.sh PROGRAM SCRIPT FOLDER: opens FOLDER/clips and hides all but two of them with the mouse and keys of the
 # display, while the script says what is reached. Pictures and states are left in FOLDER.
 set -euo pipefail
-source "$(dirname "$0")/real_hand.sh"
+source "$(dirname "$0")/hand.sh"
 cd "$3"
 begin "$1" "$2" clips
 

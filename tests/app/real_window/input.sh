@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# real_input.sh PROGRAM FOLDER: drags the window's left border with the mouse of the display while a script watches.
+# input.sh PROGRAM FOLDER: drags the window's left border with the mouse of the display while a script watches.
 set -euo pipefail
 command -v xdotool >/dev/null || { echo "xdotool is not installed" >&2; exit 77; }
 program=$1 folder=$2

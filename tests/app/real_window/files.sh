@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# real_files.sh PROGRAM FOLDER: opens three clips by the dialog alone, with the keys of the display, ends the program, and
+# files.sh PROGRAM FOLDER: opens three clips by the dialog alone, with the keys of the display, ends the program, and
 # reopens what was open. FOLDER holds assets/; the settings are left in its config/.
 set -euo pipefail
 command -v xdotool >/dev/null || { echo "xdotool is not installed" >&2; exit 77; }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# real_import.sh PROGRAM SCRIPT SCENE: mends the unit of the scene's first clip by hand, beginning with the button of its
+# import.sh PROGRAM SCRIPT SCENE: mends the unit of the scene's first clip by hand, beginning with the button of its
 # warning, while the script in the window says what is reached.
 set -euo pipefail
-source "$(dirname "$0")/real_hand.sh"
+source "$(dirname "$0")/hand.sh"
 cd "$(dirname "$3")"
 begin "$1" "$2" "$3"
 

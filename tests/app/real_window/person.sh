@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# real_person.sh PROGRAM SCRIPT FOLDER: works the window with the mouse and keys of the display, while the script in it
+# person.sh PROGRAM SCRIPT FOLDER: works the window with the mouse and keys of the display, while the script in it
 # says what is reached. FOLDER holds assets/; pictures and states are left there.
 set -euo pipefail
-source "$(dirname "$0")/real_hand.sh"
+source "$(dirname "$0")/hand.sh"
 program=$1 script=$2 folder=$3
 cd "$folder"
 begin "$program" "$script" assets/scenes/crossing.json
