@@ -386,12 +386,12 @@ std::vector<ViewOption> all_view_options() {
              .former_toggle = {"tested_before", "all", "pair"},
              .command = "view.past",
              .title = "Past tests",
-             .menu = "View/Show",
              .doc =
                  "Shows beside the pair under test the pairs that called it (ancestors), those that its parent called "
                  "before it too (siblings), all that were tested before, or none (pair).",
              .argument = "[pair|ancestors|siblings|all]",
              .choices = {"pair", "ancestors", "siblings", "all"},
+             .choice_titles = {"Only the pair under test", "+ ancestors", "+ siblings", "All"},
              .refused_in_file = "{} are no past tests",
              .refused_in_window = "past tests cannot be {}"}),
         toggle<&ViewState::candidates>(

@@ -59,8 +59,10 @@ struct ViewOption {
     std::string_view doc{};
     std::string_view argument{};  ///< of a choice, as Command has it: "[dark|light]"
 
-    // Of a choice: its names, and what is said of another one ({}) in a file and in the window.
+    // Of a choice: its names, what menus call them (empty: the names), and what is said of another one ({}) in a file
+    // and in the window.
     std::vector<std::string_view> choices{};
+    std::vector<std::string_view> choice_titles{};
     std::string_view refused_in_file{};
     std::string_view refused_in_window{};
 

@@ -603,6 +603,7 @@ std::vector<Case> cases() {
     look("go.next_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::next_panel); });
     look("go.previous_panel", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::previous_panel); });
     look("go.menu", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::menu_bar); });
+    look("go.menu_of_this", "", [](CommandWorld& w) { EXPECT_EQ(w.session.focus_move, FocusMove::menu_of_this); });
 
     // Help
     look("help.shortcuts", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::help); });

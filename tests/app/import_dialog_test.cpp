@@ -239,6 +239,37 @@ TEST(ImportDialog, JointsAreFoundByAFewLetters) {
     EXPECT_EQ(w.session.dialog, Dialog::none);
 }
 
+TEST(ImportDialog, ListsAreGoneThroughByKeys) {
+    ImportWindow w;
+    std::string many = body_bvh();
+    std::string fingers;
+    for (int i = 0; i < 20; ++i) {
+        fingers += "JOINT Finger" + std::to_string(i) + " {\nOFFSET 0 1 0\nCHANNELS 0\n";
+    }
+    fingers += "End Site\n{\nOFFSET 0 1 0\n}\n" + std::string(20, '}');
+    many.replace(many.find("End Site"), 0, fingers + "\n");
+    w.folder.write("many.bvh", many);
+    w.open("many.bvh");
+    run_command(w.session, "clip.import");
+    w.window.settle();
+    for (int i = 0; i < 20 && w.session.focus != "import.root"; ++i) w.key("Tab");
+    ASSERT_EQ(w.session.focus, "import.root");
+    w.key("Enter");
+    EXPECT_EQ(w.session.focus, "import.root.search") << "one types what is looked for";
+    w.key("Down");
+    EXPECT_EQ(w.session.focus, "import.root.default");
+    for (int i = 0; i < 16; ++i) w.key("Down");
+    EXPECT_EQ(w.session.focus, "import.root.Finger12") << "beyond what is drawn at once";
+    w.key("Home");
+    w.key("Up");
+    EXPECT_EQ(w.session.focus, "import.root.default") << "what stands above the list";
+    w.key("Down");
+    w.key("Down");
+    w.key("Enter");
+    EXPECT_EQ(w.clip().options.root, "Spine");
+    EXPECT_EQ(w.session.focus, "import.root");
+}
+
 TEST(ImportDialog, ACrowdsUnitAndFrameTimeChangeForAllOfItsFile) {
     ImportWindow w;
     w.open("people.txt");

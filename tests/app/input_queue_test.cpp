@@ -76,6 +76,23 @@ TEST_F(InputQueueTest, ChordsCarryTheModifiersThatAreHeld) {
     EXPECT_EQ(chords.size(), 3u) << "a key that goes up calls nothing";
 }
 
+TEST_F(InputQueueTest, AKeyIsSeenWithItsModifiersWhicheverIsLetGoFirst) {
+    queue.push(KeyPress{Key::ctrl, true});
+    feed();
+    queue.push(KeyPress{Key::down, true});
+    queue.push(KeyPress{Key::ctrl, false});
+    queue.push(KeyPress{Key::down, false});
+    feed();
+    EXPECT_TRUE(io().KeysDown[static_cast<std::size_t>(Key::down)]);
+    EXPECT_TRUE(io().KeyCtrl) << "else Dear ImGui sees the arrow alone";
+    feed();
+    EXPECT_FALSE(io().KeyCtrl);
+    queue.push(KeyPress{Key::down, true});
+    queue.push(KeyPress{Key::shift, true});
+    feed();
+    EXPECT_FALSE(io().KeyShift) << "it was not held yet";
+}
+
 TEST_F(InputQueueTest, AHeldKeyRepeats) {
     queue.push(KeyPress{Key::right, true});
     feed();

@@ -48,6 +48,18 @@ struct KeyboardWindow {
             window.settle();
         }
     }
+    /// As fast hands do it: the modifier is down for long, and is let go before the key.
+    void quick(Key modifier, Key key) {
+        send(KeyPress{modifier, true});
+        window.shell().feed(KeyPress{key, true});
+        window.shell().feed(KeyPress{modifier, false});
+        window.shell().feed(KeyPress{key, false});
+        window.settle();
+    }
+    void type(const std::string& text) {
+        for (const char c : text) window.shell().feed(TypedText{static_cast<char32_t>(c)});
+        window.settle();
+    }
     glm::vec2 at(const std::string& mark) {
         const auto& all = window.shell().marks().all();
         const auto found = all.find(mark);
@@ -342,6 +354,154 @@ TEST(Keyboard, ADialogGivesTheFocusBack) {
     w.key("Enter");
     EXPECT_EQ(w.session.dialog, Dialog::none) << "the button with the focus, not the usual one";
     EXPECT_FALSE(w.session.closed());
+}
+
+TEST(Keyboard, ASuggestedNameIsReplacedByWhatIsTyped) {
+    KeyboardWindow w;
+    w.key("Ctrl+E");
+    EXPECT_EQ(w.session.input.text, "scene.png");
+    w.type("made");
+    EXPECT_EQ(w.session.input.text, "made.png");
+    w.quick(Key::ctrl, Key::a);
+    w.type("other");
+    EXPECT_EQ(w.session.input.text, "other");
+    w.key("Home");
+    w.type("an");
+    w.quick(Key::shift, Key::end);
+    w.type("d");
+    EXPECT_EQ(w.session.input.text, "and");
+    w.key("Escape");
+    w.key("Ctrl+Shift+S");
+    EXPECT_EQ(w.session.input.text, "scene.json");
+    w.type("mine.json");
+    w.key("Enter");
+    EXPECT_EQ(w.session.file(), w.folder.file("mine.json")) << "and not mine.json.json";
+}
+
+TEST(Keyboard, FilesAreChosenAsFileManagersDo) {
+    KeyboardWindow w;
+    const auto chosen = [&] {
+        std::string out;
+        for (const auto& path : w.session.browser.chosen()) out += path.filename().string() + ' ';
+        return out;
+    };
+    w.key("Ctrl+O");
+    EXPECT_EQ(chosen(), "scene.json ");
+    w.quick(Key::shift, Key::down);
+    EXPECT_EQ(chosen(), "scene.json stand.csv ");
+    w.quick(Key::shift, Key::down);
+    EXPECT_EQ(chosen(), "scene.json stand.csv walk.csv ");
+    w.quick(Key::shift, Key::up);
+    EXPECT_EQ(chosen(), "scene.json stand.csv ");
+    w.click("open.entry.walk.csv");
+    EXPECT_EQ(chosen(), "walk.csv ");
+    w.quick(Key::shift, Key::up);
+    EXPECT_EQ(chosen(), "stand.csv walk.csv ") << "from the row that was clicked";
+    w.click("open.entry.scene.json");
+    w.send(KeyPress{Key::ctrl, true});
+    w.click("open.entry.walk.csv");
+    w.send(KeyPress{Key::ctrl, false});
+    EXPECT_EQ(chosen(), "scene.json walk.csv ");
+    w.send(KeyPress{Key::shift, true});
+    w.click("open.entry.stand.csv");
+    w.send(KeyPress{Key::shift, false});
+    EXPECT_EQ(chosen(), "stand.csv walk.csv ") << "from the row that was clicked last";
+    w.quick(Key::ctrl, Key::a);
+    EXPECT_EQ(chosen(), "scene.json stand.csv walk.csv ");
+}
+
+TEST(Keyboard, LettersInAMenuAreTheBeginningOfAName) {
+    KeyboardWindow w;
+    w.key("Alt+F");
+    EXPECT_EQ(w.session.focus, "menu.file.open");
+    w.key("Z");
+    EXPECT_EQ(w.session.focus, "menu.file.open") << "nothing begins so";
+    w.window.run_for(1.5);
+    w.key("O");
+    EXPECT_EQ(w.session.focus, "menu.file.demo") << "the next one";
+    w.window.run_for(1.5);
+    w.key("O");
+    w.key("O");
+    EXPECT_EQ(w.session.focus, "menu.file.demo") << "around";
+    w.window.run_for(1.5);
+    w.key("S");
+    w.key("A");
+    w.key("V");
+    w.key("E");
+    EXPECT_EQ(w.session.focus, "menu.file.save") << "where it began it stays";
+    w.window.run_for(1.5);
+    w.key("C");
+    w.key("O");
+    EXPECT_EQ(w.session.focus, "menu.file.copy_command");
+    w.key("Z");
+    EXPECT_EQ(w.session.focus, "menu.file.copy_command");
+}
+
+TEST(Keyboard, WhatIsDoneByEnterGivesTheKeysToThePicture) {
+    KeyboardWindow w;
+    for (int i = 0; i < 100 && w.session.focus != "query.0"; ++i) w.key(w.session.focus == "query.0" ? "Down" : "Tab");
+    ASSERT_EQ(w.session.focus, "query.0");
+    w.key("Enter");
+    EXPECT_EQ(w.session.view().query, 0);
+    EXPECT_EQ(w.session.focus, "");
+    w.key("Shift+Left");
+    w.key("Right");
+    EXPECT_EQ(w.session.step(), 1) << "the arrows are for the query that was opened";
+    w.key("Tab");
+    EXPECT_EQ(w.session.focus, "query.0") << "Tab leads back";
+    w.key("Escape");
+    w.key("Ctrl+F6");
+    for (int i = 0; i < 10 && w.session.focus != "toolbar.view.iso"; ++i) w.key("Ctrl+F6");
+    ASSERT_EQ(w.session.focus, "toolbar.view.iso");
+    w.key("Right");
+    w.key("Enter");
+    EXPECT_EQ(w.session.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(w.session.focus, "");
+    w.key("Right");
+    EXPECT_EQ(w.session.step(), 2);
+    w.key("Tab");
+    ASSERT_EQ(w.session.focus, "toolbar.view.top");
+    w.key("F");
+    w.key("Left");
+    EXPECT_EQ(w.session.focus, "toolbar.view.iso");
+    w.key("Left");
+    EXPECT_EQ(w.session.step(), 1) << "beside the first button is nothing: the key is the picture's";
+    // The palette too.
+    w.key("Q");
+    w.key("Ctrl+P");
+    w.type("A against B");
+    w.key("Enter");
+    EXPECT_EQ(w.session.view().query, 0);
+    EXPECT_EQ(w.session.focus, "");
+}
+
+TEST(Keyboard, ADialogOverTheHelpForgetsWhatWaitedForAnAnswer) {
+    KeyboardWindow w;
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.nudge", "1 0");
+    w.window.settle();
+    w.key("Ctrl+Q");
+    ASSERT_EQ(w.session.dialog, Dialog::unsaved);
+    w.key("F1");
+    w.type("save as");
+    w.key("Enter");
+    ASSERT_EQ(w.session.dialog, Dialog::save_as);
+    w.type("mine");
+    w.key("Enter");
+    EXPECT_EQ(w.session.file(), w.folder.file("mine.json"));
+    EXPECT_FALSE(w.session.closed()) << "nobody has said that it is to end";
+}
+
+TEST(Keyboard, TheStripOfStepsStandsStill) {
+    KeyboardWindow w;
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "step.first");
+    w.window.settle();
+    ASSERT_GT(w.session.recorded()->trace.size(), 10);
+    const float left = w.window.shell().marks().all().at("query.strip").min.x;
+    run_command(w.session, "step.last");
+    w.window.settle();
+    EXPECT_EQ(w.window.shell().marks().all().at("query.strip").min.x, left);
 }
 
 TEST(Keyboard, NoPanelHasAnotherKindOfNumber) {

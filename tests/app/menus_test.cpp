@@ -7,6 +7,7 @@
 #include "app/crossing_folder.h"
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <map>
@@ -125,6 +126,45 @@ TEST(Menus, RowsTestsAndTimesHaveMenus) {
     EXPECT_FALSE(w.session.view().time);
     w.run("click context.time.at");
     EXPECT_NEAR(w.session.view().time.value_or(-1), 0.5 * (span.t0 + span.t1), 0.02);
+}
+
+TEST(Menus, KeysOpenTheMenuOfWhatHasTheFocusOrIsSelected) {
+    MenuWindow w;
+    w.run("key Tab\nkey Down\nexpect /focus \"agent.1\"\nkey Shift+F10");
+    EXPECT_TRUE(w.has("context.agents.hide"));
+    EXPECT_EQ(w.session.selection.path.agent, 1) << "as a right click does";
+    EXPECT_EQ(w.session.focus, "context.view.frame") << "the keys go through it";
+    const glm::vec2 row = w.marks().at("agent.1").center();
+    const glm::vec2 menu = w.marks().at("context.view.frame").min;
+    EXPECT_LT(glm::length(menu - row), 160) << "at the row";
+    w.run("key Escape");
+    EXPECT_FALSE(w.has_menu());
+    EXPECT_EQ(w.session.focus, "agent.1");
+    w.run("key Menu\nkey H\nkey Enter\nexpect /view/hidden/0 \"B\"");
+    w.run("key V\nkey Escape\nkey Escape\nexpect /focus null\nexpect /selection/kind \"none\"\nkey Shift+F10");
+    EXPECT_TRUE(w.has("context.view.iso")) << "nothing is selected: the picture's";
+    w.run("key Escape\nrun go.node A 1\nkey Shift+F10");
+    EXPECT_TRUE(w.has("context.go.parent"));
+    const DrawList& list = *w.window.shell().shown();
+    const auto box = std::ranges::find_if(list.boxes, [](const BoxInstance& b) {
+        return b.id == ObjectId{0, ObjectId::Kind::box, 1};
+    });
+    ASSERT_NE(box, list.boxes.end());
+    const glm::vec2 at = w.marks().at("viewport").min + list.projection.project(box->center).value();
+    EXPECT_LT(glm::length(w.marks().at("context.view.frame").min - at), 60) << "at the box";
+    w.run("key Down\nkey Enter\nexpect /selection/index 0");
+    EXPECT_EQ(w.session.focus, "");
+}
+
+TEST(Menus, TheChoiceOfPastTestsIsPlain) {
+    MenuWindow w;
+    w.run("run query.select 0\nkey Alt+V\nkey P\nkey A\nkey S");
+    EXPECT_EQ(w.session.focus, "menu.view.past") << "two menus deep, not three";
+    w.run("key Enter");
+    EXPECT_EQ(w.session.focus, "menu.view.past.ancestors") << "what is chosen";
+    w.run("key O\nkey Enter\nexpect /view/past \"pair\"");
+    w.run("key Ctrl+P\ntype only the pair\nkey Enter");
+    EXPECT_EQ(w.session.view().past, Past::pair);
 }
 
 TEST(Menus, TheMoreMenuHoldsWhatHasNoRoom) {

@@ -564,6 +564,31 @@ TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     EXPECT_EQ(w.session.dialog, Dialog::none);
 }
 
+TEST(Panels, MessagesCoverNeitherLegendNorCaption) {
+    for (const PictureSize size : {PictureSize{1024, 700}, {1280, 800}}) {
+        SCOPED_TRACE(size.width);
+        Window w(size);
+        run_command(w.session, "query.select", "0");
+        run_command(w.session, "step.last");
+        const std::string path = "/home/somebody/" + std::string(40, 'x') + "/a/long/way/" + std::string(40, 'y');
+        for (int i = 0; i < 3; ++i) {
+            w.session.tell(Message::Level::error, "Saved " + path + '/' + std::to_string(i) + "/crossing.json");
+        }
+        w.window.run_for(0.2);
+        const Rect viewport = w.window.shell().marks().all().at("viewport");
+        for (int i = 0; i < 3; ++i) {
+            const Rect message = w.window.shell().marks().all().at("message." + std::to_string(i));
+            EXPECT_LT(message.max.y - message.min.y, 40) << "a long path loses its middle";
+            for (const Overlay& overlay : w.window.shell().shown()->overlays) {
+                const Rect lies{viewport.min + overlay.rect.min, viewport.min + overlay.rect.max};
+                const bool apart = message.min.x >= lies.max.x || message.max.x <= lies.min.x ||
+                                   message.min.y >= lies.max.y || message.max.y <= lies.min.y;
+                EXPECT_TRUE(apart) << i;
+            }
+        }
+    }
+}
+
 TEST(Panels, MessagesStayWhileTheMouseIsOnThem) {
     Window w;
     w.session.tell(Message::Level::info, "Saved it");

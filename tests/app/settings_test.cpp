@@ -85,5 +85,32 @@ TEST(Settings, WhereNothingCanBeWrittenNothingHappens) {
     save_settings({}, {});
 }
 
+TEST(Settings, WhatCannotBeReadIsKeptAndSaidOnce) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("settings.json", R"({"ui_scale": 2,)");
+    const std::string said = keep_unreadable_settings(file);
+    EXPECT_NE(said.find("settings.json cannot be read; it is kept as settings.json.unreadable"), std::string::npos)
+        << said;
+    save_settings(file, {});
+    EXPECT_EQ(mobbscope::testing::slurp(folder.path() / "settings.json.unreadable"), R"({"ui_scale": 2,)");
+    EXPECT_EQ(keep_unreadable_settings(file), "");
+    folder.write("settings.json", "[1]");
+    EXPECT_NE(keep_unreadable_settings(file).find("kept as settings.json.unreadable2"), std::string::npos);
+    EXPECT_EQ(keep_unreadable_settings(file), "") << "there is none now";
+    EXPECT_EQ(keep_unreadable_settings(folder.write("settings.json", "")), "") << "nothing is lost";
+}
+
+TEST(Settings, OfANewerVersionStayAsTheyAre) {
+    const TempFolder folder;
+    const std::string newer = R"({"version": 2, "ui_scale": 2, "left_width": {"panel": 1}})";
+    const std::filesystem::path file = folder.write("settings.json", newer);
+    EXPECT_NE(keep_unreadable_settings(file).find("is of a newer version"), std::string::npos);
+    Settings settings = load_settings(file);
+    EXPECT_EQ(settings.ui_scale, 2) << "what is understood counts";
+    settings.ui_scale = 1;
+    save_settings(file, settings);
+    EXPECT_EQ(mobbscope::testing::slurp(file), newer);
+}
+
 }  // namespace
 }  // namespace mobbscope::app

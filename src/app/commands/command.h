@@ -44,8 +44,8 @@ struct Action : std::function<void(Session&, const std::string& argument)> {
 
 /// What a command may have besides.
 struct CommandTraits {
-    /// "File", "Edit", "View", "Tree", "Query", "Go" or "Help", and behind a slash the submenu; empty in a
-    /// row: that of its part; kNoMenu: none
+    /// "File", "Edit", "View", "Tree", "Query", "Go", "Review" or "Help", and behind a slash the submenu;
+    /// empty in a row: that of its part; kNoMenu: none
     std::string_view menu{};
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
     bool repeats = false;         ///< while its key is held
@@ -53,6 +53,8 @@ struct CommandTraits {
     Condition enabled = has_scene;
     std::function<bool(const Session&)> checked{};                      ///< of a toggle: whether it is on
     std::function<std::vector<std::string>(const Session&)> choices{};  ///< arguments to choose from
+    /// What menus call a choice. Null: as it is given.
+    std::function<std::string(const std::string& choice)> choice_title{};
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
     std::function<bool(const Session&, const std::string& choice)> chosen{};
 };
@@ -96,6 +98,9 @@ const Command* command_for(const Session& session, const Chord& chord);
 
 /// Whether a command is about what is shown, the scene or picture tests: menus have no others.
 bool belongs_here(const Session& session, const Command& command);
+
+/// What menus call a choice of a command.
+std::string title_of_choice(const Command& command, const std::string& choice);
 
 /// The first of a command's shortcuts, as menus show it; empty if it has none.
 std::string_view first_shortcut(const Command& command);

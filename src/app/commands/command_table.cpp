@@ -29,9 +29,10 @@ std::vector<Command> help_commands() {
 
 /// What is about neither the scene nor picture tests.
 constexpr auto kEverywhere = std::to_array<std::string_view>(
-    {"file.open", "file.recent", "file.reopen_last", "file.demo", "file.review", "file.quit", "go.palette",
-     "go.next_panel", "go.previous_panel", "go.menu", "view.theme", "window.scale", "window.larger", "window.smaller",
-     "window.scale_reset", "help.shortcuts", "help.messages", "help.clear_messages", "help.about"});
+    {"file.open",          "file.recent",    "file.reopen_last", "file.demo",           "file.review",
+     "file.quit",          "go.palette",     "go.next_panel",    "go.previous_panel",   "go.menu",
+     "go.menu_of_this",    "view.theme",     "window.scale",     "window.larger",       "window.smaller",
+     "window.scale_reset", "help.shortcuts", "help.messages",    "help.clear_messages", "help.about"});
 
 bool is_everywhere(const Command& command) { return std::ranges::find(kEverywhere, command.id) != kEverywhere.end(); }
 
@@ -113,6 +114,10 @@ const Command* command_for(const Session& session, const Chord& chord) {
     return nullptr;
 }
 
+std::string title_of_choice(const Command& command, const std::string& choice) {
+    return command.choice_title ? command.choice_title(choice) : choice;
+}
+
 std::string_view first_shortcut(const Command& command) {
     return command.shortcut.substr(0, command.shortcut.find(' '));
 }
@@ -140,6 +145,12 @@ Command option_command(const ViewOption& option) {
     traits.choices = [&option](const Session&) {
         return std::vector<std::string>(option.choices.begin(), option.choices.end());
     };
+    if (!option.choice_titles.empty()) {
+        traits.choice_title = [&option](const std::string& text) {
+            const auto at = std::ranges::find(option.choices, text) - option.choices.begin();
+            return std::string(option.choice_titles.at(static_cast<std::size_t>(at)));
+        };
+    }
     traits.chosen = [&option](const Session& session, const std::string& text) {
         return option.text(session.view()) == text;
     };

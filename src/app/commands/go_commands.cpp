@@ -178,6 +178,10 @@ std::vector<Command> go_commands() {
                 move_focus<FocusMove::previous_panel>, {.shortcut = "Ctrl+Shift+F6", .enabled = always}),
         Command("go.menu", "Menus", "Opens the menus; arrows and letters go through them.",
                 move_focus<FocusMove::menu_bar>, {.shortcut = "F10 Alt", .enabled = always}),
+        Command("go.menu_of_this", "Menu of this",
+                "Opens the menu of what has the keys, or else of what is selected in the picture, as a right click "
+                "does.",
+                move_focus<FocusMove::menu_of_this>, {.shortcut = "Shift+F10 Menu", .enabled = always}),
         Command("go.none", "Select nothing", "Puts messages away; else selects nothing. The query in view stays.",
                 put_away,
                 {.shortcut = "Escape",

@@ -85,8 +85,9 @@ void add_command(Collector& out, const Session& session, const Command& command)
     if (!out.has_words() || !command.choices || command.id.starts_with("go.")) return;
     for (const std::string& choice : command.choices(session)) {
         std::string named = title;
-        named.append(": ").append(choice);
-        out.add(command.id, choice, named, menu, {{named}, {command.id, kIdShare}});
+        named.append(": ").append(title_of_choice(command, choice));
+        // Scripts' name for it is found too, where menus have another.
+        out.add(command.id, choice, named, menu, {{named}, {command.id, kIdShare}, {choice, kIdShare}});
     }
 }
 

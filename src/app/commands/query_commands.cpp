@@ -26,6 +26,7 @@ int query_total(const Session& session) { return static_cast<int>(session.fitted
 
 void select(Session& session, const std::string& text) {
     session.show_query(whole_number_in(text, "the query", 0, query_total(session) - 1));
+    session.focus_move = FocusMove::picture;  // its arrows step now
 }
 
 void leave(Session& session) {

@@ -341,6 +341,7 @@ std::vector<Command> picture_commands() {
         Command("view.moment", "Show the moment",
                 "Shows people in their cylinders on the floor at the moment of the time cursor, or space-time again.",
                 toggle_moment, {.shortcut = "M", .checked = shows_moment}),
+        option_command(view_option("past")),
         Command("view.split", "Split",
                 "Shows the scene twice, side by side: beside these trees UMOBB trees, or MOBB trees where these are "
                 "UMOBB.",

@@ -775,6 +775,7 @@ void Session::answer_unsaved(Unsaved choice) {
 }
 
 void Session::open_dialog(Dialog which, DialogInput with) {
+    behind_help_ = {};  // to close the help would lead back there, with what waits for an answer
     close_dialog();
     dialog = which;
     ask_anew(std::move(with));

@@ -71,7 +71,9 @@ struct Message {
 };
 
 /// Where a command sends the keys.
-enum class FocusMove { none, next_panel, previous_panel, menu_bar };
+/// `menu_of_this`: what has the focus, or else what is selected in the picture, opens its menu; `picture`: they go back
+/// to the picture, where arrows step.
+enum class FocusMove { none, next_panel, previous_panel, menu_bar, menu_of_this, picture };
 /// In which order candidates are listed, and which of them.
 struct CandidateList {
     enum class Column { outcome, clip, reason, contact };

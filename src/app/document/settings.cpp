@@ -3,6 +3,7 @@
 #include <base/file.h>
 #include <base/json.h>
 #include <base/json_writer.h>
+#include <base/text.h>
 #include <scene/view_options.h>
 
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -36,15 +38,38 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<std::string_view, 6> kFileOrders{"name", "-name", "size", "-size", "date", "-date"};
 constexpr int kFarthest = 100'000;  // pixels from the corner of the displays
 
-/// What the file holds; an empty object where it is none.
-Json read_object(const std::filesystem::path& file) {
+constexpr int kVersion = 1;  // of what the keys mean; a file without one is of the first
+
+/// What the file holds; an empty object where there is none, none where it is something else or cannot be opened.
+std::optional<Json> read_object(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return Json::object();
     try {
-        Json json = Json::parse(read_file(file), nullptr, false);
+        const std::string text = read_file(file);
+        if (trimmed(text).empty()) return Json::object();  // nothing is lost
+        Json json = Json::parse(text, nullptr, false);
         if (json.is_object()) return json;
     } catch (const InputError&) {
-        // The first time there is none.
+        // It is a folder, or somebody else's.
     }
-    return Json::object();
+    return std::nullopt;
+}
+
+bool is_newer(const Json& json) {
+    const auto version = json.find("version");
+    return version != json.end() && version->is_number() && version->get<double>() > kVersion;
+}
+
+/// Behind the file's name, one that is not taken.
+std::filesystem::path unreadable_name(const std::filesystem::path& file) {
+    std::filesystem::path out = file;
+    out += ".unreadable";
+    std::error_code ignored;
+    for (int i = 2; std::filesystem::exists(out, ignored); ++i) {
+        out = file;
+        out += ".unreadable" + std::to_string(i);
+    }
+    return out;
 }
 
 std::string setting_text(const Json& json, const char* key) {
@@ -156,7 +181,7 @@ std::filesystem::path settings_file() {
 
 Settings load_settings(const std::filesystem::path& file) {
     Settings settings;
-    const Json json = read_object(file);
+    const Json json = read_object(file).value_or(Json::object());
     for (const NumberSetting& number : kNumberSettings) {
         const auto at = json.find(number.key);
         if (at == json.end() || !at->is_number()) continue;
@@ -179,9 +204,24 @@ Settings load_settings(const std::filesystem::path& file) {
     return settings;
 }
 
+std::string keep_unreadable_settings(const std::filesystem::path& file) {
+    const std::string left = "; it is left as it is, and nothing is remembered for the next time";
+    const std::optional<Json> json = read_object(file);
+    if (json) return is_newer(*json) ? file.string() + " is of a newer version of Mobbscope" + left : "";
+    const std::filesystem::path kept = unreadable_name(file);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(file, error)) std::filesystem::rename(file, kept, error);
+    if (error || std::filesystem::exists(file)) return file.string() + " cannot be read" + left;
+    return file.string() + " cannot be read; it is kept as " + kept.filename().string() +
+           ", and the settings begin anew";
+}
+
 void save_settings(const std::filesystem::path& file, const Settings& settings) {
     if (file.empty()) return;
-    Json json = read_object(file);
+    std::optional<Json> present = read_object(file);
+    if (!present || is_newer(*present)) return;
+    Json& json = *present;
+    json["version"] = kVersion;
     for (const NumberSetting& number : kNumberSettings) json[number.key] = settings.*number.value;
     json["recent"] = texts_of(settings.recent);
     json["folder"] = settings.folder.native();

@@ -51,8 +51,12 @@ struct Settings {
 std::filesystem::path settings_file();
 /// What the file says; the defaults for what it lacks or says wrong. Never throws.
 Settings load_settings(const std::filesystem::path& file);
-/// Silently does nothing where it cannot write: no work is lost by it. Keys in the file that are unknown here stay:
-/// they are another version's.
+/// Keeps what this version cannot read and would overwrite. A file that is no settings is renamed to
+/// "settings.json.unreadable", or with a number behind it; one of a newer version, or one that cannot be opened or
+/// renamed, stays, and nothing is saved. What the person is told of that; empty if the file is fine, or there is none.
+std::string keep_unreadable_settings(const std::filesystem::path& file);
+/// Silently does nothing where it cannot write, or would overwrite what it cannot read: no work is lost by it. Keys in
+/// the file that are unknown here stay: they are another version's.
 void save_settings(const std::filesystem::path& file, const Settings& settings);
 
 }  // namespace mobbscope::app

@@ -35,7 +35,7 @@ struct Drop {
 };
 /// The window manager's close button.
 struct CloseRequest {};
-/// Another window has the keys now; those that are held go up.
+/// Another window has the keys now. The keys that were held go up by KeyPress events of their own.
 struct KeysLost {};
 
 using InputEvent = std::variant<MouseMove, MouseButton, Wheel, KeyPress, TypedText, Drop, CloseRequest, KeysLost>;

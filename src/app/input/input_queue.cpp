@@ -14,6 +14,7 @@ struct InputQueue::Frame {
     std::array<bool, 3> buttons{};
     std::array<bool, static_cast<std::size_t>(Key::count)> keys{};
     bool any_key = false;
+    bool went_down = false;  ///< a key that Dear ImGui sees, and no modifier
     bool after_key = false;  ///< the last event was a key
     bool in_text = false;    ///< a text field has the keys
     bool opened = false;     ///< what a command opened takes the keys from the next frame on
@@ -24,6 +25,8 @@ struct InputQueue::Frame {
 namespace {
 
 std::size_t index_of(Key key) { return static_cast<std::size_t>(key); }
+
+bool is_modifier(Key key) { return key == Key::shift || key == Key::ctrl || key == Key::alt || key == Key::super; }
 
 /// Characters beyond Dear ImGui's range become U+FFFD.
 ImWchar typed_letter(char32_t code) {
@@ -53,6 +56,8 @@ bool InputQueue::must_wait(const InputEvent& event, const Frame& frame) const {
     if (std::holds_alternative<Wheel>(event)) return frame.any_button();
     if (const auto* key = std::get_if<KeyPress>(&event)) {
         if (is_letter(*key, frame)) return frame.any_button() || frame.any_key;
+        // Dear ImGui is to see the modifiers that were held when the key went down, whichever is let go first.
+        if (is_modifier(key->key) && frame.went_down) return true;
         return frame.keys[index_of(key->key)] || frame.any_button() || frame.typed;
     }
     // A letter belongs to the key right before it; any other key comes a frame earlier.
@@ -96,6 +101,7 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
         const bool is_command = taken != Taken::nobodys || (commands && (repeated || !key->down));
         commands = typed_by_command_ = is_command && key->down;
         io.KeysDown[index_of(key->key)] = key->down && !is_command;
+        frame.went_down = frame.went_down || (io.KeysDown[index_of(key->key)] && !is_modifier(key->key));
         if (is_letter(*key, frame)) return;
         frame.any_key = true;
         // A command has had all of its key.

@@ -9,13 +9,13 @@ namespace mobbscope::app {
 namespace {
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(Key::count)> kNames{
-    "",       "A",     "B",    "C",    "D",   "E",      "F",        "G",     "H",    "I",         "J",
-    "K",      "L",     "M",    "N",    "O",   "P",      "Q",        "R",     "S",    "T",         "U",
-    "V",      "W",     "X",    "Y",    "Z",   "0",      "1",        "2",     "3",    "4",         "5",
-    "6",      "7",     "8",    "9",    "F1",  "F2",     "F3",       "F4",    "F5",   "F6",        "F7",
-    "F8",     "F9",    "F10",  "F11",  "F12", "Space",  "Escape",   "Enter", "Tab",  "Backspace", "Insert",
-    "Delete", "Right", "Left", "Down", "Up",  "PageUp", "PageDown", "Home",  "End",  ",",         "-",
-    ".",      "/",     "=",    "[",    "]",   "Shift",  "Ctrl",     "Alt",   "Super"};
+    "",       "A",     "B",    "C",    "D",   "E",      "F",        "G",     "H",     "I",         "J",
+    "K",      "L",     "M",    "N",    "O",   "P",      "Q",        "R",     "S",     "T",         "U",
+    "V",      "W",     "X",    "Y",    "Z",   "0",      "1",        "2",     "3",     "4",         "5",
+    "6",      "7",     "8",    "9",    "F1",  "F2",     "F3",       "F4",    "F5",    "F6",        "F7",
+    "F8",     "F9",    "F10",  "F11",  "F12", "Space",  "Escape",   "Enter", "Tab",   "Backspace", "Insert",
+    "Delete", "Right", "Left", "Down", "Up",  "PageUp", "PageDown", "Home",  "End",   ",",         "-",
+    ".",      "/",     "=",    "[",    "]",   "Shift",  "Ctrl",     "Alt",   "Super", "Menu"};
 
 bool same(std::string_view a, std::string_view b) {
     const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };

@@ -14,7 +14,7 @@ enum class Key : std::uint16_t {
     none, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, n0, n1, n2, n3, n4, n5, n6,
     n7, n8, n9, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, space, escape, enter, tab, backspace, insert, del,
     right, left, down, up, page_up, page_down, home, end, comma, minus, period, slash, equal, left_bracket,
-    right_bracket, shift, ctrl, alt, super, count
+    right_bracket, shift, ctrl, alt, super, menu, count
 };
 // clang-format on
 

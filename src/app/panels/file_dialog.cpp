@@ -135,6 +135,11 @@ void take_written(Session& session, const Purpose& purpose) {
     std::filesystem::path path = typed_path(input.text, session.browser.folder());
     if (is_folder(path)) return go_into(session, purpose, path);
     if (path.has_filename() && !path.has_extension()) path += purpose.extension;
+    // Who typed an extension before the one that stood there means it once.
+    const std::filesystem::path stem = path.stem();
+    if (lower_extension(stem) == purpose.extension && lower_extension(path) == purpose.extension) {
+        path.replace_filename(stem);
+    }
     std::error_code ignored;
     const bool keeps_own = session.dialog == Dialog::save_as && session.file() &&
                            std::filesystem::equivalent(path, *session.file(), ignored);
@@ -519,8 +524,9 @@ void file_dialog(Ui& ui) {
     const auto complete = [&](const std::string& text) {
         return complete_path(text, browser.folder(), purpose.extensions);
     };
-    const FieldEvents events =
-        text_field(ui, purpose.writes() ? "A name" : "A part of a name, or a path; Tab completes it", complete);
+    const FieldEvents events = purpose.writes()
+                                   ? text_field(ui, "A name", complete, FieldText::file_name)
+                                   : text_field(ui, "A part of a name, or a path; Tab completes it", complete);
     ui.mark(prefix + ".path");
     browser.follow(input.text, !purpose.writes());
     session.settings.folder = session.attended() ? browser.way().back() : browser.folder();

@@ -58,7 +58,8 @@ bool choice_row(Ui& ui, const ImportField& field, const std::string& label, cons
     ImGui::PushID(mark.c_str());
     const bool clicked = ImGui::Selectable(label.c_str(), chosen, ImGuiSelectableFlags_DontClosePopups);
     ImGui::PopID();
-    ui.mark(field.mark() + '.' + mark);
+    ui.mark(field.mark() + '.' + mark, OwnKeys::none, label);
+    if (chosen) ui.focus.begin_here();
     return clicked;
 }
 
@@ -98,14 +99,10 @@ void offered_choices(Ui& ui, const ImportField& field) {
     const bool scrolls = count > kMostChoiceRows;
     const float row = ImGui::GetTextLineHeightWithSpacing();
     if (scrolls) ImGui::BeginChild("##choices", {0, row * (kMostChoiceRows + 0.5f)});
-    ImGuiListClipper clipper;
-    clipper.Begin(count, row);
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            const OfferedChoice& choice = *found[static_cast<std::size_t>(i)];
-            if (choice_row(ui, field, choice.label, choice.value, field.text() == choice.value)) taken = choice.value;
-        }
-    }
+    clipped_rows(ui, "offered", count, row, [&](int i) {
+        const OfferedChoice& choice = *found[static_cast<std::size_t>(i)];
+        if (choice_row(ui, field, choice.label, choice.value, field.text() == choice.value)) taken = choice.value;
+    });
     if (scrolls) ImGui::EndChild();
     if (taken) {
         set_option(ui, field, *taken);
@@ -119,13 +116,11 @@ void choice_field(Ui& ui, const ImportField& field) {
     const float width = ImGui::CalcItemWidth();
     const std::string now = field.given() ? label_of(field, field.text()) : label_of_default(field);
     const float room = width - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
     // As wide as the field, so that its entries are cut no earlier.
     ImGui::SetNextWindowSizeConstraints({width, 0}, {2 * width, ImGui::GetIO().DisplaySize.y});
-    const bool open =
-        ImGui::BeginCombo(("##" + field.mark()).c_str(), fitted_text(now, room).c_str(), ImGuiComboFlags_HeightLargest);
-    ui.marks.add(field.mark(), {{corner.x, corner.y}, {corner.x + width, corner.y + ImGui::GetFrameHeight()}});
-    if (!open) return;
+    if (!begin_dropdown(ui, field.mark(), fitted_text(now, room), field.option.label, ImGuiComboFlags_HeightLargest)) {
+        return;
+    }
     offered_choices(ui, field);
     ImGui::EndCombo();
 }
@@ -238,24 +233,17 @@ void import_field(Ui& ui, const ImportField& field) {
 void clip_chooser(Ui& ui, int index) {
     const auto& clips = ui.session.scene().clips;
     form_label(ui, "Clip", "Which clip of the scene");
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = ImGui::CalcItemWidth();
-    const bool open = ImGui::BeginCombo("##clip", clips[static_cast<std::size_t>(index)].name.c_str());
-    ui.marks.add("import.clip", {{corner.x, corner.y}, {corner.x + width, corner.y + ImGui::GetFrameHeight()}});
-    if (!open) return;
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(clips.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            const SceneClip& clip = clips[static_cast<std::size_t>(i)];
-            ImGui::PushID(i);
-            ImGui::BeginDisabled(!clip.source);
-            if (ImGui::Selectable(clip.name.c_str(), i == index)) invoke(ui.session, "clip.import", clip.name);
-            ImGui::EndDisabled();
-            ImGui::PopID();
-            ui.mark("import.clip." + std::to_string(i));
-        }
-    }
+    if (!begin_dropdown(ui, "import.clip", clips[static_cast<std::size_t>(index)].name, "Clip")) return;
+    clipped_rows(ui, "clips", static_cast<int>(clips.size()), ImGui::GetTextLineHeightWithSpacing(), [&](int i) {
+        const SceneClip& clip = clips[static_cast<std::size_t>(i)];
+        ImGui::PushID(i);
+        ImGui::BeginDisabled(!clip.source);
+        if (ImGui::Selectable(clip.name.c_str(), i == index)) invoke(ui.session, "clip.import", clip.name);
+        ImGui::EndDisabled();
+        ImGui::PopID();
+        ui.mark("import.clip." + std::to_string(i), OwnKeys::none, clip.name);
+        if (i == index) ui.focus.begin_here();
+    });
     if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
     ImGui::EndCombo();
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr float kWidest = 440;      // pixels at scale 1
+constexpr float kWidest = 640;      // pixels at scale 1
+constexpr float kNarrowest = 320;   // ... where the picture's legend leaves no room beside it
 constexpr std::size_t kMostUp = 3;  // over the picture; the others are behind the bell
 constexpr float kListWidth = 640;   // pixels at scale 1
 constexpr float kListHeight = 420;  // pixels at scale 1
@@ -38,11 +40,10 @@ std::string age_text(const Message& message, double now) {
     return formatted("%.0f h ago", std::floor(seconds / 3600));
 }
 
-/// Where a corner at the bottom is, how wide they are, and which corner: 0 the left one, 1 the right one.
+/// Where their lower right corner is, and how wide they may be.
 struct MessagePlace {
     ImVec2 corner;
     float width;
-    float pivot;
 };
 
 MessagePlace place_of(const Ui& ui) {
@@ -51,17 +52,14 @@ MessagePlace place_of(const Ui& ui) {
     // Below what a dialog says and asks.
     if (ui.session.dialog != Dialog::none) {
         const float width = std::min(room.x - 2 * gap, ui.px(kWidest));
-        return {{(room.x - width) / 2, room.y - gap}, width, 0};
+        return {{(room.x + width) / 2, room.y - gap}, width};
     }
+    // In the corner of the window they cover little of the picture, and beside its legend nothing of that.
     const auto& marks = ui.marks.all();
-    const auto left = marks.find("splitter.left");
-    const auto right = marks.find("splitter.right");
-    const auto bottom = marks.find("splitter.bottom");
-    const float x0 = left == marks.end() ? 0 : left->second.max.x;
-    const float x1 = right == marks.end() ? room.x : right->second.min.x;
-    const float y = bottom == marks.end() ? room.y : bottom->second.min.y;
-    // The legend lies at the left.
-    return {{x1 - gap, y - gap}, std::min(x1 - x0 - 2 * gap, ui.px(kWidest)), 1};
+    const auto legend = marks.find("overlay.legend");
+    const float left = legend == marks.end() ? 0 : legend->second.max.x;
+    const float free = std::max(room.x - left - 2 * gap, ui.px(kNarrowest));
+    return {{room.x - gap, room.y - status_height(ui) - gap}, std::min({free, ui.px(kWidest), room.x - 2 * gap})};
 }
 
 /// What a person wants of a message.
@@ -95,8 +93,9 @@ Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
     return small_button(ui, "x", mark + ".dismiss", "Take it off the list") ? Wish::dismiss : Wish::nothing;
 }
 
-/// Draws one; `right` stands at the end of its first line, before the buttons.
-Wish draw_message(Ui& ui, const Message& message, const std::string& mark, const std::string& right) {
+/// Draws one; `right` stands at the end of its first line, before the buttons. `in_short`: what is long of it is told
+/// under the mouse.
+Wish draw_message(Ui& ui, const Message& message, const std::string& mark, const std::string& right, bool in_short) {
     const float side = buttons_width(ui, message);
     const float end = ImGui::GetWindowContentRegionMax().x;
     const float age = right.empty() ? 0 : text_size(*ui.style.caption, right).x + ui.px(12);
@@ -104,11 +103,14 @@ Wish draw_message(Ui& ui, const Message& message, const std::string& mark, const
     ImGui::PushID(mark.c_str());
     ImGui::BeginGroup();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(10));
-    ImGui::PushTextWrapPos(end - side - age);
-    ImGui::TextUnformatted(message.text.c_str());
-    ImGui::PopTextWrapPos();
+    const float room = end - side - age - ImGui::GetCursorPosX();
+    const std::string text = in_short ? with_short_paths(message.text, room) : message.text;
+    ImGui::TextUnformatted(wrapped(text, room).c_str());
     ImGui::EndGroup();
     ui.mark(mark);
+    if (in_short && text != with_short_paths(message.text, FLT_MAX) && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", wrapped(message.text, ui.px(kWidest)).c_str());
+    }
     const float bottom = ImGui::GetItemRectMax().y;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + ui.px(kBarWidth), bottom}, color_of(ui, message.level));
@@ -154,7 +156,7 @@ void messages(Ui& ui) {
     for (std::size_t i = 0; i < shown; ++i) needed = std::max(needed, width_of(ui, session.messages()[up[i]]));
     MessagePlace place = place_of(ui);
     place.width = std::min(place.width, needed);
-    ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {place.pivot, 1});
+    ImGui::SetNextWindowPos(place.corner, ImGuiCond_Always, {1, 1});
     ImGui::SetNextWindowSizeConstraints({place.width, 0}, {place.width, ImGui::GetIO().DisplaySize.y / 2});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(4));
@@ -170,7 +172,7 @@ void messages(Ui& ui) {
     // The latest at the bottom, where the eye goes first.
     for (std::size_t i = shown; i-- > 0;) {
         const Message& message = session.messages()[up[i]];
-        if (draw_message(ui, message, "message." + std::to_string(up[i]), "") == Wish::dismiss) gone = up[i];
+        if (draw_message(ui, message, "message." + std::to_string(up[i]), "", true) == Wish::dismiss) gone = up[i];
     }
     if (up.size() > shown) {
         text_line(ui.style.quiet, std::to_string(up.size() - shown) + " more behind the bell", ui.style.caption);
@@ -239,7 +241,8 @@ void message_list(Ui& ui) {
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         draw.ChannelsSplit(2);
         draw.ChannelsSetCurrent(1);
-        const Wish wish = draw_message(ui, all[index], "messages." + std::to_string(i), age_text(all[index], ui.now));
+        const Wish wish =
+            draw_message(ui, all[index], "messages." + std::to_string(i), age_text(all[index], ui.now), false);
         if (wish == Wish::dismiss) gone = index;
         const ImVec2 to{at.x + ImGui::GetContentRegionAvail().x, ImGui::GetCursorScreenPos().y - ui.px(3)};
         draw.ChannelsSetCurrent(0);

@@ -108,7 +108,7 @@ void argument(Ui& ui, const Command& command) {
     const auto draw = [&](int i, bool picked) {
         const std::string& choice = choices[static_cast<std::size_t>(i)];
         const bool chosen = command.chosen && command.chosen(session, choice);
-        return palette_row(ui, i, picked, choice, chosen ? "now" : "", "", true);
+        return palette_row(ui, i, picked, title_of_choice(command, choice), chosen ? "now" : "", "", true);
     };
     const int taken = pick_from_list(input, static_cast<int>(choices.size()), entered, draw);
     if (taken >= 0) return run(session, command, choices[static_cast<std::size_t>(taken)]);

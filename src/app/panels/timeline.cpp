@@ -93,10 +93,14 @@ void time_bars(Ui& ui, float width, float height) {
     for (const Chord& chord : ui.focus.take("timeline.time")) {
         if (chord.key != Key::enter) invoke(session, chord.key == Key::right ? "time.forward" : "time.back");
     }
-    context_menu(ui, [&] {
-        const float x = ImGui::GetMousePosOnOpeningCurrentPopup().x;
-        return time_menu(session, axis.value(std::clamp(x, corner.x, corner.x + width)));
-    });
+    const float cursor = axis.pixel(session.view().time.value_or(0.5 * (axis.from + axis.to)));
+    context_menu(
+        ui,
+        [&] {
+            const float x = ImGui::GetMousePosOnOpeningCurrentPopup().x;
+            return time_menu(session, axis.value(std::clamp(x, corner.x, corner.x + width)));
+        },
+        ImVec2{std::clamp(cursor, corner.x, corner.x + width), corner.y + 0.5f * height});
     if (ImGui::IsItemActive()) {
         const double at = axis.value(std::clamp(ImGui::GetIO().MousePos.x, corner.x, corner.x + width));
         session.enqueue([&session, at] {
@@ -169,7 +173,13 @@ void time_row(Ui& ui, bool tall) {
 /// The second clock: where in the trace we stand.
 void step_row(Ui& ui, QueryPictures& pictures) {
     ImGui::AlignTextToFramePadding();
-    text_line(ui.style.text, step_of(ui.session.step(), ui.session.recorded()->trace), ui.style.mono);
+    const mobb::Trace& trace = ui.session.recorded()->trace;
+    const std::string step = step_of(ui.session.step(), trace);
+    text_line(ui.style.text, step, ui.style.mono);
+    // The strip begins where it begins at the last step, whose number is the longest.
+    const float longest = text_size(*ui.style.mono, step_of(trace.size() - 1, trace)).x;
+    ImGui::SameLine(0, 0);
+    ImGui::Dummy({longest - text_size(*ui.style.mono, step).x, 0});
     const float least = ui.px(kLeastStrip);
     flow(least);
     pictures.strip(ui, std::max(least, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());

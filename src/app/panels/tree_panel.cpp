@@ -47,16 +47,7 @@ ChoiceWords choice_words(ColorBy color_by) {
 template <class Enum>
 void choose(Ui& ui, const char* label, const char* id, Enum now, const char* help) {
     form_label(ui, label, help);
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-    const bool open = ImGui::BeginCombo((std::string("##") + id).c_str(), choice_words(now).label.c_str());
-    // Once it is open the last item is of its list.
-    const Rect place{{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}};
-    ui.marks.add(id, place);
-    if (!open) {
-        ui.focus.add(id, place, ImGui::GetItemID(), OwnKeys::none, label);
-        return;
-    }
+    if (!begin_dropdown(ui, id, choice_words(now).label, label)) return;
     int index = 0;
     for (const std::string& choice : find_command(id)->choices(ui.session)) {
         const auto value = static_cast<Enum>(index++);

@@ -3,6 +3,7 @@
 #include <app/ui/widgets.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <map>
 #include <optional>
 
@@ -43,9 +44,10 @@ void choices_item(Ui& ui, const Command& command, const std::string& title, cons
     for (std::size_t i = 0; i < std::min(all.size(), kMostChoices); ++i) {
         const bool chosen = command.chosen && command.chosen(session, all[i]);
         ImGui::PushID(static_cast<int>(i));
-        if (ImGui::MenuItem(all[i].c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
+        const std::string choice = title_of_choice(command, all[i]);
+        if (ImGui::MenuItem(choice.c_str(), nullptr, chosen)) invoke(session, command.id, all[i]);
         ImGui::PopID();
-        ui.mark(mark + '.' + all[i], OwnKeys::none, all[i]);
+        ui.mark(mark + '.' + all[i], OwnKeys::none, choice);
         if (chosen) ui.focus.begin_here();
     }
     if (all.size() > kMostChoices) {
@@ -132,8 +134,10 @@ void command_item(Ui& ui, const MenuEntry& entry, const std::string& mark) {
     const Command& command = command_named(entry.id);
     const std::string title = entry.title.empty() ? title_of(session, command) : entry.title;
     if (command.choices && entry.argument.empty()) return choices_item(ui, command, title, mark);
-    // With an argument the key would do something else, and what is on is not said.
-    const std::string shortcut(entry.argument.empty() ? first_shortcut(command) : "");
+    // With an argument its own key would do something else, and what is on is not said.
+    const std::string shortcut(!entry.like.empty()      ? first_shortcut(command_named(entry.like))
+                               : entry.argument.empty() ? first_shortcut(command)
+                                                        : "");
     const bool checked = entry.argument.empty() && command.checked && command.checked(session);
     if (ImGui::MenuItem(title.c_str(), shortcut.c_str(), checked, command.enabled(session))) {
         const bool asks = command.needs_argument() && entry.argument.empty();
@@ -143,8 +147,20 @@ void command_item(Ui& ui, const MenuEntry& entry, const std::string& mark) {
     reason(session, command);
 }
 
-void context_menu(Ui& ui, const std::function<std::vector<MenuEntry>()>& entries) {
+void open_menu_at(ImGuiID menu, ImVec2 place) {
+    ImVec2& mouse = ImGui::GetIO().MousePos;
+    mouse = place;
+    ImGui::OpenPopup(menu);
+    // It lights up nothing of the menu until it moves.
+    mouse = {-FLT_MAX, -FLT_MAX};
+}
+
+void context_menu(Ui& ui, const std::function<std::vector<MenuEntry>()>& entries, std::optional<ImVec2> place) {
     const MenuSpacing spacing(ui);
+    if (ui.focus.opens_menu_of_last()) {
+        const Rect rect = Ui::last_rect();
+        open_menu_at(ImGui::GetItemID(), place.value_or(ImVec2{rect.min.x + ui.px(18), rect.max.y}));
+    }
     if (ImGui::BeginPopupContextItem()) context_items(ui, entries);
 }
 

@@ -5,6 +5,9 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <string_view>
+#include <tuple>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -16,17 +19,29 @@ constexpr int kPage = 10;
 struct FieldWithCompletion {
     DialogInput& input;
     const std::function<std::string(const std::string&)>& complete;
+    FieldText what;
 };
 
+/// What is selected when the field gets the keys: the first byte, and that behind the last.
+std::pair<int, int> selected_at_first(std::string_view text, FieldText what) {
+    const auto length = static_cast<int>(text.size());
+    if (what == FieldText::search) return {length, length};
+    const std::size_t name = text.rfind('/') + 1;
+    const std::size_t dot = text.rfind('.');
+    const bool has_extension = dot != std::string_view::npos && dot > name;
+    return {static_cast<int>(name), has_extension ? static_cast<int>(dot) : length};
+}
+
 int on_event(ImGuiInputTextCallbackData* data) {
-    auto& [input, complete] = *static_cast<FieldWithCompletion*>(data->UserData);
+    auto& [input, complete, what] = *static_cast<FieldWithCompletion*>(data->UserData);
     if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
         const std::string completed = complete(std::string(data->Buf, static_cast<std::size_t>(data->BufTextLen)));
         data->DeleteChars(0, data->BufTextLen);
         data->InsertChars(0, completed.c_str());
     } else if (input.fresh) {
-        // What is there is gone on with, not replaced.
-        data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+        const std::string_view text(data->Buf, static_cast<std::size_t>(data->BufTextLen));
+        std::tie(data->SelectionStart, data->SelectionEnd) = selected_at_first(text, what);
+        data->CursorPos = data->SelectionEnd;
         input.fresh = false;
     }
     return 0;
@@ -99,9 +114,10 @@ bool move_picked(int& picked, int count) {
     return picked != before;
 }
 
-FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete) {
+FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete,
+                       FieldText what) {
     DialogInput& input = ui.session.input;
-    FieldWithCompletion field{input, complete};
+    FieldWithCompletion field{input, complete, what};
     ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_EnterReturnsTrue;
     // Where there is nothing to complete Tab goes on to the next widget.
     if (complete && complete(input.text) != input.text) {

@@ -32,11 +32,14 @@ bool pressed(Key key);
 bool move_picked(int& picked, int count);
 
 /// Shows and edits the text of the session's `input`. `complete`: what Tab makes of the text; without it Tab goes to
-/// the next widget.
+/// the next widget. `what`: of a file's name all but its folder and extension is selected when the field gets the keys,
+/// so that what is typed replaces it; of other texts nothing is, and they are gone on with.
+enum class FieldText { search, file_name };
 struct FieldEvents {
     bool changed = false;
     bool entered = false;  ///< Enter was pressed
 };
-FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete = {});
+FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete = {},
+                       FieldText what = FieldText::search);
 
 }  // namespace mobbscope::app

@@ -15,7 +15,8 @@ namespace mobbscope::app {
 namespace {
 
 constexpr int kPageOfRows = 8;
-constexpr int kFramesForRow = 4;  // a row that is not drawn by then is gone
+constexpr int kFramesForRow = 4;      // a row that is not drawn by then is gone
+constexpr double kLettersBelong = 1;  // seconds within which letters are the beginning of one word
 constexpr std::string_view kMenuBar = "menu";
 constexpr std::string_view kDialog = "dialog";
 constexpr std::string_view kMessages = "messages";
@@ -43,6 +44,8 @@ bool is_typing() {
     const ImGuiContext& context = *ImGui::GetCurrentContext();
     return context.ActiveId != 0 && context.ActiveId == context.InputTextState.ID;
 }
+
+char lower_letter(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 bool is_arrow(Key key) { return key == Key::left || key == Key::right || key == Key::up || key == Key::down; }
 
@@ -101,6 +104,11 @@ void Focus::leave() {
     wanted_.reset();
 }
 
+void Focus::done_with(const std::string& name) {
+    // Picture tests have no arrows that step: there one goes on where one is.
+    if (entered_ == name && level() == 0 && session_.dialog == Dialog::none && !session_.reviewing()) leave();
+}
+
 void Focus::press_stop(const Stop& stop) {
     if (stop.own == OwnKeys::none) {
         activate(stop.id);
@@ -118,6 +126,12 @@ bool Focus::press(const Chord& chord, bool repeated) {
 }
 
 bool Focus::in_text(const Chord& chord) {
+    if (chord == Chord{Key::down} && level() > 0) {
+        // From a field of a popup into the list that it searches.
+        ends_typing_ = true;
+        along(1);
+        return true;
+    }
     if (chord.key != Key::tab || chord.ctrl || chord.alt || tab_is_kept_) return false;
     ends_typing_ = true;
     tab(chord.shift);
@@ -133,6 +147,9 @@ bool Focus::in_popup(const Chord& chord) {
     // A menu opens what the mouse rests on: it is away until it moves.
     ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
     const Stop* stop = here();
+    const std::string_view key = name(chord.key);
+    if (key.size() != 1) searched_.clear();
+    if (stop && stop->list != 0 && in_list(*stop, chord.key)) return true;
     switch (chord.key) {
         case Key::escape:
             close_popups_from(level() - 1);
@@ -179,16 +196,26 @@ bool Focus::in_popup(const Chord& chord) {
         default:
             break;
     }
-    const std::string_view key = name(chord.key);
     if (key.size() != 1) return false;
-    const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(key[0])));
-    const auto fits = [&](const Stop& s) { return reachable(s) && s.letter == letter; };
-    // From behind the present one, and around.
-    const auto from = stops_.begin() + (stop ? stop - stops_.data() + 1 : 0);
-    auto found = std::find_if(from, stops_.end(), fits);
-    if (found == stops_.end()) found = std::find_if(stops_.begin(), from, fits);
-    if (found != stops_.end()) go(*found);
+    search(lower_letter(key[0]));
     return true;
+}
+
+/// Goes to what begins with the letters typed so far; the same letter again goes on to the next. Where nothing begins
+/// so, nothing moves.
+void Focus::search(char letter) {
+    const double now = ImGui::GetTime();
+    if (now - searched_at_ > kLettersBelong) searched_.clear();
+    searched_at_ = now;
+    searched_ += letter;
+    const bool one_letter = searched_.find_first_not_of(letter) == std::string::npos;
+    const std::string_view wanted = one_letter ? std::string_view(searched_).substr(0, 1) : searched_;
+    const auto fits = [&](const Stop& s) { return reachable(s) && s.label.starts_with(wanted); };
+    // A further letter may leave it where it is.
+    const Stop* stop = here();
+    const auto from = stops_.begin() + (stop ? stop - stops_.data() + (one_letter ? 1 : 0) : 0);
+    if (const auto behind = std::find_if(from, stops_.end(), fits); behind != stops_.end()) return go(*behind);
+    if (const auto before = std::find_if(stops_.begin(), from, fits); before != from) go(*before);
 }
 
 bool Focus::in_window(const Chord& chord) {
@@ -198,9 +225,9 @@ bool Focus::in_window(const Chord& chord) {
     }
     const bool in_menu_bar = chord.alt && !chord.ctrl && !chord.shift && session_.dialog == Dialog::none;
     if (const std::string_view key = name(chord.key); in_menu_bar && key.size() == 1) {
-        const char letter = static_cast<char>(std::tolower(static_cast<unsigned char>(key[0])));
         const auto menu = std::find_if(stops_.begin(), stops_.end(), [&](const Stop& stop) {
-            return stop.panel == kMenuBar && stop.own == OwnKeys::menu && stop.letter == letter && reachable(stop);
+            return stop.panel == kMenuBar && stop.own == OwnKeys::menu &&
+                   stop.label.starts_with(lower_letter(key[0])) && reachable(stop);
         });
         if (menu == stops_.end()) return false;
         open_menu(*menu);
@@ -214,6 +241,7 @@ bool Focus::in_window(const Chord& chord) {
     }
     if (chord.ctrl || chord.alt) return false;
     if (chord.key == Key::enter || chord.key == Key::space) {
+        if (chord.key == Key::enter) entered_ = stop->name;
         press_stop(*stop);
         return true;
     }
@@ -229,8 +257,8 @@ bool Focus::in_window(const Chord& chord) {
         go(*next);
         return true;
     }
-    // Beside a row there is often nothing: there the arrows step as they do in the viewport.
-    return stop->list == 0;
+    // An arrow that leads nowhere here does what it does in the viewport.
+    return false;
 }
 
 /// Through a popup, around its ends if by one.
@@ -281,6 +309,27 @@ void Focus::open_menus() {
     if (menu != stops_.end()) open_menu(*menu);
 }
 
+/// Of what has the focus, else of the picture.
+void Focus::ask_for_menu() {
+    if (level() > 0 || session_.dialog != Dialog::none) return;
+    const Stop* stop = visible_ ? here() : nullptr;
+    if (!visible_) leave();
+    show();
+    if (stop && stop->has_menu) {
+        menu_asked_ = stop->name;
+    } else {
+        picture_menu_asked_ = true;
+    }
+}
+
+bool Focus::opens_menu_of_last() {
+    if (added_.empty() || added_.back().id != ImGui::GetItemID()) return false;
+    added_.back().has_menu = true;
+    if (menu_asked_.empty() || added_.back().name != menu_asked_) return false;
+    menu_asked_.clear();
+    return true;
+}
+
 void Focus::follow_commands() {
     switch (std::exchange(session_.focus_move, FocusMove::none)) {
         case FocusMove::none:
@@ -291,6 +340,12 @@ void Focus::follow_commands() {
             return next_panel(true);
         case FocusMove::menu_bar:
             return open_menus();
+        case FocusMove::menu_of_this:
+            return ask_for_menu();
+        case FocusMove::picture:
+            behind_dialog_ = {};
+            if (visible_ && level() == 0 && session_.dialog == Dialog::none) leave();
+            return;
     }
 }
 
@@ -377,10 +432,9 @@ bool Focus::in_list(const Stop& from, Key key) {
             return false;
     }
     row = std::clamp(row, 0, std::max(count->second - 1, 0));
-    if (row != from.row) {
-        wanted_ = {from.list, row, from.column};
-        wanted_for_ = 0;
-    }
+    if (row == from.row) return level() == 0;  // in a popup it goes on to what stands above or below the list
+    wanted_ = {from.list, row, from.column};
+    wanted_for_ = 0;
     return true;
 }
 
@@ -453,7 +507,7 @@ void Focus::add(Stop stop, const std::string& name, const Rect& rect, ImGuiID id
     stop.name = name;
     stop.panel = panel_;
     if (label.empty()) label = std::string_view(name).substr(name.rfind('.') + 1);
-    if (!label.empty()) stop.letter = static_cast<char>(std::tolower(static_cast<unsigned char>(label.front())));
+    std::ranges::transform(label, std::back_inserter(stop.label), lower_letter);
     stop.rect = rect;
     const ImDrawList& draw = *ImGui::GetWindowDrawList();
     stop.clip = rect_of(draw.GetClipRectMin(), draw.GetClipRectMax());
@@ -528,6 +582,9 @@ void Focus::end_frame(const Style& style) {
     if (const Stop* stop = here(); stop && stop->level == 0) order_ = static_cast<std::size_t>(stop - stops_.data());
     session_.focus = shown ? at_.back() : "";
     reveals_ = false;
+    entered_.clear();
+    menu_asked_.clear();
+    picture_menu_asked_ = false;
     // A widget that is not drawn any more takes no keys.
     if (!shown) pressed_.clear();
     if (shown) draw_ring(style);

@@ -39,7 +39,7 @@ class Focus {
     /// Widgets that follow stand in this panel.
     void panel(std::string_view name) { panel_ = name; }
     /// The last widget, an item of Dear ImGui, can have the focus; one of id 0 or that is disabled cannot.
-    /// `label`: by whose first letter it is found in a menu; empty: the end of its name.
+    /// `label`: by whose first letters it is found in a menu; empty: the end of its name.
     void add(const std::string& name, const Rect& rect, ImGuiID id, OwnKeys own, std::string_view label);
     /// In a list or menu that the focus comes into, it begins with the widget added last.
     void begin_here();
@@ -49,6 +49,12 @@ class Focus {
     std::vector<Chord> take(std::string_view name);
     /// Gives the keys to an item as a person does who presses it: a field is typed into.
     void activate(ImGuiID id) { activated_ = id; }
+    /// Whether the widget added last, which has a menu of its own, is asked for that now by a key.
+    bool opens_menu_of_last();
+    /// The same of the picture, which is no widget: it is asked where nothing has the focus, or what has none itself.
+    bool opens_menu_of_picture() { return std::exchange(picture_menu_asked_, false); }
+    /// An item that was pressed by Enter has done its work, and the picture has the keys; Space stays on it.
+    void done_with(const std::string& name);
     /// The field that is typed into has a use for Tab in this frame.
     void keep_tab() { tab_is_kept_ = true; }
     /// Rows of equal height, of which not all are drawn. Between the two, `row` says which one the next widgets are of.
@@ -66,7 +72,7 @@ class Focus {
     struct Stop {
         std::string name;
         std::string panel;
-        char letter = 0;  ///< lower case
+        std::string label;  ///< lower case
         Rect rect, clip;
         ImGuiID id = 0;
         OwnKeys own = OwnKeys::none;
@@ -74,7 +80,8 @@ class Focus {
         ImGuiID list = 0;  ///< 0: none
         int row = 0, column = 0;
         bool begins = false;
-        bool open = false;  ///< a menu
+        bool open = false;      ///< a menu
+        bool has_menu = false;  ///< of its own
     };
     struct WantedRow {
         ImGuiID list;
@@ -97,6 +104,8 @@ class Focus {
     void next_panel(bool back);
     void open_menus();
     void open_menu(const Stop& menu);
+    void ask_for_menu();
+    void search(char letter);
     void beside_in_menu_bar(int way);
     void along(int by);
     bool in_list(const Stop& from, Key key);
@@ -122,6 +131,11 @@ class Focus {
     std::optional<WantedRow> wanted_;
     int wanted_for_ = 0;  ///< frames
     std::vector<std::pair<std::string, Chord>> pressed_;
+    std::string entered_;     ///< pressed by Enter in this frame
+    std::string menu_asked_;  ///< the widget whose own menu a key asks for
+    bool picture_menu_asked_ = false;
+    std::string searched_;  ///< letters that were typed in a menu, one shortly after the other
+    double searched_at_ = 0;
     ImGuiID activated_ = 0;
     bool tab_is_kept_ = false;
     std::string panel_;

@@ -123,9 +123,13 @@ std::vector<MenuEntry> clip_menu(const Session& session) {
 }  // namespace
 
 std::vector<MenuEntry> shown_menu(const Session& session, const ListedAgents& listed) {
-    return {{"agents.hide", listed.text, are_hidden(session, listed.who) ? "Show" : "Hide"},
-            {"agents.solo", listed.text, are_alone(session, listed.who) ? "Show what was there before" : "Show alone"},
-            {"agents.pin", listed.text, are_pinned(session, listed.who) ? "Unpin" : "Pin"},
+    // The keys are about what is selected.
+    const bool has_keys = listed.who == selected_agents(session);
+    const auto like = [&](std::string_view id) { return has_keys ? id : std::string_view(); };
+    return {{"agents.hide", listed.text, are_hidden(session, listed.who) ? "Show" : "Hide", like("agent.hide")},
+            {"agents.solo", listed.text, are_alone(session, listed.who) ? "Show what was there before" : "Show alone",
+             like("agent.solo")},
+            {"agents.pin", listed.text, are_pinned(session, listed.who) ? "Unpin" : "Pin", like("agent.pin")},
             {"agent.show_all"}};
 }
 

@@ -36,6 +36,46 @@ std::vector<std::string> unbroken_words(const std::string& text) {
 
 constexpr float kLeastField = 56;  // pixels at scale 1
 
+float text_width(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
+/// The parts of a word that a line may end behind, each as wide as `room` at most: those of a path, and of what has no
+/// slashes as much as fits.
+std::vector<std::string> parts_of_word(const std::string& word, float room) {
+    std::vector<std::string> out{""};
+    for (std::size_t i = 0; i < word.size();) {
+        std::size_t next = i + 1;
+        while (next < word.size() && (static_cast<unsigned char>(word[next]) & 0xC0u) == 0x80u) ++next;
+        const std::string letter = word.substr(i, next - i);
+        if (!out.back().empty() && text_width(out.back() + letter) > room) out.emplace_back();
+        out.back() += letter;
+        if (letter == "/" && next < word.size()) out.emplace_back();
+        i = next;
+    }
+    return out;
+}
+
+/// With its folders from the second on left out, as many as it takes; of a name that is too long alone the middle.
+std::string short_path(const std::string& path, float room) {
+    const std::string ellipsis = "\u2026";
+    const std::size_t first = path.find('/', 1);
+    for (std::size_t from = first; from != std::string::npos; from = path.find('/', from + 1)) {
+        std::string shorter = path.substr(0, first + 1) + ellipsis + path.substr(from);
+        if (from > first && text_width(shorter) <= room) return shorter;
+    }
+    const std::string name = path.substr(path.rfind('/') + 1);
+    const std::vector<std::string> halves = parts_of_word(name, (room - text_width(ellipsis)) / 2);
+    if (halves.size() < 2) return ellipsis + "/" + name;
+    std::string end;
+    for (std::size_t i = name.size(); i-- > 0;) {
+        const std::string longer = name.substr(i);
+        const bool in_letter = (static_cast<unsigned char>(name[i]) & 0xC0u) == 0x80u;
+        if (in_letter) continue;
+        if (text_width(halves.front() + ellipsis + longer) > room) break;
+        end = longer;
+    }
+    return halves.front() + ellipsis + end;
+}
+
 }  // namespace
 
 void heading(Ui& ui, const char* text, const std::string& right) {
@@ -103,21 +143,44 @@ void text_line(ImU32 color, const std::string& text, ImFont* font) {
 void words(ImU32 color, const std::string& text) {
     const float wrap = ImGui::GetCurrentWindowRead()->DC.TextWrapPos;
     const float room = wrap > 0 ? wrap - ImGui::GetCursorPosX() : ImGui::GetContentRegionAvail().x;
-    std::string lines;
-    std::string line;
-    for (const std::string& word : unbroken_words(text)) {
-        const std::size_t before = line.size();
-        if (before > 0) line += ' ';
-        line += word;
-        if (before == 0 || ImGui::CalcTextSize(line.c_str()).x <= room) continue;
-        lines.append(line, 0, before) += '\n';
-        line = word;
-    }
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(-1);
-    ImGui::TextUnformatted((lines + line).c_str());
+    ImGui::TextUnformatted(wrapped(text, room).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
+}
+
+std::string wrapped(const std::string& text, float room) {
+    std::string lines;
+    std::string line;
+    const auto add = [&](const std::string& word, const char* gap) {
+        const std::string longer = line.empty() ? word : line + gap + word;
+        if (!line.empty() && text_width(longer) > room) {
+            lines += line + '\n';
+            line = word;
+        } else {
+            line = longer;
+        }
+    };
+    for (const std::string& word : unbroken_words(text)) {
+        if (text_width(word) <= room) {
+            add(word, " ");
+            continue;
+        }
+        const char* gap = " ";
+        for (const std::string& part : parts_of_word(word, room)) add(part, std::exchange(gap, ""));
+    }
+    return lines + line;
+}
+
+std::string with_short_paths(const std::string& text, float room) {
+    std::string out;
+    for (const std::string& word : unbroken_words(text)) {
+        const bool is_path = std::ranges::count(word, '/') > 1;
+        if (!out.empty()) out += ' ';
+        out += is_path && text_width(word) > room ? short_path(word, room) : word;
+    }
+    return out;
 }
 
 void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color) {
@@ -197,7 +260,9 @@ void command_button(Ui& ui, const char* label, const char* id, const std::string
                           key.empty() ? "" : ("  (" + std::string(key) + ")").c_str());
         ImGui::PopStyleColor();
     }
-    if (pressed) invoke(ui.session, id);
+    if (!pressed) return;
+    ui.focus.done_with(mark);
+    invoke(ui.session, id);
 }
 
 bool small_button(Ui& ui, const char* label, const std::string& mark, const char* help) {
@@ -226,6 +291,32 @@ std::string fitted_text(const std::string& text, float room) {
     const char* end = nullptr;
     ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), left, 0, line.c_str(), nullptr, &end);
     return line.substr(0, static_cast<std::size_t>(end - line.c_str())) + "\u2026";
+}
+
+bool begin_dropdown(Ui& ui, const std::string& mark, const std::string& shown, std::string_view label,
+                    ImGuiComboFlags flags) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
+    const bool open = ImGui::BeginCombo(("##" + mark).c_str(), shown.c_str(), flags);
+    // Once it is open the last item is of its list.
+    const Rect place{{corner.x, corner.y}, {corner.x + size.x, corner.y + size.y}};
+    ui.marks.add(mark, place);
+    if (!open) ui.focus.add(mark, place, ImGui::GetItemID(), OwnKeys::none, label);
+    return open;
+}
+
+void clipped_rows(Ui& ui, const char* name, int count, float height, const std::function<void(int)>& draw) {
+    ui.focus.begin_list(ImGui::GetID(name), count);
+    ImGuiListClipper clipper;
+    clipper.Begin(count, height);
+    if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            ui.focus.row(i);
+            draw(i);
+        }
+    }
+    ui.focus.end_list();
 }
 
 std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std::string& now) {
@@ -406,17 +497,7 @@ void rows(Ui& ui, const char* name, int count, int most_rows, const std::functio
     if (scrolls)
         ImGui::BeginChild(name, {0, height * (static_cast<float>(most_rows) + 0.5f)}, false,
                           ImGuiWindowFlags_NoBackground);
-    ui.focus.begin_list(ImGui::GetID(name), count);
-    ImGuiListClipper clipper;
-    clipper.Begin(count, height);
-    if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            ui.focus.row(i);
-            draw(i);
-        }
-    }
-    ui.focus.end_list();
+    clipped_rows(ui, name, count, height, draw);
     if (scrolls) ImGui::EndChild();
     ImGui::PopStyleVar();
 }

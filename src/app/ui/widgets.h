@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace mobbscope::app {
 
@@ -24,6 +25,13 @@ void text_line(ImU32 color, const std::string& text, ImFont* font = nullptr);
 
 /// Text in a colour, wrapped between words: ImGui would break numbers at their points.
 void words(ImU32 color, const std::string& text);
+
+/// A text in lines as wide as `room`, in the present font: broken between words, and in a word that is longer than a
+/// line, as a path, behind its slashes.
+std::string wrapped(const std::string& text, float room);
+
+/// The same text with the middle of each path left out that does not fit `room`: "/home/…/scenes/crossing.json".
+std::string with_short_paths(const std::string& text, float room);
 
 /// A number as shown; the tooltip has all its digits, and a click copies them.
 void number(Ui& ui, const std::string& shown, double value, const char* unit, ImU32 color);
@@ -72,6 +80,10 @@ float button_width(const char* label);
 /// A text on one line that fits `room` pixels in the present font: its end becomes an ellipsis.
 std::string fitted_text(const std::string& text, float room);
 
+/// A field that opens a list to choose from, as wide as the next item is to be; ends with ImGui::EndCombo() if it is
+/// open. `label`: by whose letters it is found.
+[[nodiscard]] bool begin_dropdown(Ui& ui, const std::string& mark, const std::string& shown, std::string_view label,
+                                  ImGuiComboFlags flags = 0);
 /// A text to edit in place. Returns what was typed once that is done, by Enter, Tab or a click elsewhere, and it is
 /// another text; Escape takes it back.
 std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std::string& now);
@@ -96,6 +108,9 @@ std::optional<double> number_field(Ui& ui, const NumberField& field);
 
 /// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.
 void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw);
+
+/// Rows alone, of which those are drawn that are seen or that the keys go to. `height`: of one, pixels.
+void clipped_rows(Ui& ui, const char* name, int count, float height, const std::function<void(int)>& draw);
 
 /// A list's row across the panel: a name, and a short remark at its right end. Returns true when it is clicked.
 struct Row {

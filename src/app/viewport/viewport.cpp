@@ -319,6 +319,10 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     update_highlights(ui);
     show(ui, corner);
     if (is_active(ui)) decorate(ui, {*list_, corner});
+    if (is_active(ui) && ui.focus.opens_menu_of_picture()) {
+        over_nothing_ = ui.session.selection.kind == Selection::Kind::none;
+        open_menu_at(ImGui::GetID("what is here"), place_of_selection(ui.session, {*list_, corner}));
+    }
     context_menu(ui, "what is here",
                  [&] { return over_nothing_ ? picture_menu(ui.session) : selection_menu(ui.session); });
     if (ui.session.view_count() > 1) name_trees(ui, corner);
@@ -491,6 +495,19 @@ void Viewport::ask(Ui& ui, glm::vec2 pixel) {
     over_nothing_ = !nearest;
     if (nearest && !stays) session.select(*nearest);
     ImGui::OpenPopup("what is here");
+}
+
+/// Pixels of the window: the middle of what is selected, or of the picture where it is not to be seen.
+ImVec2 Viewport::place_of_selection(const Session& session, const ShownPicture& picture) const {
+    const glm::vec2 size(picture.list.size.width, picture.list.size.height);
+    glm::vec2 at = 0.5f * size;
+    const bool is_something = session.selection.kind != Selection::Kind::none;
+    if (const std::optional<Bounds> box = is_something ? box_of(session, session.selection) : std::nullopt) {
+        const glm::dvec3 middle = box->middle();
+        const auto pixel = picture.list.projection.project(picture.list.space.point(middle.x, middle.y, middle.z));
+        if (pixel) at = glm::clamp(*pixel, glm::vec2(0), size);
+    }
+    return {picture.corner.x + at.x, picture.corner.y + at.y};
 }
 
 void Viewport::hover(Ui& ui, glm::vec2 pixel) {

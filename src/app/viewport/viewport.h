@@ -57,6 +57,7 @@ class Viewport {
     void hover(Ui& ui, glm::vec2 pixel);
     void click(Ui& ui, glm::vec2 pixel);
     void ask(Ui& ui, glm::vec2 pixel);
+    ImVec2 place_of_selection(const Session& session, const ShownPicture& picture) const;
     void tooltip(Ui& ui) const;
     void handle_tooltip(Ui& ui, const mobb::Placement& placement) const;
     void decorate(Ui& ui, const ShownPicture& picture);

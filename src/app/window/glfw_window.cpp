@@ -74,7 +74,7 @@ static_assert(as_far_apart(Key::shift, Key::ctrl, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_
 static_assert(as_far_apart(Key::shift, Key::super, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_LEFT_SUPER));
 
 Key physical_key(int key) {
-    constexpr std::array<KeyRow, 17> kRows{{{GLFW_KEY_A, GLFW_KEY_Z, Key::a},
+    constexpr std::array<KeyRow, 18> kRows{{{GLFW_KEY_A, GLFW_KEY_Z, Key::a},
                                             {GLFW_KEY_0, GLFW_KEY_9, Key::n0},
                                             {GLFW_KEY_KP_0, GLFW_KEY_KP_9, Key::n0},
                                             {GLFW_KEY_F1, GLFW_KEY_F12, Key::f1},
@@ -86,6 +86,7 @@ Key physical_key(int key) {
                                             {GLFW_KEY_RIGHT_BRACKET, GLFW_KEY_RIGHT_BRACKET, Key::right_bracket},
                                             {GLFW_KEY_LEFT_SHIFT, GLFW_KEY_LEFT_SUPER, Key::shift},
                                             {GLFW_KEY_RIGHT_SHIFT, GLFW_KEY_RIGHT_SUPER, Key::shift},
+                                            {GLFW_KEY_MENU, GLFW_KEY_MENU, Key::menu},
                                             {GLFW_KEY_KP_ENTER, GLFW_KEY_KP_ENTER, Key::enter},
                                             {GLFW_KEY_KP_DECIMAL, GLFW_KEY_KP_DECIMAL, Key::period},
                                             {GLFW_KEY_KP_DIVIDE, GLFW_KEY_KP_DIVIDE, Key::slash},
