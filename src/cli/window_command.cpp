@@ -83,11 +83,11 @@ void show_window(const Scene& scene, const WindowArguments& arguments) {
     const std::filesystem::path file = app::settings_file();
     const std::string kept = app::keep_unreadable_settings(file);
     app::Session session(true, app::load_settings(file));
-    if (!kept.empty()) session.tell(app::Message::Level::warning, kept);
     const double usual_scale = session.settings.ui_scale;
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
     show_named(session, scene, arguments);
+    if (!kept.empty()) session.tell(app::Message::Level::warning, kept);
     if (arguments.files.empty() && !session.reviewing() && session.has_last()) {
         session.tell(app::Message::Level::info, "Last time: " + session.last_title(),
                      app::MessageOffer{"file.reopen_last", "", "Reopen last session"});

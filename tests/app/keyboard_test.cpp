@@ -475,6 +475,22 @@ TEST(Keyboard, WhatIsDoneByEnterGivesTheKeysToThePicture) {
     EXPECT_EQ(w.session.focus, "");
 }
 
+TEST(Keyboard, ArrowsThroughAgentsSelectThem) {
+    KeyboardWindow w;
+    w.key("Tab");
+    EXPECT_EQ(w.session.focus, "agent.0");
+    EXPECT_EQ(w.session.selection.kind, Selection::Kind::none) << "Tab only passes by";
+    w.key("Down");
+    EXPECT_EQ(w.session.focus, "agent.1");
+    w.key("V");
+    EXPECT_EQ(w.session.view().hidden, std::vector<std::string>{"B"});
+    w.key("Down");
+    w.key("V");
+    EXPECT_EQ(w.session.view().hidden, (std::vector<std::string>{"B", "C"}));
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.session.focus, "agent.2");
+}
+
 TEST(Keyboard, ADialogOverTheHelpForgetsWhatWaitedForAnAnswer) {
     KeyboardWindow w;
     run_command(w.session, "go.agent", "A");

@@ -57,6 +57,12 @@ void row_menu(Ui& ui, const Selection& self) {
     });
 }
 
+/// Of a row that is selected by a click: arrows through the list select too, so that keys are about what has the ring.
+void row_keys(Ui& ui, const Selection& self) {
+    if (ui.focus.arrived_at_last()) ui.session.select(self);
+    row_menu(ui, self);
+}
+
 /// What stands beside an agent: how long its clip is; of a run which move it plays.
 std::string clip_remark(const Session& session, const SceneClip& clip) {
     return session.crowd() ? fitted_text(clip.name, 90) : formatted("%.1f s", clip.clip->duration());
@@ -92,7 +98,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const ListedAgents listed{who.name, {who.name}};
     const bool hidden = are_hidden(session, listed.who);
     const auto about = [&] {
-        row_menu(ui, self);
+        row_keys(ui, self);
         const float side = ui.px(10);
         const ImVec2 low{corner.x + ui.px(7), corner.y + 0.5f * (ImGui::GetFrameHeight() - side)};
         const ImVec2 high{low.x + side, low.y + side};
@@ -183,7 +189,7 @@ void clip_row(Ui& ui, int index, float indent) {
     const bool warned = !clip.facts.warnings.empty();
     const ListedAgents listed{kOfClip + clip.name, agents_of_clip(session, index)};
     const auto about = [&] {
-        row_menu(ui, self);
+        row_keys(ui, self);
         if (ImGui::IsItemHovered()) ui.hovered = self;
         if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) &&
             find_command("clip.import")->enabled(session)) {

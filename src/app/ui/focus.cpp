@@ -519,7 +519,7 @@ void Focus::add(Stop stop, const std::string& name, const Rect& rect, ImGuiID id
     }
     const bool wanted = wanted_ && list_ == wanted_->list && row_ == wanted_->row && stop.column <= wanted_->column;
     if (wanted && stop.level == level()) {
-        at_.back() = name;
+        at_.back() = arrived_ = name;
         visible_ = true;
         reveals_ = true;
     }
@@ -583,6 +583,7 @@ void Focus::end_frame(const Style& style) {
     session_.focus = shown ? at_.back() : "";
     reveals_ = false;
     entered_.clear();
+    arrived_.clear();
     menu_asked_.clear();
     picture_menu_asked_ = false;
     // A widget that is not drawn any more takes no keys.

@@ -49,6 +49,8 @@ class Focus {
     std::vector<Chord> take(std::string_view name);
     /// Gives the keys to an item as a person does who presses it: a field is typed into.
     void activate(ImGuiID id) { activated_ = id; }
+    /// Whether an arrow has just led to the row of the list whose widget was added last.
+    bool arrived_at_last() const { return !arrived_.empty() && !added_.empty() && added_.back().name == arrived_; }
     /// Whether the widget added last, which has a menu of its own, is asked for that now by a key.
     bool opens_menu_of_last();
     /// The same of the picture, which is no widget: it is asked where nothing has the focus, or what has none itself.
@@ -129,7 +131,8 @@ class Focus {
     bool ends_typing_ = false;
     bool reveals_ = false;  ///< what has the focus is scrolled to
     std::optional<WantedRow> wanted_;
-    int wanted_for_ = 0;  ///< frames
+    int wanted_for_ = 0;   ///< frames
+    std::string arrived_;  ///< the row that was wanted, in the frame in which it is there
     std::vector<std::pair<std::string, Chord>> pressed_;
     std::string entered_;     ///< pressed by Enter in this frame
     std::string menu_asked_;  ///< the widget whose own menu a key asks for

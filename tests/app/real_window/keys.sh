@@ -45,4 +45,10 @@ keys chosen.txt Up Return
 keys left.txt Escape
 keys alone.txt alt
 keys stepped.txt Escape shift+Left Right
+keys asked.txt Menu
+# The modifier is let go before the key, as fast hands do.
+xdotool key --delay 40 Escape ctrl+shift+s
+sleep 0.5
+xdotool key End keydown ctrl sleep 0.2 keydown a keyup ctrl keyup a sleep 0.2 type --delay 40 made.json
+keys saved.txt Return
 wait "$watching"
