@@ -499,12 +499,9 @@ TEST(Keyboard, ADialogOverTheHelpForgetsWhatWaitedForAnAnswer) {
     w.key("Ctrl+Q");
     ASSERT_EQ(w.session.dialog, Dialog::unsaved);
     w.key("F1");
-    w.type("save as");
-    w.key("Enter");
-    ASSERT_EQ(w.session.dialog, Dialog::save_as);
-    w.type("mine");
-    w.key("Enter");
-    EXPECT_EQ(w.session.file(), w.folder.file("mine.json"));
+    w.send(Drop{{w.folder.file("stand.csv")}});
+    ASSERT_EQ(w.session.dialog, Dialog::dropped);
+    run_command(w.session, "file.save_as", w.folder.file("mine.json").string());
     EXPECT_FALSE(w.session.closed()) << "nobody has said that it is to end";
 }
 
