@@ -59,7 +59,7 @@ MessagePlace place_of(const Ui& ui) {
     const auto bottom = marks.find("splitter.bottom");
     const float x0 = left == marks.end() ? 0 : left->second.max.x;
     const float x1 = right == marks.end() ? room.x : right->second.min.x;
-    const float y = bottom == marks.end() ? room.y : bottom->second.min.y;
+    const float y = bottom == marks.end() ? room.y - status_height(ui) : bottom->second.min.y;
     // The legend lies at the left.
     return {{x1 - gap, y - gap}, std::min(x1 - x0 - 2 * gap, ui.px(kWidest)), 1};
 }

@@ -6,6 +6,11 @@ source "$(dirname "$0")/hand.sh"
 cd "$3"
 begin "$1" "$2" review cases
 
+# titled NAME: the window's title begins with it.
+titled() {
+  xdotool search --onlyvisible --name "^$1.* - Mobbscope$" >/dev/null || { echo "no window is called $1" >&2; exit 1; }
+}
+titled cases
 click opened.txt case.moved
 reached shown.txt
 xdotool key 5
@@ -23,4 +28,5 @@ click scene.txt review.back
 reached back.txt
 xdotool key Escape
 reached left.txt
+titled untitled
 wait "$watching"
