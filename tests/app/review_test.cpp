@@ -505,6 +505,8 @@ TEST(Review, ARunIsShownAndStoppedWhereTheSceneIsShownToo) {
     w.key("Escape");
     ASSERT_FALSE(w.session.reviewing());
     ASSERT_TRUE(w.review().drawing());
+    ASSERT_EQ(w.session.messages().size(), 1u);
+    EXPECT_EQ(w.session.messages().front().offer->command, "review.back") << "who left by mistake sees the way back";
     w.click("job.0.cancel");
     EXPECT_FALSE(w.review().drawing());
     EXPECT_FALSE(w.window->shell().marks().all().contains("job.0"));

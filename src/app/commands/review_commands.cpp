@@ -21,6 +21,9 @@ constexpr double kMostBlink = 5;
 void leave_or_put_away(Session& session) {
     if (session.has_message_up()) return session.put_messages_away();
     session.leave_review();
+    if (session.reviewing()) return;
+    session.tell(Message::Level::info, "The picture tests are left, not closed",
+                 MessageOffer{"review.back", "", "Back to them"});
 }
 
 /// The rule of all that needs picture tests; that they are shown is everybody's rule.

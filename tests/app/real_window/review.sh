@@ -24,9 +24,9 @@ xdotool key ctrl+z
 reached undone.txt
 xdotool key Return
 reached scene.txt
+titled moved
 click scene.txt review.back
 reached back.txt
 xdotool key Escape
 reached left.txt
-titled untitled
 wait "$watching"
