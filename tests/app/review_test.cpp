@@ -492,7 +492,8 @@ TEST(Review, AllWorkEndsWithTheWindow) {
     w.session.end_work();
     const int before = wakes;
     EXPECT_FALSE(w.review().drawing());
-    while (Job::any_left()) std::this_thread::yield();
+    for (int i = 0; i < 500 && Job::any_left(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_FALSE(Job::any_left()) << "somebody still holds one";
     EXPECT_EQ(wakes, before);
 }
 
