@@ -141,8 +141,9 @@ class TestProcess {
     std::size_t looked_at_ = 0;  ///< of what it said, to here there is no end of a line
 };
 
+/// Names of files may begin as options do.
 std::vector<std::string> arguments_of(const CaseDrawer& drawer, const std::filesystem::path& folder) {
-    return {"test", folder.string(), "--backend", drawer.backend, "--json-lines"};
+    return {"test", "--backend", drawer.backend, "--json-lines", "--", folder.string()};
 }
 
 }  // namespace
@@ -157,12 +158,14 @@ void draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder, c
         tell(failed);
     };
     while (!left.empty()) {
-        // One that is gone would be refused, and all others with it.
+        // One that is gone would be refused, and all others with it; of one whose name is no text no line could tell.
         std::erase_if(left, [&](const CaseFile& file) {
             std::error_code ignored;
-            const bool is_gone = !std::filesystem::exists(file.file, ignored);
-            if (is_gone) fail(file, file.file.string() + " is gone; draw all again");
-            return is_gone;
+            const bool is_there = std::filesystem::exists(file.file, ignored);
+            if (!is_there) fail(file, file.file.string() + " is gone; draw all again");
+            const bool is_text = is_utf8(file.name);
+            if (is_there && !is_text) fail(file, file.file.string() + ": the name is not UTF-8; rename the file");
+            return !is_there || !is_text;
         });
         if (left.empty()) return;
         std::vector<std::string> arguments = arguments_of(drawer, folder);
@@ -188,9 +191,10 @@ void draw_cases(const CaseDrawer& drawer, const std::filesystem::path& folder, c
 }
 
 std::string test_command_line(const CaseDrawer& drawer, const std::filesystem::path& folder, const std::string& name) {
-    std::string out = "mobbscope test " + shell_word(folder.string()) + ' ' + shell_word(name);
+    std::string out = "mobbscope test";
     if (drawer.backend != "auto") out += " --backend " + drawer.backend;
-    return out;
+    if (folder.string().starts_with('-') || name.starts_with('-')) out += " --";
+    return out + ' ' + shell_word(folder.string()) + ' ' + shell_word(name);
 }
 
 }  // namespace mobbscope::picture_tests

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <string>
 #include <system_error>
 
 namespace mobbscope::picture_tests {
@@ -15,6 +16,20 @@ void write_one(const GoldenChange& change) {
     std::error_code error;
     std::filesystem::remove(change.file, error);
     if (error) throw MachineError(change.file.string() + ": cannot be removed: " + error.message());
+}
+
+/// Takes back what was written, the last first. Returns the files that could not be: "a.png, b.png"; empty if all were.
+std::string put_back(std::span<const GoldenChange> written) {
+    std::string left;
+    const std::vector<GoldenChange> changes = taken_back(written);
+    for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
+        try {
+            write_one(*change);
+        } catch (const std::exception&) {
+            left += (left.empty() ? "" : ", ") + change->file.string();
+        }
+    }
+    return left;
 }
 
 }  // namespace
@@ -40,9 +55,10 @@ void write_goldens(std::span<const GoldenChange> changes) {
     for (std::size_t done = 0; done < changes.size(); ++done) {
         try {
             write_one(changes[done]);
-        } catch (const std::exception&) {
-            for (const GoldenChange& back : taken_back(changes.first(done))) write_one(back);
-            throw;
+        } catch (const std::exception& error) {
+            const std::string left = put_back(changes.first(done));
+            if (left.empty()) throw;
+            throw MachineError(std::string(error.what()) + "; changed already, and cannot be put back: " + left);
         }
     }
 }

@@ -17,6 +17,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <variant>
 
 namespace mobbscope::cli {
 
@@ -46,15 +47,17 @@ void add_common_options(Command& program, WindowArguments& arguments) {
     program.add_flag("--headless", arguments.headless, "With --script: without a display");
 }
 
-/// What the arguments name is shown.
-void show_named(app::Session& session, const Scene& scene, const WindowArguments& arguments) {
-    if (arguments.cases.empty()) return session.open_scene(scene, arguments.files);
+/// What the arguments name.
+using Named = std::variant<Scene, app::ReviewFolder>;
+
+void show_named(app::Session& session, const Named& named, const WindowArguments& arguments) {
+    if (const Scene* scene = std::get_if<Scene>(&named)) return session.open_scene(*scene, arguments.files);
     session.case_drawer.backend = arguments.backend;
-    session.review(arguments.cases, arguments.output);
+    session.review(std::get<app::ReviewFolder>(named));
 }
 
 /// Scripts find the same everywhere: they neither read nor write a person's settings.
-int run_script(const Scene& scene, const WindowArguments& arguments) {
+int run_script(const Named& named, const WindowArguments& arguments) {
     const app::Script script = app::Script::parse(read_file(arguments.script), arguments.script.string());
     app::Session session(false);
     // One scale everywhere, whatever the monitor's.
@@ -66,7 +69,7 @@ int run_script(const Scene& scene, const WindowArguments& arguments) {
         return std::make_unique<app::HeadlessWindow>(GlContext::open(Backend::automatic), session,
                                                      arguments.size.value_or(app::kDefaultSize), 1);
     }();
-    show_named(session, scene, arguments);
+    show_named(session, named, arguments);
     try {
         script.run(session, *host, std::cout);
     } catch (const app::ExpectationError& error) {
@@ -79,14 +82,14 @@ int run_script(const Scene& scene, const WindowArguments& arguments) {
 }
 
 /// Until it is closed.
-void show_window(const Scene& scene, const WindowArguments& arguments) {
+void show_window(const Named& named, const WindowArguments& arguments) {
     const std::filesystem::path file = app::settings_file();
     const std::string kept = app::keep_unreadable_settings(file);
     app::Session session(true, app::load_settings(file));
     const double usual_scale = session.settings.ui_scale;
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
-    show_named(session, scene, arguments);
+    show_named(session, named, arguments);
     if (!kept.empty()) session.tell(app::Message::Level::warning, kept);
     if (arguments.files.empty() && !session.reviewing() && session.has_last()) {
         session.tell(app::Message::Level::info, "Last time: " + session.last_title(),
@@ -100,12 +103,12 @@ void show_window(const Scene& scene, const WindowArguments& arguments) {
 }
 
 /// The exit status.
-int show(const Scene& scene, const WindowArguments& arguments) {
+int show(const Named& named, const WindowArguments& arguments) {
     if (arguments.headless && arguments.script.empty()) {
         throw InputError("--headless: give a --script to run; pictures without a display come from mobbscope render");
     }
-    if (!arguments.script.empty()) return run_script(scene, arguments);
-    show_window(scene, arguments);
+    if (!arguments.script.empty()) return run_script(named, arguments);
+    show_window(named, arguments);
     // A job that was given up may still be at work, on what an ordinary end destroys.
     if (app::Job::any_left()) {
         flush_results();
@@ -139,8 +142,7 @@ void add_review_command(Command& program, int& status) {
     add_common_options(command, *arguments);
     command.callback([arguments, &status] {
         // Bad input is told before there is a window.
-        app::Review::check(arguments->cases, arguments->output);
-        status = show({}, *arguments);
+        status = show(app::find_review(arguments->cases, arguments->output), *arguments);
     });
 }
 

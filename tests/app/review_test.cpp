@@ -13,13 +13,21 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -39,11 +47,12 @@ namespace fs = std::filesystem;
 struct ReviewWorld {
     TempFolder folder;
     ThreeCases files{folder.path()};
-    Session session{false};
+    Session session;
     std::string clipboard;
     std::unique_ptr<HeadlessWindow> window;
 
-    ReviewWorld() {
+    /// `attended`: runs go on beside the window.
+    explicit ReviewWorld(bool attended = false) : session(attended) {
         session.case_drawer.program = MOBBSCOPE_PROGRAM;
         session.settings.ui_scale = 1;
         window =
@@ -106,6 +115,38 @@ struct ReviewWorld {
         return out;
     }
 };
+
+/// Stands in for the program that draws cases: it does so once it is let go.
+class HeldDrawer {
+  public:
+    explicit HeldDrawer(const ThreeCases& files) : files_(files) {
+        const std::string go = files.file("go").string();
+        files.write("held.sh", "#!/bin/sh\necho $$ >'" + files.file("pid").string() + "'\nwhile [ ! -e '" + go +
+                                   "' ]; do sleep 0.02; done\nexec '" MOBBSCOPE_PROGRAM "' \"$@\"\n");
+        fs::permissions(program(), fs::perms::owner_all);
+    }
+    fs::path program() const { return files_.file("held.sh"); }
+    void let_go() const { files_.write("go", ""); }
+    /// Of the process that draws; waits for it.
+    pid_t pid() const {
+        while (!fs::exists(files_.file("pid")) || files_.bytes("pid").empty()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return static_cast<pid_t>(std::stol(files_.bytes("pid")));
+    }
+
+  private:
+    const ThreeCases& files_;
+};
+
+std::vector<ReviewNews> finished(Review& review) {
+    std::vector<ReviewNews> all;
+    while (review.drawing()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        for (ReviewNews& news : review.poll()) all.push_back(std::move(news));
+    }
+    return all;
+}
 
 std::string outcome_name(const ReviewCase& one) { return std::string(picture_tests::name(one.outcome())); }
 
@@ -183,7 +224,7 @@ TEST(Review, OnlyWhatWasLookedAtIsAcceptedTogether) {
     ReviewWorld w;
     w.open();
     w.show("same");
-    ASSERT_TRUE(w.one("missing").viewed) << "it is the first, which is shown at once";
+    ASSERT_TRUE(w.one("missing").viewed) << "it is the first that fails, which is shown at once";
     EXPECT_FALSE(w.one("moved").viewed);
     w.key("Ctrl+Shift+A");
     EXPECT_EQ(outcome_name(w.one("missing")), "passed");
@@ -214,13 +255,375 @@ TEST(Review, GoldensThatChangedMeanwhileStay) {
     EXPECT_TRUE(w.one("moved").accepted);
 }
 
+/// No file may become larger than that, as if the disk were full.
+class SmallFiles {
+  public:
+    explicit SmallFiles(rlim_t most) {
+        before_ = std::signal(SIGXFSZ, SIG_IGN);
+        ::getrlimit(RLIMIT_FSIZE, &limit_);
+        const rlimit small{most, limit_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &small);
+    }
+    ~SmallFiles() {
+        ::setrlimit(RLIMIT_FSIZE, &limit_);
+        std::signal(SIGXFSZ, before_);
+    }
+    SmallFiles(const SmallFiles&) = delete;
+    SmallFiles& operator=(const SmallFiles&) = delete;
+
+  private:
+    rlimit limit_{};
+    void (*before_)(int) = SIG_DFL;
+};
+
 TEST(Review, NothingIsHalfWritten) {
     TempFolder folder;
-    const std::vector<picture_tests::GoldenChange> changes{{folder.path() / "a.png", "new", "old"},
-                                                           {folder.path() / "no folder" / "b.png", "new", {}}};
+    const fs::path a = folder.path() / "a.png";
+    const fs::path b = folder.path() / "b.draw.json";
+    const fs::path c = folder.path() / "c.png";
+    const std::string large(2000, 'x');
     folder.write("a.png", "old");
-    EXPECT_THROW(picture_tests::write_goldens(changes), MachineError);
-    EXPECT_EQ(slurp(folder.path() / "a.png"), "old");
+    {
+        const SmallFiles full(1000);
+        EXPECT_THROW(picture_tests::write_goldens(
+                         std::vector<picture_tests::GoldenChange>{{a, "new", "old"}, {b, "new", {}}, {c, large, {}}}),
+                     MachineError);
+    }
+    EXPECT_EQ(slurp(a), "old");
+    EXPECT_FALSE(fs::exists(b)) << "there was none";
+    EXPECT_FALSE(fs::exists(c));
+
+    // What cannot be put back is named, and the others are put back.
+    folder.write("a.png", large);
+    folder.write("b.draw.json", "old");
+    std::string said;
+    try {
+        const SmallFiles full(1000);
+        picture_tests::write_goldens(
+            std::vector<picture_tests::GoldenChange>{{b, "new", "old"}, {a, "new", large}, {c, large, {}}});
+    } catch (const MachineError& error) {
+        said = error.what();
+    }
+    EXPECT_NE(said.find("c.png: cannot be written"), std::string::npos) << said;
+    EXPECT_NE(said.find("cannot be put back: " + a.string()), std::string::npos) << said;
+    EXPECT_EQ(slurp(b), "old");
+}
+
+TEST(Review, ANameThatIsNoTextIsOneCasesFault) {
+    ReviewWorld w;
+    fs::copy(w.files.file("same.case.json"), w.files.file("no\xfftext.case.json"));
+    w.open();
+    EXPECT_NE(w.one("no\xfftext").result.message.find("the name is not UTF-8; rename the file"), std::string::npos);
+    EXPECT_EQ(outcome_name(w.one("same")), "passed");
+}
+
+TEST(Review, NamesMayBeginAsOptionsDo) {
+    ReviewWorld w;
+    for (const std::string ending : {".case.json", ".png", ".draw.json"}) {
+        fs::rename(w.files.file("moved" + ending), w.files.file("-moved" + ending));
+    }
+    w.open();
+    EXPECT_EQ(outcome_name(w.one("-moved")), "different");
+    EXPECT_EQ(outcome_name(w.one("same")), "passed");
+    w.show("-moved");
+    run_command(w.session, "review.copy_command");
+    EXPECT_EQ(w.clipboard, "mobbscope test -- " + w.files.cases().string() + " -moved");
+}
+
+TEST(Review, WhatDoesNotGoWellIsAWarning) {
+    ReviewWorld w;
+    const fs::path out = w.files.path() / "out";
+    ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'");
+    w.session.review(w.files.cases(), out);
+    w.files.write("moved.json", walkers("1.6"));
+    w.show("moved");
+    w.key("A");
+    ASSERT_NE(w.said().find("moved: is drawn otherwise here"), std::string::npos) << w.said();
+    EXPECT_EQ(w.session.messages().back().level, Message::Level::warning);
+    EXPECT_EQ(w.session.unread(), 1u) << "the bell tells";
+
+    // One of several refuses: the others are accepted, and both is said.
+    w.key("Shift+R");
+    w.files.write("moved.png", "other");
+    w.key("Ctrl+A");
+    w.key("Shift+A");
+    EXPECT_TRUE(w.one("missing").accepted);
+    EXPECT_FALSE(w.one("moved").accepted);
+    const std::vector<Message>& said = w.session.messages();
+    const auto level_of = [&](const std::string& part) {
+        const auto at = std::ranges::find_if(said, [&](const Message& m) { return m.text.find(part) < m.text.size(); });
+        return at == said.end() ? std::optional<MessageLevel>() : at->level;
+    };
+    EXPECT_EQ(level_of("Accepted missing; undo gives the golden back"), MessageLevel::info) << w.said();
+    EXPECT_EQ(level_of("moved.png: has changed on the disk"), MessageLevel::error) << w.said();
+}
+
+TEST(Review, WhatHasNoPictureIsLeftOutAndSaid) {
+    ReviewWorld w;
+    w.files.write("same.case.json", "{");
+    w.open();
+    w.key("Ctrl+A");
+    EXPECT_EQ(w.review().marked().size(), 2u) << "not the one that cannot be drawn";
+    w.show("same");
+    w.key("M");
+    w.key("Shift+A");
+    EXPECT_TRUE(w.one("moved").accepted);
+    EXPECT_TRUE(w.one("missing").accepted);
+    EXPECT_NE(w.said().find("Not accepted: same: there is no picture of it"), std::string::npos) << w.said();
+    w.key("Ctrl+Z");
+    EXPECT_NE(w.said().find("Undone: accepting 2 pictures"), std::string::npos) << w.said();
+    w.key("Ctrl+Y");
+    EXPECT_NE(w.said().find("Done again: accepting 2 pictures"), std::string::npos) << w.said();
+}
+
+TEST(Review, SeveralOfAnEarlierRunAreOneStep) {
+    ReviewWorld w;
+    const fs::path out = w.files.path() / "out";
+    const std::string picture = w.files.bytes("moved.png");
+    ThreeCases::run("test '" + w.files.cases().string() + "' --output '" + out.string() + "'");
+    w.session.review(w.files.cases(), out);
+    w.show("missing");
+    w.key("R");
+    ASSERT_FALSE(w.one("missing").from_output);
+    ASSERT_TRUE(w.one("moved").from_output);
+    w.key("Ctrl+A");
+    w.key("Shift+A");
+    EXPECT_TRUE(w.one("missing").accepted) << w.said();
+    EXPECT_TRUE(w.one("moved").accepted) << "the one that had to be drawn anew first";
+    EXPECT_EQ(w.review().undo_title(), "accepting 2 pictures");
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.files.bytes("moved.png"), picture);
+    EXPECT_FALSE(fs::exists(w.files.file("missing.png")));
+    EXPECT_FALSE(w.review().has_undo());
+}
+
+TEST(Review, WhatIsBeingDrawnIsNotTakenBack) {
+    const TempFolder folder;
+    const ThreeCases files(folder.path());
+    const std::string picture = files.bytes("moved.png");
+    const HeldDrawer drawer(files);
+    drawer.let_go();
+    Review review(find_review(files.cases()), {.attended = true, .drawer = {drawer.program(), "auto"}});
+    review.draw_all();
+    finished(review);
+    const std::size_t moved = review.index_of("moved");
+    review.accept({moved});
+    fs::remove(files.file("go"));
+    review.draw({moved});
+    ASSERT_TRUE(review.drawing());
+    // It would come back as passed, held against the golden that was taken, while the one of before is there again.
+    EXPECT_TRUE(review.has_undo());
+    EXPECT_FALSE(review.can_undo());
+    drawer.let_go();
+    finished(review);
+    ASSERT_TRUE(review.can_undo());
+    review.undo();
+    EXPECT_EQ(files.bytes("moved.png"), picture);
+    EXPECT_EQ(outcome_name(review.cases()[moved]), "different");
+    review.draw({review.index_of("same")});
+    EXPECT_TRUE(review.can_redo()) << "another case is being drawn";
+    finished(review);
+}
+
+TEST(Review, WhatIsStoppedIsNotAccepted) {
+    const TempFolder folder;
+    const ThreeCases files(folder.path());
+    const fs::path out = files.path() / "out";
+    ThreeCases::run("test '" + files.cases().string() + "' --output '" + out.string() + "'");
+    const HeldDrawer drawer(files);
+    Review review(find_review(files.cases(), out), {.attended = true, .drawer = {drawer.program(), "auto"}});
+    review.accept({review.index_of("moved"), review.index_of("missing")});
+    ASSERT_TRUE(review.drawing());
+    review.cancel();
+    EXPECT_FALSE(review.has_undo());
+    EXPECT_EQ(outcome_name(review.cases()[review.index_of("moved")]), "different");
+    EXPECT_FALSE(fs::exists(files.file("missing.png")));
+}
+
+TEST(Review, ARunEndsWithIt) {
+    const TempFolder folder;
+    const ThreeCases files(folder.path());
+    const HeldDrawer drawer(files);
+    auto review = std::make_unique<Review>(
+        find_review(files.cases()), Review::Surroundings{.attended = true, .drawer = {drawer.program(), "auto"}});
+    review->draw_all();
+    const pid_t child = drawer.pid();
+    ASSERT_EQ(::kill(child, 0), 0);
+    review.reset();
+    EXPECT_NE(::kill(child, 0), 0) << "nobody else would end it";
+}
+
+TEST(Review, NobodyIsWokenOnceItHasEnded) {
+    const TempFolder folder;
+    const ThreeCases files(folder.path());
+    files.write("crash.sh", "#!/bin/sh\nkill -SEGV $$\n");
+    fs::permissions(files.file("crash.sh"), fs::perms::owner_all);
+    std::atomic<bool> wakes = false;
+    std::atomic<bool> gone = false;
+    std::atomic<bool> woke_what_is_gone = false;
+    const auto wake = [&] {
+        wakes = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        if (gone) woke_what_is_gone = true;
+    };
+    auto review = std::make_unique<Review>(
+        find_review(files.cases()),
+        Review::Surroundings{.attended = true, .wake = wake, .drawer = {files.file("crash.sh"), "auto"}});
+    review->draw_all();
+    while (!wakes) std::this_thread::yield();
+    review.reset();
+    gone = true;
+    while (Job::any_left()) std::this_thread::yield();
+    EXPECT_FALSE(woke_what_is_gone);
+}
+
+TEST(Review, AllWorkEndsWithTheWindow) {
+    ReviewWorld w(true);
+    const HeldDrawer drawer(w.files);
+    w.session.case_drawer.program = drawer.program();
+    std::atomic<int> wakes = 0;
+    w.session.hooks.wake = [&] { ++wakes; };
+    // What is looked into comes when somebody writes to it.
+    const fs::path pipe = w.files.path() / "slow.csv";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    w.open();
+    w.session.preview.ask(pipe, 0, false, w.session.hooks.wake);
+    w.session.preview.ask(pipe, 1, false, w.session.hooks.wake);
+    w.session.end_work();
+    const int before = wakes;
+    EXPECT_FALSE(w.review().drawing());
+    for (int i = 0; i < 500 && Job::any_left(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_FALSE(Job::any_left()) << "somebody still holds one";
+    EXPECT_EQ(wakes, before);
+}
+
+TEST(Review, ARunIsShownAndStoppedWhereTheSceneIsShownToo) {
+    ReviewWorld w(true);
+    const HeldDrawer drawer(w.files);
+    w.session.case_drawer.program = drawer.program();
+    w.open();
+    EXPECT_TRUE(w.window->shell().marks().all().contains("job.0"));
+    w.key("Escape");
+    ASSERT_FALSE(w.session.reviewing());
+    ASSERT_TRUE(w.review().drawing());
+    ASSERT_EQ(w.session.messages().size(), 1u);
+    EXPECT_EQ(w.session.messages().front().offer->command, "review.back") << "who left by mistake sees the way back";
+    w.click("job.0.cancel");
+    EXPECT_FALSE(w.review().drawing());
+    EXPECT_FALSE(w.window->shell().marks().all().contains("job.0"));
+}
+
+TEST(Review, BeginsAtTheFirstThatFails) {
+    ReviewWorld w;
+    fs::rename(w.files.file("same.case.json"), w.files.file("a.case.json"));
+    fs::rename(w.files.file("same.png"), w.files.file("a.png"));
+    w.open();
+    EXPECT_EQ(outcome_name(w.one("a")), "passed");
+    EXPECT_EQ(w.review().shown().file.name, "missing");
+    // Once somebody has chosen a case, it stays that one, also when the folder is opened again.
+    w.show("a");
+    w.key("Shift+R");
+    EXPECT_EQ(w.review().shown().file.name, "a");
+    w.open();
+    EXPECT_EQ(w.review().shown().file.name, "a");
+    w.session.review(w.files.cases() / ".");
+    EXPECT_EQ(w.review().shown().file.name, "missing") << "of another folder";
+}
+
+TEST(Review, WarningsOfAnotherFolderAreOver) {
+    ReviewWorld w;
+    w.session.tell(Message::Level::warning, "of the scene before");
+    ASSERT_EQ(w.session.unread(), 1u);
+    w.open();
+    EXPECT_EQ(w.session.unread(), 0u);
+    EXPECT_FALSE(w.session.has_message_up());
+    w.session.tell(Message::Level::warning, "of the picture tests");
+    run_command(w.session, "file.demo");
+    w.window->settle();
+    EXPECT_EQ(w.session.unread(), 0u);
+    EXPECT_NE(w.said().find("of the picture tests"), std::string::npos) << "the list keeps it";
+}
+
+TEST(Review, EscapePutsTheSliderBack) {
+    ReviewWorld w;
+    w.open();
+    w.show("moved");
+    w.key("5");
+    w.move(w.middle("review.divider"));
+    w.button(true);
+    w.move(w.middle("review.divider") - glm::vec2(60, 0));
+    ASSERT_LT(w.review().look.divider, 0.45);
+    w.key("Escape");
+    EXPECT_EQ(w.review().look.divider, 0.5);
+    EXPECT_TRUE(w.session.reviewing()) << "the key does one thing";
+    w.move(w.middle("review.divider") - glm::vec2(30, 0));
+    w.button(false);
+    EXPECT_EQ(w.review().look.divider, 0.5);
+}
+
+TEST(Review, TheListIsGoneThroughByKeys) {
+    ReviewWorld w;
+    w.open();
+    ASSERT_EQ(w.review().shown().file.name, "missing");
+    for (int i = 0; i < 10 && w.session.focus != "case.missing"; ++i) w.key("Tab");
+    ASSERT_EQ(w.session.focus, "case.missing") << "it begins with the case that is shown";
+    w.key("End");
+    EXPECT_EQ(w.session.focus, "case.same");
+    EXPECT_EQ(w.review().shown().file.name, "missing") << "it is shown once it is chosen";
+    w.key("Enter");
+    EXPECT_EQ(w.review().shown().file.name, "same");
+    w.key("Up");
+    EXPECT_EQ(w.session.focus, "case.moved");
+    w.key("Home");
+    EXPECT_EQ(w.session.focus, "case.missing");
+}
+
+TEST(Review, FilesDroppedOnItAreOpenedNotAdded) {
+    ReviewWorld w;
+    const fs::path own = w.files.path() / "own.json";
+    std::ofstream(own) << walkers("5");
+    w.open();
+    w.window->shell().feed(Drop{{own}});
+    w.window->settle();
+    ASSERT_EQ(w.session.dialog, Dialog::dropped);
+    EXPECT_FALSE(w.window->shell().marks().all().contains("dropped.add"));
+    w.key("Escape");
+    EXPECT_TRUE(w.session.reviewing());
+    w.window->shell().feed(Drop{{own}});
+    w.window->settle();
+    w.key("Enter");
+    EXPECT_FALSE(w.session.reviewing());
+    EXPECT_EQ(w.session.file(), own);
+    EXPECT_EQ(w.said(), "");
+}
+
+TEST(Review, TitleAndStatusBarAreAboutIt) {
+    ReviewWorld w;
+    const fs::path own = w.files.path() / "own.json";
+    std::ofstream(own) << walkers("5");
+    w.session.open({own});
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.move", "2 2");
+    ASSERT_TRUE(w.session.shows_unsaved());
+    w.window->settle();
+    const float of_scene = w.mark("status.counts").size().x;
+    w.open();
+    EXPECT_EQ(w.session.shown_title(), w.files.cases().string());
+    EXPECT_FALSE(w.session.shows_unsaved());
+    EXPECT_NE(w.mark("status.counts").size().x, of_scene) << "they count the cases";
+    run_command(w.session, "review.leave");
+    EXPECT_EQ(w.session.shown_title(), "own.json");
+}
+
+TEST(Review, PicturesOfOtherCasesAreNotKept) {
+    ReviewWorld w;
+    w.open();
+    w.show("moved");
+    const std::weak_ptr<const Image> golden = w.review().pictures().golden;
+    ASSERT_FALSE(golden.expired());
+    w.show("missing");
+    ASSERT_EQ(w.review().pictures().golden, nullptr);
+    EXPECT_TRUE(golden.expired()) << "a texture of it is left";
 }
 
 TEST(Review, KeysGoFromCaseToCaseAndShowThePictures) {
@@ -232,9 +635,15 @@ TEST(Review, KeysGoFromCaseToCaseAndShowThePictures) {
     w.key("Down");
     EXPECT_EQ(w.review().shown().file.name, "same");
     w.key("N");
-    EXPECT_EQ(w.review().shown().file.name, "same") << "there is no other";
+    EXPECT_EQ(w.review().shown().file.name, "missing") << "behind the last one the first";
     w.key("P");
     EXPECT_EQ(w.review().shown().file.name, "moved");
+    w.key("A");
+    w.key("P");
+    EXPECT_EQ(w.review().shown().file.name, "missing");
+    EXPECT_FALSE(find_command("review.next_failing")->enabled(w.session)) << "no other fails";
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.review().shown().file.name, "moved") << "what was given back is shown";
     std::set<std::vector<std::uint8_t>> seen;
     for (std::size_t i = 0; i < kReviewModes.size(); ++i) {
         w.key(std::to_string(i + 1));
@@ -404,7 +813,7 @@ TEST(Review, AnEarlierRunsPicturesAreTakenIfTheyAreStillTheSame) {
 TEST(Review, ARunIsLiveAndCanBeStopped) {
     const TempFolder folder;
     const ThreeCases files(folder.path());
-    Review review(files.cases(), {}, {.attended = true, .drawer = {MOBBSCOPE_PROGRAM, "auto"}});
+    Review review(find_review(files.cases()), {.attended = true, .drawer = {MOBBSCOPE_PROGRAM, "auto"}});
     review.draw_all();
     EXPECT_TRUE(review.drawing());
     EXPECT_THROW(review.draw_all(), std::invalid_argument);
@@ -412,10 +821,7 @@ TEST(Review, ARunIsLiveAndCanBeStopped) {
     EXPECT_FALSE(review.drawing());
     EXPECT_EQ(review.cases().front().state, ReviewCase::State::not_drawn);
     review.draw_all();
-    while (review.drawing()) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        review.poll();
-    }
+    finished(review);
     EXPECT_EQ(review.summary().bad(), 2);
 }
 
@@ -424,7 +830,7 @@ TEST(Review, ACrashIsAnOutcome) {
     const ThreeCases files(folder.path());
     files.write("crash.sh", "#!/bin/sh\nkill -SEGV $$\n");
     fs::permissions(files.file("crash.sh"), fs::perms::owner_all);
-    Review review(files.cases(), {}, {.attended = false, .drawer = {files.file("crash.sh"), "auto"}});
+    Review review(find_review(files.cases()), {.attended = false, .drawer = {files.file("crash.sh"), "auto"}});
     review.draw_all();
     review.poll();
     EXPECT_EQ(review.summary()[picture_tests::CaseOutcome::failed], 3);

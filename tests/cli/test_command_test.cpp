@@ -1,6 +1,7 @@
 // mobbscope test: exit statuses, what is written, and what is said.
 #include "run_program.h"
 
+#include <base/base64.h>
 #include <render/image/png.h>
 
 #include "picture_tests/case_folder.h"
@@ -9,9 +10,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <unistd.h>
+
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -171,6 +177,96 @@ TEST_F(DrawnTestCommandTest, EveryOutcomeIsToldApart) {
     EXPECT_FALSE(exists("out/query/end.actual.png")) << "it passed";
     EXPECT_PRED2(says, test().out, "failed: broken: ");
     EXPECT_PRED2(says, test().out, "skipped: later: waits for the crowd");
+}
+
+/// Each of standard output's lines.
+std::vector<nlohmann::json> json_lines(const std::string& out) {
+    std::vector<nlohmann::json> lines;
+    std::istringstream text(out);
+    for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
+    return lines;
+}
+
+TEST_F(DrawnTestCommandTest, EachResultIsALineOfJson) {
+    take_all();
+    cases.add("changed");
+    ASSERT_EQ(test({"changed", "--update", "all"}).status, 0);
+    const std::string golden = slurp(cases.path() / "changed.png");
+    cases.folder().write("changed.draw.json", "");
+    cases.add("changed", R"("view": {"levels": 0})");
+    cases.add("new \"one\"\nof two lines");
+    cases.write("broken", R"({"mobbscope_case": 1,)");
+    cases.add("later", R"("skip": "waits for the crowd")");
+    const Result run = test({"--json-lines"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.err, "") << "a case that cannot be drawn is a result";
+    EXPECT_FALSE(std::filesystem::exists(output)) << "nothing is written";
+
+    const std::vector<nlohmann::json> lines = json_lines(run.out);
+    std::vector<std::pair<std::string, std::string>> told;
+    for (const nlohmann::json& line : lines) {
+        for (const char* key : {"name", "outcome", "message", "tolerance", "other_here", "backend", "renderer", "diff",
+                                "findings", "actual", "golden", "fresh"}) {
+            EXPECT_TRUE(line.contains(key)) << key;
+        }
+        told.emplace_back(line["name"], line["outcome"]);
+    }
+    ASSERT_EQ(told, (std::vector<std::pair<std::string, std::string>>{{"broken", "failed"},
+                                                                      {"changed", "different"},
+                                                                      {"later", "skipped"},
+                                                                      {"new \"one\"\nof two lines", "missing golden"},
+                                                                      {"path", "passed"},
+                                                                      {"query/end", "passed"}}));
+    EXPECT_PRED2(says, lines[0]["message"].get<std::string>(), "broken.case.json: line 1");
+    EXPECT_TRUE(lines[0]["actual"].is_null());
+    EXPECT_EQ(lines[2]["message"], "waits for the crowd");
+    // What would be written if it were accepted, and in place of what.
+    const nlohmann::json& changed = lines[1];
+    EXPECT_GT(changed["diff"]["failing"], 0);
+    ASSERT_EQ(changed["fresh"].size(), 2u);
+    const auto bytes = [](const nlohmann::json& packed) { return from_base64(packed.get<std::string>()).value(); };
+    EXPECT_EQ(changed["fresh"][0]["golden"], ".png");
+    EXPECT_EQ(bytes(changed["fresh"][0]["replaces"]), golden);
+    EXPECT_EQ(bytes(changed["fresh"][0]["bytes"]), bytes(changed["actual"]));
+    EXPECT_EQ(changed["findings"].size(), 2u) << "picture and draw list";
+    EXPECT_EQ(lines[4]["fresh"], nlohmann::json::array());
+
+    EXPECT_EQ(test({"--json-lines", "path"}).status, 0);
+    EXPECT_EQ(json_lines(test({"--json-lines", "path"}).out).size(), 1u);
+}
+
+TEST_F(TestCommandTest, LinesOfJsonAreRefusedAsReportsAre) {
+    expect_test_refused(run_program({"test", (cases.path() / "x").string(), "--json-lines"}), "cannot be searched");
+    expect_test_refused(test({"--json-lines", "pth"}), "there is no case 'pth'");
+    expect_test_refused(test({"--json-lines", "--update", "all"}), "--json-lines: nothing else is written");
+    expect_test_refused(test({"--json-lines", "--html", "a.html"}), "--json-lines: nothing else is written");
+    EXPECT_EQ(test({"--json-lines", "--json"}).status, 2);
+}
+
+TEST_F(TestCommandTest, WithoutOpenGLEachLineSaysSo) {
+    ::setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+    const Result run = test({"--json-lines"});
+    ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+    EXPECT_EQ(run.status, 3);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    const std::vector<nlohmann::json> lines = json_lines(run.out);
+    ASSERT_EQ(lines.size(), 2u);
+    for (const nlohmann::json& line : lines) EXPECT_EQ(line["outcome"], "skipped");
+}
+
+TEST_F(DrawnTestCommandTest, AReaderThatIsGoneEndsIt) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    ::close(ends[0]);
+    constexpr int kOut = 9;
+    ASSERT_EQ(::dup2(ends[1], kOut), kOut);
+    const std::string command = "'" MOBBSCOPE_PROGRAM "' test '" + cases.path().string() + "' --json-lines >&9 2>'" +
+                                (cases.path() / "said").string() + "'";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
+    EXPECT_PRED2(says, slurp(cases.path() / "said"), "mobbscope: standard output cannot be written");
+    EXPECT_TRUE(is_one_line(slurp(cases.path() / "said")));
+    ::close(kOut);
+    ::close(ends[1]);
 }
 
 TEST_F(DrawnTestCommandTest, UpdateTakesWhatIsNamedAndNothingElse) {

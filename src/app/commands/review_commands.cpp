@@ -21,6 +21,9 @@ constexpr double kMostBlink = 5;
 void leave_or_put_away(Session& session) {
     if (session.has_message_up()) return session.put_messages_away();
     session.leave_review();
+    if (session.reviewing()) return;
+    session.tell(Message::Level::info, "The picture tests are left, not closed",
+                 MessageOffer{"review.back", "", "Back to them"});
 }
 
 /// The rule of all that needs picture tests; that they are shown is everybody's rule.
@@ -42,20 +45,20 @@ std::function<bool(const Session&, const std::string&)> so(
 }
 
 Condition if_failing(int by) {
-    return when([by](const Review& review) { return review.next(by, true).has_value(); },
-                [](const Session&) -> std::string_view { return "there is none from here"; });
+    return when([by](const Review& review) { return review.next_failing(by).has_value(); },
+                [](const Session&) -> std::string_view { return "no other case fails"; });
 }
 
 Command go_to_failing(std::string_view id, std::string_view title, std::string_view doc, std::string_view shortcut,
                       int by) {
-    const auto go = [by](Session& session) { session.review()->show(*session.review()->next(by, true)); };
+    const auto go = [by](Session& session) { session.review()->show(*session.review()->next_failing(by)); };
     return {id, title, doc, go, {.shortcut = shortcut, .repeats = true, .enabled = if_failing(by)}};
 }
 
 Command go_to_case(std::string_view id, std::string_view title, std::string_view doc, std::string_view shortcut,
                    int by) {
-    const auto go = [by](Session& session) { session.review()->show(*session.review()->next(by, false)); };
-    const Condition enabled = when([by](const Review& review) { return review.next(by, false).has_value(); },
+    const auto go = [by](Session& session) { session.review()->show(*session.review()->next(by)); };
+    const Condition enabled = when([by](const Review& review) { return review.next(by).has_value(); },
                                    [](const Session&) -> std::string_view { return "there is none from here"; });
     return {id, title, doc, go, {.shortcut = shortcut, .repeats = true, .enabled = enabled}};
 }
@@ -78,7 +81,7 @@ void toggle_mark(Session& session, const std::string& name) {
 
 void mark_failing(Session& session) {
     Review& review = *session.review();
-    for (std::size_t i = 0; i < review.cases().size(); ++i) review.mark(i, review.cases()[i].failing());
+    for (std::size_t i = 0; i < review.cases().size(); ++i) review.mark(i, review.why_not_accept(i).empty());
 }
 
 void order_cases(Session& session, const std::string& name) {
@@ -89,10 +92,10 @@ void order_cases(Session& session, const std::string& name) {
 
 std::vector<Command> case_commands() {
     return {
-        go_to_failing("review.next_failing", "Next failing case", "Goes on to the next case that did not pass.",
-                      "N PageDown", 1),
-        go_to_failing("review.previous_failing", "Previous failing case", "Goes back to a case that did not pass.",
-                      "P PageUp", -1),
+        go_to_failing("review.next_failing", "Next failing case",
+                      "Goes on to the next case that did not pass, behind the last to the first.", "N PageDown", 1),
+        go_to_failing("review.previous_failing", "Previous failing case",
+                      "Goes back to a case that did not pass, before the first to the last.", "P PageUp", -1),
         go_to_case("review.next", "Next case", "Goes on to the next case of the list.", "Down", 1),
         go_to_case("review.previous", "Previous case", "Goes back to the case before.", "Up", -1),
         Command("review.show", "Show case", "Shows the pictures of a case.", show_case,
@@ -249,8 +252,18 @@ std::vector<Command> zoom_commands() {
 }
 
 void accept_cases(Session& session, const std::vector<std::size_t>& indices) {
-    session.tell(Message::Level::info, session.review()->accept(indices));
+    for (const ReviewNews& news : session.review()->accept(indices)) session.tell(news.level, news.text);
     session.poll();
+}
+
+constexpr std::string_view kItsCasesWait = "its cases are being drawn: wait, or stop the run";
+
+std::string_view why_no_undo(const Session& session) {
+    return session.review()->has_undo() ? kItsCasesWait : "nothing was accepted";
+}
+
+std::string_view why_no_redo(const Session& session) {
+    return session.review()->has_redo() ? kItsCasesWait : "nothing was undone";
 }
 
 std::vector<Command> golden_commands() {
@@ -266,7 +279,8 @@ std::vector<Command> golden_commands() {
                 {.shortcut = "M", .argument = "[CASE]", .enabled = has_review, .checked = so([](const Review& review) {
                                                                                    return review.shown().marked;
                                                                                })}),
-        Command("review.mark_failing", "Mark all failing cases", "Marks every case that did not pass.", mark_failing,
+        Command("review.mark_failing", "Mark all failing cases",
+                "Marks every case that did not pass and has a picture to accept.", mark_failing,
                 {.shortcut = "Ctrl+A", .enabled = has_review}),
         Command("review.accept_marked", "Accept marked cases", "Makes the pictures of all marked cases their goldens.",
                 [](Session& session) { accept_cases(session, session.review()->marked()); },
@@ -275,20 +289,27 @@ std::vector<Command> golden_commands() {
                                  [](const Session&) -> std::string_view { return "no case is marked"; })}),
         Command("review.accept_viewed", "Accept all that were viewed",
                 "Makes goldens of the pictures of all failing cases that were looked at.",
-                [](Session& session) { accept_cases(session, session.review()->viewed_failing()); },
+                [](Session& session) { accept_cases(session, session.review()->viewed()); },
                 {.shortcut = "Ctrl+Shift+A",
-                 .enabled = when([](const Review& review) { return !review.viewed_failing().empty(); },
-                                 [](const Session&) -> std::string_view { return "no failing case was looked at"; })}),
+                 .enabled = when(
+                     [](const Review& review) { return !review.viewed().empty(); },
+                     [](const Session&) -> std::string_view { return "none that could be accepted was looked at"; })}),
         Command("review.undo", "Undo", "Gives back the goldens that were there before.",
-                [](Session& session) { session.review()->undo(); },
+                [](Session& session) {
+                    const std::string title = session.review()->undo_title();
+                    session.review()->undo();
+                    session.tell(Message::Level::info, "Undone: " + title);
+                },
                 {.shortcut = "Ctrl+Z",
-                 .enabled = when([](const Review& review) { return review.can_undo(); },
-                                 [](const Session&) -> std::string_view { return "nothing was accepted"; })}),
+                 .enabled = when([](const Review& review) { return review.can_undo(); }, why_no_undo)}),
         Command("review.redo", "Redo", "Takes again the goldens that were given back.",
-                [](Session& session) { session.review()->redo(); },
+                [](Session& session) {
+                    const std::string title = session.review()->redo_title();
+                    session.review()->redo();
+                    session.tell(Message::Level::info, "Done again: " + title);
+                },
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
-                 .enabled = when([](const Review& review) { return review.can_redo(); },
-                                 [](const Session&) -> std::string_view { return "nothing was undone"; })}),
+                 .enabled = when([](const Review& review) { return review.can_redo(); }, why_no_redo)}),
     };
 }
 

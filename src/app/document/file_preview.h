@@ -18,6 +18,8 @@ class FilePreview {
     /// until it changes. `now`: seconds of the window's clock; `wait`: the answer is waited for; `wake` is called from
     /// another thread when it is there.
     const FileSummary* ask(const std::filesystem::path& file, double now, bool wait, const std::function<void()>& wake);
+    /// What is being read is given up: `wake` is not called any more.
+    void end() { reading_.reset(); }
     /// In so many seconds it is worth asking again; infinity: `wake` will tell.
     double ask_again_in(double now) const;
 

@@ -26,8 +26,21 @@ void JobControl::step(std::size_t done, std::size_t all) {
     progress_ = all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all);
 }
 
+void JobControl::tell_news() {
+    const std::scoped_lock lock(waking_);
+    if (wake_) wake_();
+}
+
+void JobControl::cancel() {
+    cancelled_ = true;
+    const std::scoped_lock lock(waking_);
+    wake_ = nullptr;
+}
+
 /// Kept alive by whoever needs it longer, the window or the job's thread.
 struct Job::Shared {
+    explicit Shared(std::function<void()> wake) : control(std::move(wake)) {}
+
     Counted counted;  // first, so that it goes last
     JobControl control;
     std::mutex mutex;
@@ -35,12 +48,10 @@ struct Job::Shared {
     bool done = false;
     Finish finish;
     std::exception_ptr error;
-    std::function<void()> wake;  ///< empty when nobody waits any more
 };
 
 Job::Job(std::string title, Work work, std::function<void()> wake)
-    : title_(std::move(title)), shared_(std::make_shared<Shared>()) {
-    shared_->wake = std::move(wake);
+    : title_(std::move(title)), shared_(std::make_shared<Shared>(std::move(wake))) {
     std::thread([shared = shared_, work = std::move(work)]() mutable {
         Finish finish;
         std::exception_ptr error;
@@ -56,18 +67,15 @@ Job::Job(std::string title, Work work, std::function<void()> wake)
             shared->finish = std::move(finish);
             shared->error = error;
             shared->done = true;
-            if (shared->wake) shared->wake();
         }
         shared->changed.notify_all();
+        shared->control.tell_news();
     }).detach();
 }
 
-Job::~Job() {
-    shared_->control.cancel();
-    // Who is to be woken may go now.
-    const std::scoped_lock lock(shared_->mutex);
-    shared_->wake = nullptr;
-}
+Job::~Job() { cancel(); }
+
+void Job::cancel() { shared_->control.cancel(); }
 
 bool Job::any_left() { return jobs > 0; }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -20,15 +21,23 @@ struct Cancelled : std::exception {
 /// What a job and the window tell each other. Safe from both threads.
 class JobControl {
   public:
+    /// `wake`: see tell_news; it must not call the job.
+    explicit JobControl(std::function<void()> wake) : wake_(std::move(wake)) {}
+
     /// The job: so much is done. Throws Cancelled if the person had enough.
     void step(std::size_t done, std::size_t all);
-    void cancel() { cancelled_ = true; }
+    /// The job: there is news. Wakes the window, unless the job was cancelled.
+    void tell_news();
+    /// Once this returns nobody is woken any more.
+    void cancel();
     /// 0..1; below 0 while nothing is known.
     double progress() const { return progress_; }
 
   private:
     std::atomic<bool> cancelled_ = false;
     std::atomic<double> progress_ = -1;
+    std::mutex waking_;
+    std::function<void()> wake_;  ///< empty when nobody waits any more
 };
 
 /// One piece of work in a thread of its own. It works on what it was given by value and hands over a closure that the
@@ -38,11 +47,12 @@ class Job {
     using Finish = std::function<void()>;
     using Work = std::function<Finish(JobControl&)>;
 
-    /// `wake` is called, from the job's thread, when the work is done, unless the job is gone by then. It must not call
-    /// the job.
+    /// `wake` is called, from the job's thread, when the work is done or has news (JobControl::tell_news), unless the
+    /// job is gone by then. It must not call the job.
     Job(std::string title, Work work, std::function<void()> wake);
     /// Cancels. A job in the midst of a long step ends by itself later; its result is dropped.
     ~Job();
+    void cancel();
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
 

@@ -23,6 +23,8 @@ namespace {
 
 /// Cases that are drawn quickly are waited for.
 constexpr std::chrono::milliseconds kPatienceWithCases(20);
+/// A run that is ended is over in a moment (draw_cases), unless the machine hangs.
+constexpr std::chrono::seconds kPatienceWithItsEnd(2);
 
 std::shared_ptr<const Image> picture_of(const std::filesystem::path& file) {
     std::error_code ignored;
@@ -106,20 +108,21 @@ double ReviewCase::difference() const {
 
 // --- the review
 
-Review::Review(std::filesystem::path folder, std::filesystem::path output, Surroundings surroundings)
-    : folder_(std::move(folder)), output_(std::move(output)), surroundings_(std::move(surroundings)) {
-    check(folder_, output_);
-    for (CaseFile& file : picture_tests::find_cases(folder_)) cases_.push_back({.file = std::move(file)});
-    if (!output_.empty()) read_output();
-}
-
-void Review::check(const std::filesystem::path& folder, const std::filesystem::path& output) {
-    picture_tests::find_cases(folder);
+ReviewFolder find_review(const std::filesystem::path& folder, const std::filesystem::path& output) {
+    ReviewFolder found{folder, output, picture_tests::find_cases(folder)};
     std::error_code ignored;
-    if (output.empty() || std::filesystem::is_directory(output, ignored)) return;
+    if (output.empty() || std::filesystem::is_directory(output, ignored)) return found;
     throw InputError(output.string(), "",
                      "is no folder; give one that mobbscope test --output wrote, or leave --output out");
 }
+
+Review::Review(ReviewFolder found, Surroundings surroundings)
+    : folder_(std::move(found.folder)), output_(std::move(found.output)), surroundings_(std::move(surroundings)) {
+    for (CaseFile& file : found.cases) cases_.push_back({.file = std::move(file)});
+    if (!output_.empty()) read_output();
+}
+
+Review::~Review() { cancel(); }
 
 void Review::read_output() {
     std::error_code ignored;
@@ -130,6 +133,7 @@ void Review::read_output() {
         one.state = ReviewCase::State::drawn;
         one.from_output = true;
     }
+    show_first_failing();
 }
 
 picture_tests::Summary Review::summary() const {
@@ -141,7 +145,21 @@ picture_tests::Summary Review::summary() const {
 }
 
 void Review::show(std::size_t index) {
-    if (index < cases_.size()) current_ = index;
+    if (index >= cases_.size()) return;
+    current_ = index;
+    chosen_ = true;
+}
+
+void Review::begin_at(const std::string& name) {
+    const auto at = std::ranges::find(cases_, name, [](const ReviewCase& one) { return one.file.name; });
+    if (at != cases_.end()) show(static_cast<std::size_t>(at - cases_.begin()));
+}
+
+void Review::show_first_failing() {
+    if (chosen_) return;
+    const std::vector<std::size_t> rows = listed();
+    const auto failing = std::ranges::find_if(rows, [&](std::size_t index) { return cases_[index].failing(); });
+    if (failing != rows.end()) show(*failing);
 }
 
 std::vector<std::size_t> Review::listed() const {
@@ -162,13 +180,20 @@ std::vector<std::size_t> Review::listed() const {
     return out;
 }
 
-std::optional<std::size_t> Review::next(int by, bool failing_only) const {
+std::optional<std::size_t> Review::next(int by) const {
     const std::vector<std::size_t> rows = listed();
-    const auto now = std::ranges::find(rows, current_);
-    const auto count = static_cast<std::ptrdiff_t>(rows.size());
-    for (std::ptrdiff_t row = (now - rows.begin()) + by; row >= 0 && row < count; row += by) {
-        const std::size_t index = rows[static_cast<std::size_t>(row)];
-        if (!failing_only || cases_[index].failing()) return index;
+    const std::ptrdiff_t row = (std::ranges::find(rows, current_) - rows.begin()) + by;
+    if (row < 0 || row >= std::ssize(rows)) return std::nullopt;
+    return rows[static_cast<std::size_t>(row)];
+}
+
+std::optional<std::size_t> Review::next_failing(int by) const {
+    const std::vector<std::size_t> rows = listed();
+    const std::ptrdiff_t now = std::ranges::find(rows, current_) - rows.begin();
+    const std::ptrdiff_t count = std::ssize(rows);
+    for (std::ptrdiff_t away = 1; away < count; ++away) {
+        const std::size_t index = rows[static_cast<std::size_t>((now + (by > 0 ? away : count - away)) % count)];
+        if (cases_[index].failing()) return index;
     }
     return std::nullopt;
 }
@@ -190,10 +215,10 @@ std::vector<std::size_t> Review::marked() const {
     return out;
 }
 
-std::vector<std::size_t> Review::viewed_failing() const {
+std::vector<std::size_t> Review::viewed() const {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < cases_.size(); ++i) {
-        if (cases_[i].viewed && cases_[i].failing()) out.push_back(i);
+        if (cases_[i].viewed && why_not_accept(i).empty()) out.push_back(i);
     }
     return out;
 }
@@ -242,24 +267,24 @@ void Review::draw_all() {
 }
 
 void Review::draw(const std::vector<std::size_t>& indices) {
-    if (job_) throw std::invalid_argument("wait for the run, or cancel it");
+    if (job_) throw std::invalid_argument("wait for the run, or stop it");
     std::vector<CaseFile> files;
     for (const std::size_t index : indices) {
         files.push_back(cases_[index].file);
         cases_[index].state = ReviewCase::State::waiting;
         changed(index);
     }
-    news_ = std::make_shared<News>();
-    const auto work = [files, folder = folder_, drawer = surroundings_.drawer, news = news_,
-                       wake = surroundings_.wake](JobControl& control) -> Job::Finish {
+    results_ = std::make_shared<Results>();
+    const auto work = [files, folder = folder_, drawer = surroundings_.drawer,
+                       results = results_](JobControl& control) -> Job::Finish {
         std::size_t done = 0;
         const auto tell = [&](const NamedResult& result) {
             {
-                const std::scoped_lock lock(news->mutex);
-                news->results.push_back(result);
+                const std::scoped_lock lock(results->mutex);
+                results->ready.push_back(result);
             }
             control.step(++done, files.size());
-            if (wake) wake();
+            control.tell_news();
         };
         draw_cases(drawer, folder, files, tell, [&] { control.step(done, files.size()); });
         return {};
@@ -269,7 +294,12 @@ void Review::draw(const std::vector<std::size_t>& indices) {
 }
 
 void Review::cancel() {
+    if (!job_) return;
+    job_->cancel();
+    // Its process has ended then: the program may end now, and nothing else would end that one.
+    job_->wait(kPatienceWithItsEnd);
     job_.reset();
+    taking_.clear();
     end_run();
 }
 
@@ -285,28 +315,31 @@ void Review::end_run() {
     }
 }
 
-std::vector<std::string> Review::poll() {
-    std::vector<std::string> to_tell;
+std::vector<ReviewNews> Review::poll() {
+    std::vector<ReviewNews> to_tell;
     if (!job_) return to_tell;
     const bool done = job_->done();
     std::vector<NamedResult> results;
     {
-        const std::scoped_lock lock(news_->mutex);
-        results.swap(news_->results);
+        const std::scoped_lock lock(results_->mutex);
+        results.swap(results_->ready);
     }
     for (const NamedResult& result : results) take_in(result, to_tell);
+    show_first_failing();
     if (!done) return to_tell;
     const std::unique_ptr<Job> job = std::move(job_);
     try {
         job->finish();
+        accept_drawn(to_tell);
     } catch (const std::exception& error) {
-        to_tell.push_back(error.what());
+        to_tell.push_back({MessageLevel::error, error.what()});
     }
+    taking_.clear();
     end_run();
     return to_tell;
 }
 
-void Review::take_in(const NamedResult& result, std::vector<std::string>& to_tell) {
+void Review::take_in(const NamedResult& result, std::vector<ReviewNews>& to_tell) {
     const std::size_t index = index_of(result.name);
     ReviewCase& one = cases_[index];
     const std::optional<std::string> accept_if = std::exchange(one.accept_if, std::nullopt);
@@ -314,19 +347,27 @@ void Review::take_in(const NamedResult& result, std::vector<std::string>& to_tel
     one.state = ReviewCase::State::drawn;
     one.from_output = false;
     one.accepted = false;
-    // Another picture than the one that was seen.
-    if (!accept_if) one.viewed = false;
     changed(index);
+    if (accept_if && same_picture(*accept_if, one.result.actual)) return taking_.push_back(index);
+    // Another picture than the one that was seen.
+    one.viewed = false;
     if (!accept_if) return;
-    try {
-        if (!same_picture(*accept_if, one.result.actual)) {
-            one.viewed = false;
-            throw std::invalid_argument("is drawn otherwise here than in " + output_.string() + "; look at it again");
+    to_tell.push_back({MessageLevel::warning,
+                       one.file.name + ": is drawn otherwise here than in " + output_.string() + "; look at it again"});
+}
+
+void Review::accept_drawn(std::vector<ReviewNews>& to_tell) {
+    std::vector<std::size_t> ready;
+    for (const std::size_t index : taking_) {
+        const std::string why = why_not_accept(index);
+        if (why.empty()) {
+            ready.push_back(index);
+        } else if (!cases_[index].accepted) {
+            to_tell.push_back({MessageLevel::warning, cases_[index].file.name + ": is not accepted: " + why});
         }
-        to_tell.push_back(accept({index}));
-    } catch (const std::exception& error) {
-        to_tell.push_back(one.file.name + ": " + error.what());
     }
+    if (ready.empty()) return;
+    for (ReviewNews& news : write(ready)) to_tell.push_back(std::move(news));
 }
 
 // --- goldens
@@ -345,32 +386,39 @@ std::string Review::why_not_accept(std::size_t index) const {
     return "";
 }
 
-std::string Review::accept(const std::vector<std::size_t>& indices) {
+std::vector<ReviewNews> Review::accept(const std::vector<std::size_t>& indices) {
     std::vector<std::size_t> at_once;
     std::vector<std::size_t> anew;
+    std::string not_accepted;
     for (const std::size_t index : indices) {
-        if (!why_not_accept(index).empty()) continue;
+        if (const std::string why = why_not_accept(index); !why.empty()) {
+            not_accepted += (not_accepted.empty() ? "" : "; ") + cases_[index].file.name + ": " + why;
+            continue;
+        }
         if (surroundings_.check_may_write) surroundings_.check_may_write(cases_[index].file.golden());
         (cases_[index].from_output ? anew : at_once).push_back(index);
     }
     if (at_once.empty() && anew.empty()) {
-        throw std::invalid_argument(indices.size() == 1
-                                        ? cases_[indices.front()].file.name + ": " + why_not_accept(indices.front())
-                                        : "none of them can be accepted");
+        throw std::invalid_argument(indices.empty() ? "there is no case to accept" : not_accepted);
     }
-    if (!anew.empty() && job_) throw std::invalid_argument("wait for the run, or cancel it");
-    std::string said;
-    if (!at_once.empty()) said = write(at_once);
-    if (anew.empty()) return said;
-    for (const std::size_t index : anew) cases_[index].accept_if = cases_[index].result.actual;
-    draw(anew);
-    return said + (said.empty() ? "" : "; ") + "drawing " + counted(anew.size(), "case", "cases") +
-           " anew, to take what is still the same";
+    std::vector<ReviewNews> news;
+    if (anew.empty()) {
+        news = write(at_once);
+    } else {
+        if (job_) throw std::invalid_argument("wait for the run, or stop it");
+        for (const std::size_t index : anew) cases_[index].accept_if = cases_[index].result.actual;
+        taking_ = at_once;
+        draw(anew);
+        news = {{MessageLevel::info,
+                 "Drawing " + counted(anew.size(), "case", "cases") + " anew, to accept what is still the same"}};
+    }
+    if (!not_accepted.empty()) news.push_back({MessageLevel::warning, "Not accepted: " + not_accepted});
+    return news;
 }
 
-std::string Review::write(const std::vector<std::size_t>& indices) {
+std::vector<ReviewNews> Review::write(const std::vector<std::size_t>& indices) {
     Step step;
-    std::string refused;
+    std::vector<ReviewNews> refused;
     std::exception_ptr first_refusal;
     for (const std::size_t index : indices) {
         ReviewCase& one = cases_[index];
@@ -378,7 +426,7 @@ std::string Review::write(const std::vector<std::size_t>& indices) {
             picture_tests::write_goldens(one.result.fresh);
         } catch (const std::exception& error) {
             if (!first_refusal) first_refusal = std::current_exception();
-            refused += std::string("; ") + error.what();
+            refused.push_back({MessageLevel::error, error.what()});
             continue;
         }
         step.taken.push_back({index, one.result});
@@ -390,11 +438,24 @@ std::string Review::write(const std::vector<std::size_t>& indices) {
     step.title = step.taken.size() == 1 ? "accepting " + cases_[step.taken.front().index].file.name
                                         : "accepting " + counted(step.taken.size(), "picture", "pictures");
     steps_.resize(done_);
-    const std::string said =
-        "Accepted " + step.title.substr(std::string_view("accepting ").size()) + "; undo gives the golden back";
+    std::vector<ReviewNews> said{
+        {MessageLevel::info, "Accepted " + step.title.substr(std::string_view("accepting ").size()) +
+                                 "; undo gives the golden" + (step.taken.size() == 1 ? "" : "s") + " back"}};
     steps_.push_back(std::move(step));
     ++done_;
-    return said + refused;
+    said.insert(said.end(), refused.begin(), refused.end());
+    return said;
+}
+
+void Review::show_some_of(const Step& step) {
+    if (std::ranges::find(step.taken, current_, &Step::Taken::index) == step.taken.end()) {
+        show(step.taken.front().index);
+    }
+}
+
+bool Review::waits(const Step& step) const {
+    return std::ranges::any_of(
+        step.taken, [&](const Step::Taken& taken) { return cases_[taken.index].state == ReviewCase::State::waiting; });
 }
 
 namespace {
@@ -419,7 +480,7 @@ void Review::undo() {
         changed(taken.index);
     }
     --done_;
-    current_ = step.taken.front().index;
+    show_some_of(step);
 }
 
 void Review::redo() {
@@ -432,7 +493,7 @@ void Review::redo() {
         changed(taken.index);
     }
     ++done_;
-    current_ = step.taken.front().index;
+    show_some_of(step);
 }
 
 }  // namespace mobbscope::app

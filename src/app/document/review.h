@@ -3,6 +3,7 @@
 #pragma once
 
 #include <app/document/job.h>
+#include <app/document/message_level.h>
 #include <cases/case_file.h>
 #include <cases/case_result.h>
 #include <cases/drawing_child.h>
@@ -93,6 +94,20 @@ struct ReviewPictures {
     std::string why_not;                ///< a picture cannot be read; else empty
 };
 
+/// A folder of picture tests, and where an earlier `mobbscope test --output` left pictures of them; empty: nowhere.
+struct ReviewFolder {
+    std::filesystem::path folder, output;
+    std::vector<picture_tests::CaseFile> cases;
+};
+/// Throws InputError if there are no cases or no such output.
+ReviewFolder find_review(const std::filesystem::path& folder, const std::filesystem::path& output = {});
+
+/// A line for the person.
+struct ReviewNews {
+    MessageLevel level = MessageLevel::info;
+    std::string text;
+};
+
 class Review {
   public:
     /// What a review needs of the program around it.
@@ -103,11 +118,11 @@ class Review {
         picture_tests::CaseDrawer drawer{};
     };
 
-    /// `output`: where an earlier `mobbscope test --output` left pictures; empty: none. Throws InputError if there are
-    /// no cases or no such output.
-    Review(std::filesystem::path folder, std::filesystem::path output, Surroundings surroundings);
-    /// Throws InputError as the constructor does.
-    static void check(const std::filesystem::path& folder, const std::filesystem::path& output);
+    Review(ReviewFolder found, Surroundings surroundings);
+    /// Ends the run and the process that draws.
+    ~Review();
+    Review(const Review&) = delete;
+    Review& operator=(const Review&) = delete;
 
     const std::filesystem::path& folder() const { return folder_; }
     const std::filesystem::path& output() const { return output_; }
@@ -116,19 +131,24 @@ class Review {
     picture_tests::Summary summary() const;  ///< of those that are drawn
     ReviewLook look;
 
-    // Which one.
+    // Which one: until one is chosen, the first that fails.
     std::size_t current() const { return current_; }
     const ReviewCase& shown() const { return cases_[current_]; }
     void show(std::size_t index);
+    /// The one of that name is shown, if it is there.
+    void begin_at(const std::string& name);
     /// The cases of the list, in its order.
     std::vector<std::size_t> listed() const;
-    /// The listed case `by` rows further that is wanted; none if there is none.
-    std::optional<std::size_t> next(int by, bool failing_only) const;
+    /// The listed case one row further (`by` 1) or back (-1); none behind the ends.
+    std::optional<std::size_t> next(int by) const;
+    /// The next listed case that fails, or back to one; behind the end it goes on at the other. None if no other fails.
+    std::optional<std::size_t> next_failing(int by) const;
     /// Throws std::invalid_argument if there is none of that name.
     std::size_t index_of(const std::string& name) const;
     void mark(std::size_t index, bool marked) { cases_[index].marked = marked; }
     std::vector<std::size_t> marked() const;
-    std::vector<std::size_t> viewed_failing() const;
+    /// Those that somebody has looked at and that can be accepted.
+    std::vector<std::size_t> viewed() const;
     /// Of the case that is shown, unpacked; counts as seen.
     const ReviewPictures& pictures();
 
@@ -136,25 +156,29 @@ class Review {
     /// Draws them anew, beside the window.
     void draw(const std::vector<std::size_t>& indices);
     void draw_all();
+    /// The run; null: none is under way.
+    const Job* run() const { return job_.get(); }
     bool drawing() const { return job_ != nullptr; }
-    /// 0..1 of the run.
-    double progress() const { return job_ ? job_->progress() : 1; }
+    /// Ends the run and the process that draws; what waited to be accepted is not.
     void cancel();
-    /// Takes in what was drawn; call it before each frame. Returns what to tell the person: each a line of its own.
-    std::vector<std::string> poll();
+    /// Takes in what was drawn; call it before each frame. Returns what to tell the person.
+    std::vector<ReviewNews> poll();
 
     // Goldens.
     /// Why the case's picture cannot become its golden; empty if it can.
     std::string why_not_accept(std::size_t index) const;
     /// Those that can be: their pictures become goldens, as `mobbscope test --update` makes them, and undo takes all
-    /// back at once. A picture of an earlier run is drawn anew first, and taken if it is still the same. Returns in
-    /// words what it did. Throws std::invalid_argument if it can be done with none; InputError and MachineError if
-    /// nothing could be written.
-    std::string accept(const std::vector<std::size_t>& indices);
-    bool can_undo() const { return done_ > 0; }
-    bool can_redo() const { return done_ < steps_.size(); }
-    std::string undo_title() const { return can_undo() ? steps_[done_ - 1].title : ""; }
-    std::string redo_title() const { return can_redo() ? steps_[done_].title : ""; }
+    /// back at once. Pictures of an earlier run are drawn anew first, and taken with the others if they are still the
+    /// same. Returns what it did. Throws std::invalid_argument if it can be done with none; InputError and MachineError
+    /// if nothing could be written.
+    std::vector<ReviewNews> accept(const std::vector<std::size_t>& indices);
+    bool has_undo() const { return done_ > 0; }
+    bool has_redo() const { return done_ < steps_.size(); }
+    /// ... and none of the step's cases is being drawn: it would be held against goldens that are not there any more.
+    bool can_undo() const { return has_undo() && !waits(steps_[done_ - 1]); }
+    bool can_redo() const { return has_redo() && !waits(steps_[done_]); }
+    std::string undo_title() const { return has_undo() ? steps_[done_ - 1].title : ""; }
+    std::string redo_title() const { return has_redo() ? steps_[done_].title : ""; }
     /// The very bytes of before, or of after. Require can_undo() or can_redo(). Throw InputError if a golden was
     /// changed by somebody else meanwhile, MachineError: nothing is changed then.
     void undo();
@@ -171,15 +195,20 @@ class Review {
         std::vector<Taken> taken;
     };
     /// What a run's thread hands over.
-    struct News {
+    struct Results {
         std::mutex mutex;
-        std::vector<picture_tests::NamedResult> results;
+        std::vector<picture_tests::NamedResult> ready;
     };
 
     void read_output();
-    void take_in(const picture_tests::NamedResult& result, std::vector<std::string>& to_tell);
-    /// Writes the goldens of the cases; those that refuse are left out of the step, and said.
-    std::string write(const std::vector<std::size_t>& indices);
+    void show_first_failing();
+    void take_in(const picture_tests::NamedResult& result, std::vector<ReviewNews>& to_tell);
+    /// What was drawn anew to be accepted, and all that was accepted with it.
+    void accept_drawn(std::vector<ReviewNews>& to_tell);
+    /// Writes the goldens of the cases, as one step; those that refuse are left out of it, and said.
+    std::vector<ReviewNews> write(const std::vector<std::size_t>& indices);
+    void show_some_of(const Step& step);
+    bool waits(const Step& step) const;
     void end_run();
     void changed(std::size_t index);
 
@@ -187,11 +216,13 @@ class Review {
     Surroundings surroundings_;
     std::vector<ReviewCase> cases_;
     std::size_t current_ = 0;
+    bool chosen_ = false;  ///< somebody wants that one, or it is the first that failed
     std::optional<std::size_t> unpacked_;
     ReviewPictures pictures_;
-    std::shared_ptr<News> news_;
     std::vector<Step> steps_;
-    std::size_t done_ = 0;  ///< steps that are not undone
+    std::size_t done_ = 0;             ///< steps that are not undone
+    std::vector<std::size_t> taking_;  ///< cases that are accepted together when the run is done
+    std::shared_ptr<Results> results_;
     std::unique_ptr<Job> job_;
 };
 

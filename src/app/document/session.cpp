@@ -324,10 +324,12 @@ void Session::go_to_state(std::size_t state) {
 }
 
 Session::BeforeDrag Session::before_drag() const {
-    return {history_, settings, handed_over_, hooks.viewport_size ? hooks.viewport_size() : PictureSize{}};
+    return {history_, settings, handed_over_, hooks.viewport_size ? hooks.viewport_size() : PictureSize{},
+            reviewing_ ? std::optional(review_->look) : std::nullopt};
 }
 
 void Session::restore(BeforeDrag before) {
+    if (before.look && reviewing_) review_->look = *before.look;
     if (before.handed_over != handed_over_) return;
     const PictureSize size = hooks.viewport_size ? hooks.viewport_size() : before.size;
     history_ = std::move(before.history);
@@ -554,10 +556,10 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     open_case_.clear();
     if (behind_help_.first == Dialog::import_clip) behind_help_ = {Dialog::none, {}};
     // What went wrong with the last document is over, and what was offered for it.
-    for (Message& message : messages_) {
-        if (files_opened_ > 1) message.offer.reset();
-        if (message.level != Message::Level::info) message.up = false;
+    if (files_opened_ > 1) {
+        for (Message& message : messages_) message.offer.reset();
     }
+    retire_messages();
     history_.reset(std::move(document));
     changed();
     tell_of_warnings(0);
@@ -650,7 +652,7 @@ bool Session::opened_by_person() const {
 void Session::drop(const std::vector<std::filesystem::path>& files) {
     if (files.empty()) return;
     if (complain_of_missing(files)) return;
-    if (!opened_by_person()) return open(files);
+    if (!opened_by_person() && !reviewing_) return open(files);
     open_dialog(Dialog::dropped, {.text = "", .files = files});
 }
 
@@ -810,14 +812,16 @@ void Session::ask_anew(DialogInput with) {
 
 // --- picture tests
 
-void Session::review(const std::filesystem::path& folder, const std::filesystem::path& output) {
+void Session::review(const ReviewFolder& found) {
     const auto opened = std::make_shared<Review>(
-        folder, output,
+        found,
         Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); }, case_drawer});
     close_case([this, opened] {
         stop();
+        if (review_ && review_->folder() == opened->folder()) opened->begin_at(review_->shown().file.name);
         review_ = opened;
         reviewing_ = true;
+        retire_messages();
         if (review_->output().empty()) review_->draw_all();
         poll();
     });
@@ -874,6 +878,14 @@ void Session::tell(Message::Level level, const std::string& text, std::optional<
     std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
     messages_.push_back({level, said, std::move(offer), {}, 0, true, level == Message::Level::info});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
+}
+
+void Session::retire_messages() {
+    for (Message& message : messages_) {
+        if (message.level == Message::Level::info) continue;
+        message.up = false;
+        message.read = true;
+    }
 }
 
 std::size_t Session::unread() const {
@@ -947,9 +959,16 @@ void Session::cancel_job(std::size_t index) {
     tell(Message::Level::info, "Cancelled");
 }
 
+void Session::end_work() {
+    jobs_.clear();
+    import_changes_.clear();
+    preview.end();
+    if (review_) review_->cancel();
+}
+
 void Session::poll() {
     if (review_) {
-        for (const std::string& news : review_->poll()) tell(Message::Level::info, news);
+        for (const ReviewNews& news : review_->poll()) tell(news.level, news.text);
     }
     for (;;) {
         const auto done = std::find_if(jobs_.begin(), jobs_.end(), [](const Running& r) { return r.job->done(); });

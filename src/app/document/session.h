@@ -8,6 +8,7 @@
 #include <app/document/file_preview.h>
 #include <app/document/history.h>
 #include <app/document/job.h>
+#include <app/document/message_level.h>
 #include <app/document/review.h>
 #include <app/document/selection.h>
 #include <app/document/settings.h>
@@ -60,7 +61,7 @@ struct MessageOffer {
 /// A line for the person: what went wrong and what to do, or what was done. It lies over the picture for some seconds,
 /// then it is kept in a list behind a bell.
 struct Message {
-    enum class Level { info, warning, error };
+    using Level = MessageLevel;
     Level level = Level::info;
     std::string text;
     std::optional<MessageOffer> offer{};  ///< none once another document is open: it was about the last one
@@ -263,6 +264,8 @@ class Session {
     void open_demo();
     /// What `open` was given; empty for the demo and before anything was opened.
     const std::vector<std::filesystem::path>& opened() const { return opened_; }
+    /// Whether files can be added: not to a run, which stands alone, nor where picture tests are shown instead.
+    bool may_add() const { return !crowd() && !reviewing(); }
     /// Adds clips, or whole scenes, to the document.
     void add(const std::vector<std::filesystem::path>& files);
     /// Opens what was dropped on the window; asks whether to add it where the person has something open.
@@ -298,22 +301,31 @@ class Session {
     struct BeforeDrag {
         History history;
         Settings settings;
-        int handed_over = 0;  ///< documents and edits that did not come from the hand
-        PictureSize size;     ///< of the viewport
+        int handed_over = 0;             ///< documents and edits that did not come from the hand
+        PictureSize size;                ///< of the viewport
+        std::optional<ReviewLook> look;  ///< of picture tests, while they are shown
     };
     BeforeDrag before_drag() const;
     /// Brings it back, as if nothing had been dragged; not where a job or another document has come meanwhile.
     void restore(BeforeDrag before);
 
     // Picture tests.
-    /// Shows the picture tests of a folder in place of the scene, and draws them, unless an `output` of theirs is to be
-    /// looked at. Throws InputError as Review does: what is shown stays then.
-    void review(const std::filesystem::path& folder, const std::filesystem::path& output = {});
+    /// Shows picture tests in place of the scene, and draws them, unless an `output` of theirs is to be looked at.
+    /// Those of a folder that was looked at before begin at the case that was shown then.
+    void review(const ReviewFolder& found);
+    /// Throws InputError as find_review does.
+    void review(const std::filesystem::path& folder, const std::filesystem::path& output = {}) {
+        review(find_review(folder, output));
+    }
     /// The picture tests that are looked at, shown or not; null if there are none.
     Review* review() { return review_.get(); }
     const Review* review() const { return review_.get(); }
     /// Whether they are shown: commands and panels are about them then, not about the scene.
     bool reviewing() const { return reviewing_; }
+    /// What the window shows, for its title: the scene, or the folder of the picture tests.
+    std::string shown_title() const { return reviewing_ ? review_->folder().string() : title(); }
+    /// Whether it has changes that are not saved.
+    bool shows_unsaved() const { return !reviewing_ && modified(); }
     /// Shows what was open before the picture tests, or them again; asks about unsaved changes of a case's scene.
     void leave_review();
     /// Requires review().
@@ -373,6 +385,8 @@ class Session {
     /// The oldest; null if none.
     const Job* job() const { return jobs_.empty() ? nullptr : jobs_.front().job.get(); }
     void cancel_job(std::size_t index);
+    /// Ends all work beside the window: nothing calls Hooks::wake any more, unless other work is begun.
+    void end_work();
     /// Takes in what jobs have done. Call it before each frame.
     void poll();
 
@@ -401,6 +415,8 @@ class Session {
     void edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
                         const FittedScene* fitted_beside, Purpose purpose = Purpose::other);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
+    /// Warnings and errors so far were about what was shown before.
+    void retire_messages();
     /// Replaces the document by what `load_all` gives, after asking if there are unsaved changes.
     /// ... seen as the scene says, or as `view`.
     void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,

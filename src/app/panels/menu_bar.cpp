@@ -77,9 +77,9 @@ void search(Ui& ui, float left, float right) {
 /// name loses its end.
 float file_title(Ui& ui, float left, float right) {
     const Session& session = ui.session;
-    const std::string title = session.reviewing() ? session.review()->folder().string() : session.title();
+    const std::string title = session.shown_title();
     const float pad = ui.px(12);
-    const bool modified = session.modified() && !session.reviewing();
+    const bool modified = session.shows_unsaved();
     const float dot = modified ? ui.px(14) : 0;
     const float room = right - left - 2 * pad - dot;
     const float width = std::min(ImGui::CalcTextSize(title.c_str()).x, std::max(room, ui.px(40)));

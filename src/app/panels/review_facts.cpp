@@ -51,8 +51,10 @@ std::string sentence_of(const Review& review, const ReviewCase& one) {
         } else if (figures && figures->same_size) {
             out += percent_text(figures->fraction()) + " of the pixels of " + file + " differ, by up to " +
                    std::to_string(figures->largest) + " of 255.";
+        } else if (figures) {
+            out += file + " has another size.";
         } else {
-            out += file + " is a picture of another size, or cannot be read.";
+            out += finding.message + ".";
         }
     }
     return out.empty() ? one.result.message : out;
@@ -83,10 +85,11 @@ void actions(Ui& ui, const Review& review) {
     };
     std::vector<Button> buttons{{"Accept", "review.accept"},
                                 {"Undo", "review.undo"},
+                                {"Next failing", "review.next_failing"},
                                 {"Draw again", "review.draw"},
                                 {"Open as scene", "review.open"}};
     const std::string marked = "Accept " + std::to_string(review.marked().size()) + " marked";
-    if (!review.marked().empty()) buttons.insert(buttons.begin() + 1, {marked.c_str(), "review.accept_marked"});
+    if (!review.marked().empty()) buttons.push_back({marked.c_str(), "review.accept_marked"});
     for (std::size_t i = 0; i < buttons.size(); ++i) {
         if (i > 0) flow(button_width(buttons[i].label));
         command_button(ui, buttons[i].label, buttons[i].command, buttons[i].command);
@@ -160,8 +163,9 @@ void findings(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
     if (one.accepted) return;
     bool has_heading = false;
     for (const picture_tests::Finding& finding : one.result.findings) {
-        // Its pixels are told already.
-        if (pictures.diff && finding.golden == pictures.golden_file) continue;
+        // Its pixels are told already, or that there is none.
+        const bool has_pixels = pictures.diff || !pictures.golden;
+        if (has_pixels && finding.golden == pictures.golden_file) continue;
         if (!std::exchange(has_heading, true)) heading(ui, "WHAT DIFFERS BESIDES");
         text_line(ui.style.text, finding.golden.filename().string());
         ui.mark("finding." + finding.golden.filename().string());

@@ -15,8 +15,18 @@ namespace mobbscope::app {
 using picture_tests::CaseOutcome;
 
 std::string percent_text(double share) {
+    if (share == 0) return "0 %";
     const double percent = 100 * share;
     return formatted(percent >= 9.95 ? "%.0f %%" : percent >= 0.095 ? "%.1f %%" : "%.3f %%", percent);
+}
+
+std::string sum_of(const Review& review) {
+    const auto left = std::ranges::count_if(review.cases(), [](const ReviewCase& one) { return !one.drawn(); });
+    std::string out;
+    if (left < std::ssize(review.cases())) out = picture_tests::sum_of(review.summary());
+    if (left > 0)
+        out += (out.empty() ? "" : ", ") + std::to_string(left) + (review.drawing() ? " to draw" : " not drawn");
+    return out;
 }
 
 std::string outcome_word(const ReviewCase& one) {
@@ -115,6 +125,7 @@ void case_row(Ui& ui, const Review& review, std::size_t index, float height) {
     ui.mark(mark);
     const bool hovered = ImGui::IsItemHovered();
     const bool shown = index == review.current();
+    if (shown) ui.focus.begin_here();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + width, corner.y + height};
     if (shown || hovered) draw.AddRectFilled(corner, end, shown ? ui.style.raised : ui.style.border, ui.px(4));
@@ -126,7 +137,9 @@ void case_row(Ui& ui, const Review& review, std::size_t index, float height) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const bool over_box = hovered && mouse.x < beyond;
     ui.marks.add(mark + ".mark", {{box_min.x, box_min.y}, {box_max.x, box_max.y}});
-    if (one.marked || hovered) draw.AddRect(box_min, box_max, over_box ? ui.style.accent : ui.style.quiet, ui.px(3));
+    // What can be accepted can be marked for it; of others the box is there to take the mark away.
+    const bool has_box = one.marked || hovered || review.why_not_accept(index).empty();
+    if (has_box) draw.AddRect(box_min, box_max, over_box ? ui.style.accent : ui.style.quiet, ui.px(3));
     if (one.marked) {
         draw.AddRectFilled({box_min.x + ui.px(3), box_min.y + ui.px(3)}, {box_max.x - ui.px(3), box_max.y - ui.px(3)},
                            ui.style.accent, ui.px(2));
@@ -150,23 +163,13 @@ void case_row(Ui& ui, const Review& review, std::size_t index, float height) {
     invoke(ui.session, marks ? "review.mark" : "review.show", one.file.name);
 }
 
+/// How far a run is stands in the status bar.
 void run_row(Ui& ui, const Review& review) {
-    if (!review.drawing()) {
+    if (review.drawing()) {
+        command_button(ui, "Stop drawing", "review.cancel", "review.cancel");
+    } else {
         command_button(ui, "Draw all again", "review.draw_all", "review.draw_all");
-        return;
     }
-    const float button = button_width("Stop");
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x - button - ui.px(10);
-    const float height = ui.px(6);
-    const float y = at.y + (ImGui::GetFrameHeight() - height) / 2;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float done = static_cast<float>(std::clamp(review.progress(), 0.0, 1.0)) * width;
-    draw.AddRectFilled({at.x, y}, {at.x + width, y + height}, ui.style.raised, height / 2);
-    draw.AddRectFilled({at.x, y}, {at.x + done, y + height}, ui.style.accent, height / 2);
-    ImGui::Dummy({width, ImGui::GetFrameHeight()});
-    ImGui::SameLine(0, ui.px(10));
-    command_button(ui, "Stop", "review.cancel", "review.cancel");
 }
 
 void order_and_filter(Ui& ui, const Review& review) {
@@ -192,7 +195,8 @@ void order_and_filter(Ui& ui, const Review& review) {
 void review_list(Ui& ui) {
     const Review& review = *ui.session.review();
     heading(ui, "PICTURE TESTS", counted(review.cases().size(), "case", "cases"));
-    words(ui.style.quiet, sum_of(review.summary()));
+    words(ui.style.quiet, sum_of(review));
+    ui.mark_only("review.sum");
     run_row(ui, review);
     order_and_filter(ui, review);
     ImGui::Dummy({0, ui.px(2)});
@@ -211,13 +215,17 @@ void review_list(Ui& ui) {
         if (top < ImGui::GetScrollY()) ImGui::SetScrollY(top);
         if (top + row > ImGui::GetScrollY() + view) ImGui::SetScrollY(top + row - view);
     }
+    ui.focus.begin_list(ImGui::GetID("cases"), static_cast<int>(rows.size()));
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(rows.size()), height + ui.px(1));
+    if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            ui.focus.row(i);
             case_row(ui, review, rows[static_cast<std::size_t>(i)], height);
         }
     }
+    ui.focus.end_list();
     ImGui::EndChild();
     ImGui::PopStyleVar();
 }

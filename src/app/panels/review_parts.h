@@ -17,6 +17,9 @@ ImU32 outcome_color(const Style& style, const ReviewCase& one);
 /// stroke, a cross, a dash; a ring for what waits, a dot for what is not drawn.
 void outcome_shape(ImDrawList& list, const Style& style, ImVec2 middle, float side, const ReviewCase& one);
 
+/// "12 passed, 3 different, 2 to draw".
+std::string sum_of(const Review& review);
+
 /// "2.4 %", "0.003 %".
 std::string percent_text(double share);
 

@@ -1,6 +1,7 @@
 #include <app/document/described.h>
 #include <app/document/job.h>
 #include <app/panels/panels.h>
+#include <app/panels/review_parts.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <scene/answer.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -20,8 +22,13 @@ constexpr float kProgressWidth = 120;        // pixels at scale 1
 constexpr double kProgressFrame = 1 / 15.0;  // seconds between frames while it moves
 constexpr double kSweep = 1.6;               // seconds that the bar takes where nothing is known
 
-/// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view.
+/// "2 agents, 2 clips, 62 nodes, 21 tests": all of the scene, and the tests of the query in view. Of picture tests what
+/// came of them.
 std::string counts(const Session& session) {
+    if (session.reviewing()) {
+        const Review& review = *session.review();
+        return counted(review.cases().size(), "picture test", "picture tests") + ": " + sum_of(review);
+    }
     if (session.empty()) return "";
     const FittedScene& fitted = *session.document().fitted;
     const std::size_t agents = session.crowd() ? session.crowd()->agents.size() : session.scene().agents.size();
@@ -40,6 +47,7 @@ std::string counts(const Session& session) {
 /// What is under the mouse, as short as it can be said.
 std::string hover_facts(const Session& session) {
     const Selection& what = session.hovered;
+    if (session.reviewing()) return "";
     if (what.kind == Selection::Kind::none || !exists(session.fitted(), what)) return "";
     if (what.kind == Selection::Kind::query) {
         const auto index = static_cast<std::size_t>(what.index);
@@ -55,13 +63,27 @@ std::string hover_facts(const Session& session) {
     return out;
 }
 
-/// The work under way, the oldest first, from `right` to the left; returns where it begins.
-float job_part(Ui& ui, float right) {
+/// The work under way: jobs of the scene, the oldest first, and behind them the run of picture tests.
+std::vector<const Job*> work_under_way(const Session& session) {
+    std::vector<const Job*> out;
+    for (std::size_t i = 0; i < session.job_count(); ++i) out.push_back(&session.job(i));
+    if (session.review() && session.review()->drawing()) out.push_back(session.review()->run());
+    return out;
+}
+
+/// Ends the first of it.
+void cancel_first(Session& session) {
+    if (session.job()) return session.cancel_job(0);
+    if (session.review()) session.review()->cancel();
+}
+
+/// The work under way from `right` to the left; returns where it begins.
+float job_part(Ui& ui, const std::vector<const Job*>& work, float right) {
     Session& session = ui.session;
-    const Job& job = *session.job();
+    const Job& job = *work.front();
     ui.want_frame_in(kProgressFrame);
     std::string title = job.title();
-    if (session.job_count() > 1) title += formatted(" (and %d more)", static_cast<int>(session.job_count()) - 1);
+    if (work.size() > 1) title += formatted(" (and %d more)", static_cast<int>(work.size()) - 1);
     const float gap = ui.px(8);
     const float width = ui.px(kProgressWidth);
     const float height = ui.px(6);
@@ -89,7 +111,7 @@ float job_part(Ui& ui, float right) {
     ImGui::Dummy({width, line});
     ui.mark("job.0.bar");
     ImGui::SetCursorPos({right - button, y});
-    if (small_button(ui, "Cancel", "job.0.cancel")) session.enqueue([&session] { session.cancel_job(0); });
+    if (small_button(ui, "Cancel", "job.0.cancel")) session.enqueue([&session] { cancel_first(session); });
     return left;
 }
 
@@ -119,7 +141,8 @@ void status_bar(Ui& ui, ImVec2 size) {
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the last frame took");
     }
     ImGui::SetCursorPosY(y);
-    if (ui.session.job()) right = job_part(ui, right) - pad;
+    const std::vector<const Job*> work = work_under_way(ui.session);
+    if (!work.empty()) right = job_part(ui, work, right) - pad;
     // What there is least room for is what is under the mouse: its tooltip says it too.
     const std::string all = fitted_text(counts(ui.session), std::max(right - pad, 0.0f));
     ImGui::SetCursorPos({pad, y});

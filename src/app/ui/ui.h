@@ -43,7 +43,8 @@ class Painter {
     /// looked at. `now`: seconds.
     virtual Shown picture(std::size_t place, Changed changed, Hand hand, double now) = 0;
     /// The texture of a picture, its upper row at v = 0, transparent parts on a grey chequer. What was in the slot
-    /// before is gone. `smooth`: blended between pixels, not each a square. Null if it is larger than OpenGL can hold.
+    /// before is gone, and what is not asked for in a frame. `smooth`: blended between pixels, not each a square. Null
+    /// if it is larger than OpenGL can hold.
     virtual ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) = 0;
 };
 

@@ -243,7 +243,7 @@ struct GlfwWindow::State {
         };
     }
     ~State() {
-        while (session.job()) session.cancel_job(0);  // they would wake a window that is gone
+        session.end_work();  // it would wake a window that is gone
         session.hooks.wake = nullptr;
         session.hooks.set_clipboard = nullptr;
         session.hooks.clipboard = nullptr;
@@ -351,7 +351,7 @@ struct GlfwWindow::State {
     }
 
     void show_title() {
-        const std::string wanted = session.title() + (session.modified() ? "*" : "") + " - Mobbscope";
+        const std::string wanted = session.shown_title() + (session.shows_unsaved() ? "*" : "") + " - Mobbscope";
         if (wanted == title) return;
         glfwSetWindowTitle(window, wanted.c_str());
         title = wanted;

@@ -14,6 +14,8 @@
 #include <chrono>
 #include <deque>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -85,8 +87,16 @@ class TexturePainter final : public Painter {
     }
 
     ImTextureID image(std::size_t slot, const std::shared_ptr<const Image>& image, bool smooth) override {
-        while (images_.size() <= slot) images_.emplace_back();
-        return images_[slot].take(image, smooth) ? texture_id(images_[slot].texture()) : ImTextureID{};
+        Held& held = images_[slot];
+        held.is_asked_for = true;
+        if (!held.texture) held.texture = std::make_unique<ImageTexture>();
+        return held.texture->take(image, smooth) ? texture_id(held.texture->texture()) : ImTextureID{};
+    }
+
+    /// Those that no panel has asked for since the last time are gone.
+    void drop_images() {
+        std::erase_if(images_, [](const auto& held) { return !held.second.is_asked_for; });
+        for (auto& [slot, held] : images_) held.is_asked_for = false;
     }
 
     /// Paints what has changed since the last time.
@@ -145,6 +155,11 @@ class TexturePainter final : public Painter {
         double seconds = 0;  ///< that the fine one has taken so far
     };
 
+    struct Held {
+        std::unique_ptr<ImageTexture> texture;
+        bool is_asked_for = false;
+    };
+
     void take(Picture& asked, const Texture& fine, const DrawList& list) {
         asked.copy.take(fine, list.size);
         asked.is_fine = true;
@@ -176,8 +191,8 @@ class TexturePainter final : public Painter {
 
     Renderer& renderer_;
     const Shell::Clock& clock_;
-    std::deque<Picture> pictures_;     ///< by place
-    std::deque<ImageTexture> images_;  ///< by slot
+    std::deque<Picture> pictures_;        ///< by place
+    std::map<std::size_t, Held> images_;  ///< by slot
     Shell::Painted painted_;
 };
 
@@ -323,6 +338,7 @@ struct Shell::State {
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantTextInput) ui.want_frame_in(kBlink);
         ImGui::Render();
+        drawn->painter.drop_images();
         return ui.next_frame;
     }
 

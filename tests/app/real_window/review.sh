@@ -6,6 +6,11 @@ source "$(dirname "$0")/hand.sh"
 cd "$3"
 begin "$1" "$2" review cases
 
+# titled NAME: the window's title begins with it.
+titled() {
+  xdotool search --onlyvisible --name "^$1.* - Mobbscope$" >/dev/null || { echo "no window is called $1" >&2; exit 1; }
+}
+titled cases
 click opened.txt case.moved
 reached shown.txt
 xdotool key 5
@@ -19,6 +24,7 @@ xdotool key ctrl+z
 reached undone.txt
 xdotool key Return
 reached scene.txt
+titled moved
 click scene.txt review.back
 reached back.txt
 xdotool key Escape
