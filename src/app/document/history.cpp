@@ -28,17 +28,6 @@ std::string what_changes(const ViewState& from, const ViewState& to) {
 
 }  // namespace
 
-QueryKey query_key(const FittedScene& fitted, int query) {
-    const Scene& scene = fitted.scene();
-    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
-    // Where all pairs are asked each is asked once.
-    const auto end = scene.queries.begin() + (scene.queries.empty() ? 0 : query);
-    const auto same = std::count_if(scene.queries.begin(), end, [&](const SceneQuery& other) {
-        return other.a.name == asked.a.name && other.b.name == asked.b.name;
-    });
-    return {asked.a.name, asked.b.name, static_cast<int>(same)};
-}
-
 void History::reset(Document document) {
     states_.clear();
     states_.push_back({std::move(document), {}, false, 0});

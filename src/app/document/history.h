@@ -1,52 +1,15 @@
 /// The document and its past: undo and redo of every edit.
 #pragma once
 
-#include <scene/fitted_scene.h>
-#include <scene/view_state.h>
+#include <app/document/document.h>
 
 #include <cstddef>
 #include <functional>
-#include <map>
-#include <memory>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace mobbscope::app {
-
-/// A query as it is found again when others were added or removed: the names of its two, and how many queries before it
-/// ask the same names.
-using QueryKey = std::tuple<std::string, std::string, int>;
-/// Requires a query of that index.
-QueryKey query_key(const FittedScene& fitted, int query);
-
-/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
-struct ExcerptSource {
-    std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
-    ViewState view;                             ///< of the whole, when it was left
-    std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
-    std::map<QueryKey, Step> steps{};           ///< of the whole: where queries were left
-};
-
-/// One view of the document's scene: how it is seen, and with which of its fits.
-struct SceneView {
-    std::shared_ptr<const FittedScene> fitted;  ///< with the view's fit in use; never null
-    ViewState view;
-};
-
-/// The scene with its fits, and how it is seen: the active view, which commands and panels are about, and those beside
-/// it. All views are of one scene and one time. Values: a state once reached can be returned to at no cost, as the
-/// scene is immutable and shared.
-struct Document {
-    std::shared_ptr<const FittedScene> fitted;          ///< with the active view's fit in use; never null
-    ViewState view;                                     ///< the active one
-    std::shared_ptr<const ExcerptSource> excerpt_of{};  ///< of an excerpt; else null
-    std::vector<SceneView> beside{};                    ///< the other views, from left to right
-    std::size_t place = 0;                              ///< how many of them stand to the left of the active one
-    bool linked_cameras = true;                         ///< all views have one camera
-    std::map<QueryKey, Step> steps{};                   ///< where queries were left
-};
 
 /// Groups what belongs together: one drag, one number typed.
 struct EditName {

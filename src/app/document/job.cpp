@@ -26,6 +26,10 @@ void JobControl::step(std::size_t done, std::size_t all) {
     progress_ = all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all);
 }
 
+std::function<void(std::size_t done, std::size_t all)> progress_of(JobControl& control) {
+    return [&control](std::size_t done, std::size_t all) { control.step(done, all); };
+}
+
 /// Kept alive by whoever needs it longer, the window or the job's thread.
 struct Job::Shared {
     Counted counted;  // first, so that it goes last
