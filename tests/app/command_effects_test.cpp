@@ -561,6 +561,12 @@ std::vector<Case> cases() {
              const mobb::Trace& trace = w.session.recorded()->trace;
              EXPECT_EQ(w.session.step(), trace[trace.size() - 1].parent);
          }});
+    add({"step.before", "", {kFirstQuery, {"step.to", "3"}, kFirstStep}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.step(), 3);
+             w.session.close_group();
+             run_command(w.session, "step.before");
+             EXPECT_EQ(w.session.step(), 0) << "and back";
+         }});
     in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
 
     // Go
@@ -637,7 +643,10 @@ TEST(CommandEffects, AreWhatTheyAreSaidToBe) {
         CommandWorld world;
         Session& session = world.session;
         try {
-            for (const auto& [id, argument] : c.before) run_command(session, id, argument_in(world, argument));
+            for (const auto& [id, argument] : c.before) {
+                run_command(session, id, argument_in(world, argument));
+                session.close_group();
+            }
             const std::shared_ptr<const FittedScene> before = session.document().fitted;
             const bool was_modified = session.modified();
             run_command(session, c.id, argument_in(world, c.argument));

@@ -64,9 +64,7 @@ void remove(Session& session) {
     session.select({});
 }
 
-void rename(Session& session, const std::string& name) {
-    edit_selected_agent(session, "renaming", [&](Scene& scene, int agent) { rename_agent(scene, agent, name); });
-}
+void rename(Session& session, const std::string& name) { session.rename_agent(selected_agent(session), name); }
 
 template <class Change>
 void place_agent(Session& session, const std::string& doing, const Change& change) {

@@ -182,6 +182,16 @@ void percent(Session& session, const std::string& text) {
     session.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
 }
 
+bool has_step_before(const Session& session) { return session.step_before().has_value(); }
+std::string_view why_no_step_before(const Session& session) {
+    return in_query(session) ? "no other step was looked at" : "no query is shown";
+}
+
+void to_step_before(Session& session) {
+    const Step before = *session.step_before();
+    session.change_view([&](ViewState& view) { view.step = before; });
+}
+
 /// To the next event that ended so; says so if there is none.
 void to_next(Session& session, Outcome outcome, const char* what) {
     const int from = in_query(session) ? session.step() : -1;
@@ -271,6 +281,10 @@ std::vector<Command> query_commands() {
                 {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}}),
         Command("step.last", "Last step", "Shows the last test, with the answer.", last,
                 {.shortcut = "Shift+Right", .enabled = {has_queries, why_no_step}}),
+        Command("step.before", "Step looked at before",
+                "Goes back to where the last jump, or the last run of single steps, began; once more comes back, so "
+                "that one key compares two steps.",
+                to_step_before, {.shortcut = "B", .enabled = {has_step_before, why_no_step_before}}),
         Command("step.to", "Go to step", "Shows a test by its number from 0.", to,
                 {.menu = kNoMenu, .argument = "N", .enabled = {in_query, why_no_step}}),
         Command("step.next_separated", "Next separation",

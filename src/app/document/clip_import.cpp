@@ -100,8 +100,7 @@ void Session::start_import(const ImportChange& change) {
                 import_file_ = file;
                 // Other options may have been changed or undone meanwhile.
                 if (options_wanted(change) != wanted) return start_import(change);
-                edit_with_fits(
-                    name, [made](Scene& scene) { replace_clips(scene, *made); }, nullptr, Purpose::imports);
+                edit_with_fits({name, [made](Scene& scene) { replace_clips(scene, *made); }, Purpose::imports});
             };
         } catch (const InputError& error) {
             return refusal(without_file(error.what(), path));

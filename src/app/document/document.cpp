@@ -37,6 +37,8 @@ QueryKey query_key(const FittedScene& fitted, int query) {
     return {asked.a.name, asked.b.name, static_cast<int>(same)};
 }
 
+StepKey step_key(const FittedScene& fitted, int query) { return {query_key(fitted, query), fitted.options().tree}; }
+
 Document document_of(Scene scene, const FittedScene* previous, const Progress& progress) {
     const mobb::FitOptions options = scene.fit;
     const ViewState view = scene.view;

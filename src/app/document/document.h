@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -19,12 +21,25 @@ using QueryKey = std::tuple<std::string, std::string, int>;
 /// Requires a query of that index.
 QueryKey query_key(const FittedScene& fitted, int query);
 
+/// A query as its steps are remembered: other kinds of trees take other tests.
+using StepKey = std::pair<QueryKey, mobb::TreeKind>;
+/// ... with the fit in use. Requires a query of that index.
+StepKey step_key(const FittedScene& fitted, int query);
+
+/// The steps of a query that were looked at.
+struct QuerySteps {
+    Step left{};                   ///< where it was left
+    std::optional<Step> before{};  ///< where the last jump, or the last run of single steps, began; none: none yet
+    bool by_one = false;           ///< the last move was a single step
+};
+
 /// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
 struct ExcerptSource {
     std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
     ViewState view;                             ///< of the whole, when it was left
     std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
-    std::map<QueryKey, Step> steps{};           ///< of the whole: where queries were left
+    std::map<StepKey, QuerySteps> steps{};      ///< of the whole
+    int opening = 0;                            ///< likewise
 };
 
 /// One view of the document's scene: how it is seen, and with which of its fits.
@@ -43,7 +58,8 @@ struct Document {
     std::vector<SceneView> beside{};                    ///< the other views, from left to right
     std::size_t place = 0;                              ///< how many of them stand to the left of the active one
     bool linked_cameras = true;                         ///< all views have one camera
-    std::map<QueryKey, Step> steps{};                   ///< where queries were left
+    std::map<StepKey, QuerySteps> steps{};              ///< that were looked at
+    int opening = 0;                                    ///< which one it is of: of files or an excerpt, each its own
 };
 
 /// A scene with the fit that it says, seen as it says; trees that `previous` (null: none) has are shared.

@@ -1,6 +1,8 @@
 #include <app/document/history.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -50,9 +52,20 @@ void History::amend(Document document) {
 }
 
 void History::amend_views(const std::function<void(ViewState&)>& change) {
+    // States of one excerpt share what it was taken from.
+    std::map<std::shared_ptr<const ExcerptSource>, std::shared_ptr<const ExcerptSource>> sources;
     for (State& state : states_) {
         change(state.document.view);
         for (SceneView& other : state.document.beside) change(other.view);
+        std::shared_ptr<const ExcerptSource>& source = state.document.excerpt_of;
+        if (!source) continue;
+        std::shared_ptr<const ExcerptSource>& amended = sources[source];
+        if (!amended) {
+            ExcerptSource next = *source;
+            change(next.view);
+            amended = std::make_shared<const ExcerptSource>(std::move(next));
+        }
+        source = amended;
     }
 }
 

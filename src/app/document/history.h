@@ -38,7 +38,7 @@ class History {
     void change_view(Document document);
     /// The present state is this instead; no edit of its own.
     void amend(Document document);
-    /// How the scene is seen is changed in all states.
+    /// How the scene is seen is changed in all states, also how the whole of an excerpt was.
     void amend_views(const std::function<void(ViewState&)>& change);
     /// The next edit starts a group of its own, even under the same name.
     void close_group() { open_ = false; }

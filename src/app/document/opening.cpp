@@ -20,6 +20,23 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     return std::filesystem::equivalent(a, b, ignored);
 }
 
+/// "crossing.json", or "3 files".
+std::string title_of_files(const std::vector<std::filesystem::path>& files) {
+    if (files.size() != 1) return counted(files.size(), "file", "files");
+    // A folder may end in a slash.
+    const std::filesystem::path& only = files.front();
+    return (only.has_filename() ? only : only.parent_path()).filename().string();
+}
+
+/// The first that is not there; null: all are.
+const std::filesystem::path* missing_of(const std::vector<std::filesystem::path>& files) {
+    const auto missing = std::ranges::find_if(files, [](const std::filesystem::path& file) {
+        std::error_code ignored;
+        return !std::filesystem::exists(file, ignored);
+    });
+    return missing == files.end() ? nullptr : &*missing;
+}
+
 }  // namespace
 
 bool Session::modified() const {
@@ -40,37 +57,42 @@ std::string Session::title() const {
     return scene().file.empty() ? "untitled" : scene().file.stem().string();
 }
 
+void Session::turn_away() {
+    if (dialog == Dialog::import_clip) close_dialog();
+    if (behind_help_.first == Dialog::import_clip) behind_help_ = {Dialog::none, {}};
+    reviewing_ = false;
+    point_at_nothing();
+    ++handed_over_;
+    // What went wrong with the last scene is over, and what was offered for it; before the first one files were named.
+    for (Message& message : messages_) {
+        if (openings_ > 0) message.offer.reset();
+        if (message.level != Message::Level::info) message.up = false;
+    }
+}
+
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
+    turn_away();
     jobs_.clear();
     import_changes_.clear();
     import_file_.reset();
-    if (dialog == Dialog::import_clip) close_dialog();
-    reviewing_ = false;
     document.view = fitting(document.view, *document.fitted);
     document.excerpt_of = nullptr;
+    document.opening = ++openings_;
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
     opened_ = opened;
-    ++files_opened_;
     remember(opened);
     // One that says no theme is seen in the person's.
     if (attended_ && settings.theme && document.view.theme == Theme{}) document.view.theme = *settings.theme;
-    point_at_nothing();
     pointed_out_ = {};
     conflict = -1;
+    picture_size_.reset();
     cameras_aside.clear();
     alone.reset();
     filter.clear();
-    ++handed_over_;
     // No case of picture tests is open any more; who opens one says so afterwards.
     aside_.reset();
     open_case_.clear();
-    if (behind_help_.first == Dialog::import_clip) behind_help_ = {Dialog::none, {}};
-    // What went wrong with the last document is over, and what was offered for it.
-    for (Message& message : messages_) {
-        if (files_opened_ > 1) message.offer.reset();
-        if (message.level != Message::Level::info) message.up = false;
-    }
     history_.reset(std::move(document));
     changed();
     tell_of_warnings(0);
@@ -78,9 +100,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
 
 void Session::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
                    const std::optional<ViewState>& view) {
-    // What is opened takes the place of what was open before the picture tests.
-    if (aside_) return close_case([this, title, load_all, files, view] { load(title, load_all, files, view); });
-    after_asking([this, title, load_all, files, view] {
+    const auto begin = [this, title, load_all, files, view] {
         // What is opened last is meant.
         std::erase_if(jobs_, [](const Running& running) { return running.purpose == Purpose::opens; });
         const auto work = [this, load_all, files, view,
@@ -92,35 +112,18 @@ void Session::load(const std::string& title, const LoadAll& load_all, const std:
                 if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
             }
             return [this, document = std::move(document), files, present] {
+                const auto put_in = [this, document, files] { replace(document, files); };
+                // It takes the place of what was open before the picture tests.
+                if (aside_) return close_case([this, put_in] { after_asking(put_in); });
                 // Who edited meanwhile is asked again.
-                if (&scene() == &present->scene()) return replace(document, files);
-                after_asking([this, document, files] { replace(document, files); });
+                &scene() == &present->scene() ? put_in() : after_asking(put_in);
             };
         };
         start(title, work, Purpose::opens);
-    });
+    };
+    // The scene of a case stays until the file is known to load: what is open before and after is asked for then.
+    aside_ ? begin() : after_asking(begin);
 }
-
-namespace {
-
-/// "crossing.json", or "3 files".
-std::string title_of_files(const std::vector<std::filesystem::path>& files) {
-    if (files.size() != 1) return counted(files.size(), "file", "files");
-    // A folder may end in a slash.
-    const std::filesystem::path& only = files.front();
-    return (only.has_filename() ? only : only.parent_path()).filename().string();
-}
-
-/// The first that is not there; null: all are.
-const std::filesystem::path* missing_of(const std::vector<std::filesystem::path>& files) {
-    const auto missing = std::ranges::find_if(files, [](const std::filesystem::path& file) {
-        std::error_code ignored;
-        return !std::filesystem::exists(file, ignored);
-    });
-    return missing == files.end() ? nullptr : &*missing;
-}
-
-}  // namespace
 
 bool Session::complain_of_missing(const std::vector<std::filesystem::path>& files) {
     const std::filesystem::path* missing = missing_of(files);
@@ -201,21 +204,22 @@ void Session::open_demo() {
 void Session::add(const std::vector<std::filesystem::path>& files) {
     if (empty()) return open(files);
     if (complain_of_missing(files)) return;
-    if (crowd()) throw InputError("a run stands alone: open the files by themselves");
+    if (!may_add()) {
+        throw InputError(crowd() ? "a run stands alone: open the files by themselves"
+                                 : "picture tests are shown: leave them first, or open the files");
+    }
     start("Adding files", [this, files](JobControl& control) -> Job::Finish {
         const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
         return [this, read, files] {
             remember(files);
-            const std::size_t before = scene().clips.size();
-            edit_with_fits(
-                {"adding files", ""},
-                [read](Scene& scene) {
-                    const bool was_one = scene.clips.size() == 1;
-                    merge(scene, *read);
-                    if (was_one) lay_out_clips(scene);
-                },
-                nullptr);
-            tell_of_warnings(before);
+            edit_with_fits({.name = {"adding " + title_of_files(files), ""},
+                            .change =
+                                [read](Scene& scene) {
+                                    const bool was_one = scene.clips.size() == 1;
+                                    merge(scene, *read);
+                                    if (was_one) lay_out_clips(scene);
+                                },
+                            .then = [this, read] { tell_of_warnings(scene().clips.size() - read->clips.size()); }});
         };
     });
 }
@@ -253,8 +257,8 @@ void Session::save_as(const std::filesystem::path& file) {
     if (in_excerpt()) {
         // The whole stays what is open; the excerpt has a file of its own.
         Document now = document();
-        now.excerpt_of = std::make_shared<const ExcerptSource>(
-            ExcerptSource{now.excerpt_of->fitted, now.excerpt_of->view, now.fitted, now.excerpt_of->steps});
+        now.excerpt_of = std::make_shared<const ExcerptSource>(ExcerptSource{
+            now.excerpt_of->fitted, now.excerpt_of->view, now.fitted, now.excerpt_of->steps, now.excerpt_of->opening});
         history_.amend(std::move(now));
     } else {
         // The document is the file's now: messages and further sources refer to it.
@@ -302,14 +306,16 @@ void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
     excerpt.view.theme = view().theme;
     excerpt.view.query = 0;
     Document next = document_of(std::move(excerpt), document().fitted.get());
-    const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
-    next.excerpt_of = std::make_shared<const ExcerptSource>(ExcerptSource{before ? before->fitted : document().fitted,
-                                                                          before ? before->view : view(), next.fitted,
-                                                                          before ? before->steps : document().steps});
+    const Document& now = document();
+    // An excerpt of an excerpt is of the same whole.
+    ExcerptSource source =
+        now.excerpt_of ? *now.excerpt_of : ExcerptSource{now.fitted, now.view, {}, now.steps, now.opening};
+    source.saved = next.fitted;
+    next.excerpt_of = std::make_shared<const ExcerptSource>(std::move(source));
+    next.opening = ++openings_;
     point_at_nothing();
     filter.clear();
     cameras_aside.clear();
-    ++excerpts_opened_;
     history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
     changed();
 }
@@ -322,6 +328,7 @@ void Session::leave_excerpt() {
     cameras_aside.clear();
     Document whole{origin->fitted, origin->view};
     whole.steps = origin->steps;
+    whole.opening = origin->opening;
     history_.change(std::move(whole), {"going back to the whole", ""});
     changed();
 }
@@ -359,7 +366,7 @@ void Session::open_case(std::size_t index) {
         return [this, document = std::move(document), file] {
             // The scene of another case may be in its place.
             close_case([this, document, file] {
-                Aside before{history_, saved_, file_, opened_};
+                Aside before = put_aside();
                 replace(document, {});
                 aside_ = std::move(before);
                 open_case_ = file.name;
@@ -369,17 +376,58 @@ void Session::open_case(std::size_t index) {
     start("Opening " + file.name, work, Purpose::opens);
 }
 
+Session::Aside Session::put_aside() {
+    return {history_,
+            saved_,
+            file_,
+            opened_,
+            std::exchange(jobs_, {}),
+            std::exchange(import_changes_, {}),
+            import_file_,
+            picture_size_,
+            cameras_aside,
+            settled_height_,
+            alone,
+            filter,
+            selection,
+            pointed_out_,
+            found_,
+            conflict};
+}
+
+void Session::bring_back(Aside before) {
+    turn_away();
+    history_ = std::move(before.history);
+    saved_ = std::move(before.saved);
+    file_ = std::move(before.file);
+    opened_ = std::move(before.opened);
+    // What is being opened goes on: it is about no scene that is open.
+    for (Running& running : jobs_) {
+        if (running.purpose == Purpose::opens) before.jobs.push_back(std::move(running));
+    }
+    jobs_ = std::move(before.jobs);
+    import_changes_ = std::move(before.import_changes);
+    import_file_ = std::move(before.import_file);
+    picture_size_ = before.picture_size;
+    cameras_aside = std::move(before.cameras_aside);
+    settled_height_ = before.settled_height;
+    alone = std::move(before.alone);
+    filter = std::move(before.filter);
+    selection = before.selection;
+    pointed_into_ = shown();
+    pointed_out_ = before.pointed_out;
+    found_ = std::move(before.found);
+    conflict = before.conflict;
+    changed();
+}
+
 void Session::close_case(const std::function<void()>& then) {
     if (!aside_) return then();
     after_asking([this, then] {
-        const Aside before = std::move(*aside_);
+        Aside before = std::move(*aside_);
         aside_.reset();
         open_case_.clear();
-        replace(before.history.now(), before.opened);
-        history_ = before.history;
-        saved_ = before.saved;
-        file_ = before.file;
-        changed();
+        bring_back(std::move(before));
         then();
     });
 }

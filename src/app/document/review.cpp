@@ -409,8 +409,18 @@ std::vector<GoldenChange> changes_of(const std::vector<Taken>& taken) {
 
 }  // namespace
 
+void Review::require_not_waiting(const Step& step) const {
+    for (const Step::Taken& taken : step.taken) {
+        const ReviewCase& one = cases_[taken.index];
+        // It is held against the golden that is there.
+        if (one.state != ReviewCase::State::waiting) continue;
+        throw std::invalid_argument(one.file.name + " is being drawn: wait for the run, or cancel it");
+    }
+}
+
 void Review::undo() {
     const Step& step = steps_[done_ - 1];
+    require_not_waiting(step);
     picture_tests::write_goldens(picture_tests::taken_back(changes_of(step.taken)));
     for (const Step::Taken& taken : step.taken) {
         ReviewCase& one = cases_[taken.index];
@@ -424,6 +434,7 @@ void Review::undo() {
 
 void Review::redo() {
     const Step& step = steps_[done_];
+    require_not_waiting(step);
     picture_tests::write_goldens(changes_of(step.taken));
     for (const Step::Taken& taken : step.taken) {
         ReviewCase& one = cases_[taken.index];

@@ -155,8 +155,9 @@ class Review {
     bool can_redo() const { return done_ < steps_.size(); }
     std::string undo_title() const { return can_undo() ? steps_[done_ - 1].title : ""; }
     std::string redo_title() const { return can_redo() ? steps_[done_].title : ""; }
-    /// The very bytes of before, or of after. Require can_undo() or can_redo(). Throw InputError if a golden was
-    /// changed by somebody else meanwhile, MachineError: nothing is changed then.
+    /// The very bytes of before, or of after. Require can_undo() or can_redo(). Throw std::invalid_argument while one
+    /// of the cases waits to be drawn, InputError if a golden was changed by somebody else meanwhile, MachineError:
+    /// nothing is changed then.
     void undo();
     void redo();
 
@@ -180,6 +181,7 @@ class Review {
     void take_in(const picture_tests::NamedResult& result, std::vector<std::string>& to_tell);
     /// Writes the goldens of the cases; those that refuse are left out of the step, and said.
     std::string write(const std::vector<std::size_t>& indices);
+    void require_not_waiting(const Step& step) const;
     void end_run();
     void changed(std::size_t index);
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -45,8 +46,7 @@ void Session::edit(const EditName& name, const std::function<void(Scene&)>& chan
 }
 
 void Session::refit(const EditName& name, const std::function<void(mobb::FitOptions&)>& change) {
-    edit_with_fits(
-        name, [change](Scene& scene) { change(scene.fit); }, nullptr);
+    edit_with_fits({name, [change](Scene& scene) { change(scene.fit); }});
 }
 
 Scene Session::changed_scene(const std::function<void(Scene&)>& change) const {
@@ -59,33 +59,86 @@ Scene Session::changed_scene(const std::function<void(Scene&)>& change) const {
     return next;
 }
 
-void Session::edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
-                             const FittedScene* fitted_beside, Purpose purpose) {
-    Scene next = changed_scene(change);
+void Session::edit_with_fits(const FitEdit& edit, const FittedScene* fitted_beside) {
+    Scene next = changed_scene(edit.change);
     if (quick_to_fit(next, *document().fitted, fitted_beside)) {
-        return change_document(with_scene(document(), std::move(next), fitted_beside), name);
+        change_document(with_scene(document(), std::move(next), fitted_beside), edit.name);
+        if (edit.then) edit.then();
+        return;
     }
     start(
         "Fitting trees",
-        [this, name, change, purpose, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
+        [this, edit, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
             const Document fitted = with_scene(before, next, nullptr, progress_of(control));
             // The document may have changed meanwhile: the edit is made on what it is now, with the trees made here.
-            return
-                [this, name, change, fitted, purpose] { edit_with_fits(name, change, fitted.fitted.get(), purpose); };
+            return [this, edit, fitted] { edit_with_fits(edit, fitted.fitted.get()); };
         },
-        purpose);
+        edit.purpose);
 }
 
-/// Where a query was left is where it is opened again.
-void Session::remember_step(Document& next) const {
-    const std::optional<int>& left = view().query;
-    if (left && next.view.query != left) next.steps[query_key(*document().fitted, *left)] = view().step;
+void Session::rename_agent(int agent, const std::string& name) {
+    std::string before;
+    Document next = with_scene(document(), changed_scene([&](Scene& scene) {
+                                   add_agents_for_clips(scene);
+                                   before = scene.agents.at(static_cast<std::size_t>(agent)).name;
+                                   mobbscope::rename_agent(scene, agent, name);
+                               }));
+    for (SceneView& other : next.beside) rename_in_view(other.view, before, name);
+    if (alone) {
+        std::ranges::replace(alone->hidden, before, name);
+        std::ranges::replace(alone->before, before, name);
+    }
+    std::map<StepKey, QuerySteps> steps;
+    for (const auto& [key, looked_at] : next.steps) {
+        auto [a, b, same] = key.first;
+        for (std::string* side : {&a, &b}) {
+            if (*side == before) *side = name;
+        }
+        steps[{{a, b, same}, key.second}] = looked_at;
+    }
+    next.steps = std::move(steps);
+    change_document(std::move(next), {"renaming " + before + " to " + name, ""});
+}
+
+void Session::remember_step(Document& next) {
+    if (!view().query) return;
+    const StepKey from = step_key(*document().fitted, *view().query);
+    std::optional<StepKey> to;
+    if (next.view.query) to = step_key(*next.fitted, *next.view.query);
+    if (from != to) {
+        next.steps[from].left = view().step;
+        if (!to || from.first != to->first) return;
+        const auto left = next.steps.find(*to);
+        if (left != next.steps.end()) {
+            next.view.step = left->second.left;
+        } else if (view().step.unit == Step::Unit::event && recorded()->trace.size() > 1) {
+            // Other trees take other tests: as far on in theirs.
+            next.view.step = {Step::Unit::percent, 100.0 * step() / (recorded()->trace.size() - 1)};
+        }
+        return;
+    }
+    if (next.view.step == view().step) return;
+    const mobb::Trace& trace = recorded()->trace;
+    const int was = step();
+    const int is = event_of(next.view.step, trace);
+    QuerySteps& looked_at = next.steps[from];
+    const bool by_one = std::abs(is - was) == 1;
+    const bool goes_on = std::exchange(stepping_, true) || (by_one && looked_at.by_one);
+    // A run that comes back to where it began has turned round somewhere: that was seen before.
+    if (!goes_on || !looked_at.before || event_of(*looked_at.before, trace) == is) looked_at.before = view().step;
+    looked_at.by_one = by_one;
+}
+
+std::optional<Step> Session::step_before() const {
+    if (!view().query) return std::nullopt;
+    const auto looked_at = document().steps.find(step_key(*document().fitted, *view().query));
+    return looked_at == document().steps.end() ? std::nullopt : looked_at->second.before;
 }
 
 void Session::show_query(int query, std::optional<Step> step) {
-    const auto left = document().steps.find(query_key(*document().fitted, query));
+    const auto looked_at = document().steps.find(step_key(*document().fitted, query));
     if (!step && query == view().query) step = view().step;
-    if (!step && left != document().steps.end()) step = left->second;
+    if (!step && looked_at != document().steps.end()) step = looked_at->second.left;
     change_view([&](ViewState& view) {
         view.query = query;
         view.step = step.value_or(Step{});
@@ -93,11 +146,11 @@ void Session::show_query(int query, std::optional<Step> step) {
 }
 
 void Session::change_document(Document next, const EditName& name) {
-    remember_step(next);
     // A node of a tree that was fitted anew is another one, or none.
     if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
     next.view = fitting(next.view, *next.fitted);
     for (SceneView& other : next.beside) other.view = fitting(other.view, *other.fitted);
+    remember_step(next);
     history_.change(std::move(next), name);
     changed();
 }
@@ -177,9 +230,11 @@ void Session::settle_camera(std::size_t place, const Camera& camera, double time
     if (time_height > 0) settled_height_ = time_height;
 }
 
-void Session::resize_pictures(PictureSize from, PictureSize to) {
+void Session::resize_pictures(PictureSize to) {
+    const std::optional<PictureSize> from = std::exchange(picture_size_, to);
+    if (!from || from->height == to.height) return;
     const auto resize = [&](Camera& camera) {
-        if (camera.target) camera = resized(camera, from, to);
+        if (camera.target) camera = resized(camera, *from, to);
     };
     history_.amend_views([&](ViewState& view) { resize(view.camera); });
     for (auto& aside : cameras_aside) resize(aside.second);
@@ -224,11 +279,12 @@ void Session::redo() {
 }
 
 void Session::go_to_state(std::size_t state) {
-    const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
+    const int before = opening();
     stop();
     history_.go_to(state);
+    ++times_led_back_;
     // What is made for an excerpt is not put into the whole, nor the other way round.
-    if (document().excerpt_of != before) {
+    if (opening() != before) {
         while (!jobs_.empty()) cancel_job(0);
         cameras_aside.clear();
     }
@@ -236,20 +292,16 @@ void Session::go_to_state(std::size_t state) {
 }
 
 Session::BeforeDrag Session::before_drag() const {
-    return {history_, settings, handed_over_, hooks.viewport_size ? hooks.viewport_size() : PictureSize{}};
+    return {history_, settings, handed_over_, picture_size_, cameras_aside};
 }
 
 void Session::restore(BeforeDrag before) {
     if (before.handed_over != handed_over_) return;
-    const PictureSize size = hooks.viewport_size ? hooks.viewport_size() : before.size;
     history_ = std::move(before.history);
     settings = std::move(before.settings);
-    // A border between panels may be what was dragged: the picture is as high as it is until the next frame.
-    if (size.height != before.size.height) {
-        history_.amend_views([&](ViewState& view) {
-            if (view.camera.target) view.camera = resized(view.camera, before.size, size);
-        });
-    }
+    // A border between panels may be what was dragged: cameras stand for the pictures of before.
+    picture_size_ = before.picture_size;
+    cameras_aside = std::move(before.cameras_aside);
     changed();
 }
 

@@ -44,7 +44,7 @@ void dropped(Ui& ui) {
     Session& session = ui.session;
     const std::vector<std::filesystem::path>& files = session.input.files;
     begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
-    dialog_title(ui, "Add to this scene, or open instead?");
+    dialog_title(ui, session.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
     for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
         const std::filesystem::path& file = files[i];
         const std::string name = (file.has_filename() ? file : file.parent_path()).filename().string();
@@ -60,8 +60,7 @@ void dropped(Ui& ui) {
             run_command(session, command, argument);
         });
     };
-    if (session.crowd()) {
-        // A run stands alone.
+    if (!session.may_add()) {
         if (marked_button(ui, "Open instead", "dropped.open", true) || pressed(ImGuiKey_Enter)) answer("file.open");
     } else {
         if (marked_button(ui, "Add", "dropped.add", true) || pressed(ImGuiKey_Enter)) answer("file.add");
@@ -72,7 +71,7 @@ void dropped(Ui& ui) {
     if (marked_button(ui, "Cancel", "dropped.cancel")) session.enqueue([&session] { session.close_dialog(); });
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled(session.crowd() ? "Enter or Escape" : "Enter, O or Escape");
+    ImGui::TextDisabled(!session.may_add() ? "Enter or Escape" : "Enter, O or Escape");
     end_dialog();
 }
 

@@ -27,9 +27,7 @@ void rename_agent(Ui& ui, int agent, const std::string& name) {
     form_label(ui, "Name", "What the agent is called in queries and pictures");
     const std::optional<std::string> text = text_edit(ui, "agent.name", name);
     if (!text) return;
-    ui.session.enqueue([&session = ui.session, name, agent, text = *text] {
-        session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text); });
-    });
+    ui.session.enqueue([&session = ui.session, agent, text = *text] { session.rename_agent(agent, text); });
 }
 
 void color_field(Ui& ui, const PlacedAgent& who, int index) {
