@@ -284,7 +284,7 @@ std::vector<Command> query_commands() {
         Command("step.before", "Step looked at before",
                 "Goes back to where the last jump, or the last run of single steps, began; once more comes back, so "
                 "that one key compares two steps.",
-                to_step_before, {.shortcut = "B", .enabled = {has_step_before, why_no_step_before}}),
+                to_step_before, {.shortcut = "J", .enabled = {has_step_before, why_no_step_before}}),
         Command("step.to", "Go to step", "Shows a test by its number from 0.", to,
                 {.menu = kNoMenu, .argument = "N", .enabled = {in_query, why_no_step}}),
         Command("step.next_separated", "Next separation",
