@@ -406,5 +406,86 @@ TEST(Steps, TheCameraThatFollowsTheTestAddsNoStates) {
     EXPECT_FALSE(w.session.history().can_redo());
 }
 
+// --- the history as a list
+
+/// What the history lists, the newest last.
+std::vector<std::string> titles(const Session& session) {
+    std::vector<std::string> out;
+    for (std::size_t i = 1; i < session.history().count(); ++i) out.push_back(session.history().title(i));
+    return out;
+}
+
+struct ListedWorld : AsideWorld {
+    void press(Key key) {
+        window.shell().feed(KeyPress{key, true});
+        window.shell().feed(KeyPress{key, false});
+        window.settle();
+    }
+    void click(const std::string& mark) {
+        const auto at = window.shell().marks().all().find(mark);
+        ASSERT_NE(at, window.shell().marks().all().end()) << mark;
+        window.shell().feed(MouseMove{at->second.center()});
+        window.shell().feed(MouseButton{0, true});
+        window.shell().feed(MouseButton{0, false});
+        window.settle();
+    }
+};
+
+TEST(HistoryList, ANumberThatKeysChangeIsOneEntryWithItsValue) {
+    ListedWorld w;
+    run_command(w.session, "go.agent", "A");
+    w.window.settle();
+    const auto step = [&](int tabs, Key key, int times) {
+        w.click("agent.name");
+        for (int i = 0; i < tabs; ++i) w.press(Key::tab);
+        for (int i = 0; i < times; ++i) w.press(key);
+    };
+    step(1, Key::up, 5);
+    step(2, Key::down, 2);
+    step(1, Key::up, 1);
+    using Titles = std::vector<std::string>;
+    EXPECT_EQ(titles(w.session), (Titles{"moving A: x 0.50 m", "moving A: y -0.20 m", "moving A: x 0.60 m"}));
+    w.session.undo();
+    w.session.undo();
+    EXPECT_EQ(w.session.scene().agents[0].placement.translate, glm::dvec2(0.5, 0));
+    w.press(Key::up);
+    EXPECT_EQ(titles(w.session), (Titles{"moving A: x 0.50 m", "moving A: x 0.60 m"}))
+        << "what was led back to stays as it was";
+}
+
+TEST(HistoryList, SaysWhatWasDoneWithItsValue) {
+    ListedWorld w;
+    const auto run = [&](const std::string& id, const std::string& argument = "") {
+        run_command(w.session, id, argument);
+        w.session.close_group();
+    };
+    run("go.agent", "A");
+    run("agent.move", "1 2");
+    run("agent.turn", "30");
+    run("agent.start", "0.5");
+    run("agent.color", "#123456");
+    run("agent.rename", "first");
+    run("tree.leaf", "7");
+    run("view.level", "3");
+    run("view.finer");
+    run("view.floor");
+    run("view.theme", "light");
+    run("agents.hide", "C");
+    run("agents.hide", "B");
+    run("agents.hide", "B");
+    run("query.select", "0");
+    for (int i = 0; i < 3; ++i) run("step.back");
+    run("time.at", "0.5");
+    run("view.top");
+    run("view.moment");
+    const std::string step = std::to_string(w.session.step());
+    EXPECT_EQ(titles(w.session),
+              (std::vector<std::string>{
+                  "moving A: x 1.00 m, y 2.00 m", "turning A: 30.0\u00B0", "shifting A: starts at 0.50 s",
+                  "colouring A: #123456", "renaming A to first", "changing the leaves: 7", "showing level 4",
+                  "floor: off", "theme: light", "hiding C", "hiding B", "showing B again", "showing first against B",
+                  "stepping to " + step, "moving in time to 0.50 s", "moving the view", "showing the moment"}));
+}
+
 }  // namespace
 }  // namespace mobbscope::app

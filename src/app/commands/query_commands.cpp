@@ -74,7 +74,8 @@ std::optional<int> edited_query(const Session& session) {
 
 void remove_edited(Session& session) {
     const int query = *edited_query(session);
-    session.edit({"removing a query", ""}, [&](Scene& scene) {
+    const SceneQuery asked = session.fitted().queries()[static_cast<std::size_t>(query)];
+    session.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
         remove_query(scene, static_cast<std::size_t>(query));
         std::optional<int>& shown = scene.view.query;
         if (shown == query) shown.reset();
@@ -114,7 +115,7 @@ void capture(Session& session, const std::string& text) {
     const SceneQuery query = session.fitted().queries()[index];
     const std::optional<mobb::Contact> contact = session.answer_of(index).contact;
     session.open_excerpt(query.a, query.b);
-    session.edit({"capturing", ""}, [&](Scene& scene) {
+    session.edit({"capturing " + query.a.name + " against " + query.b.name, ""}, [&](Scene& scene) {
         for (SceneClip& clip : scene.clips) {
             clip.source.reset();
             clip.options = {};
@@ -286,7 +287,10 @@ std::vector<Command> query_commands() {
                 "that one key compares two steps.",
                 to_step_before, {.shortcut = "J", .enabled = {has_step_before, why_no_step_before}}),
         Command("step.to", "Go to step", "Shows a test by its number from 0.", to,
-                {.menu = kNoMenu, .argument = "N", .enabled = {in_query, why_no_step}}),
+                {.menu = kNoMenu,
+                 .argument = "N",
+                 .enabled = {in_query, why_no_step},
+                 .present = [](const Session& session) { return std::to_string(session.step()); }}),
         Command("step.next_separated", "Next separation",
                 "Shows the next test that found two boxes separated in space.",
                 [](Session& session) { to_next(session, Outcome::separated, "found boxes separated in space"); },

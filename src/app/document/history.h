@@ -11,9 +11,9 @@
 
 namespace mobbscope::app {
 
-/// Groups what belongs together: one drag, one number typed.
+/// Groups what belongs together: one drag, one number that keys change.
 struct EditName {
-    std::string title;  ///< "Move A", for the menu: "Undo Move A"
+    std::string title;  ///< "moving A: x 1.20 m", for the menu ("Undo moving A: ...") and the list; of a group the last
     std::string group;  ///< an edit joins the last one if both have this group and it is still open; empty: never
 };
 
@@ -33,15 +33,21 @@ class History {
     void reset(Document document);
     /// The document is now this; what was undone is forgotten.
     void change(Document document, const EditName& name);
-    /// Only how it is seen has changed. Looking around of one kind (moving the view, stepping ...) is one state, and it
-    /// does not clear what can be redone.
-    void change_view(Document document);
+    /// Only how it is seen has changed. Looking around of one group (moving the view, stepping ...) is one state, and
+    /// it does not clear what can be redone.
+    void change_view(Document document, const EditName& name);
     /// The present state is this instead; no edit of its own.
     void amend(Document document);
     /// How the scene is seen is changed in all states, also how the whole of an excerpt was.
     void amend_views(const std::function<void(ViewState&)>& change);
     /// The next edit starts a group of its own, even under the same name.
-    void close_group() { open_ = false; }
+    void close_group() {
+        if (group_ == Group::open) group_ = Group::closed;
+    }
+    /// ... but for one that goes on with the last: not where something else was done, or undone, since.
+    void reopen_group() {
+        if (group_ == Group::closed) group_ = Group::open;
+    }
 
     bool can_undo() const { return now_ > 0; }
     bool can_redo() const { return now_ + 1 < states_.size(); }
@@ -74,7 +80,7 @@ class History {
     std::size_t most_bytes_;
     std::vector<State> states_;
     std::size_t now_ = 0;
-    bool open_ = false;
+    enum class Group { open, closed, ended } group_ = Group::ended;  ///< of the present state
 };
 
 }  // namespace mobbscope::app

@@ -1,3 +1,4 @@
+#include <app/document/edit_names.h>
 #include <app/document/session.h>
 #include <base/error.h>
 #include <base/text.h>
@@ -29,6 +30,9 @@ constexpr double kLeftSeconds = 2;
 constexpr std::size_t kLongestMessage = 500;  // characters; names of files may be longer
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
+
+/// Of one group with moving in time.
+const EditName kPlaying{"playing", "look time"};
 
 }  // namespace
 
@@ -162,14 +166,17 @@ void Session::amend(const std::function<void(Document&)>& change) {
     changed();
 }
 
-void Session::change_view(const std::function<void(ViewState&)>& change) {
+void Session::change_view(const std::function<void(ViewState&)>& change) { look(change, std::nullopt); }
+
+void Session::look(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name) {
     Document next = document();
     change(next.view);
     next.view = fitting(next.view, *next.fitted);
     if (next.view == view()) return;
     if (next.view.theme != view().theme) settings.theme = next.view.theme;
     remember_step(next);
-    history_.change_view(std::move(next));
+    const EditName as = name ? *name : name_of_looking(document(), next.view);
+    history_.change_view(std::move(next), as);
     changed();
 }
 
@@ -196,7 +203,7 @@ void Session::split_view(const std::string& name, const mobb::FitOptions& option
         added.view.step = {Step::Unit::percent, 100.0 * step() / (query->trace.size() - 1)};
     }
     next.beside.push_back(std::move(added));
-    change_document(std::move(next), {"splitting the view", ""});
+    change_document(std::move(next), {"splitting the view: " + name, ""});
 }
 
 void Session::close_other_views() {
@@ -593,6 +600,8 @@ mobb::Interval Session::time_span() const {
 void Session::play() {
     playing_ = true;
     has_played_ = false;
+    if (view().time || empty()) return;
+    look([&](ViewState& v) { v.time = time_span().t0; }, kPlaying);
 }
 
 void Session::advance(double seconds) {
@@ -601,7 +610,7 @@ void Session::advance(double seconds) {
     double time = view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;
     if (time == view().time) return;
-    if (!std::exchange(has_played_, true)) return change_view([&](ViewState& v) { v.time = time; });
+    if (!std::exchange(has_played_, true)) return look([&](ViewState& v) { v.time = time; }, kPlaying);
     // A drag meanwhile stays one state, and so does the play.
     amend([&](Document& next) { next.view.time = time; });
 }

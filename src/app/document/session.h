@@ -101,8 +101,9 @@ struct DialogInput {
     int picked = 0;                              ///< of a list
     bool confirming = false;                     ///< asks whether to overwrite
     int generation = 0;                          ///< the field shows another text from without: see set_text
-    int opening = 0;    ///< counts dialogs: the undo of a field must not reach the text of an earlier one
-    bool fresh = true;  ///< the field waits for the keyboard
+    int opening = 0;        ///< counts dialogs: the undo of a field must not reach the text of an earlier one
+    bool fresh = true;      ///< the field waits for the keyboard
+    bool selected = false;  ///< its text is selected then, so that typing replaces it
 
     void set_text(std::string to) {
         text = std::move(to);
@@ -163,6 +164,8 @@ class Session {
         history_.close_group();
         stepping_ = false;
     }
+    /// The next edit goes on with the last one if it changes the same number: keys change a number one by one.
+    void reopen_group() { history_.reopen_group(); }
     // Views: places count from left to right.
     std::size_t view_count() const { return document().beside.size() + 1; }
     std::size_t active_place() const { return document().place; }
@@ -393,7 +396,8 @@ class Session {
     void poll();
 
     // Time.
-    /// Lets the time cursor run; how far it comes is one state, or goes into what is done meanwhile.
+    /// Lets the time cursor run, from the first moment where there is none; how far it comes is one state, or goes into
+    /// what is done meanwhile.
     void play();
     void stop() { playing_ = false; }
     bool playing() const { return playing_; }
@@ -442,6 +446,8 @@ class Session {
     /// `next` follows the present document: it remembers which steps were looked at, and a query that is seen with
     /// another kind of trees goes on where it was left with that.
     void remember_step(Document& next);
+    /// change_view as `name`; none: as what it changes says.
+    void look(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name);
     void change_document(Document next, const EditName& name);
     void share_time_and_camera();
     void changed();

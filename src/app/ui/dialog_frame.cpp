@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -25,8 +26,9 @@ int on_event(ImGuiInputTextCallbackData* data) {
         data->DeleteChars(0, data->BufTextLen);
         data->InsertChars(0, completed.c_str());
     } else if (input.fresh) {
-        // What is there is gone on with, not replaced.
+        // What is there is gone on with, not replaced, unless it is there to be.
         data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+        if (std::exchange(input.selected, false)) data->SelectionStart = 0;
         input.fresh = false;
     }
     return 0;

@@ -1,6 +1,7 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/described.h>
+#include <app/document/edit_names.h>
 #include <app/document/shown_agents.h>
 #include <app/ui/thing_menus.h>
 #include <app/viewport/selection_display.h>
@@ -457,13 +458,10 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
     if (!placement) return;
     const Camera camera = shown_camera();
     const double height = list_->space.time_height;
-    const char* what = handle_drag_.handle == Handle::move   ? "moving "
-                       : handle_drag_.handle == Handle::turn ? "turning "
-                                                             : "shifting ";
-    ui.session.enqueue([&session = ui.session, what, agent = handle_drag_.agent, placement, camera, height] {
-        const std::string& name = session.scene().agents.at(static_cast<std::size_t>(agent)).name;
-        session.edit({what + name, "drag"}, [&](Scene& scene) {
-            place_agent(scene, agent, *placement);
+    ui.session.enqueue([&session = ui.session, drag = handle_drag_, placement, camera, height] {
+        const std::string& name = session.scene().agents.at(static_cast<std::size_t>(drag.agent)).name;
+        session.edit({name_of_placing(name, drag.start, *placement).title, "drag"}, [&](Scene& scene) {
+            place_agent(scene, drag.agent, *placement);
             scene.view.camera = camera;
             scene.view.time_height = height;
         });
