@@ -94,6 +94,12 @@ void place_agent(Scene& scene, int agent, const mobb::Placement& placement) {
     change_sides(scene, agent, [&](PlacedAgent& side) { side.placement = placement; });
 }
 
+void rename_in_view(ViewState& view, const std::string& before, const std::string& name) {
+    std::ranges::replace(view.hidden, before, name);
+    std::ranges::replace(view.pinned, before, name);
+    if (view.follow == before) view.follow = name;
+}
+
 void rename_agent(Scene& scene, int agent, const std::string& name) {
     if (trimmed(name).empty()) throw std::invalid_argument("an agent needs a name");
     for (int i = 0; i < static_cast<int>(scene.agents.size()); ++i) {
@@ -102,9 +108,7 @@ void rename_agent(Scene& scene, int agent, const std::string& name) {
         }
     }
     const std::string before = std::exchange(agent_at(scene, agent).name, name);
-    std::ranges::replace(scene.view.hidden, before, name);
-    std::ranges::replace(scene.view.pinned, before, name);
-    if (scene.view.follow == before) scene.view.follow = name;
+    rename_in_view(scene.view, before, name);
     change_sides(scene, agent, [&](PlacedAgent& side) { side.name = name; });
 }
 

@@ -34,7 +34,10 @@ void add_agents_for_clips(Scene& scene);
 /// Throws std::invalid_argument if a number is out of range (mobb::is_valid).
 void place_agent(Scene& scene, int agent, const mobb::Placement& placement);
 
-/// Throws std::invalid_argument if the name is empty or another agent's.
+/// A view calls an agent by another name.
+void rename_in_view(ViewState& view, const std::string& before, const std::string& name);
+
+/// In the scene and its view. Throws std::invalid_argument if the name is empty or another agent's.
 void rename_agent(Scene& scene, int agent, const std::string& name);
 
 /// Adds an agent that plays a clip; returns its index. A scene without agents first gets one for every clip, as that is

@@ -130,6 +130,8 @@ ViewOption choice(ViewOption row) {
     return field<member>(std::move(row));
 }
 
+bool is_nobody(std::string_view text) { return text.empty() || text == kNobody; }
+
 /// A row about a list of agents' names.
 template <auto member>
 ViewOption name_list(ViewOption row) {
@@ -143,8 +145,9 @@ ViewOption name_list(ViewOption row) {
         for (const std::string& name : view.*member) out.value(name);
         out.end_array();
     };
+    row.take_agent = [](const std::string& name, ViewState& view) { (view.*member).push_back(name); };
     row.parse = [](const std::string& text, ViewState& view) {
-        text == "none" ? (view.*member).clear() : (view.*member).push_back(text);
+        is_nobody(text) ? (view.*member).clear() : (view.*member).push_back(text);
     };
     return field<member>(std::move(row));
 }
@@ -295,8 +298,10 @@ std::vector<ViewOption> all_view_options() {
              .read = [](const JsonPlace& place,
                         ViewState& view) { view.follow = place.is_null() ? "" : place.string(); },
              .write = [](JsonWriter& out, const ViewState& view) { out.value(view.follow); },
-             .parse = [](const std::string& text, ViewState& view) { view.follow = text == "none" ? "" : text; },
-             .text = [](const ViewState& view) { return view.follow.empty() ? "none" : view.follow; }}),
+             .parse = [](const std::string& text,
+                         ViewState& view) { view.follow = is_nobody(text) ? std::string() : text; },
+             .take_agent = [](const std::string& name, ViewState& view) { view.follow = name; },
+             .text = [](const ViewState& view) { return view.follow; }}),
         name_list<&ViewState::hidden>(
             {.key = "hidden",
              .schema =
@@ -504,11 +509,28 @@ const ViewOption& view_option(std::string_view key) {
     return *std::ranges::find(view_options(), key, &ViewOption::key);
 }
 
-std::string in_command_line(const ViewOption& option, const ViewState& view) {
-    if (option.names) {
+namespace {
+
+bool is_called_nobody(const std::vector<std::string>& agents) {
+    return std::ranges::find(agents, kNobody) != agents.end();
+}
+
+}  // namespace
+
+void parse_option(const ViewOption& option, const std::string& text, const std::vector<std::string>& agents,
+                  ViewState& view) {
+    const bool is_name = option.take_agent && text == kNobody && is_called_nobody(agents);
+    is_name ? option.take_agent(text, view) : option.parse(text, view);
+}
+
+std::string in_command_line(const ViewOption& option, const ViewState& view, const std::vector<std::string>& agents) {
+    if (option.take_agent) {
+        std::vector<std::string> names = option.names ? view.*option.names : std::vector{option.text(view)};
+        std::erase(names, "");
+        if (names.empty()) names.emplace_back(is_called_nobody(agents) ? "" : kNobody);
         std::string out = ' ' + std::string(option.option);
-        for (const std::string& name : view.*option.names) out += ' ' + shell_word(name);
-        return (view.*option.names).empty() ? out + " none" : out;
+        for (const std::string& name : names) out += ' ' + shell_word(name);
+        return out;
     }
     if (!option.toggle) return ' ' + std::string(option.option) + ' ' + shell_word(option.text(view));
     const std::size_t off = option.option.find(",!");

@@ -72,10 +72,11 @@ struct ViewOption {
     std::function<void(const JsonPlace&, ViewState&)> read{};    ///< throws InputError
     std::function<void(JsonWriter&, const ViewState&)> write{};  ///< its value
     std::function<bool(const ViewState&, const ViewState&)> same{};
-    /// Reads an option's text, of a toggle "true" or "false"; throws std::invalid_argument. Of a list one of its names,
-    /// which it adds, or "none", which empties it.
+    /// Reads an option's text, of a toggle "true" or "false"; throws std::invalid_argument. Of agents one of them,
+    /// which a list adds, or kNobody or an empty text for none.
     std::function<void(const std::string&, ViewState&)> parse{};
-    std::function<std::string(const ViewState&)> text{};  ///< what `parse` reads; empty for a list
+    std::function<void(const std::string&, ViewState&)> take_agent{};  ///< of agents: `parse`, but of any name
+    std::function<std::string(const ViewState&)> text{};               ///< what `parse` reads; empty for a list
     /// Whether a command line that says `from` needs the option to say `to`; empty: where the two are not the same.
     std::function<bool(const ViewState& from, const ViewState& to)> needed{};
 };
@@ -86,8 +87,18 @@ std::span<const ViewOption> view_options();
 /// Requires that there is one.
 const ViewOption& view_option(std::string_view key);
 
-/// " --theme dark", " --no-floor", " --hide A B": the option that says what the view has, for a shell.
-std::string in_command_line(const ViewOption& option, const ViewState& view);
+/// The word for no agent in options, where no agent is called so.
+inline constexpr std::string_view kNobody = "none";
+
+/// What an option's text says about a view of a scene with these agents (names_in_view): one called kNobody is meant by
+/// that. Throws as ViewOption::parse.
+void parse_option(const ViewOption& option, const std::string& text, const std::vector<std::string>& agents,
+                  ViewState& view);
+
+/// " --theme dark", " --no-floor", " --hide A B": the option that says what the view has, for a shell and a scene with
+/// these agents.
+std::string in_command_line(const ViewOption& option, const ViewState& view,
+                            const std::vector<std::string>& agents = {});
 
 /// `refused` with the text in quotes for its {}.
 std::string refusal_of(std::string_view refused, std::string_view text);

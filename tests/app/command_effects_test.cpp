@@ -179,7 +179,7 @@ std::vector<Case> cases() {
     edit("agent.rename", "late walker", [](CommandWorld& w) { EXPECT_EQ(w.agent(1).name, "late walker"); });
     edit("agent.move", "2.5 -3", [](CommandWorld& w) {
         EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(2.5, -3));
-        EXPECT_EQ(w.session.history().undo_title(), "moving B");
+        EXPECT_EQ(w.session.history().undo_title(), "moving B: x 2.50 m, y -3.00 m");
     });
     edit("agent.nudge", "0.5 1",
          [](CommandWorld& w) { EXPECT_EQ(w.agent(1).placement.translate, glm::dvec2(1.5, 0)); });
@@ -561,6 +561,12 @@ std::vector<Case> cases() {
              const mobb::Trace& trace = w.session.recorded()->trace;
              EXPECT_EQ(w.session.step(), trace[trace.size() - 1].parent);
          }});
+    add({"step.before", "", {kFirstQuery, {"step.to", "3"}, kFirstStep}, [](CommandWorld& w) {
+             EXPECT_EQ(w.session.step(), 3);
+             w.session.close_group();
+             run_command(w.session, "step.before");
+             EXPECT_EQ(w.session.step(), 0) << "and back";
+         }});
     in_query("step.percent", "50", [](CommandWorld& w) { EXPECT_EQ(w.view().step, (Step{Step::Unit::percent, 50})); });
 
     // Go
@@ -638,7 +644,10 @@ TEST(CommandEffects, AreWhatTheyAreSaidToBe) {
         CommandWorld world;
         Session& session = world.session;
         try {
-            for (const auto& [id, argument] : c.before) run_command(session, id, argument_in(world, argument));
+            for (const auto& [id, argument] : c.before) {
+                run_command(session, id, argument_in(world, argument));
+                session.close_group();
+            }
             const std::shared_ptr<const FittedScene> before = session.document().fitted;
             const bool was_modified = session.modified();
             run_command(session, c.id, argument_in(world, c.argument));
@@ -653,6 +662,42 @@ TEST(CommandEffects, AreWhatTheyAreSaidToBe) {
             ADD_FAILURE() << error.what();
         }
     }
+}
+
+// A prompt begins with the present value: taking it changes nothing.
+TEST(CommandEffects, ThePresentValueOfAPromptChangesNothing) {
+    std::size_t tried = 0;
+    for (const Command& command : commands()) {
+        if (!command.present) continue;
+        CommandWorld world;
+        Session& session = world.session;
+        for (const auto& [id, argument] :
+             {kSelectB, {"agent.move", "1.5 -2.25"}, {"agent.turn", "33"}, {"time.at", "0.4"}}) {
+            run_command(session, id, argument);
+        }
+        if (command.id.starts_with("step.")) run_command(session, "query.select", "0");
+        if (!command.enabled(session)) continue;
+        SCOPED_TRACE(command.id);
+        ++tried;
+        const std::string text = command.present(session);
+        ASSERT_NE(text, "");
+        const ViewState view = session.view();
+        const auto scene_alone = [&] {
+            Scene scene = session.scene();
+            scene.view = {};
+            return to_json(scene);
+        };
+        const std::string scene = scene_alone();
+        const double speed = session.speed;
+        run_command(session, command.id, text);
+        ViewState after = session.view();
+        if (command.id.starts_with("step.")) after.step = view.step;
+        EXPECT_EQ(after, view);
+        EXPECT_EQ(scene_alone(), scene);
+        EXPECT_EQ(session.speed, speed);
+        EXPECT_EQ(command.present(session), text);
+    }
+    EXPECT_GE(tried, 12u);
 }
 
 // A command that only looks leaves nothing to save.

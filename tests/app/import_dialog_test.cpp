@@ -149,7 +149,7 @@ TEST(ImportDialog, AWrongUnitIsMendedFromItsMessageByTwoClicks) {
     EXPECT_FALSE(w.has("import.unit.warning"));
     EXPECT_FALSE(w.clip(1).options.unit) << "of a motion each clip is for itself";
     EXPECT_EQ(&w.session.fitted().tree(0).clip(), w.clip().clip.get()) << "what is drawn has changed too";
-    EXPECT_EQ(w.session.history().undo_title(), "changing the unit of walk");
+    EXPECT_EQ(w.session.history().undo_title(), "changing the unit of walk: cm");
 
     w.key("Ctrl+Z");
     EXPECT_EQ(w.session.document().fitted.get(), before);

@@ -298,7 +298,7 @@ TEST(Keyboard, TextEditsKeepTheirChords) {
     w.key("Ctrl+V");
     w.key("Ctrl+V");
     w.key("Ctrl+Z");
-    EXPECT_EQ(w.session.history().undo_title(), "moving A") << "nothing of the scene was undone";
+    EXPECT_EQ(w.session.history().undo_title(), "moving A: x 1.00 m") << "nothing of the scene was undone";
     EXPECT_EQ(w.session.focus, "agent.name");
     w.key("Tab");
     EXPECT_EQ(w.session.scene().agents[0].name, "Axy") << "Tab takes what was typed";

@@ -264,7 +264,7 @@ TEST(Menus, TheHistoryIsAListToGoTo) {
     EXPECT_EQ(w.session.dialog, Dialog::history) << "to be looked at";
     w.run("key Down\nexpect /scene/agents/0/rotate_deg 20\nkey Down\nexpect /scene/agents/0/start 2");
     w.run("key Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect /dialog \"none\"\nexpect /modified false");
-    EXPECT_EQ(w.session.history().redo_title(), "moving A");
+    EXPECT_EQ(w.session.history().redo_title(), "moving A: x 1.00 m, y 1.00 m");
 }
 
 TEST(Menus, TheStatusBarCountsAndSaysWhatIsUnderTheMouse) {

@@ -130,7 +130,7 @@ TEST(Undo, WhatPlaysIsOneStepAndSoIsADragMeanwhile) {
     EXPECT_EQ(e.session.history().undo_title(), "moving A");
     e.session.undo();
     EXPECT_EQ(e.x(), 4);
-    EXPECT_EQ(e.session.history().undo_title(), "moving in time");
+    EXPECT_EQ(e.session.history().undo_title(), "playing");
     e.session.undo();
     EXPECT_EQ(e.session.view().time, std::nullopt);
 }
@@ -181,7 +181,7 @@ TEST(Undo, ForgetsTheOldestOfWhatTakesTooMuchMemory) {
         history.change(fitted_with(20 + i), {"fitting", ""});
         Document seen = history.now();
         seen.view.boxes = !seen.view.boxes;
-        history.change_view(std::move(seen));
+        history.change_view(std::move(seen), {"boxes", "look boxes"});
         EXPECT_LE(history.bytes(), 3 * each);
     }
     EXPECT_GE(history.count(), 7u) << "views take nothing";

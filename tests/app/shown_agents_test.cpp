@@ -75,6 +75,20 @@ TEST_F(ShownAgentsTest, EditsKeepWhoIsHidden) {
     EXPECT_EQ(hidden(), AgentNames{"Ben"});
 }
 
+TEST_F(ShownAgentsTest, NamesThatAreWordsMeanTheirAgents) {
+    for (const auto& [from, to] : {std::pair("A", "none"), std::pair("B", "clip:walk"), std::pair("C", "agent:none")}) {
+        run_command(session, "go.agent", from);
+        run_command(session, "agent.rename", to);
+    }
+    for (const std::string name : {"none", "clip:walk", "agent:none"}) {
+        run_command(session, "agents.hide", text_of_agent(name));
+        EXPECT_EQ(hidden(), AgentNames{name});
+        run_command(session, "agent.show_all");
+    }
+    run_command(session, "agents.hide", "clip:walk");
+    EXPECT_EQ(hidden().size(), 3u) << "the clip's";
+}
+
 TEST_F(ShownAgentsTest, ClipsAreGroupedByFolderAndRig) {
     EXPECT_TRUE(session.clip_groups().empty()) << "one folder, no skeletons";
     const std::string assets = MOBBSCOPE_SOURCE_DIR "/assets/";

@@ -149,6 +149,20 @@ TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
     }
 }
 
+TEST_F(RenderViewTest, AnAgentCalledNoneCanBeHidden) {
+    const std::string scene = folder.write("none.json", R"({
+        "clips": {"c": {"dt": 0.5, "samples": [[0, 0, 0.4], [1, 0, 0.4]]}},
+        "agents": [{"name": "none", "clip": "c"}, {"name": "B", "clip": "c"}]})");
+    const std::string list = folder.path() / "none.draw.json";
+    const auto drawn = [&](const std::string& whom) {
+        const testing::Result run = render_small({scene, "--draw-list", list, "--hide", whom});
+        EXPECT_EQ(run.status, 0) << run.err;
+        return testing::slurp(list);
+    };
+    EXPECT_NE(drawn("none").find("none is hidden"), std::string::npos);
+    EXPECT_EQ(drawn("").find("is hidden"), std::string::npos) << "an empty name is nobody's";
+}
+
 TEST_F(RenderViewTest, WhoIsHiddenIsNotDrawnAndAGridIs) {
     const std::string lists = folder.path() / "list.json";
     const auto list = [&](const std::vector<std::string>& options) {

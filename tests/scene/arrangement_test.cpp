@@ -96,6 +96,26 @@ TEST(Arrangement, AnUnknownNameIsRefusedAtItsPlace) {
     EXPECT_TRUE(view.pinned.empty());
 }
 
+TEST(Arrangement, AnAgentCalledNoneIsMeantByThat) {
+    for (const char* key : {"hidden", "pinned", "follow"}) {
+        const ViewOption& option = view_option(key);
+        ViewState view;
+        option.take_agent("A", view);
+        for (const std::vector<std::string>& agents : {std::vector<std::string>{"A", "B"}, {"A", "none"}}) {
+            const bool is_name = agents.back() == "none";
+            ViewState read = view;
+            if (option.names) (read.*option.names).clear();
+            parse_option(option, "none", agents, read);
+            EXPECT_EQ(read == ViewState{}, !is_name) << key;
+            const std::string line = ' ' + std::string(option.option);
+            EXPECT_EQ(in_command_line(option, read, agents), line + " none") << "it is read as it was written";
+            EXPECT_EQ(in_command_line(option, {}, agents), line + (is_name ? " ''" : " none"));
+            parse_option(option, "", agents, view);
+            EXPECT_EQ(view, ViewState{}) << "an empty name is nobody's";
+        }
+    }
+}
+
 TEST(Arrangement, ARenamedAgentStaysHidden) {
     Scene scene = three_agents(R"({"hidden": ["B"], "pinned": ["B"]})");
     rename_agent(scene, 1, "Ben");

@@ -24,6 +24,16 @@ void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
     }
 }
 
+PictureFrame present_picture(const Session& session) {
+    const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
+    return picture_frame(session.fitted(), session.view(), viewport_size(session), scale);
+}
+
+Camera framing_box(const Camera& camera, const PictureFrame& picture, const Bounds& box) {
+    const auto target = [&](glm::dvec3 at) { return picture.space.to_target(picture.space.point(at.x, at.y, at.z)); };
+    return framing(camera, target(box.min), target(box.max), picture.size);
+}
+
 }  // namespace
 
 PictureSize viewport_size(const Session& session) {
@@ -31,9 +41,7 @@ PictureSize viewport_size(const Session& session) {
 }
 
 void move_camera(Session& session, const std::function<Camera(const Camera&, const PictureFrame&)>& move) {
-    const PictureSize size = viewport_size(session);
-    const double scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
-    const PictureFrame picture = picture_frame(session.fitted(), session.view(), size, scale);
+    const PictureFrame picture = present_picture(session);
     const Camera moved = move(picture.camera, picture);
     session.change_view([&](ViewState& view) {
         view.camera = moved;
@@ -101,12 +109,15 @@ bool is_well_seen(const Bounds& box, const PictureFrame& picture) {
 }
 
 void frame_box(Session& session, const Bounds& box) {
-    move_camera(session, [&](const Camera& camera, const PictureFrame& picture) {
-        const auto target = [&](glm::dvec3 at) {
-            return picture.space.to_target(picture.space.point(at.x, at.y, at.z));
-        };
-        return framing(camera, target(box.min), target(box.max), picture.size);
-    });
+    move_camera(session,
+                [&](const Camera& camera, const PictureFrame& picture) { return framing_box(camera, picture, box); });
+}
+
+void go_along_with(Session& session, const Bounds& box) {
+    const PictureFrame picture = present_picture(session);
+    const double chosen = session.view().time_height;
+    session.settle_camera(session.active_place(), framing_box(picture.camera, picture, box),
+                          chosen > 0 ? 0 : picture.space.time_height);
 }
 
 bool follows(const Session& session) { return !session.view().follow.empty(); }

@@ -30,6 +30,9 @@ bool is_well_seen(const Bounds& box, const PictureFrame& picture);
 /// Brings a box that box_of gave into the middle, as large as it fits.
 void frame_box(Session& session, const Bounds& box);
 
+/// The same, as what the present step brings along: the state of the history that shows the step has the camera too.
+void go_along_with(Session& session, const Bounds& box);
+
 bool follows(const Session& session);
 
 /// Follows and selects an agent, with so many metres around it in the picture. Throws std::invalid_argument if there is

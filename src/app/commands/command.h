@@ -55,6 +55,9 @@ struct CommandTraits {
     std::function<std::vector<std::string>(const Session&)> choices{};  ///< arguments to choose from
     /// What menus call a choice. Null: as it is given.
     std::function<std::string(const std::string& choice)> choice_title{};
+    /// Without choices: the argument that would leave all as it is now, with which a prompt for another one begins;
+    /// empty where nothing is. Null: there is no such argument.
+    std::function<std::string(const Session&)> present{};
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
     std::function<bool(const Session&, const std::string& choice)> chosen{};
 };
@@ -92,6 +95,9 @@ void run_command(Session& session, std::string_view id, const std::string& argum
 
 /// Runs a command for a person once the frame is drawn (Session::enqueue).
 void invoke(Session& session, std::string_view id, const std::string& argument = "");
+
+/// Opens the palette for the argument of a command.
+void ask_for_argument(Session& session, const Command& command);
 
 /// The command that a chord calls where the session is: with the scene or with picture tests; null if none.
 const Command* command_for(const Session& session, const Chord& chord);

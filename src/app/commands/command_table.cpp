@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope::app {
 
@@ -102,6 +103,12 @@ void run_command(Session& session, std::string_view id, const std::string& argum
 
 void invoke(Session& session, std::string_view id, const std::string& argument) {
     session.enqueue([&session, id = std::string(id), argument] { run_command(session, id, argument); });
+}
+
+void ask_for_argument(Session& session, const Command& command) {
+    DialogInput input{.text = command.present ? command.present(session) : "", .command = std::string(command.id)};
+    input.selected = !input.text.empty();
+    session.open_dialog(Dialog::palette, std::move(input));
 }
 
 const Command* command_for(const Session& session, const Chord& chord) {

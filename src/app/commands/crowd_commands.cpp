@@ -2,6 +2,7 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/agents.h>
+#include <base/text.h>
 #include <render/layout/follow.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
@@ -207,7 +208,10 @@ std::vector<Command> crowd_commands() {
                     const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
                     session.change_view([&](ViewState& view) { view.time_window = window; });
                 },
-                {.menu = kNoMenu, .argument = "S", .enabled = &Session::crowd}),
+                {.menu = kNoMenu,
+                 .argument = "S",
+                 .enabled = &Session::crowd,
+                 .present = [](const Session& session) { return short_double(session.view().time_window); }}),
         Command("crowd.next_choice", "Next choice", "Goes to the time at which the agent chooses next.", to_choice<1>,
                 {.shortcut = "N", .enabled = has_choice<1>}),
         Command("crowd.previous_choice", "Previous choice", "Goes to the time at which the agent chose before.",

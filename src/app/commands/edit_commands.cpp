@@ -3,6 +3,7 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <app/document/described.h>
+#include <app/document/edit_names.h>
 #include <base/text.h>
 #include <render/layout/framing.h>
 #include <scene/scene_edits.h>
@@ -43,13 +44,14 @@ void add(Session& session, const std::string& name) {
     const mobb::Placement placement =
         aside(session.fitted(), *session.scene().clips[static_cast<std::size_t>(clip)].clip);
     int agent = 0;
-    session.edit({"adding an agent", ""}, [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
+    session.edit({"adding an agent that plays " + name, ""},
+                 [&](Scene& scene) { agent = add_agent(scene, clip, placement); });
     select_agent(session, agent);
 }
 
 void duplicate(Session& session) {
     int copy = 0;
-    edit_selected_agent(session, "duplicating", [&](Scene& scene, int agent) {
+    edit_selected_agent(session, {"duplicating " + selected_agent_name(session), ""}, [&](Scene& scene, int agent) {
         copy = duplicate_agent(scene, agent);
         mobb::Placement placement = scene.agents[static_cast<std::size_t>(copy)].placement;
         placement.translate += glm::dvec2(kAside, kAside) / std::sqrt(2.0);
@@ -59,47 +61,52 @@ void duplicate(Session& session) {
 }
 
 void remove(Session& session) {
-    edit_selected_agent(session, "removing", [](Scene& scene, int agent) { remove_agent(scene, agent); });
+    edit_selected_agent(session, {"removing " + selected_agent_name(session), ""},
+                        [](Scene& scene, int agent) { remove_agent(scene, agent); });
     // The next agent has its index now.
     session.select({});
 }
 
-void rename(Session& session, const std::string& name) {
-    edit_selected_agent(session, "renaming", [&](Scene& scene, int agent) { rename_agent(scene, agent, name); });
+void rename(Session& session, const std::string& name) { session.rename_agent(selected_agent(session), name); }
+
+const mobb::Placement& selected_placement(const Session& session) {
+    return session.fitted().placed_agents()[static_cast<std::size_t>(selected_agent(session))].placement;
 }
 
 template <class Change>
-void place_agent(Session& session, const std::string& doing, const Change& change) {
-    edit_selected_agent(session, doing, [&](Scene& scene, int agent) {
-        mobb::Placement placement = scene.agents[static_cast<std::size_t>(agent)].placement;
-        change(placement);
-        place_agent(scene, agent, placement);
-    });
+void place_agent(Session& session, const Change& change) {
+    const mobb::Placement before = selected_placement(session);
+    mobb::Placement placement = before;
+    change(placement);
+    EditName name = name_of_placing(selected_agent_name(session), before, placement);
+    // Each command is an edit of its own.
+    name.group.clear();
+    edit_selected_agent(session, name, [&](Scene& scene, int agent) { place_agent(scene, agent, placement); });
 }
 
 void move(Session& session, const std::string& text) {
     const glm::dvec2 to = two_numbers(text, "the place");
-    place_agent(session, "moving", [&](mobb::Placement& placement) { placement.translate = to; });
+    place_agent(session, [&](mobb::Placement& placement) { placement.translate = to; });
 }
 
 void nudge(Session& session, const std::string& text) {
     const glm::dvec2 by = two_numbers(text, "the way");
-    place_agent(session, "moving", [&](mobb::Placement& placement) { placement.translate += by; });
+    place_agent(session, [&](mobb::Placement& placement) { placement.translate += by; });
 }
 
 void turn(Session& session, const std::string& text) {
     const double degrees = number_in(text, "the angle", -kMaxDegrees, kMaxDegrees);
-    place_agent(session, "turning", [&](mobb::Placement& placement) { placement.rotate_deg = degrees; });
+    place_agent(session, [&](mobb::Placement& placement) { placement.rotate_deg = degrees; });
 }
 
 void start(Session& session, const std::string& text) {
     const double time = number_in(text, "the start", -mobb::kMaxTime, mobb::kMaxTime);
-    place_agent(session, "shifting", [&](mobb::Placement& placement) { placement.start = time; });
+    place_agent(session, [&](mobb::Placement& placement) { placement.start = time; });
 }
 
 void shift_start(Session& session, const std::string& text) {
     const double by = number_in(text, "the shift", -mobb::kMaxTime, mobb::kMaxTime);
-    place_agent(session, "shifting", [&](mobb::Placement& placement) { placement.start += by; });
+    place_agent(session, [&](mobb::Placement& placement) { placement.start += by; });
 }
 
 void set_color(Session& session, const std::string& text) {
@@ -110,7 +117,7 @@ void set_color(Session& session, const std::string& text) {
             throw std::invalid_argument("the colour cannot be " + in_quotes(text) + ": give one like #E69F00, or none");
         }
     }
-    edit_selected_agent(session, "colouring",
+    edit_selected_agent(session, {"colouring " + selected_agent_name(session) + ": " + text, ""},
                         [&](Scene& scene, int agent) { scene.agents[static_cast<std::size_t>(agent)].color = color; });
 }
 
@@ -156,14 +163,28 @@ std::vector<Command> edit_commands() {
         Command("agent.remove", "Remove agent", "Removes the selected agent and the queries about it; its clip stays.",
                 remove, {.shortcut = "Delete", .enabled = {has_selected_of_several, why_no_agent}}),
         Command("agent.rename", "Rename agent...", "Gives the selected agent another name.", rename,
-                {.argument = "NAME", .enabled = {has_selected_agent, why_no_agent}}),
+                {.argument = "NAME", .enabled = {has_selected_agent, why_no_agent}, .present = selected_agent_name}),
         Command("agent.move", "Place agent at", "Places the selected agent on the floor, in metres.", move,
-                {.menu = kNoMenu, .argument = "X Y", .enabled = {has_selected_agent, why_no_agent}}),
-        Command("agent.turn", "Turn agent to",
-                "Turns the selected agent's path about its clip's origin: degrees, counter-clockwise.", turn,
-                {.menu = kNoMenu, .argument = "DEG", .enabled = {has_selected_agent, why_no_agent}}),
+                {.menu = kNoMenu,
+                 .argument = "X Y",
+                 .enabled = {has_selected_agent, why_no_agent},
+                 .present =
+                     [](const Session& session) {
+                         const glm::dvec2 at = selected_placement(session).translate;
+                         return short_double(at.x) + ' ' + short_double(at.y);
+                     }}),
+        Command(
+            "agent.turn", "Turn agent to",
+            "Turns the selected agent's path about its clip's origin: degrees, counter-clockwise.", turn,
+            {.menu = kNoMenu,
+             .argument = "DEG",
+             .enabled = {has_selected_agent, why_no_agent},
+             .present = [](const Session& session) { return short_double(selected_placement(session).rotate_deg); }}),
         Command("agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
-                {.menu = kNoMenu, .argument = "S", .enabled = {has_selected_agent, why_no_agent}}),
+                {.menu = kNoMenu,
+                 .argument = "S",
+                 .enabled = {has_selected_agent, why_no_agent},
+                 .present = [](const Session& session) { return short_double(selected_placement(session).start); }}),
         Command("agent.nudge", "Move agent by", "Moves the selected agent on the floor by metres.", nudge,
                 {.menu = kNoMenu, .argument = "DX DY", .enabled = {has_selected_agent, why_no_agent}}),
         Command("agent.shift_start", "Shift agent in time by",

@@ -6,6 +6,7 @@
 #include <render/drawlist/view_projection.h>
 #include <render/parts/highlights.h>
 #include <render/pictures/build_draw_list.h>
+#include <scene/arrangement.h>
 #include <scene/drawn_agent.h>
 #include <scene/view_options.h>
 
@@ -93,7 +94,9 @@ std::string camera_options(const Camera& file, const Camera& now) {
     return out;
 }
 
-std::string view_line(const ViewState& file, const ViewState& now) {
+std::string view_line(const Scene& scene, const ViewState& now) {
+    const ViewState& file = scene.view;
+    const std::vector<std::string> agents = names_in_view(scene);
     std::string out = camera_options(file.camera, now.camera);
     ViewState reached = file;  // as `render` applies the options
     reached.camera = now.camera;
@@ -101,11 +104,11 @@ std::string view_line(const ViewState& file, const ViewState& now) {
         const bool needed = option.needed ? option.needed(reached, now) : !option.same(reached, now);
         if (!needed) continue;
         if (option.option.empty()) ask_to_save();
-        out += in_command_line(option, now);
+        out += in_command_line(option, now, agents);
         if (option.names) {
             reached.*option.names = now.*option.names;
         } else {
-            option.parse(option.text(now), reached);
+            parse_option(option, option.text(now), agents, reached);
         }
     }
     return out;
@@ -153,7 +156,7 @@ std::string render_line(const Session& session) {
     const std::string scale = words > 0 ? " --scale " + short_double(words) : "";
     // Of an unchanged scene, its `view` is the one in the file.
     return "mobbscope render " + shell_word(file.string()) + fit_options(*session.document().fitted) +
-           view_line(session.scene().view, session.view()) + select_option(session, size) + " --size " +
+           view_line(session.scene(), session.view()) + select_option(session, size) + " --size " +
            std::to_string(size.width) + 'x' + std::to_string(size.height) + scale + " -o picture.png";
 }
 

@@ -75,7 +75,8 @@ std::optional<int> edited_query(const Session& session) {
 
 void remove_edited(Session& session) {
     const int query = *edited_query(session);
-    session.edit({"removing a query", ""}, [&](Scene& scene) {
+    const SceneQuery asked = session.fitted().queries()[static_cast<std::size_t>(query)];
+    session.edit({"no longer asking " + asked.a.name + " against " + asked.b.name, ""}, [&](Scene& scene) {
         remove_query(scene, static_cast<std::size_t>(query));
         std::optional<int>& shown = scene.view.query;
         if (shown == query) shown.reset();
@@ -115,7 +116,7 @@ void capture(Session& session, const std::string& text) {
     const SceneQuery query = session.fitted().queries()[index];
     const std::optional<mobb::Contact> contact = session.answer_of(index).contact;
     session.open_excerpt(query.a, query.b);
-    session.edit({"capturing", ""}, [&](Scene& scene) {
+    session.edit({"capturing " + query.a.name + " against " + query.b.name, ""}, [&](Scene& scene) {
         for (SceneClip& clip : scene.clips) {
             clip.source.reset();
             clip.options = {};
@@ -181,6 +182,16 @@ void to(Session& session, const std::string& text) {
 void percent(Session& session, const std::string& text) {
     const double share = number_in(text, "the percentage", 0, 100);
     session.change_view([&](ViewState& view) { view.step = {Step::Unit::percent, share}; });
+}
+
+bool has_step_before(const Session& session) { return session.step_before().has_value(); }
+std::string_view why_no_step_before(const Session& session) {
+    return in_query(session) ? "no other step was looked at" : "no query is shown";
+}
+
+void to_step_before(Session& session) {
+    const Step before = *session.step_before();
+    session.change_view([&](ViewState& view) { view.step = before; });
 }
 
 /// To the next event that ended so; says so if there is none.
@@ -272,8 +283,15 @@ std::vector<Command> query_commands() {
                 {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}}),
         Command("step.last", "Last step", "Shows the last test, with the answer.", last,
                 {.shortcut = "Shift+Right", .enabled = {has_queries, why_no_step}}),
+        Command("step.before", "Step looked at before",
+                "Goes back to where the last jump, or the last run of single steps, began; once more comes back, so "
+                "that one key compares two steps.",
+                to_step_before, {.shortcut = "J", .enabled = {has_step_before, why_no_step_before}}),
         Command("step.to", "Go to step", "Shows a test by its number from 0.", to,
-                {.menu = kNoMenu, .argument = "N", .enabled = {in_query, why_no_step}}),
+                {.menu = kNoMenu,
+                 .argument = "N",
+                 .enabled = {in_query, why_no_step},
+                 .present = [](const Session& session) { return std::to_string(session.step()); }}),
         Command("step.next_separated", "Next separation",
                 "Shows the next test that found two boxes separated in space.",
                 [](Session& session) { to_next(session, Outcome::separated, "found boxes separated in space"); },

@@ -28,7 +28,8 @@ Command of_selected(std::string_view id, std::string_view title, std::string_vie
 
 /// What agents_meant takes.
 std::vector<std::string> meanings(const Session& session) {
-    std::vector<std::string> out = all_agents(session);
+    std::vector<std::string> out;
+    for (const std::string& name : all_agents(session)) out.push_back(text_of_agent(name));
     for (const ClipGroup& group : session.clip_groups()) {
         if (!agents_of_group(session, group).empty()) out.push_back(kOfGroup + group.title);
     }

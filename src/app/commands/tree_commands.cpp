@@ -12,10 +12,11 @@ namespace {
 
 std::vector<std::string> as_strings(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
 
-/// Sets an option of the fit.
+/// Sets an option of the fit, which `text` says.
 template <class Option>
-void fit(Session& session, const std::string& doing, Option mobb::FitOptions::*option, Option value) {
-    session.refit({doing, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
+void fit(Session& session, const std::string& doing, const std::string& text, Option mobb::FitOptions::*option,
+         Option value) {
+    session.refit({doing + ": " + text, doing}, [=](mobb::FitOptions& options) { options.*option = value; });
 }
 
 /// What a name stands for.
@@ -27,27 +28,27 @@ Option named(std::string_view what, const std::string& text, std::optional<Optio
 }
 
 void set_kind(Session& session, const std::string& text) {
-    fit(session, "changing the kind of trees", &mobb::FitOptions::tree,
+    fit(session, "changing the kind of trees", text, &mobb::FitOptions::tree,
         named("the trees", text, mobb::tree_kind_from_name, mobb::tree_kind_names()));
 }
 
 void set_axes(Session& session, const std::string& text) {
-    fit(session, "changing the axes", &mobb::FitOptions::axes,
+    fit(session, "changing the axes", text, &mobb::FitOptions::axes,
         named("the axes", text, mobb::axes_from_name, mobb::axes_names()));
 }
 
 void set_leaf(Session& session, const std::string& text) {
-    fit(session, "changing the leaves", &mobb::FitOptions::leaf,
+    fit(session, "changing the leaves", text, &mobb::FitOptions::leaf,
         whole_number_in(text, "the samples of a leaf", 1, std::numeric_limits<int>::max()));
 }
 
 void set_tree_levels(Session& session, const std::string& text) {
-    fit(session, "changing the levels", &mobb::FitOptions::levels,
+    fit(session, "changing the levels", text, &mobb::FitOptions::levels,
         whole_number_in(text, "the number of levels", 0, std::numeric_limits<int>::max()));
 }
 
 void set_time_scale(Session& session, const std::string& text) {
-    fit(session, "changing the time scale", &mobb::FitOptions::time_scale,
+    fit(session, "changing the time scale", text, &mobb::FitOptions::time_scale,
         number_in(text, "the time scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale));
 }
 
@@ -70,12 +71,18 @@ std::vector<Command> tree_commands() {
                  .chosen = [](const Session& session,
                               const std::string& axes) { return name(session.fitted().options().axes) == axes; }}),
         Command("tree.leaf", "Samples in a leaf...",
-                "Makes a node of at most N samples a leaf; 10 is the usual number.", set_leaf, {.argument = "N"}),
+                "Makes a node of at most N samples a leaf; 10 is the usual number.", set_leaf,
+                {.argument = "N",
+                 .present = [](const Session& session) { return std::to_string(session.fitted().options().leaf); }}),
         Command("tree.levels", "Levels of the trees...",
                 "Ends the trees after N levels; 0 lets them go down to their leaves.", set_tree_levels,
-                {.argument = "N"}),
-        Command("tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
-                set_time_scale, {.argument = "W"}),
+                {.argument = "N",
+                 .present = [](const Session& session) { return std::to_string(session.fitted().options().levels); }}),
+        Command(
+            "tree.time_scale", "Time scale...", "Mixes time with space in free boxes at so many metres per second.",
+            set_time_scale,
+            {.argument = "W",
+             .present = [](const Session& session) { return short_double(session.fitted().options().time_scale); }}),
     };
     return in_menu("Tree", rows);
 }

@@ -257,7 +257,6 @@ void step_time(Session& session, int direction) {
 void play(Session& session) {
     if (session.playing()) return session.stop();
     session.play();
-    if (!session.view().time) set_time(session, session.time_span().t0);
 }
 
 bool is_split(const Session& session) { return session.view_count() > 1; }
@@ -374,7 +373,10 @@ std::vector<Command> level_commands() {
         option_command(view_option("color_by")),
         Command("view.level", "Show levels",
                 "Shows the boxes of a level, of a range of levels, or the leaves; leaves the query in view.",
-                set_shown_levels, {.menu = kNoMenu, .argument = "N|A:B|leaves"}),
+                set_shown_levels,
+                {.menu = kNoMenu,
+                 .argument = "N|A:B|leaves",
+                 .present = [](const Session& session) { return to_string(session.view().levels); }}),
         Command("view.finer", "Finer level", "Shows the boxes one level further down the trees.", finer,
                 {.shortcut = "]", .repeats = true, .enabled = can_be_finer}),
         Command("view.coarser", "Coarser level", "Shows the boxes one level nearer to the roots.", coarser,
@@ -386,7 +388,9 @@ std::vector<Command> level_commands() {
              .checked = [](const Session& session) { return !session.view().query && session.view().levels.leaves; }}),
         Command("view.time_height", "Height of a second",
                 "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
-                {.menu = kNoMenu, .argument = "M|auto"}),
+                {.menu = kNoMenu,
+                 .argument = "M|auto",
+                 .present = [](const Session& session) { return view_option("time_height").text(session.view()); }}),
     };
     return in_menu("View/Levels", rows);
 }
@@ -403,7 +407,11 @@ std::vector<Command> window_commands() {
              .checked = [](const Session& session) { return session.view().projection.has_value(); }}),
         option_command(view_option("theme")),
         Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
-                set_scale, {.menu = kNoMenu, .argument = "X", .enabled = always}),
+                set_scale,
+                {.menu = kNoMenu,
+                 .argument = "X",
+                 .enabled = always,
+                 .present = [](const Session& session) { return short_double(present_scale(session)); }}),
         Command("window.larger", "Larger text", "Makes text and panels larger.", larger,
                 {.shortcut = "Ctrl+=", .repeats = true, .enabled = always}),
         Command("window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
@@ -421,7 +429,12 @@ std::vector<Command> time_commands() {
                 [](Session& session, const std::string& text) {
                     set_time(session, number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime));
                 },
-                {.menu = kNoMenu, .argument = "S"}),
+                {.menu = kNoMenu,
+                 .argument = "S",
+                 .present =
+                     [](const Session& session) {
+                         return session.view().time ? short_double(*session.view().time) : std::string();
+                     }}),
         Command(
             "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
             [](Session& session) {
@@ -442,7 +455,9 @@ std::vector<Command> time_commands() {
         Command(
             "time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
             [](Session& session, const std::string& text) { session.speed = number_in(text, "the speed", 0.01, 100); },
-            {.argument = "X", .enabled = always}),
+            {.argument = "X",
+             .enabled = always,
+             .present = [](const Session& session) { return short_double(session.speed); }}),
     };
     return in_menu("View/Time", rows);
 }

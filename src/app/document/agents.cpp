@@ -42,10 +42,9 @@ std::string selected_agent_name(const Session& session) {
     return placed_agent_of(session.fitted(), session.selection.path)->name;
 }
 
-void edit_selected_agent(Session& session, const std::string& doing,
-                         const std::function<void(Scene&, int agent)>& change) {
+void edit_selected_agent(Session& session, const EditName& name, const std::function<void(Scene&, int agent)>& change) {
     const int agent = selected_agent(session);
-    session.edit({doing + ' ' + selected_agent_name(session), ""}, [&](Scene& scene) {
+    session.edit(name, [&](Scene& scene) {
         add_agents_for_clips(scene);
         change(scene, agent);
     });

@@ -27,9 +27,8 @@ std::string_view why_no_agent(const Session& session);
 int selected_agent(const Session& session);
 std::string selected_agent_name(const Session& session);
 
-/// Edits it as "<doing> <its name>", after clips became agents where there are none.
-void edit_selected_agent(Session& session, const std::string& doing,
-                         const std::function<void(Scene&, int agent)>& change);
+/// Edits it, after clips became agents where there are none.
+void edit_selected_agent(Session& session, const EditName& name, const std::function<void(Scene&, int agent)>& change);
 
 std::vector<std::string> clip_names(const Session& session);
 

@@ -86,8 +86,9 @@ void Session::start_import(const ImportChange& change) {
     const SceneClip& clip = scene().clips[static_cast<std::size_t>(change.clip)];
     const std::string label = mobbscope::lower(import_option(change.option)->label);
     const EditName name{
-        "changing the " + label + " of " + (wanted.size() > 1 ? counted(wanted.size(), "clip", "clips") : clip.name),
-        "import." + change.option};
+        "changing the " + label + " of " + (wanted.size() > 1 ? counted(wanted.size(), "clip", "clips") : clip.name) +
+            ": " + (change.text.empty() ? "as the file says" : change.text),
+        "import." + change.option + " " + std::to_string(change.clip) + (change.whole_file ? " file" : "")};
     const auto work = [this, change, wanted, name, path = source_path(scene(), clip), known = import_file_,
                        in = document().fitted](JobControl&) -> Job::Finish {
         const auto refusal = [&](const std::string& why) -> Job::Finish {
@@ -100,8 +101,7 @@ void Session::start_import(const ImportChange& change) {
                 import_file_ = file;
                 // Other options may have been changed or undone meanwhile.
                 if (options_wanted(change) != wanted) return start_import(change);
-                edit_with_fits(
-                    name, [made](Scene& scene) { replace_clips(scene, *made); }, nullptr, Purpose::imports);
+                edit_with_fits({name, [made](Scene& scene) { replace_clips(scene, *made); }, Purpose::imports});
             };
         } catch (const InputError& error) {
             return refusal(without_file(error.what(), path));

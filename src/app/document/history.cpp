@@ -1,6 +1,8 @@
 #include <app/document/history.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -11,39 +13,13 @@ namespace {
 /// A person goes back a few; every state of a large scene costs memory.
 constexpr std::size_t kMostStates = 500;
 
-/// In words: looking around of one kind is taken back in one go, but not along with another.
-std::string what_changes(const ViewState& from, const ViewState& to) {
-    if (from.query != to.query) return "choosing what is asked";
-    const auto only = [&](auto... members) {
-        ViewState view = from;
-        ((view.*members = to.*members), ...);
-        return view == to;
-    };
-    if (only(&ViewState::camera, &ViewState::time_height)) return "moving the view";
-    if (only(&ViewState::step)) return "stepping";
-    if (only(&ViewState::time)) return "moving in time";
-    if (only(&ViewState::follow, &ViewState::camera, &ViewState::time_height, &ViewState::time)) return "following";
-    return "what is shown";
-}
-
 }  // namespace
-
-QueryKey query_key(const FittedScene& fitted, int query) {
-    const Scene& scene = fitted.scene();
-    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
-    // Where all pairs are asked each is asked once.
-    const auto end = scene.queries.begin() + (scene.queries.empty() ? 0 : query);
-    const auto same = std::count_if(scene.queries.begin(), end, [&](const SceneQuery& other) {
-        return other.a.name == asked.a.name && other.b.name == asked.b.name;
-    });
-    return {asked.a.name, asked.b.name, static_cast<int>(same)};
-}
 
 void History::reset(Document document) {
     states_.clear();
     states_.push_back({std::move(document), {}, false, 0});
     now_ = 0;
-    open_ = false;
+    group_ = Group::ended;
 }
 
 std::size_t History::bytes() const {
@@ -61,9 +37,20 @@ void History::amend(Document document) {
 }
 
 void History::amend_views(const std::function<void(ViewState&)>& change) {
+    // States of one excerpt share what it was taken from.
+    std::map<std::shared_ptr<const ExcerptSource>, std::shared_ptr<const ExcerptSource>> sources;
     for (State& state : states_) {
         change(state.document.view);
         for (SceneView& other : state.document.beside) change(other.view);
+        std::shared_ptr<const ExcerptSource>& source = state.document.excerpt_of;
+        if (!source) continue;
+        std::shared_ptr<const ExcerptSource>& amended = sources[source];
+        if (!amended) {
+            ExcerptSource next = *source;
+            change(next.view);
+            amended = std::make_shared<const ExcerptSource>(std::move(next));
+        }
+        source = amended;
     }
 }
 
@@ -81,21 +68,26 @@ void History::append(State state) {
 }
 
 void History::change(Document document, const EditName& name) {
-    const bool joins = open_ && now_ > 0 && !name.group.empty() && states_[now_].name.group == name.group;
+    const bool joins =
+        group_ == Group::open && now_ > 0 && !name.group.empty() && states_[now_].name.group == name.group;
     states_.resize(now_ + 1);
     if (joins) {
         amend(std::move(document));
+        states_[now_].name = name;
     } else {
         append({std::move(document), name, false, 0});
     }
-    open_ = true;
+    group_ = Group::open;
 }
 
-void History::change_view(Document document) {
-    const std::string title = what_changes(now().view, document.view);
-    if (states_[now_].looked && states_[now_].name.title == title) return amend(std::move(document));
-    append({std::move(document), {title, ""}, true, 0});
-    open_ = false;
+void History::change_view(Document document, const EditName& name) {
+    if (states_[now_].looked && states_[now_].name.group == name.group) {
+        amend(std::move(document));
+        states_[now_].name = name;
+        return;
+    }
+    append({std::move(document), name, true, 0});
+    group_ = Group::ended;
 }
 
 void History::undo() { go_to(now_ - 1); }
@@ -104,7 +96,7 @@ void History::redo() { go_to(now_ + 1); }
 
 void History::go_to(std::size_t state) {
     now_ = state;
-    open_ = false;
+    group_ = Group::ended;
 }
 
 }  // namespace mobbscope::app

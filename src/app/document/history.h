@@ -1,56 +1,19 @@
 /// The document and its past: undo and redo of every edit.
 #pragma once
 
-#include <scene/fitted_scene.h>
-#include <scene/view_state.h>
+#include <app/document/document.h>
 
 #include <cstddef>
 #include <functional>
-#include <map>
-#include <memory>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace mobbscope::app {
 
-/// A query as it is found again when others were added or removed: the names of its two, and how many queries before it
-/// ask the same names.
-using QueryKey = std::tuple<std::string, std::string, int>;
-/// Requires a query of that index.
-QueryKey query_key(const FittedScene& fitted, int query);
-
-/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
-struct ExcerptSource {
-    std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
-    ViewState view;                             ///< of the whole, when it was left
-    std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
-    std::map<QueryKey, Step> steps{};           ///< of the whole: where queries were left
-};
-
-/// One view of the document's scene: how it is seen, and with which of its fits.
-struct SceneView {
-    std::shared_ptr<const FittedScene> fitted;  ///< with the view's fit in use; never null
-    ViewState view;
-};
-
-/// The scene with its fits, and how it is seen: the active view, which commands and panels are about, and those beside
-/// it. All views are of one scene and one time. Values: a state once reached can be returned to at no cost, as the
-/// scene is immutable and shared.
-struct Document {
-    std::shared_ptr<const FittedScene> fitted;          ///< with the active view's fit in use; never null
-    ViewState view;                                     ///< the active one
-    std::shared_ptr<const ExcerptSource> excerpt_of{};  ///< of an excerpt; else null
-    std::vector<SceneView> beside{};                    ///< the other views, from left to right
-    std::size_t place = 0;                              ///< how many of them stand to the left of the active one
-    bool linked_cameras = true;                         ///< all views have one camera
-    std::map<QueryKey, Step> steps{};                   ///< where queries were left
-};
-
-/// Groups what belongs together: one drag, one number typed.
+/// Groups what belongs together: one drag, one number that keys change.
 struct EditName {
-    std::string title;  ///< "Move A", for the menu: "Undo Move A"
+    std::string title;  ///< "moving A: x 1.20 m", for the menu ("Undo moving A: ...") and the list; of a group the last
     std::string group;  ///< an edit joins the last one if both have this group and it is still open; empty: never
 };
 
@@ -70,15 +33,21 @@ class History {
     void reset(Document document);
     /// The document is now this; what was undone is forgotten.
     void change(Document document, const EditName& name);
-    /// Only how it is seen has changed. Looking around of one kind (moving the view, stepping ...) is one state, and it
-    /// does not clear what can be redone.
-    void change_view(Document document);
+    /// Only how it is seen has changed. Looking around of one group (moving the view, stepping ...) is one state, and
+    /// it does not clear what can be redone.
+    void change_view(Document document, const EditName& name);
     /// The present state is this instead; no edit of its own.
     void amend(Document document);
-    /// How the scene is seen is changed in all states.
+    /// How the scene is seen is changed in all states, also how the whole of an excerpt was.
     void amend_views(const std::function<void(ViewState&)>& change);
     /// The next edit starts a group of its own, even under the same name.
-    void close_group() { open_ = false; }
+    void close_group() {
+        if (group_ == Group::open) group_ = Group::closed;
+    }
+    /// ... but for one that goes on with the last: not where something else was done, or undone, since.
+    void reopen_group() {
+        if (group_ == Group::closed) group_ = Group::open;
+    }
 
     bool can_undo() const { return now_ > 0; }
     bool can_redo() const { return now_ + 1 < states_.size(); }
@@ -111,7 +80,7 @@ class History {
     std::size_t most_bytes_;
     std::vector<State> states_;
     std::size_t now_ = 0;
-    bool open_ = false;
+    enum class Group { open, closed, ended } group_ = Group::ended;  ///< of the present state
 };
 
 }  // namespace mobbscope::app

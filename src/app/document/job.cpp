@@ -37,6 +37,10 @@ void JobControl::cancel() {
     wake_ = nullptr;
 }
 
+std::function<void(std::size_t done, std::size_t all)> progress_of(JobControl& control) {
+    return [&control](std::size_t done, std::size_t all) { control.step(done, all); };
+}
+
 /// Kept alive by whoever needs it longer, the window or the job's thread.
 struct Job::Shared {
     explicit Shared(std::function<void()> wake) : control(std::move(wake)) {}

@@ -1,43 +1,25 @@
+#include <app/document/edit_names.h>
 #include <app/document/session.h>
 #include <base/error.h>
-#include <base/file.h>
 #include <base/text.h>
-#include <cases/case_scene.h>
 #include <explain/query_progress.h>
 #include <render/drawlist/camera.h>
-#include <render/layout/follow.h>
-#include <scene/arrangement.h>
 #include <scene/crowd_scene.h>
-#include <scene/load_files.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
-#include <unordered_set>
 #include <utility>
 
 namespace mobbscope::app {
 
 namespace {
 
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code ignored;
-    return std::filesystem::equivalent(a, b, ignored);
-}
-
-/// Tells a job how much is done; it ends there if it was cancelled.
-Progress progress_of(JobControl& control) {
-    return [&control](std::size_t done, std::size_t all) { control.step(done, all); };
-}
-
 /// Shorter work is waited for: a window that flickers is worse than one that is late by this.
 constexpr std::chrono::milliseconds kPatience(80);
-/// Fits of fewer samples than this are no work for a job.
-constexpr std::size_t kQuickSamples = 50'000;
-/// How much longer than the paper's axes those found by searching take.
-constexpr std::size_t kSearchFactor = 100;
 constexpr std::size_t kMostMessages = 50;
 /// How long a message lies over the picture; one with an offer stays longer, and none goes sooner than this after the
 /// mouse has left it.
@@ -49,73 +31,8 @@ constexpr std::size_t kLongestMessage = 500;  // characters; names of files may 
 /// Agents whose pairs are still listed one by one.
 constexpr std::size_t kFewAgents = 12;
 
-Document document_of(Scene scene, const FittedScene* previous, const Progress& progress = {}) {
-    const mobb::FitOptions options = scene.fit;
-    const ViewState view = scene.view;
-    return {std::make_shared<const FittedScene>(std::move(scene), options, previous, progress), view};
-}
-
-/// The options of each fit of `present` when those of the fit in use become `options`.
-std::vector<mobb::FitOptions> fits_with(const FittedScene& present, const mobb::FitOptions& options) {
-    std::vector<mobb::FitOptions> out;
-    for (const auto& fit : present.fits()) out.push_back(fit->options);
-    out[present.fit_in_use()] = options;
-    return out;
-}
-
-/// The document with another scene, whose `fit` are the options of the fit in use and whose `view` is the active one.
-/// Its other fits and views are made anew for that scene; trees that `present` or `fitted_beside` (null: none) has are
-/// shared.
-Document with_scene(const Document& present, Scene scene, const FittedScene* fitted_beside = nullptr,
-                    const Progress& progress = {}) {
-    const FittedScene& before = *present.fitted;
-    const std::vector<mobb::FitOptions> fits = fits_with(before, scene.fit);
-    Document out = present;
-    out.view = scene.view;
-    scene.fit = fits.front();
-    std::vector<const FittedScene*> known{&before};
-    if (fitted_beside) known.push_back(fitted_beside);
-    FittedScene fitted(std::move(scene), fits.front(), known, progress);
-    for (std::size_t i = 1; i < fits.size(); ++i) {
-        fitted = fitted.with_fit(before.fits()[i]->name, fits[i], known, progress);
-    }
-    out.fitted = std::make_shared<const FittedScene>(fitted.using_fit(before.fit_in_use()));
-    for (SceneView& other : out.beside) {
-        other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
-    }
-    return out;
-}
-
-/// Whether with_scene is done in an instant.
-bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside) {
-    std::size_t work = 0;
-    for (const mobb::FitOptions& options : fits_with(present, scene.fit)) {
-        std::unordered_set<const mobb::Clip*> kept;
-        for (const FittedScene* source : {&present, fitted_beside}) {
-            if (!source) continue;
-            for (const auto& fit : source->fits()) {
-                if (fit->options != options) continue;
-                for (const auto& tree : fit->trees) kept.insert(&tree->clip());
-            }
-        }
-        for (const SceneClip& clip : scene.clips) {
-            if (kept.contains(clip.clip.get())) continue;
-            work += static_cast<std::size_t>(clip.clip->count()) *
-                    (options.axes == mobb::Axes::minarea ? kSearchFactor : 1);
-        }
-    }
-    return work < kQuickSamples;
-}
-
-/// A view of another scene, or of this one before an edit, made to fit what there is.
-ViewState fitting(ViewState view, const FittedScene& fitted) {
-    if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
-    if (!view.follow.empty() && !can_follow(fitted.scene(), view.follow)) view.follow.clear();
-    drop_unknown_names(fitted.scene(), view);
-    // A run is always seen at some time.
-    if (fitted.scene().crowd && !view.time) view.time = run_time(fitted.scene(), view);
-    return view;
-}
+/// Of one group with moving in time.
+const EditName kPlaying{"playing", "look time"};
 
 }  // namespace
 
@@ -133,8 +50,7 @@ void Session::edit(const EditName& name, const std::function<void(Scene&)>& chan
 }
 
 void Session::refit(const EditName& name, const std::function<void(mobb::FitOptions&)>& change) {
-    edit_with_fits(
-        name, [change](Scene& scene) { change(scene.fit); }, nullptr);
+    edit_with_fits({name, [change](Scene& scene) { change(scene.fit); }});
 }
 
 Scene Session::changed_scene(const std::function<void(Scene&)>& change) const {
@@ -147,33 +63,86 @@ Scene Session::changed_scene(const std::function<void(Scene&)>& change) const {
     return next;
 }
 
-void Session::edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
-                             const FittedScene* fitted_beside, Purpose purpose) {
-    Scene next = changed_scene(change);
+void Session::edit_with_fits(const FitEdit& edit, const FittedScene* fitted_beside) {
+    Scene next = changed_scene(edit.change);
     if (quick_to_fit(next, *document().fitted, fitted_beside)) {
-        return change_document(with_scene(document(), std::move(next), fitted_beside), name);
+        change_document(with_scene(document(), std::move(next), fitted_beside), edit.name);
+        if (edit.then) edit.then();
+        return;
     }
     start(
         "Fitting trees",
-        [this, name, change, purpose, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
+        [this, edit, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
             const Document fitted = with_scene(before, next, nullptr, progress_of(control));
             // The document may have changed meanwhile: the edit is made on what it is now, with the trees made here.
-            return
-                [this, name, change, fitted, purpose] { edit_with_fits(name, change, fitted.fitted.get(), purpose); };
+            return [this, edit, fitted] { edit_with_fits(edit, fitted.fitted.get()); };
         },
-        purpose);
+        edit.purpose);
 }
 
-/// Where a query was left is where it is opened again.
-void Session::remember_step(Document& next) const {
-    const std::optional<int>& left = view().query;
-    if (left && next.view.query != left) next.steps[query_key(*document().fitted, *left)] = view().step;
+void Session::rename_agent(int agent, const std::string& name) {
+    std::string before;
+    Document next = with_scene(document(), changed_scene([&](Scene& scene) {
+                                   add_agents_for_clips(scene);
+                                   before = scene.agents.at(static_cast<std::size_t>(agent)).name;
+                                   mobbscope::rename_agent(scene, agent, name);
+                               }));
+    for (SceneView& other : next.beside) rename_in_view(other.view, before, name);
+    if (alone) {
+        std::ranges::replace(alone->hidden, before, name);
+        std::ranges::replace(alone->before, before, name);
+    }
+    std::map<StepKey, QuerySteps> steps;
+    for (const auto& [key, looked_at] : next.steps) {
+        auto [a, b, same] = key.first;
+        for (std::string* side : {&a, &b}) {
+            if (*side == before) *side = name;
+        }
+        steps[{{a, b, same}, key.second}] = looked_at;
+    }
+    next.steps = std::move(steps);
+    change_document(std::move(next), {"renaming " + before + " to " + name, ""});
+}
+
+void Session::remember_step(Document& next) {
+    if (!view().query) return;
+    const StepKey from = step_key(*document().fitted, *view().query);
+    std::optional<StepKey> to;
+    if (next.view.query) to = step_key(*next.fitted, *next.view.query);
+    if (from != to) {
+        next.steps[from].left = view().step;
+        if (!to || from.first != to->first) return;
+        const auto left = next.steps.find(*to);
+        if (left != next.steps.end()) {
+            next.view.step = left->second.left;
+        } else if (view().step.unit == Step::Unit::event && recorded()->trace.size() > 1) {
+            // Other trees take other tests: as far on in theirs.
+            next.view.step = {Step::Unit::percent, 100.0 * step() / (recorded()->trace.size() - 1)};
+        }
+        return;
+    }
+    if (next.view.step == view().step) return;
+    const mobb::Trace& trace = recorded()->trace;
+    const int was = step();
+    const int is = event_of(next.view.step, trace);
+    QuerySteps& looked_at = next.steps[from];
+    const bool by_one = std::abs(is - was) == 1;
+    const bool goes_on = std::exchange(stepping_, true) || (by_one && looked_at.by_one);
+    // A run that comes back to where it began has turned round somewhere: that was seen before.
+    if (!goes_on || !looked_at.before || event_of(*looked_at.before, trace) == is) looked_at.before = view().step;
+    looked_at.by_one = by_one;
+}
+
+std::optional<Step> Session::step_before() const {
+    if (!view().query) return std::nullopt;
+    const auto looked_at = document().steps.find(step_key(*document().fitted, *view().query));
+    return looked_at == document().steps.end() ? std::nullopt : looked_at->second.before;
 }
 
 void Session::show_query(int query, std::optional<Step> step) {
-    const auto left = document().steps.find(query_key(*document().fitted, query));
+    const auto looked_at = document().steps.find(step_key(*document().fitted, query));
     if (!step && query == view().query) step = view().step;
-    if (!step && left != document().steps.end()) step = left->second;
+    if (!step && looked_at != document().steps.end()) step = looked_at->second.left;
     change_view([&](ViewState& view) {
         view.query = query;
         view.step = step.value_or(Step{});
@@ -181,11 +150,11 @@ void Session::show_query(int query, std::optional<Step> step) {
 }
 
 void Session::change_document(Document next, const EditName& name) {
-    remember_step(next);
     // A node of a tree that was fitted anew is another one, or none.
     if (next.view.projection && !has_projection(*next.fitted, next.view)) next.view.projection.reset();
     next.view = fitting(next.view, *next.fitted);
     for (SceneView& other : next.beside) other.view = fitting(other.view, *other.fitted);
+    remember_step(next);
     history_.change(std::move(next), name);
     changed();
 }
@@ -197,14 +166,17 @@ void Session::amend(const std::function<void(Document&)>& change) {
     changed();
 }
 
-void Session::change_view(const std::function<void(ViewState&)>& change) {
+void Session::change_view(const std::function<void(ViewState&)>& change) { look(change, std::nullopt); }
+
+void Session::look(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name) {
     Document next = document();
     change(next.view);
     next.view = fitting(next.view, *next.fitted);
     if (next.view == view()) return;
     if (next.view.theme != view().theme) settings.theme = next.view.theme;
     remember_step(next);
-    history_.change_view(std::move(next));
+    const EditName as = name ? *name : name_of_looking(document(), next.view);
+    history_.change_view(std::move(next), as);
     changed();
 }
 
@@ -231,7 +203,7 @@ void Session::split_view(const std::string& name, const mobb::FitOptions& option
         added.view.step = {Step::Unit::percent, 100.0 * step() / (query->trace.size() - 1)};
     }
     next.beside.push_back(std::move(added));
-    change_document(std::move(next), {"splitting the view", ""});
+    change_document(std::move(next), {"splitting the view: " + name, ""});
 }
 
 void Session::close_other_views() {
@@ -265,9 +237,11 @@ void Session::settle_camera(std::size_t place, const Camera& camera, double time
     if (time_height > 0) settled_height_ = time_height;
 }
 
-void Session::resize_pictures(PictureSize from, PictureSize to) {
+void Session::resize_pictures(PictureSize to) {
+    const std::optional<PictureSize> from = std::exchange(picture_size_, to);
+    if (!from || from->height == to.height) return;
     const auto resize = [&](Camera& camera) {
-        if (camera.target) camera = resized(camera, from, to);
+        if (camera.target) camera = resized(camera, *from, to);
     };
     history_.amend_views([&](ViewState& view) { resize(view.camera); });
     for (auto& aside : cameras_aside) resize(aside.second);
@@ -312,11 +286,12 @@ void Session::redo() {
 }
 
 void Session::go_to_state(std::size_t state) {
-    const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
+    const int before = opening();
     stop();
     history_.go_to(state);
+    ++times_led_back_;
     // What is made for an excerpt is not put into the whole, nor the other way round.
-    if (document().excerpt_of != before) {
+    if (opening() != before) {
         while (!jobs_.empty()) cancel_job(0);
         cameras_aside.clear();
     }
@@ -324,22 +299,18 @@ void Session::go_to_state(std::size_t state) {
 }
 
 Session::BeforeDrag Session::before_drag() const {
-    return {history_, settings, handed_over_, hooks.viewport_size ? hooks.viewport_size() : PictureSize{},
+    return {history_, settings, handed_over_, picture_size_, cameras_aside,
             reviewing_ ? std::optional(review_->look) : std::nullopt};
 }
 
 void Session::restore(BeforeDrag before) {
     if (before.look && reviewing_) review_->look = *before.look;
     if (before.handed_over != handed_over_) return;
-    const PictureSize size = hooks.viewport_size ? hooks.viewport_size() : before.size;
     history_ = std::move(before.history);
     settings = std::move(before.settings);
-    // A border between panels may be what was dragged: the picture is as high as it is until the next frame.
-    if (size.height != before.size.height) {
-        history_.amend_views([&](ViewState& view) {
-            if (view.camera.target) view.camera = resized(view.camera, before.size, size);
-        });
-    }
+    // A border between panels may be what was dragged: cameras stand for the pictures of before.
+    picture_size_ = before.picture_size;
+    cameras_aside = std::move(before.cameras_aside);
     changed();
 }
 
@@ -466,315 +437,13 @@ void Session::find_conflicts() {
     });
 }
 
-void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
-    require_no_job();
-    Scene excerpt;
-    excerpt.file = scene().file;
-    excerpt.fit = document().fitted->options();
-    excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(a.clip)]);
-    if (b.clip != a.clip) excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(b.clip)]);
-    excerpt.agents.push_back({a.name, 0, a.placement, std::nullopt});
-    excerpt.agents.push_back(
-        {b.name == a.name ? b.name + " (2)" : b.name, b.clip == a.clip ? 0 : 1, b.placement, std::nullopt});
-    excerpt.view.theme = view().theme;
-    excerpt.view.query = 0;
-    Document next = document_of(std::move(excerpt), document().fitted.get());
-    const std::shared_ptr<const ExcerptSource> before = document().excerpt_of;
-    next.excerpt_of = std::make_shared<const ExcerptSource>(ExcerptSource{before ? before->fitted : document().fitted,
-                                                                          before ? before->view : view(), next.fitted,
-                                                                          before ? before->steps : document().steps});
-    point_at_nothing();
-    filter.clear();
-    cameras_aside.clear();
-    ++excerpts_opened_;
-    history_.change(std::move(next), {"opening " + a.name + " against " + b.name, ""});
-    changed();
-}
-
 void Session::point_at_nothing() {
     stop();
     selection = {};
     hovered = {};
 }
 
-void Session::leave_excerpt() {
-    require_no_job();
-    const std::shared_ptr<const ExcerptSource> origin = document().excerpt_of;
-    point_at_nothing();
-    filter.clear();
-    cameras_aside.clear();
-    Document whole{origin->fitted, origin->view};
-    whole.steps = origin->steps;
-    history_.change(std::move(whole), {"going back to the whole", ""});
-    changed();
-}
-
-// --- files
-
-bool Session::modified() const {
-    // Views of one scene share it, whichever fit they use.
-    const auto differ = [](const auto& a, const auto& b) { return &a->scene() != &b->scene(); };
-    const std::shared_ptr<const ExcerptSource>& origin = document().excerpt_of;
-    if (!origin) return differ(document().fitted, saved_);
-    return differ(origin->fitted, saved_) || differ(document().fitted, origin->saved);
-}
-
-std::string Session::title() const {
-    if (in_excerpt()) {
-        std::string title = scene().agents.empty() ? "excerpt" : scene().agents.front().name;
-        if (scene().agents.size() > 1) title += " and " + scene().agents[1].name;
-        return title + " of " + (file_ ? file_->filename().string() : "a crowd");
-    }
-    if (file_) return file_->filename().string();
-    return scene().file.empty() ? "untitled" : scene().file.stem().string();
-}
-
-void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
-    jobs_.clear();
-    import_changes_.clear();
-    import_file_.reset();
-    if (dialog == Dialog::import_clip) close_dialog();
-    reviewing_ = false;
-    document.view = fitting(document.view, *document.fitted);
-    document.excerpt_of = nullptr;
-    saved_ = document.fitted;
-    file_ = scene_file_of(opened);
-    opened_ = opened;
-    ++files_opened_;
-    remember(opened);
-    // One that says no theme is seen in the person's.
-    if (attended_ && settings.theme && document.view.theme == Theme{}) document.view.theme = *settings.theme;
-    point_at_nothing();
-    pointed_out_ = {};
-    conflict = -1;
-    cameras_aside.clear();
-    alone.reset();
-    filter.clear();
-    ++handed_over_;
-    // No case of picture tests is open any more; who opens one says so afterwards.
-    aside_.reset();
-    open_case_.clear();
-    if (behind_help_.first == Dialog::import_clip) behind_help_ = {Dialog::none, {}};
-    // What went wrong with the last document is over, and what was offered for it.
-    if (files_opened_ > 1) {
-        for (Message& message : messages_) message.offer.reset();
-    }
-    retire_messages();
-    history_.reset(std::move(document));
-    changed();
-    tell_of_warnings(0);
-}
-
-void Session::load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
-                   const std::optional<ViewState>& view) {
-    // What is opened takes the place of what was open before the picture tests.
-    if (aside_) return close_case([this, title, load_all, files, view] { load(title, load_all, files, view); });
-    after_asking([this, title, load_all, files, view] {
-        // What is opened last is meant.
-        std::erase_if(jobs_, [](const Running& running) { return running.purpose == Purpose::opens; });
-        const auto work = [this, load_all, files, view,
-                           present = document().fitted](JobControl& control) -> Job::Finish {
-            Document document = document_of(load_all(control), nullptr, progress_of(control));
-            if (view) {
-                document.view = *view;
-                // The file may have changed since.
-                if (view->projection && !has_projection(*document.fitted, *view)) document.view.projection.reset();
-            }
-            return [this, document = std::move(document), files, present] {
-                // Who edited meanwhile is asked again.
-                if (&scene() == &present->scene()) return replace(document, files);
-                after_asking([this, document, files] { replace(document, files); });
-            };
-        };
-        start(title, work, Purpose::opens);
-    });
-}
-
-namespace {
-
-/// "crossing.json", or "3 files".
-std::string title_of_files(const std::vector<std::filesystem::path>& files) {
-    if (files.size() != 1) return counted(files.size(), "file", "files");
-    // A folder may end in a slash.
-    const std::filesystem::path& only = files.front();
-    return (only.has_filename() ? only : only.parent_path()).filename().string();
-}
-
-/// The first that is not there; null: all are.
-const std::filesystem::path* missing_of(const std::vector<std::filesystem::path>& files) {
-    const auto missing = std::ranges::find_if(files, [](const std::filesystem::path& file) {
-        std::error_code ignored;
-        return !std::filesystem::exists(file, ignored);
-    });
-    return missing == files.end() ? nullptr : &*missing;
-}
-
-}  // namespace
-
-bool Session::complain_of_missing(const std::vector<std::filesystem::path>& files) {
-    const std::filesystem::path* missing = missing_of(files);
-    if (missing) tell(Message::Level::error, missing->string() + ": no such file; check the path");
-    return missing;
-}
-
-void Session::open(const std::vector<std::filesystem::path>& files) {
-    // Nobody is asked about unsaved changes for nothing.
-    if (complain_of_missing(files)) return;
-    load(
-        "Opening " + title_of_files(files),
-        [files](JobControl& control) { return load_files(files, {}, progress_of(control)); }, files);
-}
-
-void Session::remember(const std::vector<std::filesystem::path>& files) {
-    if (files.empty()) return;
-    if (attended_) {
-        // The first of them comes first.
-        for (auto file = files.rbegin(); file != files.rend(); ++file) settings.remember(*file);
-    }
-    std::error_code error;
-    const std::filesystem::path& first = files.front();
-    std::filesystem::path folder = std::filesystem::is_directory(first, error) ? first : first.parent_path();
-    if (folder.empty()) folder = ".";
-    // Scripts and pictures find the same wherever they run.
-    settings.folder = attended_ ? std::filesystem::absolute(folder, error).lexically_normal() : folder;
-}
-
-bool Session::opened_by_person() const {
-    if (empty()) return false;
-    if (file() || modified() || in_excerpt()) return true;
-    try {
-        return scene().file != demo_scene_file();
-    } catch (const MachineError&) {
-        return true;
-    }
-}
-
-void Session::drop(const std::vector<std::filesystem::path>& files) {
-    if (files.empty()) return;
-    if (complain_of_missing(files)) return;
-    if (!opened_by_person() && !reviewing_) return open(files);
-    open_dialog(Dialog::dropped, {.text = "", .files = files});
-}
-
-void Session::note_session() {
-    if (opened_.empty()) return;
-    settings.last = {{}, in_excerpt() ? document().excerpt_of->view : view()};
-    for (const std::filesystem::path& file : opened_) {
-        std::error_code error;
-        settings.last.files.push_back(std::filesystem::absolute(file, error).lexically_normal());
-    }
-}
-
-bool Session::has_last() const { return !settings.last.files.empty() && !missing_of(settings.last.files); }
-
-std::string Session::last_title() const { return title_of_files(settings.last.files); }
-
-void Session::reopen_last() {
-    const LastSession last = settings.last;
-    if (complain_of_missing(last.files)) return;
-    load(
-        "Opening " + last_title(),
-        [last](JobControl& control) { return load_files(last.files, {}, progress_of(control)); }, last.files,
-        last.view);
-}
-
-void Session::open_scene(const Scene& scene, const std::vector<std::filesystem::path>& files) {
-    load(
-        "Opening " + scene.file.filename().string(), [scene](JobControl&) { return scene; }, files);
-}
-
-void Session::open_demo() {
-    load("Opening the demo", [](JobControl&) { return demo_scene(); }, {});
-}
-
-void Session::add(const std::vector<std::filesystem::path>& files) {
-    if (empty()) return open(files);
-    if (complain_of_missing(files)) return;
-    if (crowd()) throw InputError("a run stands alone: open the files by themselves");
-    start("Adding files", [this, files](JobControl& control) -> Job::Finish {
-        const auto read = std::make_shared<const Scene>(load_files(files, {}, progress_of(control)));
-        return [this, read, files] {
-            remember(files);
-            const std::size_t before = scene().clips.size();
-            edit_with_fits(
-                {"adding files", ""},
-                [read](Scene& scene) {
-                    const bool was_one = scene.clips.size() == 1;
-                    merge(scene, *read);
-                    if (was_one) lay_out_clips(scene);
-                },
-                nullptr);
-            tell_of_warnings(before);
-        };
-    });
-}
-
-void Session::save() {
-    if (!file_ || in_excerpt()) {
-        dialog = Dialog::save_as;  // what waits for the changes to be saved goes on waiting
-        ask_anew({});
-        return;
-    }
-    save_as(*file_);
-}
-
-void Session::check_may_write(const std::filesystem::path& file) const {
-    if (may_write) return;
-    throw InputError(file.string(), "",
-                     "nothing is written here: a picture test only looks; remove this from its script");
-}
-
-void Session::save_as(const std::filesystem::path& file) {
-    check_may_write(file);
-    if (empty()) throw InputError("there is nothing to save: open a scene or a clip first");
-    check_file_name(file);
-    if (lower_extension(file) != ".json") {
-        throw InputError(file.string(), "", "scenes are written as .json; rename the output");
-    }
-    if (in_excerpt() && file_ && same_file(file, *file_)) {
-        throw InputError(file.string(), "", "this is what the two were taken from; save them under another name");
-    }
-    Scene saved = scene();
-    saved.view = view();
-    saved.fit = document().fitted->options();
-    move_to_file(saved, file);
-    write_file(file, to_json(saved));
-    if (in_excerpt()) {
-        // The whole stays what is open; the excerpt has a file of its own.
-        Document now = document();
-        now.excerpt_of = std::make_shared<const ExcerptSource>(
-            ExcerptSource{now.excerpt_of->fitted, now.excerpt_of->view, now.fitted, now.excerpt_of->steps});
-        history_.amend(std::move(now));
-    } else {
-        // The document is the file's now: messages and further sources refer to it.
-        history_.amend(with_scene(document(), std::move(saved)));
-        saved_ = document().fitted;
-        file_ = file;
-        opened_ = {file};
-    }
-    remember({file});
-    tell(Message::Level::info, "Saved " + file.string());
-    if (dialog == Dialog::save_as || dialog == Dialog::unsaved) dialog = Dialog::none;
-    if (const auto then = std::exchange(pending_, nullptr)) then();
-}
-
-void Session::request_close() {
-    if (aside_) return close_case([this] { request_close(); });
-    after_asking([this] { closed_ = true; });
-}
-
-void Session::after_asking(const std::function<void()>& then) {
-    if (!modified()) return then();
-    open_dialog(Dialog::unsaved);
-    pending_ = then;
-}
-
-void Session::answer_unsaved(Unsaved choice) {
-    if (choice == Unsaved::save) return save();
-    const auto then = std::exchange(pending_, nullptr);
-    close_dialog();
-    if (choice == Unsaved::discard && then) then();
-}
+// --- dialogs, messages, queue and jobs
 
 void Session::open_dialog(Dialog which, DialogInput with) {
     behind_help_ = {};  // to close the help would lead back there, with what waits for an answer
@@ -809,68 +478,6 @@ void Session::ask_anew(DialogInput with) {
     with.opening = input.opening + 1;
     input = std::move(with);
 }
-
-// --- picture tests
-
-void Session::review(const ReviewFolder& found) {
-    const auto opened = std::make_shared<Review>(
-        found,
-        Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); }, case_drawer});
-    close_case([this, opened] {
-        stop();
-        if (review_ && review_->folder() == opened->folder()) opened->begin_at(review_->shown().file.name);
-        review_ = opened;
-        reviewing_ = true;
-        retire_messages();
-        if (review_->output().empty()) review_->draw_all();
-        poll();
-    });
-}
-
-void Session::leave_review() {
-    close_case([this] { reviewing_ = false; });
-}
-
-void Session::back_to_review() {
-    stop();
-    reviewing_ = true;
-}
-
-void Session::open_case(std::size_t index) {
-    const picture_tests::CaseFile file = review_->cases()[index].file;
-    // What is opened last is meant.
-    std::erase_if(jobs_, [](const Running& running) { return running.purpose == Purpose::opens; });
-    const auto work = [this, file](JobControl& control) -> Job::Finish {
-        Document document = document_of(picture_tests::scene_of(file), nullptr, progress_of(control));
-        return [this, document = std::move(document), file] {
-            // The scene of another case may be in its place.
-            close_case([this, document, file] {
-                Aside before{history_, saved_, file_, opened_};
-                replace(document, {});
-                aside_ = std::move(before);
-                open_case_ = file.name;
-            });
-        };
-    };
-    start("Opening " + file.name, work, Purpose::opens);
-}
-
-void Session::close_case(const std::function<void()>& then) {
-    if (!aside_) return then();
-    after_asking([this, then] {
-        const Aside before = std::move(*aside_);
-        aside_.reset();
-        open_case_.clear();
-        replace(before.history.now(), before.opened);
-        history_ = before.history;
-        saved_ = before.saved;
-        file_ = before.file;
-        changed();
-        then();
-    });
-}
-
-// --- messages, queue and jobs
 
 void Session::tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer) {
     const std::string said = shortened(text, kLongestMessage);
@@ -961,6 +568,7 @@ void Session::cancel_job(std::size_t index) {
 
 void Session::end_work() {
     jobs_.clear();
+    if (aside_) aside_->jobs.clear();
     import_changes_.clear();
     preview.end();
     if (review_) review_->cancel();
@@ -1011,6 +619,8 @@ mobb::Interval Session::time_span() const {
 void Session::play() {
     playing_ = true;
     has_played_ = false;
+    if (view().time || empty()) return;
+    look([&](ViewState& v) { v.time = time_span().t0; }, kPlaying);
 }
 
 void Session::advance(double seconds) {
@@ -1019,7 +629,7 @@ void Session::advance(double seconds) {
     double time = view().time.value_or(span.t0) + seconds * speed;
     if (time >= span.t1 || time < span.t0) time = span.t0;
     if (time == view().time) return;
-    if (!std::exchange(has_played_, true)) return change_view([&](ViewState& v) { v.time = time; });
+    if (!std::exchange(has_played_, true)) return look([&](ViewState& v) { v.time = time; }, kPlaying);
     // A drag meanwhile stays one state, and so does the play.
     amend([&](Document& next) { next.view.time = time; });
 }

@@ -104,8 +104,9 @@ struct DialogInput {
     int picked = 0;                              ///< of a list
     bool confirming = false;                     ///< asks whether to overwrite
     int generation = 0;                          ///< the field shows another text from without: see set_text
-    int opening = 0;    ///< counts dialogs: the undo of a field must not reach the text of an earlier one
-    bool fresh = true;  ///< the field waits for the keyboard
+    int opening = 0;        ///< counts dialogs: the undo of a field must not reach the text of an earlier one
+    bool fresh = true;      ///< the field waits for the keyboard
+    bool selected = false;  ///< its text is selected then, so that typing replaces it
 
     void set_text(std::string to) {
         text = std::move(to);
@@ -145,8 +146,9 @@ class Session {
     const History& history() const { return history_; }
     bool attended() const { return attended_; }
     bool empty() const { return scene().clips.empty(); }
-    /// Which opening the present scene is of; files and excerpts are counted apart.
-    int opening() const { return in_excerpt() ? excerpts_opened_ : files_opened_; }
+    /// Which opening of files or of an excerpt the present scene is of; each has a number of its own, and coming back
+    /// to one finds its number again.
+    int opening() const { return document().opening; }
 
     /// Changes the scene at once; its `view` is the present one and may be changed along. Throws what `change` throws:
     /// nothing is changed then.
@@ -155,10 +157,18 @@ class Session {
     /// it is done: `change` may run again then, so it holds by value what it needs. Throws std::invalid_argument for
     /// options out of range: nothing is changed then.
     void refit(const EditName& name, const std::function<void(mobb::FitOptions&)>& change);
+    /// Gives an agent another name, in all views and wherever it is remembered. In a scene without agents its clips
+    /// become agents. Throws std::invalid_argument for an empty name, or that of another agent.
+    void rename_agent(int agent, const std::string& name);
     /// Changes how it is seen; undo takes back looking of one kind (see History::change_view) in one go.
     void change_view(const std::function<void(ViewState&)>& change);
     /// An interaction has ended: what follows is undone apart from it.
-    void close_group() { history_.close_group(); }
+    void close_group() {
+        history_.close_group();
+        stepping_ = false;
+    }
+    /// The next edit goes on with the last one if it changes the same number: keys change a number one by one.
+    void reopen_group() { history_.reopen_group(); }
     // Views: places count from left to right.
     std::size_t view_count() const { return document().beside.size() + 1; }
     std::size_t active_place() const { return document().place; }
@@ -177,8 +187,11 @@ class Session {
     void settle_camera(std::size_t place, const Camera& camera, double time_height);
     /// Whether the height of a second is one that somebody has chosen, not that of the last framing.
     bool has_chosen_height() const { return view().time_height != settled_height_; }
-    /// The pictures have another height: cameras that stand keep their scale, also those that undo leads to.
-    void resize_pictures(PictureSize from, PictureSize to);
+    /// Of which size the pictures are that cameras stand for; none: nothing was drawn since the scene was opened.
+    const std::optional<PictureSize>& picture_size() const { return picture_size_; }
+    /// The pictures are of this size now: cameras that stand keep their scale, also those that undo and the way back
+    /// from an excerpt lead to. What is put aside for the scene of a picture test follows when it is back.
+    void resize_pictures(PictureSize to);
     /// Whether all views have one camera.
     void link_cameras(bool linked);
 
@@ -187,9 +200,13 @@ class Session {
     void redo();
     /// To a state of the history, < history().count().
     void go_to_state(std::size_t state);
+    /// How often that was done: what is seen then is as it was, and nothing follows it.
+    int times_led_back() const { return times_led_back_; }
 
-    /// Shows a query, at that step; none: at the one where it was left, or its end.
+    /// Shows a query, at that step; none: at the one where it was left with this kind of trees, or its end.
     void show_query(int query, std::optional<Step> step = {});
+    /// The step of the query in view where the last jump or run of single steps began; none: there was none.
+    std::optional<Step> step_before() const;
 
     /// What is asked in the view, recorded; null if no query is in the view.
     const RecordedQuery* recorded() const;
@@ -266,9 +283,10 @@ class Session {
     const std::vector<std::filesystem::path>& opened() const { return opened_; }
     /// Whether files can be added: not to a run, which stands alone, nor where picture tests are shown instead.
     bool may_add() const { return !crowd() && !reviewing(); }
-    /// Adds clips, or whole scenes, to the document.
+    /// Adds clips, or whole scenes, to the document, and says what is wrong with them once they are in it. Throws
+    /// InputError if nothing can be added.
     void add(const std::vector<std::filesystem::path>& files);
-    /// Opens what was dropped on the window; asks whether to add it where the person has something open.
+    /// Opens what was dropped on the window; asks where the person has something open, which it may be added to.
     void drop(const std::vector<std::filesystem::path>& files);
     /// What is open is that of the next time's settings.last.
     void note_session();
@@ -302,7 +320,8 @@ class Session {
         History history;
         Settings settings;
         int handed_over = 0;             ///< documents and edits that did not come from the hand
-        PictureSize size;                ///< of the viewport
+        std::optional<PictureSize> picture_size;
+        std::map<std::string_view, Camera> cameras_aside;
         std::optional<ReviewLook> look;  ///< of picture tests, while they are shown
     };
     BeforeDrag before_drag() const;
@@ -330,7 +349,7 @@ class Session {
     void leave_review();
     /// Requires review().
     void back_to_review();
-    /// Opens what a case draws as a scene; what is open is put aside until the picture tests are left.
+    /// Opens what a case draws as a scene; what is open is put aside, with its jobs, until that scene is left.
     void open_case(std::size_t index);
     /// The name of the case whose scene is open; empty if none is.
     const std::string& open_case_name() const { return open_case_; }
@@ -391,7 +410,8 @@ class Session {
     void poll();
 
     // Time.
-    /// Lets the time cursor run; how far it comes is one state, or goes into what is done meanwhile.
+    /// Lets the time cursor run, from the first moment where there is none; how far it comes is one state, or goes into
+    /// what is done meanwhile.
     void play();
     void stop() { playing_ = false; }
     bool playing() const { return playing_; }
@@ -411,14 +431,20 @@ class Session {
     void start(std::string title, Job::Work work, Purpose purpose = Purpose::other);
     void finish(Job& job);
     Scene changed_scene(const std::function<void(Scene&)>& change) const;
-    /// An edit that may make fits, in a job if they take long. `fitted_beside`: has trees to share; null: none.
-    void edit_with_fits(const EditName& name, const std::function<void(Scene&)>& change,
-                        const FittedScene* fitted_beside, Purpose purpose = Purpose::other);
+    /// An edit that may make fits.
+    struct FitEdit {
+        EditName name;
+        std::function<void(Scene&)> change;  ///< holds by value what it needs
+        Purpose purpose = Purpose::other;    ///< of the job
+        std::function<void()> then{};        ///< once the document has changed; may be empty
+    };
+    /// Does it, in a job if the fits take long. `fitted_beside`: has trees to share; null: none.
+    void edit_with_fits(const FitEdit& edit, const FittedScene* fitted_beside = nullptr);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
     /// Warnings and errors so far were about what was shown before.
     void retire_messages();
-    /// Replaces the document by what `load_all` gives, after asking if there are unsaved changes.
-    /// ... seen as the scene says, or as `view`.
+    /// Replaces the document by what `load_all` gives, seen as that says or as `view`, after asking if there are
+    /// unsaved changes. What cannot be loaded leaves all as it was.
     void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
               const std::optional<ViewState>& view = std::nullopt);
     /// Says so if one of them is not there; whether it did.
@@ -431,7 +457,13 @@ class Session {
     void amend(const std::function<void(Document&)>& change);
     /// For another document: stops playing; nothing is selected or hovered.
     void point_at_nothing();
-    void remember_step(Document& next) const;
+    /// For another scene than that of the present opening: what was said and asked about that one is over.
+    void turn_away();
+    /// `next` follows the present document: it remembers which steps were looked at, and a query that is seen with
+    /// another kind of trees goes on where it was left with that.
+    void remember_step(Document& next);
+    /// change_view as `name`; none: as what it changes says.
+    void look(const std::function<void(ViewState&)>& change, const std::optional<EditName>& name);
     void change_document(Document next, const EditName& name);
     void share_time_and_camera();
     void changed();
@@ -444,8 +476,10 @@ class Session {
     std::shared_ptr<const FittedScene> saved_;
     std::optional<std::filesystem::path> file_;
     std::vector<std::filesystem::path> opened_;
-    int files_opened_ = 0;
-    int excerpts_opened_ = 0;
+    int openings_ = 0;  ///< of files and excerpts so far
+    std::optional<PictureSize> picture_size_;
+    int times_led_back_ = 0;
+    bool stepping_ = false;  ///< the step was changed in the present interaction
     std::vector<Message> messages_;
     std::deque<std::function<void()>> queue_;
     struct Running {
@@ -463,15 +497,6 @@ class Session {
     std::shared_ptr<Review> review_;
     bool reviewing_ = false;
     std::string open_case_;
-    /// What was open before the scene of a case was.
-    struct Aside {
-        History history;
-        std::shared_ptr<const FittedScene> saved;
-        std::optional<std::filesystem::path> file;
-        std::vector<std::filesystem::path> opened;
-    };
-    std::optional<Aside> aside_;
-
     // Imports: one change after the other.
     struct ImportChange {
         int clip = 0;
@@ -533,6 +558,30 @@ class Session {
         std::vector<SceneConflict> conflicts;
     };
     std::optional<Found> found_;
+
+    /// What was open before the scene of a case was, with all that goes with it. Its jobs run on, and are taken in once
+    /// it is back.
+    struct Aside {
+        History history;
+        std::shared_ptr<const FittedScene> saved;
+        std::optional<std::filesystem::path> file;
+        std::vector<std::filesystem::path> opened;
+        std::vector<Running> jobs;
+        std::deque<ImportChange> import_changes;
+        std::shared_ptr<const SourceFile> import_file;
+        std::optional<PictureSize> picture_size;
+        std::map<std::string_view, Camera> cameras_aside;
+        double settled_height = 0;
+        std::optional<Alone> alone;
+        std::string filter;
+        Selection selection;
+        PointedOut pointed_out;
+        std::optional<Found> found;
+        int conflict = -1;
+    };
+    Aside put_aside();
+    void bring_back(Aside before);
+    std::optional<Aside> aside_;
 };
 
 }  // namespace mobbscope::app

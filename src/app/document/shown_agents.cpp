@@ -79,10 +79,13 @@ AgentNames selected_agents(const Session& session) {
     return {name_in_view(session.fitted().scene(), *who)};
 }
 
+std::string text_of_agent(const std::string& name) {
+    const bool is_word = name.starts_with(kOfAgent) || name.starts_with(kOfClip) || name.starts_with(kOfGroup);
+    return is_word ? kOfAgent + name : name;
+}
+
 AgentNames agents_meant(const Session& session, const std::string& text) {
     if (text.empty()) return selected_agents(session);
-    const AgentNames all = all_agents(session);
-    if (std::ranges::find(all, text) != all.end()) return {text};
     if (text.starts_with(kOfClip)) {
         return agents_of_clip(session, index_of_name(clip_names(session), text.substr(kOfClip.size()), "clip"));
     }
@@ -92,7 +95,9 @@ AgentNames agents_meant(const Session& session, const std::string& text) {
         const int at = index_of_name(titles, text.substr(kOfGroup.size()), "group");
         return agents_of_group(session, session.clip_groups()[static_cast<std::size_t>(at)]);
     }
-    return {all[static_cast<std::size_t>(index_of_name(all, text, "agent"))]};
+    const AgentNames all = all_agents(session);
+    const std::string name = text.starts_with(kOfAgent) ? text.substr(kOfAgent.size()) : text;
+    return {all[static_cast<std::size_t>(index_of_name(all, name, "agent"))]};
 }
 
 bool are_hidden(const Session& session, const AgentNames& who) { return all_in(who, session.view().hidden); }

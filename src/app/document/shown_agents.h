@@ -19,9 +19,13 @@ AgentNames agents_of_clip(const Session& session, int clip);
 AgentNames agents_of_group(const Session& session, const ClipGroup& group);
 /// The selected agent, or those of the selected clip; none if neither is selected.
 AgentNames selected_agents(const Session& session);
-/// Those that a text means: "walk" an agent, "clip:walk" those of a clip, "group:short" those of a group of clips;
-/// without a text the selected ones. Throws std::invalid_argument, with the nearest name, if there is none.
+/// Those that a text means: "walk" or "agent:walk" an agent, "clip:walk" those of a clip, "group:short" those of a
+/// group of clips; without a text the selected ones. Throws std::invalid_argument, with the nearest name, if there is
+/// none.
 AgentNames agents_meant(const Session& session, const std::string& text);
+/// The text that means an agent, whatever it is called.
+std::string text_of_agent(const std::string& name);
+inline const std::string kOfAgent = "agent:";
 inline const std::string kOfClip = "clip:";
 inline const std::string kOfGroup = "group:";
 

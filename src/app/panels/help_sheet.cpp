@@ -182,7 +182,7 @@ void run_from_help(Session& session, const Command& command) {
         // Through the dialog that it may lie over.
         while (session.dialog != Dialog::none) session.close_dialog();
         if (command.needs_argument() || command.choices) {
-            session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
+            ask_for_argument(session, command);
         } else {
             run_command(session, command.id);
         }

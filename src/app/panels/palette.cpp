@@ -40,8 +40,7 @@ bool palette_row(Ui& ui, int index, bool picked, const std::string& text, const 
 void run(Session& session, const Command& command, const std::string& argument) {
     session.enqueue([&session, &command, argument] {
         if (argument.empty() && (command.needs_argument() || command.choices)) {
-            session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
-            return;
+            return ask_for_argument(session, command);
         }
         session.close_dialog();
         run_command(session, command.id, argument);

@@ -1,4 +1,5 @@
 #include <app/commands/command.h>
+#include <app/document/edit_names.h>
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
 #include <base/text.h>
@@ -27,9 +28,7 @@ void rename_agent(Ui& ui, int agent, const std::string& name) {
     form_label(ui, "Name", "What the agent is called in queries and pictures");
     const std::optional<std::string> text = text_edit(ui, "agent.name", name);
     if (!text) return;
-    ui.session.enqueue([&session = ui.session, name, agent, text = *text] {
-        session.edit({"renaming " + name, ""}, [&](Scene& scene) { rename_agent(scene, agent, text); });
-    });
+    ui.session.enqueue([&session = ui.session, agent, text = *text] { session.rename_agent(agent, text); });
 }
 
 void color_field(Ui& ui, const PlacedAgent& who, int index) {
@@ -46,7 +45,7 @@ void color_field(Ui& ui, const PlacedAgent& who, int index) {
     const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(255 * c)); };
     const Color wanted{byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
     ui.session.enqueue([&session = ui.session, who, wanted] {
-        session.edit({"colouring " + who.name, "color"},
+        session.edit({"colouring " + who.name + ": " + to_string(wanted), "color"},
                      [&](Scene& scene) { scene.agents.at(static_cast<std::size_t>(who.agent)).color = wanted; });
     });
 }
@@ -117,7 +116,7 @@ void placement_panel(Ui& ui) {
     color_field(ui, *who, session.selection.path.agent);
     if (changed) {
         session.enqueue([&session, who = *who, placement] {
-            session.edit({"placing " + who.name, "placement"},
+            session.edit(name_of_placing(who.name, who.placement, placement),
                          [&](Scene& scene) { place_agent(scene, who.agent, placement); });
         });
     }

@@ -95,7 +95,7 @@ void path_row(Ui& ui, const FittedScene& fitted, int index) {
     const auto on_it = [&](const Selection& s) { return s.on_path() && s.path == self.path; };
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const SceneClip& clip = fitted.scene().clips[static_cast<std::size_t>(who.clip)];
-    const ListedAgents listed{who.name, {who.name}};
+    const ListedAgents listed{text_of_agent(who.name), {who.name}};
     const bool hidden = are_hidden(session, listed.who);
     const auto about = [&] {
         row_keys(ui, self);

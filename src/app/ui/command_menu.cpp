@@ -24,10 +24,8 @@ std::string title_of(const Session& session, const Command& command) {
     return title;
 }
 
-void ask_argument(Session& session, const Command& command) {
-    session.enqueue([&session, &command] {
-        session.open_dialog(Dialog::palette, {.text = "", .command = std::string(command.id)});
-    });
+void ask(Session& session, const Command& command) {
+    session.enqueue([&session, &command] { ask_for_argument(session, command); });
 }
 
 /// Why the last item cannot be done, under the mouse; nothing for one that can.
@@ -51,7 +49,7 @@ void choices_item(Ui& ui, const Command& command, const std::string& title, cons
         if (chosen) ui.focus.begin_here();
     }
     if (all.size() > kMostChoices) {
-        if (ImGui::MenuItem("More...")) ask_argument(session, command);
+        if (ImGui::MenuItem("More...")) ask(session, command);
         ui.mark(mark + "...", OwnKeys::none, "More");
     }
     ImGui::EndMenu();
@@ -141,7 +139,7 @@ void command_item(Ui& ui, const MenuEntry& entry, const std::string& mark) {
     const bool checked = entry.argument.empty() && command.checked && command.checked(session);
     if (ImGui::MenuItem(title.c_str(), shortcut.c_str(), checked, command.enabled(session))) {
         const bool asks = command.needs_argument() && entry.argument.empty();
-        asks ? ask_argument(session, command) : invoke(session, command.id, entry.argument);
+        asks ? ask(session, command) : invoke(session, command.id, entry.argument);
     }
     ui.mark(mark, OwnKeys::none, title);
     reason(session, command);

@@ -40,7 +40,9 @@ int on_event(ImGuiInputTextCallbackData* data) {
         data->InsertChars(0, completed.c_str());
     } else if (input.fresh) {
         const std::string_view text(data->Buf, static_cast<std::size_t>(data->BufTextLen));
-        std::tie(data->SelectionStart, data->SelectionEnd) = selected_at_first(text, what);
+        const bool all = std::exchange(input.selected, false);
+        std::tie(data->SelectionStart, data->SelectionEnd) =
+            all ? std::pair(0, data->BufTextLen) : selected_at_first(text, what);
         data->CursorPos = data->SelectionEnd;
         input.fresh = false;
     }

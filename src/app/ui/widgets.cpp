@@ -441,7 +441,10 @@ std::optional<double> number_keys(Ui& ui, const NumberField& field) {
         }
         value = next;
     }
-    return value != field.now ? std::optional(value) : std::nullopt;
+    if (value == field.now) return std::nullopt;
+    // However often a key is pressed, the number is changed once.
+    ui.session.enqueue([&session = ui.session] { session.reopen_group(); });
+    return value;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <app/commands/camera_commands.h>
 #include <app/commands/command.h>
 #include <app/document/described.h>
+#include <app/document/edit_names.h>
 #include <app/document/shown_agents.h>
 #include <app/ui/thing_menus.h>
 #include <app/viewport/selection_display.h>
@@ -191,12 +192,12 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
 void Viewport::settle(Ui& ui, Key& next) {
     Camera& camera = next.view.camera;
     Session& session = ui.session;
-    const bool same_document = std::exchange(opening_, session.opening()) == session.opening();
+    const std::optional<PictureSize> before = session.picture_size();
+    if (is_active(ui) && before != next.size) {
+        session.enqueue([&session, to = next.size] { session.resize_pictures(to); });
+    }
     if (camera.target) {
-        if (!key_ || !same_document || key_->size.height == next.size.height) return;
-        camera = resized(camera, key_->size, next.size);
-        if (!is_active(ui)) return;
-        session.enqueue([&session, from = key_->size, to = next.size] { session.resize_pictures(from, to); });
+        if (before && before->height != next.size.height) camera = resized(camera, *before, next.size);
         return;
     }
     try {
@@ -236,13 +237,16 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 /// Lets the camera go to another step's pair, if it is to and the pair is not well in the picture.
 void Viewport::follow_test(Ui& ui) {
     const Session& session = ui.session;
+    const bool led_back = std::exchange(times_led_back_, session.times_led_back()) != session.times_led_back();
     if (!session.follow_test || !session.recorded()) return test_looked_for_.reset();
     const std::pair test(*session.view().query, session.step());
+    // Undo has brought back the camera too.
+    if (led_back) test_looked_for_ = test;
     if (flight_ || test_looked_for_ == test) return;
     test_looked_for_ = test;
     const std::optional<Bounds> box = box_of_test(session);
     if (!box || is_well_seen(*box, *list_)) return;
-    ui.session.enqueue([&session = ui.session, box] { frame_box(session, *box); });
+    ui.session.enqueue([&session = ui.session, box] { go_along_with(session, *box); });
 }
 
 /// Sets what is pointed out in the list, which is not built anew for that.
@@ -458,13 +462,10 @@ void Viewport::drag(Ui& ui, glm::vec2 pixel) {
     if (!placement) return;
     const Camera camera = shown_camera();
     const double height = list_->space.time_height;
-    const char* what = handle_drag_.handle == Handle::move   ? "moving "
-                       : handle_drag_.handle == Handle::turn ? "turning "
-                                                             : "shifting ";
-    ui.session.enqueue([&session = ui.session, what, agent = handle_drag_.agent, placement, camera, height] {
-        const std::string& name = session.scene().agents.at(static_cast<std::size_t>(agent)).name;
-        session.edit({what + name, "drag"}, [&](Scene& scene) {
-            place_agent(scene, agent, *placement);
+    ui.session.enqueue([&session = ui.session, drag = handle_drag_, placement, camera, height] {
+        const std::string& name = session.scene().agents.at(static_cast<std::size_t>(drag.agent)).name;
+        session.edit({name_of_placing(name, drag.start, *placement).title, "drag"}, [&](Scene& scene) {
+            place_agent(scene, drag.agent, *placement);
             scene.view.camera = camera;
             scene.view.time_height = height;
         });

@@ -74,7 +74,6 @@ class Viewport {
 
     std::optional<KeptPaths> paths_;  ///< of key_'s scene
     std::size_t view_place_ = 0;      ///< of the session's views
-    int opening_ = 0;                 ///< of the document that was shown last (Session::opening)
     std::optional<Key> key_;          ///< what the document asks for, a flight apart
     std::optional<DrawList> list_;
     std::string why_not_;  ///< there is no list: the reason
@@ -82,6 +81,7 @@ class Viewport {
     using Changed = Painter::Changed;
     Changed unpainted_ = Changed::nothing;                ///< what has changed since the painter was told
     std::optional<std::pair<int, int>> test_looked_for_;  ///< query and step whose test the camera has followed to
+    int times_led_back_ = 0;                              ///< Session's, when that was asked
 
     Drag drag_ = Drag::none;
     HandleDrag handle_drag_;

@@ -6,6 +6,7 @@
 #include <cli/program.h>
 #include <cli/render/render_options.h>
 #include <render/drawlist/view_projection.h>
+#include <scene/arrangement.h>
 #include <scene/load_files.h>
 #include <scene/view_options.h>
 
@@ -298,14 +299,16 @@ void check_together(const RenderArguments& arguments) {
     check_sequence(arguments);
 }
 
-ViewState view_over(ViewState view, const ViewArguments& arguments) {
+ViewState view_over(const Scene& scene, const ViewArguments& arguments) {
+    ViewState view = scene.view;
     if (!arguments.state.empty()) view = view_of_file(arguments.state, view);
     view.camera = camera_over(view.camera, arguments);
+    const std::vector<std::string> agents = names_in_view(scene);
     for (const ViewOption& option : view_options()) {
         const auto given = arguments.shown.find(option.key);
         if (given == arguments.shown.end()) continue;
         if (option.names) (view.*option.names).clear();
-        for (const std::string& text : given->second) option.parse(text, view);
+        for (const std::string& text : given->second) parse_option(option, text, agents, view);
     }
     if (arguments.says("step") && !view.query) throw InputError("--step: say with --query which query it is a step of");
     return view;

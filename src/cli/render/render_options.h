@@ -6,6 +6,7 @@
 #include <render/drawlist/picture_options.h>
 #include <render/gl/gl_context.h>
 #include <render/parts/highlights.h>
+#include <scene/scene.h>
 #include <scene/view_state.h>
 
 #include <glm/vec2.hpp>
@@ -70,7 +71,7 @@ void check_together(const RenderArguments& arguments);
 
 /// The scene's view with the options given over it. Throws InputError if the view state's file is none, or the two do
 /// not go together.
-ViewState view_over(ViewState view, const ViewArguments& arguments);
+ViewState view_over(const Scene& scene, const ViewArguments& arguments);
 
 /// Throws InputError for a view that names what its scene does not have, at the place in the file that says it.
 [[noreturn]] void refuse_view(const RenderArguments& arguments, const ViewMismatch& mismatch);

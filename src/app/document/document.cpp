@@ -1,0 +1,96 @@
+#include <app/document/document.h>
+#include <render/layout/follow.h>
+#include <scene/arrangement.h>
+#include <scene/crowd_scene.h>
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// Fits of fewer samples than this are no work for a job.
+constexpr std::size_t kQuickSamples = 50'000;
+/// How much longer than the paper's axes those found by searching take.
+constexpr std::size_t kSearchFactor = 100;
+
+/// The options of each fit of `present` when those of the fit in use become `options`.
+std::vector<mobb::FitOptions> fits_with(const FittedScene& present, const mobb::FitOptions& options) {
+    std::vector<mobb::FitOptions> out;
+    for (const auto& fit : present.fits()) out.push_back(fit->options);
+    out[present.fit_in_use()] = options;
+    return out;
+}
+
+}  // namespace
+
+QueryKey query_key(const FittedScene& fitted, int query) {
+    const Scene& scene = fitted.scene();
+    const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
+    // Where all pairs are asked each is asked once.
+    const auto end = scene.queries.begin() + (scene.queries.empty() ? 0 : query);
+    const auto same = std::count_if(scene.queries.begin(), end, [&](const SceneQuery& other) {
+        return other.a.name == asked.a.name && other.b.name == asked.b.name;
+    });
+    return {asked.a.name, asked.b.name, static_cast<int>(same)};
+}
+
+StepKey step_key(const FittedScene& fitted, int query) { return {query_key(fitted, query), fitted.options().tree}; }
+
+Document document_of(Scene scene, const FittedScene* previous, const Progress& progress) {
+    const mobb::FitOptions options = scene.fit;
+    const ViewState view = scene.view;
+    return {std::make_shared<const FittedScene>(std::move(scene), options, previous, progress), view};
+}
+
+Document with_scene(const Document& present, Scene scene, const FittedScene* fitted_beside, const Progress& progress) {
+    const FittedScene& before = *present.fitted;
+    const std::vector<mobb::FitOptions> fits = fits_with(before, scene.fit);
+    Document out = present;
+    out.view = scene.view;
+    scene.fit = fits.front();
+    std::vector<const FittedScene*> known{&before};
+    if (fitted_beside) known.push_back(fitted_beside);
+    FittedScene fitted(std::move(scene), fits.front(), known, progress);
+    for (std::size_t i = 1; i < fits.size(); ++i) {
+        fitted = fitted.with_fit(before.fits()[i]->name, fits[i], known, progress);
+    }
+    out.fitted = std::make_shared<const FittedScene>(fitted.using_fit(before.fit_in_use()));
+    for (SceneView& other : out.beside) {
+        other.fitted = std::make_shared<const FittedScene>(fitted.using_fit(other.fitted->fit_in_use()));
+    }
+    return out;
+}
+
+bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside) {
+    std::size_t work = 0;
+    for (const mobb::FitOptions& options : fits_with(present, scene.fit)) {
+        std::unordered_set<const mobb::Clip*> kept;
+        for (const FittedScene* source : {&present, fitted_beside}) {
+            if (!source) continue;
+            for (const auto& fit : source->fits()) {
+                if (fit->options != options) continue;
+                for (const auto& tree : fit->trees) kept.insert(&tree->clip());
+            }
+        }
+        for (const SceneClip& clip : scene.clips) {
+            if (kept.contains(clip.clip.get())) continue;
+            work += static_cast<std::size_t>(clip.clip->count()) *
+                    (options.axes == mobb::Axes::minarea ? kSearchFactor : 1);
+        }
+    }
+    return work < kQuickSamples;
+}
+
+ViewState fitting(ViewState view, const FittedScene& fitted) {
+    if (view.query && static_cast<std::size_t>(*view.query) >= fitted.queries().size()) view.query.reset();
+    if (!view.follow.empty() && !can_follow(fitted.scene(), view.follow)) view.follow.clear();
+    drop_unknown_names(fitted.scene(), view);
+    // A run is always seen at some time.
+    if (fitted.scene().crowd && !view.time) view.time = run_time(fitted.scene(), view);
+    return view;
+}
+
+}  // namespace mobbscope::app

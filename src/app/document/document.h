@@ -1,0 +1,80 @@
+/// What is open: a scene with its fits, and how it is seen. Values; how one becomes another is here too.
+#pragma once
+
+#include <scene/fitted_scene.h>
+#include <scene/view_state.h>
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+/// A query as it is found again when others were added or removed: the names of its two, and how many queries before it
+/// ask the same names.
+using QueryKey = std::tuple<std::string, std::string, int>;
+/// Requires a query of that index.
+QueryKey query_key(const FittedScene& fitted, int query);
+
+/// A query as its steps are remembered: other kinds of trees take other tests.
+using StepKey = std::pair<QueryKey, mobb::TreeKind>;
+/// ... with the fit in use. Requires a query of that index.
+StepKey step_key(const FittedScene& fitted, int query);
+
+/// The steps of a query that were looked at.
+struct QuerySteps {
+    Step left{};                   ///< where it was left
+    std::optional<Step> before{};  ///< where the last jump, or the last run of single steps, began; none: none yet
+    bool by_one = false;           ///< the last move was a single step
+};
+
+/// What an excerpt was taken from. An excerpt is a scene of its own, made of two paths of a run or a crowd.
+struct ExcerptSource {
+    std::shared_ptr<const FittedScene> fitted;  ///< of the whole; never null
+    ViewState view;                             ///< of the whole, when it was left
+    std::shared_ptr<const FittedScene> saved;   ///< the excerpt as it was made, or saved last
+    std::map<StepKey, QuerySteps> steps{};      ///< of the whole
+    int opening = 0;                            ///< likewise
+};
+
+/// One view of the document's scene: how it is seen, and with which of its fits.
+struct SceneView {
+    std::shared_ptr<const FittedScene> fitted;  ///< with the view's fit in use; never null
+    ViewState view;
+};
+
+/// The scene with its fits, and how it is seen: the active view, which commands and panels are about, and those beside
+/// it. All views are of one scene and one time. Values: a state once reached can be returned to at no cost, as the
+/// scene is immutable and shared.
+struct Document {
+    std::shared_ptr<const FittedScene> fitted;          ///< with the active view's fit in use; never null
+    ViewState view;                                     ///< the active one
+    std::shared_ptr<const ExcerptSource> excerpt_of{};  ///< of an excerpt; else null
+    std::vector<SceneView> beside{};                    ///< the other views, from left to right
+    std::size_t place = 0;                              ///< how many of them stand to the left of the active one
+    bool linked_cameras = true;                         ///< all views have one camera
+    std::map<StepKey, QuerySteps> steps{};              ///< that were looked at
+    int opening = 0;                                    ///< which one it is of: of files or an excerpt, each its own
+};
+
+/// A scene with the fit that it says, seen as it says; trees that `previous` (null: none) has are shared.
+Document document_of(Scene scene, const FittedScene* previous, const Progress& progress = {});
+
+/// The document with another scene, whose `fit` are the options of the fit in use and whose `view` is the active one.
+/// Its other fits and views are made anew for that scene; trees that `present` or `fitted_beside` (null: none) has are
+/// shared.
+Document with_scene(const Document& present, Scene scene, const FittedScene* fitted_beside = nullptr,
+                    const Progress& progress = {});
+
+/// Whether with_scene is done in an instant.
+bool quick_to_fit(const Scene& scene, const FittedScene& present, const FittedScene* fitted_beside);
+
+/// A view of another scene, or of this one before an edit, made to fit what there is.
+ViewState fitting(ViewState view, const FittedScene& fitted);
+
+}  // namespace mobbscope::app

@@ -1,0 +1,491 @@
+// What is put aside while something else is open, and what undo, a reload and a job must leave as it is.
+#include <app/document/shown_agents.h>
+#include <app/window/headless_window.h>
+#include <render/gl/gl_context.h>
+#include <scene/scene_edits.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace mobbscope::app {
+namespace {
+
+using testing::all_messages;
+using testing::CrossingFolder;
+namespace fs = std::filesystem;
+
+/// The crossing scene in a window, and a picture test of it that an earlier run has drawn nothing of.
+struct AsideWorld {
+    CrossingFolder folder;
+    Session session{false};
+    HeadlessWindow window{GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1};
+
+    AsideWorld() {
+        fs::create_directories(folder.file("cases"));
+        fs::create_directories(folder.file("drawn"));
+        folder.write("cases/one.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "160x120"})");
+        session.open({folder.scene});
+        window.settle();
+    }
+    void review() {
+        session.review(folder.file("cases"), folder.file("drawn"));
+        window.settle();
+    }
+    void open_case() {
+        review();
+        session.open_case(0);
+        window.settle();
+    }
+    void leave() {
+        session.leave_review();
+        window.settle();
+    }
+    void resize(PictureSize size) {
+        window.resize(size);
+        window.settle();
+    }
+    void nudge() {
+        run_command(session, "go.agent", "A");
+        run_command(session, "agent.nudge", "1 0");
+        window.settle();
+    }
+    /// Pixels that a metre takes at the camera's target, up to a factor.
+    double pixels_a_metre() const { return session.hooks.viewport_size().height / session.view().camera.distance; }
+};
+
+constexpr PictureSize kSmaller{800, 560};
+
+// --- cameras
+
+TEST(PutAside, AResizeKeepsTheScaleOfWhatAnExcerptWasTakenFrom) {
+    AsideWorld w;
+    const double before = w.pixels_a_metre();
+    const auto& agents = w.session.fitted().placed_agents();
+    w.session.open_excerpt(agents[0], agents[1]);
+    w.window.settle();
+    w.resize(kSmaller);
+    w.session.leave_excerpt();
+    w.window.settle();
+    EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before);
+    w.session.undo();
+    w.session.undo();
+    w.window.settle();
+    EXPECT_FALSE(w.session.in_excerpt());
+    EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before);
+}
+
+TEST(PutAside, AResizeKeepsTheScaleOfWhatIsOpenBesideACase) {
+    for (const bool shown : {true, false}) {
+        AsideWorld w;
+        const double before = w.pixels_a_metre();
+        w.review();
+        // With the case's scene in the picture, or with no picture at all.
+        if (!shown) w.resize(kSmaller);
+        w.session.open_case(0);
+        w.window.settle();
+        if (shown) w.resize(kSmaller);
+        w.leave();
+        ASSERT_FALSE(w.session.reviewing());
+        EXPECT_NEAR(w.pixels_a_metre(), before, 1e-9 * before) << shown;
+    }
+}
+
+TEST(PutAside, EachOpeningHasANumberAndComingBackFindsIt) {
+    AsideWorld w;
+    const int file = w.session.opening();
+    const auto& agents = w.session.fitted().placed_agents();
+    w.session.open_excerpt(agents[0], agents[1]);
+    const int excerpt = w.session.opening();
+    EXPECT_NE(excerpt, file) << "the first file is not the first excerpt";
+    w.session.undo();
+    EXPECT_EQ(w.session.opening(), file);
+    w.session.redo();
+    EXPECT_EQ(w.session.opening(), excerpt);
+    w.session.leave_excerpt();
+    EXPECT_EQ(w.session.opening(), file);
+    w.open_case();
+    EXPECT_NE(w.session.opening(), file);
+    EXPECT_NE(w.session.opening(), excerpt);
+    w.leave();
+    EXPECT_EQ(w.session.opening(), file);
+}
+
+TEST(PutAside, UndoWithinAnExcerptThatWasSavedCancelsNothing) {
+    AsideWorld w;
+    const auto& agents = w.session.fitted().placed_agents();
+    w.session.open_excerpt(agents[0], agents[1]);
+    w.nudge();
+    run_command(w.session, "view.moment");
+    w.window.settle();
+    run_command(w.session, "view.moment");
+    w.session.save_as(w.folder.file("two.json"));
+    ASSERT_FALSE(w.session.cameras_aside.empty());
+    w.session.undo();
+    EXPECT_FALSE(w.session.cameras_aside.empty()) << "it is the same excerpt";
+}
+
+// --- a case's scene
+
+TEST(PutAside, LeavingACaseBringsBackWhatWasOpenAndSaysNothingTwice) {
+    AsideWorld w;
+    w.folder.write("big.csv", "t,x,y,r\n0,0,0,0.3\n0.5,1,0,0.3\n1.3,2,0,0.3\n");
+    w.folder.write("warned.json", R"({"clips": {"big": {"source": "big.csv"}}})");
+    w.session.open({w.folder.file("warned.json")});
+    w.window.settle();
+    ASSERT_NE(all_messages(w.session).find("big: "), std::string::npos);
+    const std::vector<fs::path> recent = w.session.settings.recent;
+    const fs::path folder = w.session.settings.folder;
+    w.session.filter = "bi";
+    run_command(w.session, "go.agent", "big");
+    const Selection selected = w.session.selection;
+    w.open_case();
+    EXPECT_EQ(w.session.filter, "");
+    w.session.settings.folder = "elsewhere";
+    w.session.clear_messages();
+    w.leave();
+    EXPECT_EQ(all_messages(w.session), "");
+    EXPECT_EQ(w.session.settings.recent, recent);
+    EXPECT_EQ(w.session.settings.folder, "elsewhere") << "nothing was opened";
+    EXPECT_EQ(w.session.filter, "bi");
+    EXPECT_EQ(w.session.selection, selected);
+    EXPECT_NE(folder, "elsewhere");
+}
+
+/// 20,000 samples: their tightest boxes take long.
+std::string long_csv() {
+    std::string text = "t,x,y,r\n";
+    for (int i = 0; i < 20'000; ++i) {
+        text += std::to_string(i / 30.0) + ',' + std::to_string(std::cos(0.01 * i)) + ',' +
+                std::to_string(std::sin(0.013 * i)) + ",0.4\n";
+    }
+    return text;
+}
+
+void wait_for_jobs(Session& session) {
+    while (session.job()) session.poll();
+}
+
+TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
+    CrossingFolder folder;
+    Session session(true);
+    folder.write("long.csv", long_csv());
+    fs::create_directories(folder.file("cases"));
+    fs::create_directories(folder.file("drawn"));
+    folder.write("cases/one.case.json", R"({"mobbscope_case": 1, "scene": "../scene.json", "size": "160x120"})");
+    session.open({folder.file("long.csv")});
+    wait_for_jobs(session);
+    run_command(session, "tree.axes", "minarea");
+    ASSERT_EQ(session.job_count(), 1u);
+    session.review(folder.file("cases"), folder.file("drawn"));
+    session.open_case(0);
+    while (session.open_case_name().empty()) session.poll();
+    EXPECT_EQ(session.job_count(), 0u) << "the case has none";
+    run_command(session, "go.agent", "A");
+    run_command(session, "agent.rename", "first");
+    session.leave_review();
+    session.answer_unsaved(Session::Unsaved::discard);
+    ASSERT_EQ(session.job_count(), 1u);
+    wait_for_jobs(session);
+    EXPECT_EQ(session.title(), "long");
+    EXPECT_EQ(session.fitted().options().axes, mobb::Axes::minarea);
+}
+
+TEST(PutAside, AFileThatCannotBeLoadedLeavesTheCaseOpen) {
+    AsideWorld w;
+    w.open_case();
+    w.nudge();
+    w.session.open({w.folder.write("broken.json", "{")});
+    w.window.settle();
+    EXPECT_EQ(w.session.open_case_name(), "one");
+    EXPECT_EQ(w.session.dialog, Dialog::none) << "nobody is asked for nothing";
+    EXPECT_TRUE(w.session.modified());
+    w.session.open({w.folder.file("walk.csv")});
+    EXPECT_EQ(w.session.dialog, Dialog::unsaved) << "the case's scene is lost";
+    w.session.answer_unsaved(Session::Unsaved::cancel);
+    EXPECT_EQ(w.session.open_case_name(), "one");
+    w.session.open({w.folder.file("walk.csv")});
+    w.session.answer_unsaved(Session::Unsaved::discard);
+    EXPECT_EQ(w.session.open_case_name(), "");
+    EXPECT_EQ(w.session.title(), "walk");
+}
+
+TEST(PutAside, AFileThatTakesThePlaceOfACaseAsksForWhatWasOpenBefore) {
+    AsideWorld w;
+    w.nudge();
+    w.open_case();
+    w.session.open({w.folder.file("walk.csv")});
+    EXPECT_EQ(w.session.dialog, Dialog::unsaved);
+    EXPECT_EQ(w.session.title(), "scene.json");
+    EXPECT_TRUE(w.session.modified());
+    w.session.answer_unsaved(Session::Unsaved::discard);
+    EXPECT_EQ(w.session.title(), "walk");
+}
+
+// --- what is dropped
+
+TEST(PutAside, WhatIsDroppedOnPictureTestsIsOpenedOrNot) {
+    AsideWorld w;
+    w.nudge();
+    w.review();
+    w.session.drop({w.folder.file("walk.csv")});
+    w.window.settle();
+    ASSERT_EQ(w.session.dialog, Dialog::dropped);
+    EXPECT_FALSE(w.session.may_add());
+    const auto& marks = w.window.shell().marks().all();
+    EXPECT_FALSE(marks.contains("dropped.add")) << "there is no scene in sight to add to";
+    EXPECT_TRUE(marks.contains("dropped.open"));
+    w.session.close_dialog();
+    EXPECT_THROW(w.session.add({w.folder.file("walk.csv")}), InputError);
+    EXPECT_EQ(w.session.scene().clips.size(), 2u);
+}
+
+// --- import warnings
+
+TEST(PutAside, FilesThatAreAddedInAJobSayWhatIsWrongWithThem) {
+    CrossingFolder folder;
+    // Not uniform in time, so that they are resampled; and so many that a job fits them.
+    std::string far = "t,x,y,r\n";
+    for (int i = 0; i < 60'000; ++i) {
+        far += std::to_string((i + i % 2 * 0.3) / 30.0) + ',' + std::to_string(0.04 * i) + ",0,0.4\n";
+    }
+    folder.write("far.csv", far);
+    for (const bool attended : {false, true}) {
+        Session session(attended);
+        session.open({folder.scene});
+        wait_for_jobs(session);
+        session.add({folder.file("far.csv")});
+        wait_for_jobs(session);
+        ASSERT_EQ(session.scene().clips.size(), 3u);
+        ASSERT_FALSE(session.scene().clips.back().facts.warnings.empty());
+        EXPECT_NE(all_messages(session).find("far: "), std::string::npos) << attended << all_messages(session);
+    }
+}
+
+// --- names
+
+TEST(PutAside, AnotherNameIsKnownInAllViewsAndWhereverItIsRemembered) {
+    AsideWorld w;
+    w.session.split_view("UMOBB", {.tree = mobb::TreeKind::umobb, .leaf = 4});
+    w.session.link_cameras(false);
+    run_command(w.session, "view.other");
+    run_command(w.session, "agents.hide", "C");
+    run_command(w.session, "agents.pin", "A");
+    run_command(w.session, "view.other");
+    run_command(w.session, "agents.solo", "B");
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "step.to", "1");
+    run_command(w.session, "query.none");
+    for (const auto& [from, to] : {std::pair("A", "first"), std::pair("C", "third")}) {
+        run_command(w.session, "go.agent", from);
+        run_command(w.session, "agent.rename", to);
+    }
+    const ViewState other = w.session.view_at(1).view;
+    EXPECT_EQ(other.hidden, AgentNames{"third"});
+    EXPECT_EQ(other.pinned, AgentNames{"first"});
+    EXPECT_EQ(w.session.view().hidden, (AgentNames{"first", "third"}));
+    run_command(w.session, "query.select", "0");
+    EXPECT_EQ(w.session.step(), 1) << "where it was left";
+    run_command(w.session, "query.none");
+    run_command(w.session, "agents.solo", "B");
+    EXPECT_TRUE(w.session.view().hidden.empty()) << "what was in the picture before";
+}
+
+// --- steps
+
+struct SteppedWorld : AsideWorld {
+    SteppedWorld() { run("query.select", "0"); }
+    void run(const std::string& id, const std::string& argument = "") {
+        run_command(session, id, argument);
+        session.close_group();
+    }
+    int last() const { return session.recorded()->trace.size() - 1; }
+};
+
+TEST(Steps, AreRememberedForEachKindOfTrees) {
+    SteppedWorld w;
+    ASSERT_GT(w.last(), 4);
+    w.run("step.to", "2");
+    const int of_mobb = w.last();
+    w.run("tree.kind", "umobb");
+    EXPECT_NEAR(w.session.step(), 2.0 / of_mobb * w.last(), 1) << "as far on";
+    w.run("step.to", "3");
+    w.run("tree.kind", "mobb");
+    EXPECT_EQ(w.session.step(), 2);
+    w.run("tree.kind", "umobb");
+    EXPECT_EQ(w.session.step(), 3);
+    w.run("query.none");
+    w.run("tree.kind", "mobb");
+    w.run("query.select", "0");
+    EXPECT_EQ(w.session.step(), 2) << "reopened with the other kind";
+    w.run("query.none");
+    w.run("tree.kind", "umobb");
+    w.run("query.select", "0");
+    EXPECT_EQ(w.session.step(), 3);
+}
+
+TEST(Steps, OneKeyGoesToAndFroBetweenTwo) {
+    SteppedWorld w;
+    w.run("step.first");
+    for (int i = 0; i < 4; ++i) w.run("step.forward");
+    w.run("step.before");
+    EXPECT_EQ(w.session.step(), 0) << "where the run began";
+    w.run("step.before");
+    EXPECT_EQ(w.session.step(), 4);
+    w.run("step.forward");
+    w.run("step.before");
+    EXPECT_EQ(w.session.step(), 4);
+    w.run("step.before");
+    w.run("step.back");
+    EXPECT_EQ(w.session.step(), 4);
+    w.run("step.before");
+    EXPECT_EQ(w.session.step(), 5) << "a run that turned round: what was seen last";
+}
+
+TEST(Steps, ADragOverThemIsOneMove) {
+    SteppedWorld w;
+    w.run("step.to", "1");
+    for (const int event : {2, 4, 3, 5}) {
+        w.session.change_view([&](ViewState& view) { view.step = {Step::Unit::event, static_cast<double>(event)}; });
+    }
+    w.session.close_group();
+    w.run("step.before");
+    EXPECT_EQ(w.session.step(), 1);
+    w.run("step.before");
+    EXPECT_EQ(w.session.step(), 5);
+}
+
+TEST(Steps, TheKeyFlicksInTheWindow) {
+    SteppedWorld w;
+    const auto press = [&](Key key, bool shift = false) {
+        if (shift) w.window.shell().feed(KeyPress{Key::shift, true});
+        w.window.shell().feed(KeyPress{key, true});
+        w.window.shell().feed(KeyPress{key, false});
+        if (shift) w.window.shell().feed(KeyPress{Key::shift, false});
+        w.window.settle();
+    };
+    press(Key::left, true);
+    for (int i = 0; i < 3; ++i) press(Key::right);
+    const Camera camera = w.session.view().camera;
+    for (const int step : {0, 3, 0, 3}) {
+        press(Key::j);
+        EXPECT_EQ(w.session.step(), step);
+        EXPECT_EQ(w.session.view().camera, camera);
+    }
+}
+
+TEST(Steps, TheCameraThatFollowsTheTestAddsNoStates) {
+    SteppedWorld w;
+    w.run("step.first");
+    w.run("view.follow_test");
+    w.window.settle();
+    w.run("view.zoom", "6");
+    w.run("view.pan", "900 0");
+    w.window.settle();
+    const Camera first = w.session.view().camera;
+    w.run("time.at", "0.5");
+    const std::size_t count = w.session.history().count();
+    w.run("step.last");
+    w.window.settle();
+    const Camera last = w.session.view().camera;
+    ASSERT_NE(last, first) << "the camera has followed";
+    EXPECT_EQ(w.session.history().count(), count + 1) << "with the step";
+    for (int i = 0; i < 2; ++i) {
+        w.session.undo();
+        w.window.settle();
+        EXPECT_EQ(w.session.view().camera, first);
+        EXPECT_EQ(w.session.step(), 0);
+        w.session.redo();
+        w.window.settle();
+        EXPECT_EQ(w.session.view().camera, last);
+        EXPECT_EQ(w.session.history().count(), count + 1);
+    }
+    EXPECT_FALSE(w.session.history().can_redo());
+}
+
+// --- the history as a list
+
+/// What the history lists, the newest last.
+std::vector<std::string> titles(const Session& session) {
+    std::vector<std::string> out;
+    for (std::size_t i = 1; i < session.history().count(); ++i) out.push_back(session.history().title(i));
+    return out;
+}
+
+struct ListedWorld : AsideWorld {
+    void press(Key key) {
+        window.shell().feed(KeyPress{key, true});
+        window.shell().feed(KeyPress{key, false});
+        window.settle();
+    }
+    void click(const std::string& mark) {
+        const auto at = window.shell().marks().all().find(mark);
+        ASSERT_NE(at, window.shell().marks().all().end()) << mark;
+        window.shell().feed(MouseMove{at->second.center()});
+        window.shell().feed(MouseButton{0, true});
+        window.shell().feed(MouseButton{0, false});
+        window.settle();
+    }
+};
+
+TEST(HistoryList, ANumberThatKeysChangeIsOneEntryWithItsValue) {
+    ListedWorld w;
+    run_command(w.session, "go.agent", "A");
+    w.window.settle();
+    const auto step = [&](int tabs, Key key, int times) {
+        w.click("agent.name");
+        for (int i = 0; i < tabs; ++i) w.press(Key::tab);
+        for (int i = 0; i < times; ++i) w.press(key);
+    };
+    step(1, Key::up, 5);
+    step(2, Key::down, 2);
+    step(1, Key::up, 1);
+    using Titles = std::vector<std::string>;
+    EXPECT_EQ(titles(w.session), (Titles{"moving A: x 0.50 m", "moving A: y -0.20 m", "moving A: x 0.60 m"}));
+    w.session.undo();
+    w.session.undo();
+    EXPECT_EQ(w.session.scene().agents[0].placement.translate, glm::dvec2(0.5, 0));
+    w.press(Key::up);
+    EXPECT_EQ(titles(w.session), (Titles{"moving A: x 0.50 m", "moving A: x 0.60 m"}))
+        << "what was led back to stays as it was";
+}
+
+TEST(HistoryList, SaysWhatWasDoneWithItsValue) {
+    ListedWorld w;
+    const auto run = [&](const std::string& id, const std::string& argument = "") {
+        run_command(w.session, id, argument);
+        w.session.close_group();
+    };
+    run("go.agent", "A");
+    run("agent.move", "1 2");
+    run("agent.turn", "30");
+    run("agent.start", "0.5");
+    run("agent.color", "#123456");
+    run("agent.rename", "first");
+    run("tree.leaf", "7");
+    run("view.level", "3");
+    run("view.finer");
+    run("view.floor");
+    run("view.theme", "light");
+    run("agents.hide", "C");
+    run("agents.hide", "B");
+    run("agents.hide", "B");
+    run("query.select", "0");
+    for (int i = 0; i < 3; ++i) run("step.back");
+    run("time.at", "0.5");
+    run("view.top");
+    run("view.moment");
+    const std::string step = std::to_string(w.session.step());
+    EXPECT_EQ(titles(w.session),
+              (std::vector<std::string>{
+                  "moving A: x 1.00 m, y 2.00 m", "turning A: 30.0\u00B0", "shifting A: starts at 0.50 s",
+                  "colouring A: #123456", "renaming A to first", "changing the leaves: 7", "showing level 4",
+                  "floor: off", "theme: light", "hiding C", "hiding B", "showing B again", "showing first against B",
+                  "stepping to " + step, "moving in time to 0.50 s", "moving the view", "showing the moment"}));
+}
+
+}  // namespace
+}  // namespace mobbscope::app
