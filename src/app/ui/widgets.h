@@ -72,6 +72,10 @@ float button_width(const char* label);
 /// A text on one line that fits `room` pixels in the present font: its end becomes an ellipsis.
 std::string fitted_text(const std::string& text, float room);
 
+/// A name on one line that fits `room` pixels: its middle becomes an ellipsis, as names of one recording differ at
+/// their ends.
+std::string fitted_name(const std::string& name, float room);
+
 /// A text to edit in place. Returns what was typed once that is done, by Enter, Tab or a click elsewhere, and it is
 /// another text; Escape takes it back.
 std::optional<std::string> text_edit(Ui& ui, const std::string& mark, const std::string& now);
