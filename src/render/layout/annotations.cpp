@@ -132,8 +132,8 @@ void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
         label.anchor.y = seen->min.y;
         label.directions = {{0, -1}};
         if (layout.place(label, list)) continue;
-        label.anchor = seen->center();
-        label.directions = {{1, 0}, {-1, 0}};
+        label.text = fit_name(agent.name, FontFace::text, metrics.small, kLeastCellName * metrics.small);
+        label.directions = {{0, -1}, {1, 0}, {-1, 0}};
         layout.place(label, list);
     }
 }
