@@ -13,6 +13,8 @@ namespace mobbscope {
 
 namespace {
 
+constexpr std::size_t kLeastShortened = 5;  // characters
+
 constexpr std::size_t kLongestQuote = 60;
 
 /// Levenshtein's edit distance in bytes.
@@ -202,6 +204,21 @@ std::string shortened(std::string_view text, std::size_t most) {
     const std::size_t tail = (most - 1) / 2;
     const std::size_t head = most - 1 - tail;
     return std::string(text.substr(0, at[head])) + "\u2026" + std::string(text.substr(at[count - tail]));
+}
+
+std::string shortened_to_fit(std::string_view text, const std::function<bool(const std::string&)>& fits) {
+    std::size_t most = std::max<std::size_t>(text.size(), kLeastShortened);
+    if (std::string whole(text); fits(whole)) return whole;
+    std::size_t least = kLeastShortened;
+    while (least < most) {
+        const std::size_t middle = least + (most - least + 1) / 2;
+        if (fits(shortened(text, middle))) {
+            least = middle;
+        } else {
+            most = middle - 1;
+        }
+    }
+    return shortened(text, least);
 }
 
 std::string in_quotes(std::string_view text) { return "'" + shortened(cleaned(text), kLongestQuote) + "'"; }

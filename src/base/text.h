@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -70,6 +71,9 @@ std::string cleaned(std::string_view text);
 /// At most `most` (>= 5) characters: where there are more, the beginning, an ellipsis and the end. Text that is not
 /// UTF-8 is cut by bytes.
 std::string shortened(std::string_view text, std::size_t most);
+
+/// The longest of what `shortened` makes of a text that fits; that of 5 characters where none does.
+std::string shortened_to_fit(std::string_view text, const std::function<bool(const std::string&)>& fits);
 
 /// Text in single quotes for a message: cleaned and shortened.
 std::string in_quotes(std::string_view text);

@@ -165,6 +165,14 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.selection.path.agent, 3);
         EXPECT_GT(w.agent(3).placement.translate.y, 9.4) << "beside the others";
     });
+    add({"agent.make",
+         "",
+         {{"file.open", "@walk.csv"}},
+         [](CommandWorld& w) {
+             ASSERT_EQ(w.session.scene().agents.size(), 1u);
+             EXPECT_EQ(w.agent(0).name, "walk");
+         },
+         true});
     edit("agent.duplicate", "", [](CommandWorld& w) {
         ASSERT_EQ(w.session.scene().agents.size(), 4u);
         EXPECT_EQ(w.agent(3).name, "B 2");

@@ -2,6 +2,7 @@
 #include <app/commands/command.h>
 #include <app/script/script.h>
 #include <app/window/headless_window.h>
+#include <render/drawlist/pick.h>
 #include <render/gl/gl_context.h>
 
 #include "app/crossing_folder.h"
@@ -14,6 +15,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
@@ -265,6 +267,57 @@ TEST(Menus, TheHistoryIsAListToGoTo) {
     w.run("key Down\nexpect /scene/agents/0/rotate_deg 20\nkey Down\nexpect /scene/agents/0/start 2");
     w.run("key Up\nkey Up\nkey Up\nkey Up\nkey Enter\nexpect /dialog \"none\"\nexpect /modified false");
     EXPECT_EQ(w.session.history().redo_title(), "moving A: x 1.00 m, y 1.00 m");
+}
+
+TEST(Menus, ClipsAreNoAgentsUntilTheyAreMadeSome) {
+    MenuWindow w;
+    w.session.open({w.folder.file("walk.csv"), w.folder.file("stand.csv")});
+    w.window.settle();
+    for (const char* row : {"agent.0", "clip.0"}) {
+        w.run(std::string("click ") + row + " right");
+        EXPECT_TRUE(w.has("context.agent.make")) << row;
+        for (const char* id : {"query.add", "agent.add", "agent.rename", "agent.duplicate", "agent.remove"}) {
+            EXPECT_FALSE(w.has(std::string("context.") + id)) << row << ' ' << id;
+        }
+        w.run("key Escape");
+    }
+    EXPECT_FALSE(w.has("scene.add_agent"));
+    EXPECT_THROW(run_command(w.session, "agent.add", "walk"), std::invalid_argument)
+        << "two clips would be three agents";
+    w.run("click scene.make_agents\nexpect /scene/agents/1/name \"stand\"\nexpect /scene/agents/2 null");
+    EXPECT_FALSE(w.has("scene.make_agents"));
+    w.run("click agent.0 right");
+    EXPECT_TRUE(w.has("context.agent.rename"));
+    EXPECT_FALSE(w.has("context.agent.make"));
+    w.run("key Escape\nkey Ctrl+Z\nexpect /scene/agents null\nexpect /undo null");
+}
+
+TEST(Menus, NothingButWhatIsUnderTheMouseIsOutlined) {
+    MenuWindow w;
+    w.run("run query.select 0\nrun step.to 6");
+    const DrawList& list = *w.window.shell().shown();
+    const glm::vec2 corner = w.marks().at("viewport").min;
+    const auto has_faces = [&](const Pick& hit) {
+        return std::ranges::any_of(list.boxes,
+                                   [&](const BoxInstance& b) { return b.pickable && b.id == hit.id && b.fill.a > 0; });
+    };
+    // Within nodes tested before, where nothing else is.
+    int empty = 0;
+    int lit = 0;
+    for (int y = 20; y < list.size.height; y += 30) {
+        for (int x = 20; x < list.size.width; x += 30) {
+            const glm::vec2 at(x, y);
+            const std::vector<Pick> hits = pick(list, at);
+            const auto outlined = [&](const Pick& hit) {
+                return hit.id.kind == ObjectId::Kind::box && !has_faces(hit);
+            };
+            if (hits.empty() || !std::ranges::all_of(hits, outlined)) continue;
+            w.run("move " + std::to_string(corner.x + at.x) + ' ' + std::to_string(corner.y + at.y));
+            ++(w.session.hovered == Selection{} ? empty : lit);
+        }
+    }
+    EXPECT_GT(empty, 10);
+    EXPECT_LT(lit, empty) << "only at the edges";
 }
 
 TEST(Menus, TheStatusBarCountsAndSaysWhatIsUnderTheMouse) {

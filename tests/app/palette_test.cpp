@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace mobbscope::app {
 namespace {
 
@@ -32,6 +36,26 @@ TEST(Fuzzy, LettersStandInTheirOrder) {
     EXPECT_FALSE(fuzzy_score("eid", "Tree kind")) << "strewn about";
     EXPECT_FALSE(fuzzy_score("a", ""));
     EXPECT_EQ(fuzzy_score("", "anything"), 0);
+}
+
+TEST(Palette, HidesShowsAloneAndPinsByName) {
+    PaletteWindow w;
+    run_command(w.session, "go.agent", "B");
+    run_command(w.session, "agent.rename", "Jos\u00E9 am Tor");
+    for (const auto& [text, id] : {std::pair("hide Jos\u00E9 Tor", "agents.hide"),
+                                   {"alone Jos\u00E9 Tor", "agents.solo"},
+                                   {"pin Jos\u00E9 Tor", "agents.pin"}}) {
+        const PaletteEntry entry = w.first(text);
+        ASSERT_NE(entry.command, nullptr) << text;
+        EXPECT_EQ(entry.command->id, id) << text;
+        EXPECT_EQ(entry.argument, "Jos\u00E9 am Tor") << text;
+        EXPECT_NO_THROW(run_command(w.session, entry.command->id, entry.argument));
+    }
+    EXPECT_EQ(w.session.view().pinned, std::vector<std::string>{"Jos\u00E9 am Tor"});
+    const PaletteEntry of_clip = w.first("hide clip walk");
+    ASSERT_NE(of_clip.command, nullptr);
+    EXPECT_EQ(of_clip.command->id, "agents.hide");
+    EXPECT_EQ(of_clip.argument, "clip:walk");
 }
 
 TEST(Fuzzy, StartsOfWordsAndRunsCountMore) {

@@ -1,4 +1,5 @@
 // Menus, palette, dialogs and messages in the window, by keys and clicks.
+#include <app/commands/camera_commands.h>
 #include <app/ui/style.h>
 #include <app/window/headless_window.h>
 #include <render/drawlist/view_projection.h>
@@ -10,9 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
-
 #include <cstdlib>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
@@ -303,6 +305,67 @@ TEST(StillCamera, ItFollowsTheTestWhereThatIsAskedFor) {
     run_command(w.session, "view.orbit", "10 0");
     w.window.settle();
     EXPECT_NE(w.session.view().camera, there) << "a hand is not overruled";
+}
+
+TEST(StillCamera, FollowingATestHasItBesideThePanelsAndDoesNotWander) {
+    for (const PictureSize size : {PictureSize{1280, 800}, PictureSize{1024, 640}}) {
+        Window w(size);
+        run_command(w.session, "query.select", "0");
+        run_command(w.session, "step.first");
+        run_command(w.session, "view.follow_test");
+        w.window.settle();
+        int flights = 0;
+        const int steps = w.session.recorded()->trace.size();
+        for (int step = 0; step < steps; ++step) {
+            run_command(w.session, "step.to", std::to_string(step));
+            const Camera before = w.session.view().camera;
+            w.window.settle();
+            flights += w.session.view().camera == before ? 0 : 1;
+            const DrawList& shown = *w.window.shell().shown();
+            std::vector<Rect> panels;
+            for (const Overlay& overlay : shown.overlays) panels.push_back(overlay.rect);
+            ASSERT_FALSE(panels.empty());
+            EXPECT_TRUE(is_well_seen(*corners_of_test(w.session), shown, panels)) << "step " << step;
+        }
+        EXPECT_GT(flights, 0);
+        EXPECT_LT(3 * flights, steps) << "a camera that flies at every step shows nothing";
+    }
+}
+
+TEST(StillCamera, ABoxThatIsCutOffOrBelowAPanelIsNotWellSeen) {
+    Window w({1280, 800});
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "step.to", "3");
+    w.window.settle();
+    const DrawList& shown = *w.window.shell().shown();
+    const TestCorners boxes = *corners_of_test(w.session);
+    const auto at = [&](const glm::dvec3& p) { return *shown.projection.project(shown.space.point(p.x, p.y, p.z)); };
+    glm::vec2 low(1e6f);
+    glm::vec2 high(-1e6f);
+    for (const auto& box : boxes) {
+        for (const glm::dvec3& corner : box) {
+            low = glm::min(low, at(corner));
+            high = glm::max(high, at(corner));
+        }
+    }
+    ASSERT_TRUE(is_well_seen(boxes, shown, {}));
+    const Rect corner{at(boxes[0][0]) - 2.0f, at(boxes[0][0]) + 2.0f};
+    EXPECT_FALSE(is_well_seen(boxes, shown, std::array{corner})) << "a panel over a corner";
+    EXPECT_TRUE(is_well_seen(boxes, shown, std::array{Rect{low - 30.0f, {high.x, low.y - 1}}})) << "beside it";
+    PictureFrame cut = shown;
+    cut.size.width = static_cast<int>(high.x - 1);
+    EXPECT_FALSE(is_well_seen(boxes, cut, {})) << "cut off at the edge";
+    PictureFrame far = shown;
+    far.size = {20000, 20000};
+    EXPECT_FALSE(is_well_seen(boxes, far, {})) << "small";
+}
+
+TEST(StillCamera, TheFreePartIsTheLargestThatNoPanelCovers) {
+    const std::vector<Rect> panels{{{10, 10}, {500, 60}}, {{850, 10}, {990, 150}}, {{10, 400}, {150, 590}}};
+    const Rect part = free_part({1000, 600}, panels);
+    for (const Rect& panel : panels) EXPECT_FALSE(part.overlaps(panel));
+    EXPECT_GE(part.size().x * part.size().y, 700 * 540);
+    EXPECT_EQ(free_part({1000, 600}, {}).size(), glm::vec2(1000, 600));
 }
 
 TEST(Panels, TheCameraGoesOnFromWhatKeysHaveMade) {

@@ -6,12 +6,14 @@
 #include <render/drawlist/draw_list.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
+#include <scene/arrangement.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -78,6 +80,28 @@ TEST(Framing, NothingButSceneQueryAndSizeMovesTheCamera) {
             }
         }
     }
+}
+
+TEST(Framing, WhoIsHiddenIsNotFramed) {
+    const FittedScene fitted = testing::hit_scene();
+    ViewState plain;
+    const PictureFrame all = picture_frame(fitted, plain, kGoldenSize);
+    const std::vector<std::string> names = names_in_view(fitted.scene());
+    for (const Show show : {Show::space_time, Show::moment}) {
+        ViewState view;
+        view.show = show;
+        const Camera whole = picture_frame(fitted, view, kGoldenSize).camera;
+        view.hidden = {names.front()};
+        EXPECT_NE(picture_frame(fitted, view, kGoldenSize).camera, whole);
+        view.hidden = names;
+        EXPECT_EQ(picture_frame(fitted, view, kGoldenSize).camera, whole) << "nobody is left: all have their places";
+    }
+    ViewState one;
+    one.hidden = {names.front()};
+    EXPECT_EQ(picture_frame(fitted, one, kGoldenSize).space.time_height, all.space.time_height)
+        << "a second stays as high";
+    const glm::vec2 room = room_around(build_draw_list(fitted, one, kGoldenSize));
+    EXPECT_NEAR(std::min(room.x, room.y), 0.05 / 1.1, 2e-3);
 }
 
 TEST(Framing, AResizedPictureKeepsItsScale) {

@@ -8,8 +8,11 @@
 #include <render/pictures/moment.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace mobbscope::app {
@@ -18,10 +21,42 @@ namespace {
 
 constexpr PictureSize kWithoutWindow{1280, 720};
 
-void add_box(Bounds& bounds, const mobb::PlacedTree& tree, int node) {
+// The camera that follows a test goes farther back than it needs to, or it would fly at every step.
+constexpr float kSmallTest = 0.15f;   // of the picture's shorter side
+constexpr float kShareOfPart = 0.6f;  // of the free part that is filled
+
+/// In (x, y, t).
+std::vector<glm::dvec3> corners_of_node(const mobb::PlacedTree& tree, int node) {
+    std::vector<glm::dvec3> out;
     for (const glm::dvec3& corner : mobb::corners(world_box(tree, node))) {
-        bounds.add({corner.x, corner.y, corner.z / tree.time_scale()});
+        out.emplace_back(corner.x, corner.y, corner.z / tree.time_scale());
     }
+    return out;
+}
+
+/// Whether a rectangle overlaps the convex hull of points: no line along a side of either parts them.
+bool meets(const Rect& rect, std::span<const glm::vec2> points) {
+    const std::array<glm::vec2, 4> corners{{rect.min, {rect.max.x, rect.min.y}, rect.max, {rect.min.x, rect.max.y}}};
+    const auto reach = [](std::span<const glm::vec2> of, glm::vec2 way) {
+        glm::vec2 out(std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest());
+        for (const glm::vec2 p : of) {
+            out = {std::min(out.x, glm::dot(p, way)), std::max(out.y, glm::dot(p, way))};
+        }
+        return out;
+    };
+    const auto parts = [&](glm::vec2 way) {
+        const glm::vec2 a = reach(corners, way);
+        const glm::vec2 b = reach(points, way);
+        return a.y <= b.x || b.y <= a.x;
+    };
+    if (parts({1, 0}) || parts({0, 1})) return false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t j = i + 1; j < points.size(); ++j) {
+            const glm::vec2 side = points[j] - points[i];
+            if (side != glm::vec2(0) && parts({-side.y, side.x})) return false;
+        }
+    }
+    return true;
 }
 
 PictureFrame present_picture(const Session& session) {
@@ -62,7 +97,7 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
         const mobb::PlacedClip& clip = agent.clip();
         if (!all && index != agent.index && of_clip != &clip.clip()) continue;
         if (selected.kind == Selection::Kind::node) {
-            add_box(bounds, agent.placed, selected.index);
+            for (const glm::dvec3& corner : corners_of_node(agent.placed, selected.index)) bounds.add(corner);
         } else if (selected.kind == Selection::Kind::sample) {
             add_samples(bounds, clip, {selected.index, 1});
         } else {
@@ -78,34 +113,83 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected) 
     return bounds;
 }
 
-std::optional<Bounds> box_of_test(const Session& session) {
+std::optional<TestCorners> corners_of_test(const Session& session) {
     const RecordedQuery* recorded = session.recorded();
     if (!recorded || session.view().show == Show::moment) return std::nullopt;
     const auto event = recorded->trace[session.step()];
     const std::vector<DrawnAgent> sides = drawn_agents(session.fitted(), session.view());
+    return TestCorners{corners_of_node(sides[0].placed, event.a), corners_of_node(sides[1].placed, event.b)};
+}
+
+std::optional<Bounds> box_of_test(const Session& session) {
+    const std::optional<TestCorners> boxes = corners_of_test(session);
+    if (!boxes) return std::nullopt;
     Bounds bounds;
-    add_box(bounds, sides[0].placed, event.a);
-    add_box(bounds, sides[1].placed, event.b);
+    for (const std::vector<glm::dvec3>& box : *boxes) {
+        for (const glm::dvec3& corner : box) bounds.add(corner);
+    }
     return bounds;
 }
 
-bool is_well_seen(const Bounds& box, const PictureFrame& picture) {
-    constexpr float kMiddle = 0.3f;  // of the picture, to either side
-    constexpr float kSmall = 0.15f;  // of the picture's shorter side
+bool is_well_seen(const TestCorners& boxes, const PictureFrame& picture, std::span<const Rect> panels) {
     const glm::vec2 size(picture.size.width, picture.size.height);
     glm::vec2 low = size;
     glm::vec2 high(0);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 at(corner & 1u ? box.max.x : box.min.x, corner & 2u ? box.max.y : box.min.y,
-                            corner & 4u ? box.max.z : box.min.z);
-        const auto pixel = picture.projection.project(picture.space.point(at.x, at.y, at.z));
-        if (!pixel) return false;
-        low = glm::min(low, *pixel);
-        high = glm::max(high, *pixel);
+    for (const std::vector<glm::dvec3>& box : boxes) {
+        std::vector<glm::vec2> outline;
+        for (const glm::dvec3& corner : box) {
+            const auto pixel = picture.projection.project(picture.space.point(corner.x, corner.y, corner.z));
+            if (!pixel || !Rect{{0, 0}, size}.contains({*pixel, *pixel})) return false;
+            outline.push_back(*pixel);
+            low = glm::min(low, *pixel);
+            high = glm::max(high, *pixel);
+        }
+        if (std::ranges::any_of(panels, [&](const Rect& panel) { return meets(panel, outline); })) return false;
     }
-    const glm::vec2 aside = glm::abs(0.5f * (low + high) / size - 0.5f);
     const glm::vec2 extent = high - low;
-    return std::max(aside.x, aside.y) <= kMiddle && std::max(extent.x, extent.y) >= kSmall * std::min(size.x, size.y);
+    return std::max(extent.x, extent.y) >= kSmallTest * std::min(size.x, size.y);
+}
+
+Rect free_part(PictureSize size, std::span<const Rect> panels) {
+    const Rect all{{0, 0}, glm::vec2(size.width, size.height)};
+    std::array<std::vector<float>, 4> sides{{{all.min.x}, {all.min.y}, {all.max.x}, {all.max.y}}};
+    for (const Rect& panel : panels) {
+        sides[0].push_back(panel.max.x);
+        sides[1].push_back(panel.max.y);
+        sides[2].push_back(panel.min.x);
+        sides[3].push_back(panel.min.y);
+    }
+    Rect best;
+    const auto area = [](const Rect& part) { return part.size().x * part.size().y; };
+    for (const float left : sides[0]) {
+        for (const float top : sides[1]) {
+            for (const float right : sides[2]) {
+                for (const float bottom : sides[3]) {
+                    const Rect part{{left, top}, {right, bottom}};
+                    if (left >= right || top >= bottom || area(part) <= area(best)) continue;
+                    if (std::ranges::none_of(panels, [&](const Rect& panel) { return panel.overlaps(part); })) {
+                        best = part;
+                    }
+                }
+            }
+        }
+    }
+    return best;
+}
+
+Camera framing_in(const TestCorners& boxes, const PictureFrame& picture, const Rect& part) {
+    const glm::vec2 room = glm::max(kShareOfPart * part.size(), glm::vec2(1));
+    const PictureSize fitted{static_cast<int>(std::ceil(room.x)), static_cast<int>(std::ceil(room.y))};
+    ShownPoints points;
+    for (const std::vector<glm::dvec3>& box : boxes) {
+        for (const glm::dvec3& corner : box) points.add(picture.space.point(corner.x, corner.y, corner.z));
+    }
+    Camera camera = picture.camera;
+    camera.target.reset();
+    camera.shift = {0, 0};
+    const Camera near = framed_camera(camera, points, picture.space, fitted);
+    const glm::vec2 middle = 0.5f * glm::vec2(picture.size.width, picture.size.height);
+    return panned(resized(near, fitted, picture.size), part.center() - middle, picture.size);
 }
 
 void frame_box(Session& session, const Bounds& box) {
@@ -113,10 +197,10 @@ void frame_box(Session& session, const Bounds& box) {
                 [&](const Camera& camera, const PictureFrame& picture) { return framing_box(camera, picture, box); });
 }
 
-void go_along_with(Session& session, const Bounds& box) {
+void go_along_with(Session& session, const TestCorners& boxes, const Rect& part) {
     const PictureFrame picture = present_picture(session);
     const double chosen = session.view().time_height;
-    session.settle_camera(session.active_place(), framing_box(picture.camera, picture, box),
+    session.settle_camera(session.active_place(), framing_in(boxes, picture, part),
                           chosen > 0 ? 0 : picture.space.time_height);
 }
 

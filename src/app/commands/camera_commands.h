@@ -5,8 +5,12 @@
 #include <render/drawlist/draw_list.h>
 #include <render/layout/framing.h>
 
+#include <array>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 
@@ -24,14 +28,26 @@ std::optional<Bounds> box_of(const Session& session, const Selection& selected);
 /// What the pair under test covers, likewise; none without a query in view, or in the picture of a moment.
 std::optional<Bounds> box_of_test(const Session& session);
 
-/// Whether a box that box_of gave is near the middle of a picture, and not small in it.
-bool is_well_seen(const Bounds& box, const PictureFrame& picture);
+/// The corners of the two boxes under test, in (x, y, t); none where box_of_test has none.
+using TestCorners = std::array<std::vector<glm::dvec3>, 2>;
+std::optional<TestCorners> corners_of_test(const Session& session);
+
+/// Whether both boxes lie wholly in the part of a picture that no panel covers, and are together not small.
+bool is_well_seen(const TestCorners& boxes, const PictureFrame& picture, std::span<const Rect> panels);
+
+/// The largest part of a picture, upright, that no panel covers.
+Rect free_part(PictureSize size, std::span<const Rect> panels);
+
+/// The camera that has both boxes in the middle of a part of the picture, with so much room around them that smaller
+/// boxes in them and near them are well seen too.
+Camera framing_in(const TestCorners& boxes, const PictureFrame& picture, const Rect& part);
 
 /// Brings a box that box_of gave into the middle, as large as it fits.
 void frame_box(Session& session, const Bounds& box);
 
-/// The same, as what the present step brings along: the state of the history that shows the step has the camera too.
-void go_along_with(Session& session, const Bounds& box);
+/// Frames both boxes so, as what the present step brings along: the state of the history that shows the step has the
+/// camera too.
+void go_along_with(Session& session, const TestCorners& boxes, const Rect& part);
 
 bool follows(const Session& session);
 

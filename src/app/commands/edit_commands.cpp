@@ -153,17 +153,28 @@ std::vector<Command> edit_commands() {
                 copy_figures,
                 {.enabled = {[](const Session& session) { return session.selection.kind != Selection::Kind::none; },
                              [](const Session&) -> std::string_view { return "nothing is selected"; }}}),
-        Command(
-            "agent.add", "Add agent", "Adds an agent that plays a clip, a little aside from the others.", add,
-            {.argument = "CLIP",
-             .enabled = {[](const Session& session) { return has_scene(session) && !session.crowd(); }, why_no_agent},
-             .choices = clip_names}),
+        Command("agent.make", "Make these agents",
+                "Makes an agent of every clip that is shown, where it is: agents can be placed and asked.",
+                [](Session& session) {
+                    session.edit({"making agents", ""}, add_agents_for_clips);
+                },
+                {.enabled = {shows_bare_clips,
+                             [](const Session& session) -> std::string_view {
+                                 return session.crowd() ? "a run is not edited" : "they are agents already";
+                             }}}),
+        Command("agent.add", "Add agent", "Adds an agent that plays a clip, a little aside from the others.", add,
+                {.argument = "CLIP",
+                 .enabled = {[](const Session& session) {
+                                 return has_scene(session) && !session.crowd() && !shows_bare_clips(session);
+                             },
+                             why_no_agent},
+                 .choices = clip_names}),
         Command("agent.duplicate", "Duplicate agent", "Adds a copy of the selected agent, a metre aside.", duplicate,
-                {.shortcut = "Ctrl+D", .enabled = {has_selected_agent, why_no_agent}}),
+                {.shortcut = "Ctrl+D", .enabled = {has_true_agent, why_no_agent}}),
         Command("agent.remove", "Remove agent", "Removes the selected agent and the queries about it; its clip stays.",
                 remove, {.shortcut = "Delete", .enabled = {has_selected_of_several, why_no_agent}}),
         Command("agent.rename", "Rename agent...", "Gives the selected agent another name.", rename,
-                {.argument = "NAME", .enabled = {has_selected_agent, why_no_agent}, .present = selected_agent_name}),
+                {.argument = "NAME", .enabled = {has_true_agent, why_no_agent}, .present = selected_agent_name}),
         Command("agent.move", "Place agent at", "Places the selected agent on the floor, in metres.", move,
                 {.menu = kNoMenu,
                  .argument = "X Y",

@@ -294,8 +294,8 @@ std::vector<Command> direction_commands() {
         Command("view.frame_all", "Frame everything", "Shows the whole scene again from the present direction.",
                 frame_all, {.shortcut = "Home"}),
         Command("view.follow_test", "Follow the test",
-                "Lets the camera go to the pair under test whenever a step leaves the middle of the picture or becomes "
-                "small in it.",
+                "Lets the camera go to the pair under test whenever a step's boxes are cut off, lie below a panel, or "
+                "are small in the picture.",
                 [](Session& session) { session.follow_test = !session.follow_test; },
                 {.checked = [](const Session& session) { return session.follow_test; }}),
     };

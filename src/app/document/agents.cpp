@@ -27,12 +27,19 @@ bool has_selected_agent(const Session& session) {
     return !session.crowd() && session.selection.on_path() && session.selection.path.agent >= 0;
 }
 
+bool shows_bare_clips(const Session& session) {
+    return !session.empty() && !session.crowd() && session.scene().agents.empty();
+}
+
+bool has_true_agent(const Session& session) { return has_selected_agent(session) && !shows_bare_clips(session); }
+
 bool has_selected_of_several(const Session& session) {
-    return has_selected_agent(session) && session.fitted().placed_agents().size() > 1;
+    return has_true_agent(session) && session.fitted().placed_agents().size() > 1;
 }
 
 std::string_view why_no_agent(const Session& session) {
     if (session.crowd()) return "a run is not edited";
+    if (shows_bare_clips(session)) return "these are clips: make them agents first (Edit / Make these agents)";
     return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
 }
 

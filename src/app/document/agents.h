@@ -16,8 +16,14 @@ namespace mobbscope::app {
 /// Whether an agent is selected; in a scene without agents a clip that is seen counts as one, as an edit makes it one.
 bool has_selected_agent(const Session& session);
 
-/// Whether an agent is selected and there is another.
+/// Whether it is an agent of the scene, and no clip.
+bool has_true_agent(const Session& session);
+
+/// Whether such an agent is selected and there is another.
 bool has_selected_of_several(const Session& session);
+
+/// Whether what is seen are clips: there are no agents yet.
+bool shows_bare_clips(const Session& session);
 
 /// Why a command about an agent cannot be done.
 std::string_view why_no_agent(const Session& session);

@@ -88,7 +88,7 @@ void no_query(Ui& ui) {
     if (!section(ui, "QUERY")) return;
     const char* what = session.empty() ? "Open a scene to ask whether two agents collide."
                        : session.fitted().queries().empty()
-                           ? "A query asks whether two agents ever collide. Add agents at the left (+ agent): every "
+                           ? "A query asks whether two agents ever collide. Make or add agents at the left: every "
                              "pair of them is asked by itself."
                            : "Choose a query at the left to see why the two collide, or why not.";
     words(ui.style.quiet, what);

@@ -1,4 +1,5 @@
 #include <app/commands/command.h>
+#include <app/document/agents.h>
 #include <app/document/described.h>
 #include <app/document/shown_agents.h>
 #include <app/panels/panels.h>
@@ -165,7 +166,12 @@ void agents(Ui& ui) {
     if (!section(ui, title, count_text(shown.size(), static_cast<std::size_t>(count)))) return;
     rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
          [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)]); });
-    if (!session.crowd()) {
+    if (shows_bare_clips(session)) {
+        if (small_button(ui, "make these agents", "scene.make_agents",
+                         "An agent for every clip, where it is: agents can be placed and asked")) {
+            invoke(session, "agent.make");
+        }
+    } else if (!session.crowd()) {
         if (small_button(ui, "+ agent", "scene.add_agent", "Add an agent that plays one of the clips")) {
             ImGui::OpenPopup("add agent");
         }
@@ -195,7 +201,9 @@ void clip_row(Ui& ui, int index, float indent) {
             find_command("clip.import")->enabled(session)) {
             invoke(session, "clip.import", clip.name);
         }
-        if (ImGui::IsItemHovered() && warned) ImGui::SetTooltip("%s", clip.facts.warnings.front().text.c_str());
+        if (ImGui::IsItemHovered() && warned) {
+            ImGui::SetTooltip("%s\n%s", clip.name.c_str(), clip.facts.warnings.front().text.c_str());
+        }
     };
     const bool clicked = agents_row(ui,
                                     {.mark = "clip." + std::to_string(index),

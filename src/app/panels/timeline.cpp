@@ -82,6 +82,13 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
     draw.PopClipRect();
 }
 
+/// Who is hidden has no bar.
+std::vector<DrawnAgent> shown_paths(const Session& session) {
+    std::vector<DrawnAgent> out = drawn_agents(session.fitted(), session.view());
+    std::erase_if(out, [](const DrawnAgent& agent) { return agent.hidden; });
+    return out;
+}
+
 /// When each path is there, as a bar in its colour, with the time cursor over all of them; drag to scrub.
 void time_bars(Ui& ui, float width, float height) {
     Session& session = ui.session;
@@ -114,7 +121,7 @@ void time_bars(Ui& ui, float width, float height) {
     if (session.crowd()) {
         play_bars(ui, corner, {width, height}, axis);
     } else {
-        paths = drawn_agents(session.fitted(), session.view());
+        paths = shown_paths(session);
     }
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
@@ -127,7 +134,7 @@ void time_bars(Ui& ui, float width, float height) {
                            ui.px(2));
         const float font = ImGui::GetFontSize();
         if (each < font + 2 * gap) continue;
-        const std::string name = fitted_text(paths[i].name, right - left - ui.px(12));
+        const std::string name = fitted_name(paths[i].name, right - left - ui.px(12));
         const Rgba ink =
             contrast(paths[i].color, Rgba(0, 0, 0, 1)) > contrast(paths[i].color, Rgba(1)) ? Rgba(0, 0, 0, 1) : Rgba(1);
         draw.AddText({left + ui.px(6), y + 0.5f * (each - font)}, to_im(ink), name.c_str());
@@ -155,7 +162,7 @@ void time_row(Ui& ui, bool tall) {
     const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - clear - ui.px(8));
     const float below = ui.px(24);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const std::size_t lanes = session.crowd() ? 1 : drawn_agents(session.fitted(), session.view()).size();
+    const std::size_t lanes = session.crowd() ? 1 : shown_paths(session).size();
     const auto paths = static_cast<float>(lanes);
     const float most =
         std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));

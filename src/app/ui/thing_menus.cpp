@@ -1,3 +1,4 @@
+#include <app/document/agents.h>
 #include <app/ui/thing_menus.h>
 #include <base/text.h>
 #include <explain/query_findings.h>
@@ -73,7 +74,11 @@ void append_agent(std::vector<MenuEntry>& menu, const Session& session) {
         append(menu, shown_menu(session, {name, {name}}));
     }
     if (session.is_crowd()) append(menu, entries_of(kInCrowd));
-    if (!session.crowd()) append(menu, entries_of(kAgent));
+    if (shows_bare_clips(session)) {
+        append(menu, {{"agent.make"}});
+    } else if (!session.crowd()) {
+        append(menu, entries_of(kAgent));
+    }
 }
 
 std::vector<MenuEntry> node_menu(const Session& session) {
@@ -112,7 +117,11 @@ std::vector<MenuEntry> query_menu(const Session& session) {
 std::vector<MenuEntry> clip_menu(const Session& session) {
     std::vector<MenuEntry> menu;
     const std::string& name = session.scene().clips[static_cast<std::size_t>(session.selection.index)].name;
-    if (!session.crowd()) menu.push_back({"agent.add", name, "Add an agent that plays it"});
+    if (shows_bare_clips(session)) {
+        menu.push_back({"agent.make"});
+    } else if (!session.crowd()) {
+        menu.push_back({"agent.add", name, "Add an agent that plays it"});
+    }
     menu.push_back({"clip.import", name, "How it is read..."});
     menu.push_back({"edit.copy_figures"});
     const AgentNames who = agents_of_clip(session, session.selection.index);

@@ -293,6 +293,11 @@ std::string fitted_text(const std::string& text, float room) {
     return line.substr(0, static_cast<std::size_t>(end - line.c_str())) + "\u2026";
 }
 
+std::string fitted_name(const std::string& name, float room) {
+    const auto fits = [room](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
+    return fitted_text(shortened_to_fit(cleaned(name), fits), room);
+}
+
 bool begin_dropdown(Ui& ui, const std::string& mark, const std::string& shown, std::string_view label,
                     ImGuiComboFlags flags) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -532,7 +537,8 @@ bool row(Ui& ui, const Row& row) {
     const std::string remark = fitted_text(row.remark, std::max(room - name_width - ui.px(8), 0.0f));
     const float width_of_remark = ImGui::CalcTextSize(remark.c_str()).x;
     ImGui::PopFont();
-    const std::string name = fitted_text(row.name, std::max(ui.px(24), room - width_of_remark - ui.px(8)));
+    const std::string name = fitted_name(row.name, std::max(ui.px(24), room - width_of_remark - ui.px(8)));
+    if (name != row.name && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.name.c_str());
     draw.AddText({left, y}, row.quiet ? ui.style.quiet : ui.style.text, name.c_str());
     draw_text(draw, mono, {end.x - pad - width_of_remark, corner.y + 0.5f * (height - mono.FontSize)},
               row.remark_color != 0 ? row.remark_color : ui.style.quiet, remark);

@@ -80,6 +80,10 @@ float button_width(const char* label);
 /// A text on one line that fits `room` pixels in the present font: its end becomes an ellipsis.
 std::string fitted_text(const std::string& text, float room);
 
+/// A name on one line that fits `room` pixels: its middle becomes an ellipsis, as names of one recording differ at
+/// their ends.
+std::string fitted_name(const std::string& name, float room);
+
 /// A field that opens a list to choose from, as wide as the next item is to be; ends with ImGui::EndCombo() if it is
 /// open. `label`: by whose letters it is found.
 [[nodiscard]] bool begin_dropdown(Ui& ui, const std::string& mark, const std::string& shown, std::string_view label,

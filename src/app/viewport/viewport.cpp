@@ -21,6 +21,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -38,18 +39,42 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 glm::vec2 mouse_pixel(const ShownPicture& picture) { return picture.pixel(ImGui::GetIO().MousePos); }
 
-/// What is under a pixel, nearest first; nodes that are only outlined, as they were tested before, come last: they
-/// stand around everything else.
-std::vector<Pick> picks(const DrawList& list, glm::vec2 pixel) {
+/// Whether a pixel is at an edge of a box in the picture.
+bool on_edge(const DrawList& list, const BoxInstance& box, glm::vec2 pixel, float reach) {
+    const std::array<glm::vec3, 8> corners = box_corners(box);
+    for (unsigned from = 0; from < 8; ++from) {
+        for (const unsigned axis : {1u, 2u, 4u}) {
+            if (from & axis) continue;
+            const auto a = list.projection.project(corners[from]);
+            const auto b = list.projection.project(corners[from | axis]);
+            if (!a || !b) continue;
+            const glm::vec2 side = *b - *a;
+            const float along = glm::dot(pixel - *a, side) / std::max(glm::dot(side, side), 1e-6f);
+            if (glm::length(pixel - (*a + std::clamp(along, 0.0f, 1.0f) * side)) <= reach) return true;
+        }
+    }
+    return false;
+}
+
+/// What is under a pixel, nearest first. Nodes that are only outlined, as they were tested before, stand around
+/// everything else: they come last, and are there where their outline is.
+std::vector<Pick> picks(const DrawList& list, glm::vec2 pixel, float reach) {
     std::vector<Pick> hits = pick(list, pixel);
-    const auto stands_out = [&](const Pick& hit) {
-        if (hit.id.kind == ObjectId::Kind::disk) return true;
-        const auto box = std::find_if(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) {
-            return b.pickable && b.id == hit.id && b.fill.a > 0;
-        });
-        return box != list.boxes.end();
+    const auto box_of = [&](const Pick& hit) {
+        return std::ranges::find_if(list.boxes, [&](const BoxInstance& b) { return b.pickable && b.id == hit.id; });
     };
-    std::stable_partition(hits.begin(), hits.end(), stands_out);
+    const auto has_faces = [&](const Pick& hit) {
+        return std::ranges::any_of(list.boxes,
+                                   [&](const BoxInstance& b) { return b.pickable && b.id == hit.id && b.fill.a > 0; });
+    };
+    const auto stands_out = [&](const Pick& hit) { return hit.id.kind == ObjectId::Kind::disk || has_faces(hit); };
+    const auto outlined = std::stable_partition(hits.begin(), hits.end(), stands_out);
+    hits.erase(std::remove_if(outlined, hits.end(),
+                              [&](const Pick& hit) {
+                                  const auto box = box_of(hit);
+                                  return box == list.boxes.end() || !on_edge(list, *box, pixel, reach);
+                              }),
+               hits.end());
     return hits;
 }
 
@@ -234,7 +259,7 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
     build(next, choice);
 }
 
-/// Lets the camera go to another step's pair, if it is to and the pair is not well in the picture.
+/// Lets the camera go to another step's pair, if it is to and the pair is not well seen beside the panels.
 void Viewport::follow_test(Ui& ui) {
     const Session& session = ui.session;
     const bool led_back = std::exchange(times_led_back_, session.times_led_back()) != session.times_led_back();
@@ -244,9 +269,13 @@ void Viewport::follow_test(Ui& ui) {
     if (led_back) test_looked_for_ = test;
     if (flight_ || test_looked_for_ == test) return;
     test_looked_for_ = test;
-    const std::optional<Bounds> box = box_of_test(session);
-    if (!box || is_well_seen(*box, *list_)) return;
-    ui.session.enqueue([&session = ui.session, box] { go_along_with(session, *box); });
+    const std::optional<TestCorners> boxes = corners_of_test(session);
+    std::vector<Rect> panels;
+    for (const Overlay& overlay : list_->overlays) panels.push_back(overlay.rect);
+    if (!boxes || is_well_seen(*boxes, *list_, panels)) return;
+    ui.session.enqueue([&session = ui.session, boxes = *boxes, part = free_part(list_->size, panels)] {
+        go_along_with(session, boxes, part);
+    });
 }
 
 /// Sets what is pointed out in the list, which is not built anew for that.
@@ -488,7 +517,7 @@ void Viewport::ask(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
     std::optional<Selection> nearest;
     bool stays = false;
-    for (const Pick& hit : picks(*list_, pixel)) {
+    for (const Pick& hit : picks(*list_, pixel, ui.px(kClickReach))) {
         const Selection here = selection_of(session, hit.id);
         if (!nearest) nearest = here;
         stays = stays || here == session.selection;
@@ -513,7 +542,7 @@ ImVec2 Viewport::place_of_selection(const Session& session, const ShownPicture& 
 
 void Viewport::hover(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
-    const std::vector<Pick> hits = picks(*list_, pixel);
+    const std::vector<Pick> hits = picks(*list_, pixel, ui.px(kClickReach));
     place_.reset();
     if (hits.empty()) return;
     const ObjectId& id = hits.front().id;
@@ -525,7 +554,7 @@ void Viewport::hover(Ui& ui, glm::vec2 pixel) {
 void Viewport::click(Ui& ui, glm::vec2 pixel) {
     Session& session = ui.session;
     if (overlay_at(*list_, pixel)) return;
-    const std::vector<Pick> hits = picks(*list_, pixel);
+    const std::vector<Pick> hits = picks(*list_, pixel, ui.px(kClickReach));
     const bool again = glm::length(pixel - clicked_at_) <= ui.px(kClickReach);
     depth_ = again ? depth_ + 1 : 0;
     clicked_at_ = pixel;

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <render/drawlist/font.h>
 
 #include <stb_truetype.h>
@@ -150,6 +151,11 @@ std::string fit_text(const std::string& text, FontFace face, float size, float w
         if (last) return text;
         code = next;
     }
+}
+
+std::string fit_name(const std::string& name, FontFace face, float size, float width) {
+    const auto fits = [&](const std::string& text) { return Font::of(face).width(text, size) <= width; };
+    return fit_text(shortened_to_fit(name, fits), face, size, width);
 }
 
 std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width) {

@@ -58,6 +58,9 @@ std::vector<char32_t> code_points(std::string_view utf8);
 /// `text`, or its beginning and an ellipsis, so that it is at most `width` pixels wide.
 std::string fit_text(const std::string& text, FontFace face, float size, float width);
 
+/// Likewise of a name: its middle becomes the ellipsis, as names of one recording differ at their ends.
+std::string fit_name(const std::string& name, FontFace face, float size, float width);
+
 /// Lines of at most `width` pixels, broken at spaces; a longer word has a line of its own.
 std::vector<std::string> wrap_text(const std::string& text, FontFace face, float size, float width);
 

@@ -118,7 +118,7 @@ void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
         const auto room = seen_rect(list, middle - 0.5 * cell.size, middle + 0.5 * cell.size, floor);
         if (!seen || !room) continue;
         LabelRequest label;
-        label.text = fit_text(agent.name, FontFace::text, metrics.small,
+        label.text = fit_name(agent.name, FontFace::text, metrics.small,
                               std::max(room->max.x - room->min.x - metrics.small, kLeastCellName * metrics.small));
         label.size = metrics.small;
         label.color = readable(agent.color, list.palette);
@@ -127,6 +127,13 @@ void add_cell_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
         label.distance = 0.2f * metrics.small;
         label.pill = true;
         label.border = with_alpha(list.palette.panel, 0);
+        if (layout.place(label, list)) continue;
+        // Below is a panel, or the picture's edge.
+        label.anchor.y = seen->min.y;
+        label.directions = {{0, -1}};
+        if (layout.place(label, list)) continue;
+        label.text = fit_name(agent.name, FontFace::text, metrics.small, kLeastCellName * metrics.small);
+        label.directions = {{0, -1}, {1, 0}, {-1, 0}};
         layout.place(label, list);
     }
 }

@@ -50,6 +50,7 @@ std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& lev
     double total = 0;
     int last = 0;
     for (const DrawnAgent& agent : agents) {
+        if (agent.hidden) continue;
         const mobb::Tree& tree = agent.placed.tree();
         last = std::max(last, last_shown_level(tree, levels));
         for (const int node : shown_nodes(tree, levels)) {
@@ -76,9 +77,9 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
         caption.detail = std::string(mobb::info(fitted.options().tree).title) + ", leaf " +
                          std::to_string(fitted.options().leaf) + kDot + boxes_text(agents, view.levels);
     }
-    if (!names_fit(agents.size()) && !is_in_grid(fitted.scene(), view)) {
-        const std::string left_out =
-            std::to_string(agents.size()) + (fitted.scene().agents.empty() ? " clips" : " agents") + ", unnamed here";
+    if (!names_fit(shown_count(agents)) && !is_in_grid(fitted.scene(), view)) {
+        const std::string left_out = std::to_string(shown_count(agents)) +
+                                     (fitted.scene().agents.empty() ? " clips" : " agents") + ", unnamed here";
         caption.detail += (caption.detail.empty() ? "" : kDot) + left_out;
     }
     return caption;

@@ -1,3 +1,4 @@
+#include <render/layout/annotations.h>
 #include <render/pictures/kept_paths.h>
 #include <scene/crowd_scene.h>
 
@@ -19,12 +20,12 @@ const Bounds& KeptPaths::bounds(std::span<const DrawnAgent> agents, const ViewSt
     return bounds_->second;
 }
 
-/// To hide somebody moves no camera.
-void KeptPaths::add_hidden_points(const DrawList& list, std::span<const DrawnAgent> agents) {
+/// Where everybody is hidden, the picture still has its place.
+void KeptPaths::add_places_of_all(const DrawList& list, std::span<const DrawnAgent> agents) {
     DrawList scratch;
     scratch.space = list.space;
     for (const DrawnAgent& agent : agents) {
-        if (agent.hidden) add_disks(scratch, agent, {});
+        add_disks(scratch, agent, {});
     }
     for (const DiskInstance& disk : scratch.disks) {
         for (const glm::vec3& way : rim_directions()) {
@@ -47,7 +48,7 @@ const ShownPoints& KeptPaths::add_disks_of(DrawList& list, std::span<const Drawn
         }
         disks_ = list.disks;
         points_ = ShownPoints(disks_);
-        add_hidden_points(list, agents);
+        if (disks_.empty() && shown_count(agents) == 0) add_places_of_all(list, agents);
         shapes_ = shapes;
     } else if (colors_ != colors) {
         std::size_t first = 0;

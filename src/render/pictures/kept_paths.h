@@ -32,12 +32,12 @@ class KeptPaths {
     const Bounds& bounds(std::span<const DrawnAgent> agents, const ViewState& view);
 
     /// Sets the list's disks to those of the agents' paths, each with its focus. Needs the list's space. Returns them
-    /// as points that the picture has to show, with those of the hidden ones.
+    /// as points that the picture has to show: those of whom it shows, or of all where everybody is hidden.
     const ShownPoints& add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                     const std::vector<PathFocus>& foci);
 
   private:
-    void add_hidden_points(const DrawList& list, std::span<const DrawnAgent> agents);
+    void add_places_of_all(const DrawList& list, std::span<const DrawnAgent> agents);
 
     struct Shapes {
         std::optional<int> query;

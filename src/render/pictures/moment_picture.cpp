@@ -31,13 +31,17 @@ double beginning(std::span<const DrawnAgent> agents) {
     return std::min_element(agents.begin(), agents.end(), earlier)->begin();
 }
 
-/// The corners of upright prisms that people stay inside of, whenever it is: eight below, eight above, and so on.
+/// The corners of upright prisms that those who are shown stay inside of, whenever it is: eight below, eight above, and
+/// so on.
 std::vector<glm::vec3> standing_room(const DrawnSpace& space, std::span<const DrawnAgent> agents,
                                      std::span<const double> heights, double slip) {
     constexpr int kSides = 8;
     const double outside = 1 / std::cos(std::numbers::pi / kSides);
     std::vector<glm::vec3> out;
+    // Where everybody is hidden, the picture still has its place.
+    const bool all = shown_count(agents) == 0;
     for (std::size_t s = 0; s < agents.size(); ++s) {
+        if (agents[s].hidden && !all) continue;
         const mobb::PlacedClip& clip = agents[s].clip();
         std::optional<mobb::Disk> last;
         for (int i = 0; i < clip.count(); ++i) {

@@ -53,8 +53,7 @@ TEST(RealWindow, AnExpectationThatFailsIsStatusOne) {
 
 TEST(RealWindow, FollowsTheDisplaysMouse) {
     const TempFolder folder;
-    const int status =
-        under_xvfb("'" + kHere + "input.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
+    const int status = under_xvfb("'" + kHere + "input.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     // The left border before and after, as the script printed it.
@@ -82,8 +81,8 @@ TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
     std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder / "assets", std::filesystem::copy_options::recursive);
     const std::filesystem::path scene = folder / "assets/scenes/crossing.json";
     const std::string before = slurp(scene);
-    const int status = under_xvfb("'" + kHere + "person.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "person.script' '" + folder.string() + "'");
+    const int status = under_xvfb("'" + kHere + "person.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere + "person.script' '" +
+                                  folder.string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
 
@@ -113,9 +112,8 @@ TEST(RealWindow, APersonSeesEditsSavesAndReopensTheDemo) {
 // Menus, a dropdown and Escape by the keys of the display; keys.script asserts each state.
 TEST(RealWindow, APersonWorksByKeysAlone) {
     const TempFolder folder;
-    const int status =
-        under_xvfb("'" + kHere + "keys.sh' '" MOBBSCOPE_PROGRAM "' '" MOBBSCOPE_SOURCE_DIR "/assets' '" + kHere +
-                   "keys.script' '" + folder.path().string() + "'");
+    const int status = under_xvfb("'" + kHere + "keys.sh' '" MOBBSCOPE_PROGRAM "' '" MOBBSCOPE_SOURCE_DIR "/assets' '" +
+                                  kHere + "keys.script' '" + folder.path().string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     EXPECT_EQ(status, 0);
 }
@@ -133,8 +131,8 @@ TEST(RealWindow, APersonMendsAUnit) {
            "MOTION\nFrames: 90\nFrame Time: 0.0333333\n";
     for (int i = 0; i < 90; ++i) bvh << 4 * i << " 90 0\n";
     bvh.close();
-    const int status = under_xvfb("'" + kHere + "import.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "import.script' '" + (folder / "scene.json").string() + "'");
+    const int status = under_xvfb("'" + kHere + "import.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere + "import.script' '" +
+                                  (folder / "scene.json").string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     EXPECT_EQ(status, 0);
 }
@@ -144,8 +142,7 @@ TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
     const TempFolder folder;
     std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder.path() / "assets",
                           std::filesystem::copy_options::recursive);
-    const int status =
-        under_xvfb("'" + kHere + "files.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
+    const int status = under_xvfb("'" + kHere + "files.sh' '" MOBBSCOPE_PROGRAM "' '" + folder.path().string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     const Json settings = state(folder.path() / "config/mobbscope/settings.json");
@@ -159,6 +156,47 @@ TEST(RealWindow, ThreeClipsAreOpenedByTheDialogAloneAndReopenedTheNextTime) {
     EXPECT_NE(geometry.find("WIDTH=1100\nHEIGHT=720"), std::string::npos) << geometry;
 }
 
+// The camera of a real window holds still; still.script says what was done between the states.
+TEST(RealWindow, APersonsCameraMovesWhenItIsAskedTo) {
+    const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_still";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::filesystem::copy(MOBBSCOPE_SOURCE_DIR "/assets", folder / "assets", std::filesystem::copy_options::recursive);
+    const int status = under_xvfb("'" + kHere + "still.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere + "still.script' '" +
+                                  folder.string() + "'");
+    if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
+    ASSERT_EQ(status, 0);
+    const auto camera = [&](const std::string& name) {
+        return Json(state(folder / (name + ".json"))["view"]["camera"]);
+    };
+    for (const char* name : {"query", "first", "third", "leaves", "time", "kind", "selected"}) {
+        EXPECT_EQ(camera(name), camera("opened")) << name;
+    }
+    EXPECT_NE(camera("turned"), camera("opened"));
+    EXPECT_EQ(camera("turned")["target"], camera("opened")["target"]) << "it turns about its target";
+    EXPECT_EQ(camera("turned-step"), camera("turned"));
+    EXPECT_NE(camera("framed")["target"], camera("turned")["target"]);
+    EXPECT_NE(camera("home")["target"], camera("framed")["target"]);
+    EXPECT_EQ(camera("home")["yaw_deg"], camera("turned")["yaw_deg"]) << "the direction stays";
+    EXPECT_EQ(camera("resized")["target"], camera("home")["target"]);
+    const auto height = [&](const std::string& name) {
+        std::istringstream marks(slurp(folder / (name + ".txt")));
+        for (std::string line; std::getline(marks, line);) {
+            std::istringstream words(line);
+            std::string mark;
+            double left = 0, top = 0, right = 0, bottom = 0;
+            if (words >> mark >> left >> top >> right >> bottom && mark == "viewport") return bottom - top;
+        }
+        return 0.0;
+    };
+    // What a metre is wide at the target, in pixels.
+    const auto scale = [&](const std::string& name) { return height(name) / camera(name)["distance"].get<double>(); };
+    EXPECT_LT(height("resized"), height("home") - 50);
+    EXPECT_NEAR(scale("resized") / scale("home"), 1, 0.01);
+    EXPECT_LT(camera("near")["distance"], camera("resized")["distance"]);
+    EXPECT_NE(camera("following")["target"], camera("near")["target"]) << "the pair had been cut off";
+}
+
 // Of a folder with 17 clips all but two are hidden, by the buttons in the lists; clips.script asserts each state.
 TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
     const std::filesystem::path folder = MOBBSCOPE_PICTURES "/real_clips";
@@ -169,8 +207,8 @@ TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
         std::ofstream(folder / "clips" / ("clip" + number + ".csv"))
             << "t,x,y,r\n0,0,0,0.3\n0.5,1,0,0.3\n1,2,0.5,0.3\n";
     }
-    const int status = under_xvfb("'" + kHere + "clips.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "clips.script' '" + folder.string() + "'");
+    const int status = under_xvfb("'" + kHere + "clips.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere + "clips.script' '" +
+                                  folder.string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     const Json two = state(folder / "two.json");
@@ -186,8 +224,8 @@ TEST(RealWindow, APersonReviewsPictureTests) {
     std::filesystem::create_directories(folder);
     const app::testing::ThreeCases files(folder);
     const std::string golden = files.bytes("moved.png");
-    const int status = under_xvfb("'" + kHere + "review.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere +
-                                  "review.script' '" + folder.string() + "'");
+    const int status = under_xvfb("'" + kHere + "review.sh' '" MOBBSCOPE_PROGRAM "' '" + kHere + "review.script' '" +
+                                  folder.string() + "'");
     if (status == kLacking) GTEST_SKIP() << "there is no Xvfb or no xdotool";
     ASSERT_EQ(status, 0);
     EXPECT_EQ(files.bytes("moved.png"), golden) << "the very bytes, given back";
