@@ -1,6 +1,7 @@
 #include <render/drawlist/pen.h>
 #include <render/drawlist/view_projection.h>
 #include <render/gl/disk_pass.h>
+#include <render/gl/face_pass.h>
 #include <render/gl/gl_objects.h>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -79,7 +80,11 @@ bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection)
 
 }  // namespace
 
-DiskPass::DiskPass(GlContext& context) : program_(context, "disk"), tint_(context, "tint") {}
+DiskPass::DiskPass(GlContext& context) : program_(context, "disk"), tint_(context, "composite", "tint") {
+    glBindVertexArray(tile_array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
+    VertexLayout(sizeof(Rect), 1).floats(0, 4, 0);
+}
 
 /// Upper face, side and lower face, in this order: each part is one range.
 const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
@@ -362,7 +367,17 @@ void DiskPass::tint(const DrawList& list, const Texture& surface, DrawStatistics
     glUniform1i(tint_.uniform("colors"), kColors);
     glUniform1i(tint_.uniform("sample_index"), -1);
     glUniform3fv(tint_.uniform("background"), 1, glm::value_ptr(list.palette.background));
-    glBindVertexArray(no_attributes_.name());
+    glUniform2f(tint_.uniform("viewport"), static_cast<float>(list.size.width), static_cast<float>(list.size.height));
+    std::vector<BoxInstance> around;
+    for (const DiskBlock& block : levels_->blocks()) {
+        if (!block_may_be_seen(block, list.projection)) continue;
+        BoxInstance& box = around.emplace_back();
+        box.center = block.middle;
+        for (int axis = 0; axis < 3; ++axis) box.extents[static_cast<std::size_t>(axis)][axis] = block.reach;
+    }
+    const std::vector<Rect> tiles = covering_tiles(around, list.projection);
+    glBindVertexArray(tile_array_.name());
+    statistics.overlay_bytes += upload(tiles_, tiles);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     if (multisampled) glEnable(GL_SAMPLE_MASK);
@@ -371,8 +386,8 @@ void DiskPass::tint(const DrawList& list, const Texture& surface, DrawStatistics
             glSampleMaski(0, 1u << sample);
             glUniform1i(tint_.uniform("sample_index"), sample);
         }
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        ++statistics.triangles;
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size()));
+        statistics.triangles += 2 * tiles.size();
         ++statistics.draw_calls;
     }
     glDisable(GL_SAMPLE_MASK);

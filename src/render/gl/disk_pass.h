@@ -75,7 +75,8 @@ class DiskPass {
     void draw(const Batch& batch, DrawStatistics& statistics);
 
     ShaderProgram program_, tint_;
-    VertexArray no_attributes_;
+    VertexArray tile_array_;
+    Buffer tiles_;    ///< of the picture, in which disks may be seen
     Texture colors_;  ///< of all disks in drawing order
     bool has_colors_ = false;
     int shapes_ = 0;                     ///< counts other ones
