@@ -41,47 +41,55 @@ QueryKey query_key(const FittedScene& fitted, int query) {
 
 void History::reset(Document document) {
     states_.clear();
-    states_.push_back({std::move(document), {}, false, 0});
+    states_.push_back(std::make_shared<const State>(State{std::move(document), {}, false, 0}));
     now_ = 0;
     open_ = false;
 }
 
 std::size_t History::bytes() const {
     return std::accumulate(states_.begin() + 1, states_.end(), std::size_t{0},
-                           [](std::size_t sum, const State& state) { return sum + state.bytes; });
+                           [](std::size_t sum, const auto& state) { return sum + state->bytes; });
 }
 
 void History::amend(Document document) {
-    State& state = states_[now_];
+    State state = *states_[now_];
     // A view that moves changes nothing of what is held.
     if (document.fitted != state.document.fitted || state.bytes == 0) {
-        state.bytes = now_ > 0 ? document.fitted->bytes_beyond(*states_[now_ - 1].document.fitted) : 0;
+        state.bytes = now_ > 0 ? document.fitted->bytes_beyond(*states_[now_ - 1]->document.fitted) : 0;
     }
     state.document = std::move(document);
+    states_[now_] = std::make_shared<const State>(std::move(state));
 }
 
 void History::amend_views(const std::function<void(ViewState&)>& change) {
-    for (State& state : states_) {
-        change(state.document.view);
-        for (SceneView& other : state.document.beside) change(other.view);
+    for (auto& state : states_) {
+        State changed = *state;
+        change(changed.document.view);
+        for (SceneView& other : changed.document.beside) change(other.view);
+        state = std::make_shared<const State>(std::move(changed));
     }
 }
 
 /// Behind the present state, which it becomes; what follows stays.
 void History::append(State state) {
-    states_.insert(states_.begin() + static_cast<std::ptrdiff_t>(++now_), state);
-    amend(std::move(state.document));
+    Document document = state.document;
+    states_.insert(states_.begin() + static_cast<std::ptrdiff_t>(++now_),
+                   std::make_shared<const State>(std::move(state)));
+    amend(std::move(document));
     while (now_ > 0 && (states_.size() > kMostStates || bytes() > most_bytes_)) {
         states_.erase(states_.begin());
         --now_;
     }
     // Nothing leads to the oldest, so nothing that is done joins it.
-    states_.front().name = {};
-    states_.front().looked = false;
+    if (!states_.front()->looked && states_.front()->name.title.empty()) return;
+    State oldest = *states_.front();
+    oldest.name = {};
+    oldest.looked = false;
+    states_.front() = std::make_shared<const State>(std::move(oldest));
 }
 
 void History::change(Document document, const EditName& name) {
-    const bool joins = open_ && now_ > 0 && !name.group.empty() && states_[now_].name.group == name.group;
+    const bool joins = open_ && now_ > 0 && !name.group.empty() && states_[now_]->name.group == name.group;
     states_.resize(now_ + 1);
     if (joins) {
         amend(std::move(document));
@@ -93,7 +101,7 @@ void History::change(Document document, const EditName& name) {
 
 void History::change_view(Document document) {
     const std::string title = what_changes(now().view, document.view);
-    if (states_[now_].looked && states_[now_].name.title == title) return amend(std::move(document));
+    if (states_[now_]->looked && states_[now_]->name.title == title) return amend(std::move(document));
     append({std::move(document), {title, ""}, true, 0});
     open_ = false;
 }
