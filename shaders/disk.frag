@@ -2,14 +2,13 @@
 in vec3 surface_normal;
 in float upper;
 in float face_shade;
-flat in vec4 surface_color;
+flat in uint number;
 in vec2 local;
 flat in uvec2 object_id;
 
 uniform vec3 light;  // towards the light, unit
-uniform vec3 background;
 
-layout(location = 0) out vec4 color;
+layout(location = 0) out vec2 surface;  // which disk (1 + its number), and how bright: see tint.frag
 layout(location = 1) out uvec2 id;
 
 // How dark a line along the edge at `to_edge` = 0 is here: one pixel wide, and gone where disks are thinner than that.
@@ -24,6 +23,6 @@ void main() {
     vec3 n = normalize(surface_normal);
     float shade = mix(0.54 + 0.36 * (0.5 + 0.5 * dot(n, light)), face_shade, upper);
     float edge = cap ? seam(1.0 - local.x) : seam(local.y);
-    color = vec4(mix(background, surface_color.rgb * shade * (1.0 - 0.38 * edge), surface_color.a), 1.0);
+    surface = vec2(float(number) + 1.0, shade * (1.0 - 0.38 * edge));
     id = object_id;
 }

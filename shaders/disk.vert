@@ -1,10 +1,10 @@
 #version 330 core
 // A unit cylinder, placed and scaled for each sample, or leaning and tapered for a run of them.
-layout(location = 0) in vec3 corner;  // x, y on the unit circle or its centre; z 0 below, 1 above
+layout(location = 0) in vec4 corner;  // x, y on the unit circle; z 0 below, 1 above; w 0 inside of a face, 1 at its rim
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 base_and_radius;
 layout(location = 3) in vec4 top_and_radius;
-layout(location = 4) in vec4 color;
+layout(location = 4) in uint source;  // number of the disk that has its colour
 layout(location = 5) in uvec2 id;  // 0 of a run
 layout(location = 6) in vec3 above;  // of the disk that stands on it: its centre from this one's, and its radius; or 0
 layout(location = 7) in vec3 below;  // likewise of the one that it stands on
@@ -13,45 +13,44 @@ uniform mat4 clip_from_world;
 uniform vec3 back;  // towards the eye
 uniform vec2 across;  // where x goes on the floor: cylinders are turned about their axes
 uniform float scale;  // pixels of a metre at distance 1, or anywhere without perspective
-uniform vec2 next_corner;  // after (1, 0)
 uniform float inner;  // radius of the circle inside the corners, in that of the corners
 uniform float near_depth;  // what is nearer to the eye is not drawn
 
 out vec3 surface_normal;
 out float upper;       // share of the disks' faces, the rest being their sides
 out float face_shade;  // of those faces
-flat out vec4 surface_color;
+flat out uint number;
 out vec2 local;  // 0 in the middle to 1 at the rim; 0 below to 1 above
 flat out uvec2 object_id;
 
-// Whether the faces that meet at a corner of a face are hidden, so much that nobody can tell: by the disk that stands on
-// this one, or that it stands on. With a margin of many times what depths are rounded by.
-bool is_covered(vec2 at, vec3 by, float radius, vec4 middle) {
+// How far from the middle towards a corner a face is hidden, so much that nobody can tell: by the disk that stands on
+// this one, or that it stands on. A share of the way; with a margin of many times what depths are rounded by.
+float hidden_until(vec2 at, vec3 by, float radius, vec4 middle) {
     float reach = inner * by.z - 0.02 * radius;
     float height = top_and_radius.z - base_and_radius.z;
-    if (reach <= 0.0 || height * scale / middle.w < 0.02) return false;
+    if (length(by.xy) >= reach || height * scale / middle.w < 0.02) return 0.0;
     // The other one must be drawn, all of it.
-    if (middle.w - near_depth < length(by.xy) + by.z + height) return false;
-    mat2 onwards = mat2(next_corner, vec2(-next_corner.y, next_corner.x));
-    return length(by.xy) < reach && length(at - by.xy) < reach && length(onwards * at - by.xy) < reach &&
-           length(at * onwards - by.xy) < reach;
+    if (middle.w - near_depth < length(by.xy) + by.z + height) return 0.0;
+    vec2 way = at / radius;
+    float along = dot(way, by.xy);
+    return clamp((along + sqrt(along * along + reach * reach - dot(by.xy, by.xy))) / radius, 0.0, 1.0);
 }
 
 void main() {
     vec4 end = corner.z > 0.5 ? top_and_radius : base_and_radius;
     mat2 turn = mat2(across, vec2(-across.y, across.x));
-    gl_Position = clip_from_world * vec4(end.xyz + vec3(turn * corner.xy * end.w, 0.0), 1.0);
-    if (id.x != 0u && abs(normal.z) > 0.5) {
-        // Pulled into the middle a corner leaves nothing to draw beside it.
-        vec4 middle = clip_from_world * vec4(end.xyz, 1.0);
-        vec3 by = normal.z > 0.0 ? above : below;
-        if (is_covered(turn * corner.xy * end.w, by, end.w, middle)) gl_Position = middle;
+    vec2 at = turn * corner.xy * end.w;
+    float rim = corner.w;
+    if (rim == 0.0 && id.x != 0u) {
+        // What is hidden in the middle of a face is not drawn.
+        rim = hidden_until(at, normal.z > 0.0 ? above : below, end.w, clip_from_world * vec4(end.xyz, 1.0));
     }
+    gl_Position = clip_from_world * vec4(end.xyz + vec3(at * rim, 0.0), 1.0);
     surface_normal = vec3(turn * normal.xy, normal.z);
     upper = abs(normal.z);
     face_shade = 1.0;
-    surface_color = color;
-    local = vec2(length(corner.xy), corner.z);
+    number = source;
+    local = vec2(rim, corner.z);
     if (id.x == 0u && abs(normal.z) < 0.5) {
         // Of each disk as much of the face is seen as its successor leaves free, beside its side.
         vec4 step = top_and_radius - base_and_radius;

@@ -171,6 +171,14 @@ TEST_F(AnswersTest, ADragIsCoarseUntilTheButtonIsUp) {
     EXPECT_EQ(shell.painted().fine, before.fine + 1);
 }
 
+/// A key moves the camera, which flies: nothing happens after its last picture but that the hand rests.
+TEST_F(AnswersTest, AFlightEndsInTheFinePicture) {
+    key(Key::n2);
+    rest();
+    EXPECT_EQ(session.view().camera.preset, CameraPreset::top);
+    EXPECT_EQ(picture().rgba, shell.viewport_picture().rgba);
+}
+
 TEST_F(AnswersTest, ASignOfWorkComesAfterAWhileAndGoesWithTheFinePicture) {
     key(Key::left);
     frame();
@@ -198,8 +206,9 @@ TEST_F(AnswersTest, WhereNobodyLooksEveryPictureIsFine) {
 }
 
 TEST(AnswerPace, ADragBecomesCoarserIfItMustButNotFinerAgain) {
+    constexpr AnswerPace::Needs kAll = AnswerPace::Needs::all;
     AnswerPace pace(true);
-    EXPECT_TRUE(pace.coarse_first()) << "until it is known that this is not needed";
+    EXPECT_TRUE(pace.coarse_first(kAll)) << "until it is known that this is not needed";
     pace.painted_coarse(0.010);
     EXPECT_EQ(pace.divisor(), 1);
     pace.painted_coarse(0.180);
@@ -208,14 +217,26 @@ TEST(AnswerPace, ADragBecomesCoarserIfItMustButNotFinerAgain) {
     EXPECT_EQ(pace.divisor(), 2);
     pace.painted_coarse(3);
     EXPECT_EQ(pace.divisor(), AnswerPace::kCoarsest);
-    pace.painted_fine(0.5);
-    EXPECT_TRUE(pace.coarse_first());
+    pace.painted_fine(kAll, 0.5);
+    EXPECT_TRUE(pace.coarse_first(kAll));
     pace.painted_coarse(0.010);
     EXPECT_EQ(pace.divisor(), 2) << "a new drag may be finer";
-    pace.painted_fine(0.01);
-    EXPECT_FALSE(pace.coarse_first());
-    pace.gave_up_fine(0.06);
-    EXPECT_TRUE(pace.coarse_first());
+    pace.painted_fine(kAll, 0.01);
+    EXPECT_FALSE(pace.coarse_first(kAll));
+    pace.gave_up_fine(kAll, 0.06);
+    EXPECT_TRUE(pace.coarse_first(kAll));
+}
+
+TEST(AnswerPace, WhatNeedsTheRestAloneIsExpectedToBeQuick) {
+    AnswerPace pace(true);
+    EXPECT_TRUE(pace.coarse_first(AnswerPace::Needs::all));
+    EXPECT_FALSE(pace.coarse_first(AnswerPace::Needs::rest));
+    pace.gave_up_fine(AnswerPace::Needs::rest, 0.06);
+    EXPECT_TRUE(pace.coarse_first(AnswerPace::Needs::rest));
+    pace.painted_coarse(0.01);
+    pace.painted_fine(AnswerPace::Needs::rest, 0.02);
+    EXPECT_FALSE(pace.coarse_first(AnswerPace::Needs::rest));
+    EXPECT_TRUE(pace.coarse_first(AnswerPace::Needs::all)) << "that says nothing of whole ones";
 }
 
 }  // namespace

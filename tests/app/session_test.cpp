@@ -779,5 +779,22 @@ TEST(Messages, OfTheLastDocumentGoBehindTheBell) {
     EXPECT_EQ(session.messages().size(), 1u) << "but it can still be read";
 }
 
+/// Each press of a button remembers the past, in case that what it drags is put back.
+TEST(History, ACopyHasTheSameStatesAndIsItsOwn) {
+    Session session(false);
+    session.open_demo();
+    while (session.job()) session.poll();
+    session.change_view([](ViewState& view) { view.floor = !view.floor; });
+    History copy = session.history();
+    EXPECT_EQ(&copy.now(), &session.history().now()) << "no state is copied";
+    const bool floor = session.view().floor;
+    copy.undo();
+    copy.amend_views([](ViewState& view) { view.labels = !view.labels; });
+    EXPECT_EQ(copy.now().view.floor, !floor);
+    EXPECT_EQ(session.view().floor, floor);
+    session.undo();
+    EXPECT_NE(session.view().labels, copy.now().view.labels);
+}
+
 }  // namespace
 }  // namespace mobbscope::app

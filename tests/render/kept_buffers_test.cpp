@@ -99,6 +99,26 @@ TEST_P(KeptBuffersTest, SteppingUploadsColorsAtMost) {
     }
 }
 
+/// Which disks are seen where is found out once: steps give them other colours.
+TEST_P(KeptBuffersTest, SteppingDrawsNoDiskAnew) {
+    ViewState view;
+    view.query = 0;
+    view.step = {Step::Unit::percent, 0};
+    const std::size_t all = draw(view, 4).triangles;
+    for (int i = 1; i < 10; ++i) {
+        view.step = {Step::Unit::percent, 10.0 * i};
+        view.theme = i < 5 ? Theme::dark : Theme::light;
+        const DrawList list = build_draw_list(paths_, view, {.size = kSmallSize});
+        EXPECT_TRUE(renderer().has_disks(list, 4));
+        const Image drawn = renderer().draw(list);
+        EXPECT_LT(renderer().statistics().triangles, all / 10) << i;
+        EXPECT_EQ(drawn.rgba, Renderer(GetParam()).draw(list).rgba) << i;
+    }
+    view.camera.preset = CameraPreset::top;
+    EXPECT_FALSE(renderer().has_disks(build_draw_list(paths_, view, {.size = kSmallSize}), 4));
+    EXPECT_FALSE(renderer().has_disks(build_draw_list(paths_, {}, {.size = {200, 120}}), 4));
+}
+
 /// What is kept shows what a renderer without a past would.
 TEST_P(KeptBuffersTest, WhatIsKeptIsWhatIsShown) {
     ViewState view;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,7 @@ class History {
         reset(std::move(document));
     }
 
-    const Document& now() const { return states_[now_].document; }
+    const Document& now() const { return states_[now_]->document; }
 
     /// Forgets the past: another file was opened.
     void reset(Document document);
@@ -55,14 +56,14 @@ class History {
     void undo();
     void redo();
     /// What undo (redo) would take back (bring back); empty if nothing.
-    std::string undo_title() const { return can_undo() ? states_[now_].name.title : ""; }
-    std::string redo_title() const { return can_redo() ? states_[now_ + 1].name.title : ""; }
+    std::string undo_title() const { return can_undo() ? states_[now_]->name.title : ""; }
+    std::string redo_title() const { return can_redo() ? states_[now_ + 1]->name.title : ""; }
 
     // States count from the oldest that is left.
     std::size_t count() const { return states_.size(); }
     std::size_t place() const { return now_; }
     /// What led to a state < count(); empty for the oldest.
-    const std::string& title(std::size_t state) const { return states_[state].name.title; }
+    const std::string& title(std::size_t state) const { return states_[state]->name.title; }
     /// To a state < count(), as so many undos or redos do.
     void go_to(std::size_t state);
     /// What the states hold beyond the oldest, roughly.
@@ -76,9 +77,10 @@ class History {
         std::size_t bytes = 0;  ///< that the state before does not share
     };
     void append(State state);
+    void amend(Document document, const EditName& name);
 
     std::size_t most_bytes_;
-    std::vector<State> states_;
+    std::vector<std::shared_ptr<const State>> states_;  ///< never null; copies of the history share them
     std::size_t now_ = 0;
     enum class Group { open, closed, ended } group_ = Group::ended;  ///< of the present state
 };

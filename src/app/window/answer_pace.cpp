@@ -16,8 +16,8 @@ int divisor_for(double seconds, int divisor) {
 
 }  // namespace
 
-void AnswerPace::painted_fine(double seconds) {
-    fine_seconds_ = seconds;
+void AnswerPace::painted_fine(Needs needed, double seconds) {
+    fine_seconds_[index(needed)] = seconds;
     coarse_shown_ = false;
 }
 
@@ -28,6 +28,9 @@ void AnswerPace::painted_coarse(double seconds) {
     coarse_shown_ = true;
 }
 
-void AnswerPace::gave_up_fine(double seconds) { fine_seconds_ = std::max(fine_seconds_, seconds); }
+void AnswerPace::gave_up_fine(Needs needed, double seconds) {
+    double& expected = fine_seconds_[index(needed)];
+    expected = std::max(expected, seconds);
+}
 
 }  // namespace mobbscope::app

@@ -1,6 +1,8 @@
 /// How well a picture is painted while somebody works, and how well once the hand rests.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 
 namespace mobbscope::app {
@@ -18,21 +20,28 @@ class AnswerPace {
     static constexpr double kSlice = 0.03;
     static constexpr int kCoarsest = 4;
 
-    /// `slow`: nothing is known yet, and the fine picture is expected to take long.
-    explicit AnswerPace(bool slow) : fine_seconds_(slow ? std::numeric_limits<double>::infinity() : 0) {}
+    /// What a fine picture needs: all of it, or as the last one had the same disks in the same places, the rest.
+    enum class Needs { all, rest };
+
+    /// `slow`: nothing is known yet, and a fine picture is expected to take long.
+    explicit AnswerPace(bool slow) {
+        if (slow) fine_seconds_[index(Needs::all)] = std::numeric_limits<double>::infinity();
+    }
 
     /// Whether the next picture is to be a coarse one. After a coarse one it is, so that a drag does not flicker.
-    bool coarse_first() const { return coarse_shown_ || fine_seconds_ > kAtOnce; }
+    bool coarse_first(Needs needs) const { return coarse_shown_ || fine_seconds_[index(needs)] > kAtOnce; }
     /// Of the next coarse one: it has every so many pixels across and down.
     int divisor() const { return divisor_; }
 
-    void painted_fine(double seconds);
+    void painted_fine(Needs needed, double seconds);
     void painted_coarse(double seconds);
     /// The fine picture was tried at once and given up after so long.
-    void gave_up_fine(double seconds);
+    void gave_up_fine(Needs needed, double seconds);
 
   private:
-    double fine_seconds_;
+    static std::size_t index(Needs needs) { return static_cast<std::size_t>(needs); }
+
+    std::array<double, 2> fine_seconds_{0, 0};  ///< by what they need
     int divisor_ = 2;
     bool coarse_shown_ = false;
 };

@@ -112,8 +112,9 @@ class TexturePainter final : public Painter {
                  list);
         } else if (!all && asked.is_fine && renderer_.has_scene(list, kPictureSamples)) {
             take(asked, renderer_.paint_highlights(list, kPictureSamples), list);
-        } else if (asked.pace.coarse_first() || !paint_fine_at_once(asked, list)) {
-            paint_coarse(asked, list);
+        } else {
+            asked.needs = renderer_.has_disks(list, kPictureSamples) ? AnswerPace::Needs::rest : AnswerPace::Needs::all;
+            if (asked.pace.coarse_first(asked.needs) || !paint_fine_at_once(asked, list)) paint_coarse(asked, list);
         }
     }
 
@@ -121,7 +122,9 @@ class TexturePainter final : public Painter {
     double fine_due_in(std::size_t place, double now) const {
         if (place >= pictures_.size()) return kNever;
         const Picture& asked = pictures_[place];
-        if (asked.is_fine || asked.hand != Hand::rests || asked.changed != Changed::nothing) return kNever;
+        // What has changed is painted when the frame is drawn, and may be coarse then.
+        const bool stands = asked.is_fine && asked.changed != Changed::all;
+        if (stands || asked.hand != Hand::rests) return kNever;
         return std::max(asked.changed_at + AnswerPace::kRest - now, 0.0);
     }
 
@@ -137,7 +140,7 @@ class TexturePainter final : public Painter {
         asked.seconds += clock_() - begun;
         if (!fine) return;
         take(asked, *fine, list);
-        asked.pace.painted_fine(asked.seconds);
+        asked.pace.painted_fine(asked.needs, asked.seconds);
     }
 
     Shell::Painted painted() const { return painted_; }
@@ -150,6 +153,7 @@ class TexturePainter final : public Painter {
         Changed changed = Changed::nothing;
         Hand hand = Hand::away;
         AnswerPace pace;
+        AnswerPace::Needs needs = AnswerPace::Needs::all;  ///< of the fine picture
         bool is_fine = true;
         double changed_at = 0;
         double seconds = 0;  ///< that the fine one has taken so far
@@ -172,11 +176,11 @@ class TexturePainter final : public Painter {
         const Texture* fine = renderer_.paint_more(list, {clock_, 1.5 * AnswerPace::kAtOnce});
         const double seconds = clock_() - begun;
         if (!fine) {
-            asked.pace.gave_up_fine(seconds);
+            asked.pace.gave_up_fine(asked.needs, seconds);
             return false;
         }
         take(asked, *fine, list);
-        asked.pace.painted_fine(seconds);
+        asked.pace.painted_fine(asked.needs, seconds);
         return true;
     }
 

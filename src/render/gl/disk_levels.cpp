@@ -183,7 +183,7 @@ const DiskLevels::Level& DiskLevels::level(int index) {
     if (made) return *made;
     made.emplace();
     std::vector<DiskPiece> single;
-    std::vector<std::size_t> of_single;
+    std::vector<std::uint32_t> of_single;
     // Where all are drawn one by one, each hides much of the next.
     const std::vector<DiskPiece> covered = index == 0 ? pieces_of(disks_) : std::vector<DiskPiece>();
     const float most = tolerance(index);
@@ -203,13 +203,13 @@ const DiskLevels::Level& DiskLevels::level(int index) {
             }
             if (last < first + 2) {
                 single.push_back(index == 0 ? covered[first] : piece_of(disks_[first]));
-                of_single.push_back(first++);
+                of_single.push_back(static_cast<std::uint32_t>(first++));
                 continue;
             }
             const DiskInstance& a = disks_[first];
             const DiskInstance& b = disks_[last];
             made->pieces.push_back({a.base, a.radius, b.base, b.radius, {0, 0}});
-            made->sources.push_back((first + last) / 2);
+            made->sources.push_back(static_cast<std::uint32_t>((first + last) / 2));
             first = last;
         }
         made->tubes.back().count = made->pieces.size() - made->tubes.back().first;

@@ -66,11 +66,12 @@ class DiskLevels {
 
     struct Range {
         std::size_t first = 0, count = 0;
+        friend bool operator==(const Range&, const Range&) = default;
     };
     struct Level {
-        std::vector<DiskPiece> pieces;     ///< first tubes, then disks
-        std::vector<std::size_t> sources;  ///< of each piece: the disk that has its colour, in drawing order
-        std::vector<Range> tubes, disks;   ///< of each block
+        std::vector<DiskPiece> pieces;       ///< first tubes, then disks
+        std::vector<std::uint32_t> sources;  ///< of each piece: the disk that has its colour, in drawing order
+        std::vector<Range> tubes, disks;     ///< of each block
     };
 
     /// `disks`: in drawing order. They are copied.

@@ -1,6 +1,7 @@
 #include <render/drawlist/pen.h>
 #include <render/drawlist/view_projection.h>
 #include <render/gl/disk_pass.h>
+#include <render/gl/face_pass.h>
 #include <render/gl/gl_objects.h>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace mobbscope {
@@ -18,11 +20,17 @@ namespace mobbscope {
 namespace {
 
 struct Vertex {
-    glm::vec3 corner;
+    glm::vec4 corner;
     glm::vec3 normal;
 };
 
 using ColorBytes = std::array<std::uint8_t, 4>;
+
+constexpr std::size_t kColorColumns = 1024;  // of the texture of colours
+// Units of textures.
+constexpr GLint kSurfaces = 0;
+constexpr GLint kSurfaceSamples = 1;
+constexpr GLint kColors = 2;
 
 constexpr float kFlatBlock = 0.15f;        // of its distance: how far a block may reach and still have one scale
 constexpr std::size_t kMostBridged = 512;  // disks beside the picture that are drawn to save a draw call
@@ -72,7 +80,11 @@ bool block_may_be_seen(const DiskBlock& block, const ViewProjection& projection)
 
 }  // namespace
 
-DiskPass::DiskPass(GlContext& context) : program_(context, "disk") {}
+DiskPass::DiskPass(GlContext& context) : program_(context, "disk"), tint_(context, "composite", "tint") {
+    glBindVertexArray(tile_array_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
+    VertexLayout(sizeof(Rect), 1).floats(0, 4, 0);
+}
 
 /// Upper face, side and lower face, in this order: each part is one range.
 const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
@@ -81,8 +93,8 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
     made.sides = sides;
     std::vector<Vertex> vertices;
     std::vector<GLushort> indices;
-    const auto add = [&](glm::vec3 corner, glm::vec3 normal) {
-        vertices.push_back({corner, normal});
+    const auto add = [&](glm::vec3 corner, glm::vec3 normal, float rim = 1) {
+        vertices.push_back({glm::vec4(corner, rim), normal});
         return static_cast<GLushort>(vertices.size() - 1);
     };
     const auto direction = [&](int i) { return glm::vec3(glm::dvec3(on_circle<double>(i, sides), 0)); };
@@ -90,12 +102,14 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
     const auto add_face = [&](bool upper) {
         const glm::vec3 level = upper ? up : glm::vec3(0);
         const glm::vec3 normal = upper ? up : -up;
-        const GLushort middle = add(level, normal);
-        add(direction(0) + level, normal);
-        for (int i = 1; i <= sides; ++i) {
-            const GLushort b = add(direction(i) + level, normal);
-            const GLushort a = static_cast<GLushort>(b - 1);
-            indices.insert(indices.end(), {middle, upper ? a : b, upper ? b : a});
+        for (int i = 0; i <= sides; ++i) {
+            const GLushort inside = add(direction(i) + level, normal, 0);
+            const GLushort rim = add(direction(i) + level, normal);
+            if (i == 0) continue;
+            const GLushort before = static_cast<GLushort>(inside - 2);
+            const GLushort rim_before = static_cast<GLushort>(rim - 2);
+            if (upper) indices.insert(indices.end(), {before, rim_before, rim, before, rim, inside});
+            if (!upper) indices.insert(indices.end(), {before, rim, rim_before, before, inside, rim});
         }
     };
     add_face(true);
@@ -111,7 +125,7 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
     glBindVertexArray(made.array.name());
     upload(made.vertices, vertices);
     const VertexLayout corner(sizeof(Vertex), 0);
-    corner.floats(0, 3, offsetof(Vertex, corner));
+    corner.floats(0, 4, offsetof(Vertex, corner));
     corner.floats(1, 3, offsetof(Vertex, normal));
     upload(made.indices, indices, GL_ELEMENT_ARRAY_BUFFER);
     return made;
@@ -121,61 +135,52 @@ const DiskPass::Cylinder& DiskPass::cylinder(int sides) {
 void DiskPass::keep(const DrawnWorld& world) {
     const bool same = levels_ && world.disks.shares_with(kept_);
     kept_ = world.disks;
-    if (same) {
-        stays_ = true;
-        return;
-    }
+    if (same) return;
     const std::vector<const DiskInstance*> sorted = in_order(world.disks);
-    const auto forget_colors = [](Stored& stored) { stored.has_colors = false; };
-    if (levels_ && levels_->take_colors(sorted)) {
-        stays_ = true;
-        forget_colors(fine_);
-        std::for_each(coarse_.begin(), coarse_.end(), forget_colors);
-        return;
-    }
+    has_colors_ = false;
+    if (levels_ && levels_->take_colors(sorted)) return;
     std::vector<DiskInstance> disks;
     disks.reserve(sorted.size());
     for (const DiskInstance* disk : sorted) disks.push_back(*disk);
     levels_.emplace(std::move(disks));
-    stays_ = false;
-    const auto forget = [](Stored& stored) { stored.has_pieces = stored.has_colors = false; };
-    forget(fine_);
-    std::for_each(coarse_.begin(), coarse_.end(), forget);
+    ++shapes_;
+    drawn_ = false;
+    fine_.has_pieces = false;
+    for (Stored& stored : coarse_) stored.has_pieces = false;
 }
 
-const DiskPass::Stored& DiskPass::store_shapes(int level, DrawStatistics& statistics) {
+const DiskPass::Stored& DiskPass::store(int level, DrawStatistics& statistics) {
     Stored& stored = coarse_[static_cast<std::size_t>(level)];
-    if (!stored.has_pieces) statistics.world_bytes += upload(stored.pieces, levels_->level(level).pieces);
+    if (stored.has_pieces) return stored;
+    const DiskLevels::Level& made = levels_->level(level);
+    statistics.world_bytes += upload(stored.pieces, made.pieces) + upload(stored.sources, made.sources);
     stored.has_pieces = true;
     return stored;
 }
 
-const DiskPass::Stored& DiskPass::store(int level, DrawStatistics& statistics) {
-    store_shapes(level, statistics);
-    Stored& stored = coarse_[static_cast<std::size_t>(level)];
-    if (stored.has_colors) return stored;
-    std::vector<ColorBytes> colors;
-    const std::vector<std::size_t>& sources = levels_->level(level).sources;
-    colors.reserve(sources.size());
-    for (const std::size_t source : sources) colors.push_back(bytes_of(levels_->disks()[source].color));
-    statistics.state_bytes += upload(stored.colors, colors);
-    stored.has_colors = true;
-    return stored;
+const DiskPass::Stored& DiskPass::store_fine(DrawStatistics& statistics) {
+    if (fine_.has_pieces) return fine_;
+    const std::vector<DiskInstance>& disks = levels_->disks();
+    std::vector<std::uint32_t> sources(disks.size());
+    std::iota(sources.begin(), sources.end(), 0u);
+    statistics.world_bytes += upload(fine_.pieces, pieces_of(disks)) + upload(fine_.sources, sources);
+    fine_.has_pieces = true;
+    return fine_;
 }
 
-const DiskPass::Stored& DiskPass::store_fine(DrawStatistics& statistics) {
+void DiskPass::store_colors(DrawStatistics& statistics) {
+    if (has_colors_) return;
     const std::vector<DiskInstance>& disks = levels_->disks();
-    if (!fine_.has_pieces) {
-        statistics.world_bytes += upload(fine_.pieces, pieces_of(disks));
-    }
-    if (!fine_.has_colors) {
-        std::vector<ColorBytes> colors(disks.size());
-        std::transform(disks.begin(), disks.end(), colors.begin(),
-                       [](const DiskInstance& disk) { return bytes_of(disk.color); });
-        statistics.state_bytes += upload(fine_.colors, colors);
-    }
-    fine_.has_pieces = fine_.has_colors = true;
-    return fine_;
+    const std::size_t rows = (disks.size() + kColorColumns - 1) / kColorColumns;
+    std::vector<ColorBytes> colors(rows * kColorColumns);
+    std::ranges::transform(disks, colors.begin(), [](const DiskInstance& disk) { return bytes_of(disk.color); });
+    glBindTexture(GL_TEXTURE_2D, colors_.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kColorColumns, static_cast<GLsizei>(rows), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 colors.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    statistics.state_bytes += disks.size() * sizeof(ColorBytes);
+    has_colors_ = true;
 }
 
 /// Enough sides for the largest disk: one shape for all, so that their edges fit.
@@ -274,15 +279,13 @@ void DiskPass::draw(const Batch& batch, DrawStatistics& statistics) {
     piece.integers(5, 2, begin + offsetof(DiskPiece, id));
     piece.floats(6, 3, begin + offsetof(DiskPiece, above));
     piece.floats(7, 3, begin + offsetof(DiskPiece, below));
-    const glm::vec2 next_corner(on_circle<double>(1, batch.sides));
-    glUniform2fv(program_.uniform("next_corner"), 1, glm::value_ptr(next_corner));
     glUniform1f(program_.uniform("inner"), std::cos(std::numbers::pi_v<float> / static_cast<float>(batch.sides)));
-    glBindBuffer(GL_ARRAY_BUFFER, stored.colors.name());
-    VertexLayout(sizeof(ColorBytes), 1).bytes(4, 4, batch.range.first * sizeof(ColorBytes));
-    const std::size_t face = 3 * static_cast<std::size_t>(batch.sides);
+    glBindBuffer(GL_ARRAY_BUFFER, stored.sources.name());
+    VertexLayout(sizeof(std::uint32_t), 1).integers(4, 1, batch.range.first * sizeof(std::uint32_t));
+    const std::size_t face = 6 * static_cast<std::size_t>(batch.sides);
     const bool upper = batch.part == Part::side_and_upper_face || batch.part == Part::all;
     const bool lower = batch.part == Part::side_and_lower_face || batch.part == Part::all;
-    const std::size_t indices = (upper ? face : 0) + 2 * face + (lower ? face : 0);
+    const std::size_t indices = (upper ? face : 0) + face + (lower ? face : 0);
     glDrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(indices), GL_UNSIGNED_SHORT,
                             reinterpret_cast<const void*>(upper ? 0 : face * sizeof(GLushort)),
                             static_cast<GLsizei>(batch.range.count));
@@ -291,21 +294,27 @@ void DiskPass::draw(const Batch& batch, DrawStatistics& statistics) {
 }
 
 void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statistics) {
-    begin(list, detail, statistics);
+    begin(surfaces(list, detail), statistics);
     draw_more(list, std::numeric_limits<std::size_t>::max(), statistics);
 }
 
-void DiskPass::begin(const DrawList& list, Detail detail, DrawStatistics& statistics) {
+DiskPass::Surfaces DiskPass::surfaces(const DrawList& list, Detail detail) {
     keep(list);
-    detail_ = detail;
-    undrawn_.clear();
-    if (list.disks.empty()) return;
-    const bool coarse = detail == Detail::coarse;
-    undrawn_ = coarse ? coarse_batches(list.projection) : fine_batches(list.projection);
-    std::ranges::reverse(undrawn_);
-    if (coarse && stays_) {
-        for (int level = 0; level < DiskLevels::kLevels; ++level) store_shapes(level, statistics);
+    const ViewProjection& projection = list.projection;
+    Surfaces out{shapes_, detail, {}, projection.clip_from_world, projection.right, projection.back};
+    if (list.disks.empty()) return out;
+    out.batches = detail == Detail::coarse ? coarse_batches(projection) : fine_batches(projection);
+    return out;
+}
+
+void DiskPass::begin(const Surfaces& surfaces, DrawStatistics& statistics) {
+    detail_ = surfaces.detail;
+    undrawn_.assign(surfaces.batches.rbegin(), surfaces.batches.rend());
+    if (undrawn_.empty()) return;
+    if (detail_ == Detail::coarse && drawn_) {
+        for (int level = 0; level < DiskLevels::kLevels; ++level) store(level, statistics);
     }
+    drawn_ = true;
 }
 
 bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics) {
@@ -323,7 +332,6 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     // With two corners at the sides the outline is right, however few the others are.
     const glm::vec2 across = detail_ == Detail::coarse ? glm::vec2(list.projection.right) : glm::vec2(1, 0);
     glUniform2fv(program_.uniform("across"), 1, glm::value_ptr(across));
-    glUniform3fv(program_.uniform("background"), 1, glm::value_ptr(list.palette.background));
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
@@ -341,6 +349,48 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     }
     glDisable(GL_CULL_FACE);
     return undrawn_.empty();
+}
+
+void DiskPass::tint(const DrawList& list, const Texture& surface, DrawStatistics& statistics) {
+    glActiveTexture(GL_TEXTURE0 + kColors);
+    store_colors(statistics);
+    glBindTexture(GL_TEXTURE_2D, colors_.name());
+    GLint samples = 0;
+    glGetIntegerv(GL_SAMPLES, &samples);
+    const bool multisampled = samples > 0;
+    glActiveTexture(GL_TEXTURE0 + (multisampled ? kSurfaceSamples : kSurfaces));
+    glBindTexture(multisampled ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, surface.name());
+    glActiveTexture(GL_TEXTURE0);
+    tint_.use();
+    glUniform1i(tint_.uniform("surfaces"), kSurfaces);
+    glUniform1i(tint_.uniform("surface_samples"), kSurfaceSamples);
+    glUniform1i(tint_.uniform("colors"), kColors);
+    glUniform1i(tint_.uniform("sample_index"), -1);
+    glUniform3fv(tint_.uniform("background"), 1, glm::value_ptr(list.palette.background));
+    glUniform2f(tint_.uniform("viewport"), static_cast<float>(list.size.width), static_cast<float>(list.size.height));
+    std::vector<BoxInstance> around;
+    for (const DiskBlock& block : levels_->blocks()) {
+        if (!block_may_be_seen(block, list.projection)) continue;
+        BoxInstance& box = around.emplace_back();
+        box.center = block.middle;
+        for (int axis = 0; axis < 3; ++axis) box.extents[static_cast<std::size_t>(axis)][axis] = block.reach;
+    }
+    const std::vector<Rect> tiles = covering_tiles(around, list.projection);
+    glBindVertexArray(tile_array_.name());
+    statistics.overlay_bytes += upload(tiles_, tiles);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    if (multisampled) glEnable(GL_SAMPLE_MASK);
+    for (GLint sample = 0; sample < std::max(samples, 1); ++sample) {
+        if (multisampled) {
+            glSampleMaski(0, 1u << sample);
+            glUniform1i(tint_.uniform("sample_index"), sample);
+        }
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size()));
+        statistics.triangles += 2 * tiles.size();
+        ++statistics.draw_calls;
+    }
+    glDisable(GL_SAMPLE_MASK);
 }
 
 }  // namespace mobbscope

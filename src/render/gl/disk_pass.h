@@ -19,16 +19,40 @@ class DiskPass {
   public:
     explicit DiskPass(GlContext& context);
 
-    /// Into the bound framebuffer: colours to output 0 and, of fine disks, ids to output 1.
+    /// Neighbouring pieces that are drawn alike; faces that cannot be seen are left out.
+    enum class Part { side, side_and_upper_face, side_and_lower_face, all };
+    struct Batch {
+        int level = 0;
+        int sides = 0;
+        Part part = Part::all;
+        DiskLevels::Range range;
+        float depth = 0;  ///< of the nearest
+        friend bool operator==(const Batch&, const Batch&) = default;
+    };
+    /// All that decides which disks are seen where, and how they are lit: in a picture of one size, not their colours.
+    struct Surfaces {
+        int shapes = 0;  ///< which, of all that were drawn
+        Detail detail = Detail::fine;
+        std::vector<Batch> batches;
+        glm::mat4 clip_from_world{1};
+        glm::vec3 right{0}, back{0};
+        friend bool operator==(const Surfaces&, const Surfaces&) = default;
+    };
+
+    /// Into the bound framebuffer: to output 0 which disk is seen and how bright, for `tint`; of fine disks ids to
+    /// output 1.
     void draw(const DrawList& list, Detail detail, DrawStatistics& statistics);
-    /// The same in parts: finds out what is to be drawn; draws at most so many disks and tubes more (> 0) of the same
-    /// list, true once that was all.
-    void begin(const DrawList& list, Detail detail, DrawStatistics& statistics);
+    /// What draw would draw. Another list than the last ends what is drawn in parts.
+    Surfaces surfaces(const DrawList& list, Detail detail);
+    /// The same as draw in parts: begins with the surfaces of the list that was asked about last; draws at most so many
+    /// disks and tubes more (> 0) of it, true once that was all.
+    void begin(const Surfaces& surfaces, DrawStatistics& statistics);
     bool draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics);
+    /// Brings the colours of the disks of the list that was asked about last into the bound framebuffer, where they are
+    /// seen. `surface`: what was drawn to output 0, with as many samples.
+    void tint(const DrawList& list, const Texture& surface, DrawStatistics& statistics);
 
   private:
-    /// What is drawn of instances: faces that cannot be seen are left out.
-    enum class Part { side, side_and_upper_face, side_and_lower_face, all };
     /// A unit cylinder.
     struct Cylinder {
         int sides = 0;
@@ -37,33 +61,29 @@ class DiskPass {
     };
     /// The pieces of a level on the GPU.
     struct Stored {
-        Buffer pieces, colors;
-        bool has_pieces = false, has_colors = false;
+        Buffer pieces, sources;
+        bool has_pieces = false;
     };
-    /// Neighbouring pieces that are drawn alike.
-    struct Batch {
-        int level = 0;
-        int sides = 0;
-        Part part = Part::all;
-        DiskLevels::Range range;
-        float depth = 0;  ///< of the nearest
-    };
-
     void keep(const DrawnWorld& world);
     const Cylinder& cylinder(int sides);
-    /// Upload what is missing of a level, or of all disks. Colours only of levels that are drawn.
-    const Stored& store_shapes(int level, DrawStatistics& statistics);
+    /// Upload what is missing of a level, or of all disks.
     const Stored& store(int level, DrawStatistics& statistics);
     const Stored& store_fine(DrawStatistics& statistics);
+    void store_colors(DrawStatistics& statistics);
     std::vector<Batch> fine_batches(const ViewProjection& projection) const;
     std::vector<Batch> coarse_batches(const ViewProjection& projection);
     void draw(const Batch& batch, DrawStatistics& statistics);
 
-    ShaderProgram program_;
+    ShaderProgram program_, tint_;
+    VertexArray tile_array_;
+    Buffer tiles_;    ///< of the picture, in which disks may be seen
+    Texture colors_;  ///< of all disks in drawing order
+    bool has_colors_ = false;
+    int shapes_ = 0;                     ///< counts other ones
     std::map<int, Cylinder> cylinders_;  ///< by the number of sides; made when first needed
     SharedValues<DiskInstance> kept_;    ///< of the last list
     std::optional<DiskLevels> levels_;   ///< of those
-    bool stays_ = false;                 ///< they were drawn before: all levels are worth their while
+    bool drawn_ = false;                 ///< they were drawn before: all levels are worth their while
     Stored fine_;                        ///< all disks in drawing order, on which depends who wins where two are equal
     std::vector<Stored> coarse_{DiskLevels::kLevels};
     Detail detail_ = Detail::fine;

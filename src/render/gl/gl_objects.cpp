@@ -101,7 +101,7 @@ void reset_state() {
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
-    for (GLuint unit = 0; unit < 2; ++unit) glBindSampler(unit, 0);
+    for (GLuint unit = 0; unit < 3; ++unit) glBindSampler(unit, 0);
 
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);

@@ -113,13 +113,6 @@ class VertexLayout {
         enable(location);
     }
 
-    /// 0..255 for 0..1.
-    void bytes(GLuint location, GLint count, std::size_t offset) const {
-        glVertexAttribPointer(location, count, GL_UNSIGNED_BYTE, GL_TRUE, stride_,
-                              reinterpret_cast<const void*>(offset));
-        enable(location);
-    }
-
   private:
     void enable(GLuint location) const {
         glEnableVertexAttribArray(location);

@@ -85,69 +85,63 @@ struct Renderer::State {
         glViewport(0, 0, size.width, size.height);
     }
 
-    /// What draw_disks drew last.
-    struct GroundAndDisks {
-        SharedValues<DiskInstance> disks;
-        ViewProjection projection;
-        Rgba background{0}, ground{0};
-
-        bool shows(const DrawList& list, Rgba on) const {
-            return disks.shares_with(list.disks) && projection.clip_from_world == list.projection.clip_from_world &&
-                   projection.right == list.projection.right && projection.back == list.projection.back &&
-                   background == list.palette.background && ground == on;
-        }
-    };
-
     /// Where pictures of one kind are made.
     struct Canvas {
         std::optional<Targets> targets;
-        std::optional<GroundAndDisks> ground_and_disks;
-        bool kept = false;  ///< the targets have those
+        std::optional<DiskPass::Surfaces> surfaces;  ///< that the targets have
 
         void prepare(PictureSize size, int samples) {
             if (targets && targets->size() == size && targets->samples() == samples) return;
             targets.reset();
             targets.emplace(size, samples);
-            ground_and_disks.reset();
+            surfaces.reset();
         }
     };
 
     /// What is left of a picture that is painted in parts.
-    enum class Part { disks, faces, lines, words };
+    enum class Part { disks, colors, faces, lines, words };
     struct Work {
         const DrawList* list = nullptr;
         Canvas* canvas = nullptr;
+        Rgba ground{0};
         Part next = Part::disks;
-        bool again = false;  ///< the picture before had the same disks
         std::size_t disks_at_once = kDisksAtFirst;
     };
 
-    /// The ground and the disks: the dearest part of a picture. Where the one before had the same they are taken from
-    /// it: a time cursor moves through them. A camera that moves pays nothing for that.
-    void begin_disks(Work& on, const DrawList& list, Rgba ground) {
-        Canvas& canvas = *on.canvas;
-        on.again = canvas.ground_and_disks && canvas.ground_and_disks->shows(list, ground);
-        if (on.again && canvas.kept) {
-            canvas.targets->restore_scene();
-            on.next = Part::faces;
-            return;
-        }
-        canvas.kept = false;
-        canvas.ground_and_disks.reset();
-        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->scene().name());
-        glClearColor(ground.r, ground.g, ground.b, 1);
-        glClearDepth(1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        disks.begin(list, canvas.targets->samples() > 1 ? Detail::fine : Detail::coarse, statistics);
-        drawn_on = {list.disks, list.projection, list.palette.background, ground};
+    DiskPass::Surfaces surfaces_of(const DrawList& list, int samples) {
+        return disks.surfaces(list, samples > 1 ? Detail::fine : Detail::coarse);
     }
 
-    void end_disks(Work& on) {
+    /// Which disks are seen where is the dearest part of a picture. Where the one before had the same, of whatever
+    /// colours, it is taken from that: a query's steps and a time cursor move through them.
+    void begin_disks(Work& on, const DrawList& list) {
         Canvas& canvas = *on.canvas;
-        canvas.ground_and_disks = std::move(drawn_on);
-        if (!on.again) return;
-        canvas.targets->keep_scene();
-        canvas.kept = true;
+        surfaces = surfaces_of(list, canvas.targets->samples());
+        disks.begin(surfaces, statistics);
+        if (canvas.surfaces == surfaces) {
+            on.next = Part::colors;
+            return;
+        }
+        canvas.surfaces.reset();
+        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->surfaces().name());
+        glClearColor(0, 0, 0, 0);
+        glClearDepth(1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    }
+
+    /// At most so many.
+    void draw_disks(Work& on, const DrawList& list, std::size_t most) {
+        glBindFramebuffer(GL_FRAMEBUFFER, on.canvas->targets->surfaces().name());
+        if (!disks.draw_more(list, most, statistics)) return;
+        on.canvas->surfaces = surfaces;
+        on.next = Part::colors;
+    }
+
+    void draw_colors(const Canvas& canvas, const DrawList& list, Rgba ground) {
+        glBindFramebuffer(GL_FRAMEBUFFER, canvas.targets->scene().name());
+        glClearColor(ground.r, ground.g, ground.b, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+        if (!canvas.surfaces->batches.empty()) disks.tint(list, canvas.targets->surface(), statistics);
     }
 
     void draw_faces(const Targets& targets, const DrawList& list) {
@@ -166,8 +160,8 @@ struct Renderer::State {
         Canvas& canvas = samples > 1 ? fine : coarse;
         canvas.prepare(list.size, samples);
         boxes.keep(list, statistics);
-        work = Work{&list, &canvas};
-        begin_disks(*work, list, ground);
+        work = Work{&list, &canvas, ground};
+        begin_disks(*work, list);
     }
 
     /// Draws the next part; true once the picture stands.
@@ -176,8 +170,10 @@ struct Renderer::State {
         glBindFramebuffer(GL_FRAMEBUFFER, targets.scene().name());
         switch (work->next) {
             case Part::disks:
-                if (!disks.draw_more(list, most_disks, statistics)) return false;
-                end_disks(*work);
+                draw_disks(*work, list, most_disks);
+                return false;
+            case Part::colors:
+                draw_colors(*work->canvas, list, work->ground);
                 work->next = Part::faces;
                 return false;
             case Part::faces:
@@ -233,18 +229,16 @@ struct Renderer::State {
         begin(small.size);
         low.prepare(small.size, 1);
         boxes.keep(small, statistics);
-        Work on{&small, &low};
-        begin_disks(on, small, ground);
-        if (on.next == Part::disks) {
-            disks.draw_more(small, std::numeric_limits<std::size_t>::max(), statistics);
-            end_disks(on);
-        }
+        Work on{&small, &low, ground};
+        begin_disks(on, small);
+        if (on.next == Part::disks) draw_disks(on, small, std::numeric_limits<std::size_t>::max());
+        draw_colors(low, small, ground);
         glBindFramebuffer(GL_FRAMEBUFFER, low.targets->scene().name());
         draw_faces(*low.targets, small);
 
         resume(list.size);
         coarse.prepare(list.size, 1);
-        coarse.ground_and_disks.reset();
+        coarse.surfaces.reset();
         coarse.targets->enlarge(*low.targets);
         glBindFramebuffer(GL_FRAMEBUFFER, coarse.targets->scene().name());
         lines.draw_scene(list, statistics);
@@ -256,6 +250,13 @@ struct Renderer::State {
     /// Whether the targets have the scene of a list by itself, without what lies over it.
     bool has_scene(const DrawList& list, int samples) const {
         return painted.list == &list && samples > 1 && painted.canvas->targets->samples() == samples;
+    }
+
+    bool has_disks(const DrawList& list, int samples) {
+        work.reset();
+        const Canvas& canvas = samples > 1 ? fine : coarse;
+        return canvas.targets && canvas.targets->size() == list.size && canvas.targets->samples() == samples &&
+               canvas.surfaces == surfaces_of(list, samples);
     }
 
     void keep_words(const DrawList& list) {
@@ -286,7 +287,10 @@ struct Renderer::State {
 
     void check_samples(int samples) const {
         GLint most = 1;
+        GLint most_read = 1;  // one by one
         glGetIntegerv(GL_MAX_SAMPLES, &most);
+        glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &most_read);
+        most = std::min(most, most_read);
         if (samples <= std::max(most, 1)) return;
         throw MachineError("this OpenGL (" + std::string(context->name()) + ") draws at most " + std::to_string(most) +
                            " samples a pixel, not " + std::to_string(samples));
@@ -304,7 +308,7 @@ struct Renderer::State {
     };
     Painted painted;
     std::optional<Work> work;
-    GroundAndDisks drawn_on;  ///< what is being drawn
+    DiskPass::Surfaces surfaces;  ///< of what is being drawn
     BoxBuffer boxes;
     DiskPass disks;
     FacePass faces;
@@ -367,6 +371,8 @@ const Texture* Renderer::paint_more(const DrawList& list, const PaintPace& pace)
 void Renderer::wait() const { glFinish(); }
 
 bool Renderer::has_scene(const DrawList& list, int samples) const { return state_->has_scene(list, samples); }
+
+bool Renderer::has_disks(const DrawList& list, int samples) { return state_->has_disks(list, samples); }
 
 const Texture& Renderer::paint_highlights(const DrawList& list, int samples) {
     if (!state_->has_scene(list, samples)) return paint(list, samples);

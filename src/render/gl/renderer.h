@@ -75,7 +75,11 @@ class Renderer {
     /// Whether paint_highlights has less to do than paint.
     bool has_scene(const DrawList& list, int samples) const;
 
-    /// The same for a list of which nothing but the highlights has changed since it was painted: if that was the last
+    /// Whether paint has fewer than all disks to draw, as the last such picture shows them in the same places: they may
+    /// have other colours. Ends what is painted in parts.
+    bool has_disks(const DrawList& list, int samples);
+
+    /// As paint for a list of which nothing but the highlights has changed since it was painted: if that was the last
     /// picture and is multisampled, the highlights' lines are all that is uploaded and drawn of the scene.
     const Texture& paint_highlights(const DrawList& list, int samples);
 

@@ -29,6 +29,14 @@ void attach_texture(const Texture& texture, GLenum attachment, GLenum internal_f
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.name(), 0);
 }
 
+/// Its samples are read one by one.
+void attach_samples(const Texture& texture, GLenum attachment, GLenum internal_format, PictureSize size, int samples) {
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.name());
+    // Beside a renderbuffer the samples must lie where they lie by themselves.
+    glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, internal_format, size.width, size.height, GL_TRUE);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D_MULTISAMPLE, texture.name(), 0);
+}
+
 void require_complete(const char* what) {
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         throw MachineError(std::string("this OpenGL cannot draw into ") + what);
@@ -53,6 +61,15 @@ Targets::Targets(PictureSize size, int samples) : size_(size), samples_(samples)
     if (multisampled) attach_renderbuffer(scene_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, samples);
     attach_renderbuffer(scene_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, samples);
     require_complete(multisampled ? "a multisampled framebuffer" : "a framebuffer");
+
+    glBindFramebuffer(GL_FRAMEBUFFER, surfaces_.name());
+    if (multisampled) {
+        attach_samples(surface_, GL_COLOR_ATTACHMENT0, GL_RG32F, size, samples);
+    } else {
+        attach_texture(surface_, GL_COLOR_ATTACHMENT0, GL_RG32F, GL_RG, size);
+    }
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, scene_depth_.name());
+    require_complete("32-bit float samples");
 
     glBindFramebuffer(GL_FRAMEBUFFER, faces_.name());
     attach_texture(sums_, GL_COLOR_ATTACHMENT0, GL_RGBA32F, GL_RGBA, size);
@@ -83,23 +100,6 @@ void Targets::enlarge(const Targets& other) const {
     };
     enlarged(GL_COLOR_BUFFER_BIT, GL_LINEAR);
     enlarged(GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-}
-
-void Targets::keep_scene() {
-    if (!kept_) {
-        kept_.emplace();
-        glBindFramebuffer(GL_FRAMEBUFFER, kept_->framebuffer.name());
-        attach_renderbuffer(kept_->color, GL_COLOR_ATTACHMENT0, GL_RGBA8, size_, samples_);
-        attach_renderbuffer(kept_->depth, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size_, samples_);
-        require_complete("a framebuffer");
-    }
-    blit(scene_, kept_->framebuffer, size_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
-}
-
-void Targets::restore_scene() const {
-    blit(kept_->framebuffer, scene_, size_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
 }
 
 IdTarget::IdTarget(PictureSize size) {

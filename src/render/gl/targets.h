@@ -4,8 +4,6 @@
 #include <render/gl/gl_objects.h>
 #include <render/image/image.h>
 
-#include <optional>
-
 namespace mobbscope {
 
 /// Framebuffers of one size and number of samples. Without multisampling the scene is drawn straight into the result,
@@ -18,6 +16,9 @@ class Targets {
     PictureSize size() const { return size_; }
     int samples() const { return samples_; }
     const Framebuffer& scene() const { return scene_; }  ///< colour and depth
+    /// Which disks are seen, and the scene's depth. It stays as it is while faces and lines are drawn.
+    const Framebuffer& surfaces() const { return surfaces_; }
+    const Texture& surface() const { return surface_; }
     const Framebuffer& faces() const { return faces_; }  ///< sums, weights and depth of the transparent faces
     /// The picture.
     const Framebuffer& result() const { return samples_ > 1 ? result_ : scene_; }
@@ -34,22 +35,12 @@ class Targets {
     /// The colours and the depth of another scene, drawn smoothly over all of this one; neither is multisampled.
     void enlarge(const Targets& other) const;
 
-    /// Keeps the colours and the depth of the scene as they are now; brings them back.
-    void keep_scene();
-    void restore_scene() const;
-
   private:
     PictureSize size_;
     int samples_;
-    Framebuffer scene_, faces_, result_;
+    Framebuffer scene_, surfaces_, faces_, result_;
     Renderbuffer scene_color_, scene_depth_, faces_depth_;
-    Texture sums_, weights_, picture_;
-
-    struct Copy {
-        Framebuffer framebuffer;
-        Renderbuffer color, depth;
-    };
-    std::optional<Copy> kept_;  ///< made when first needed
+    Texture surface_, sums_, weights_, picture_;
 };
 
 /// The framebuffer that object ids are drawn in: no multisampling, the nearest wins.
