@@ -103,7 +103,7 @@ std::vector<Command> export_commands() {
                 "Copies the command line that draws this picture again without a window.",
                 [](Session& session) { copy_line_of(session, order_of_viewport(session), "picture.png", false); },
                 {.shortcut = "Ctrl+Shift+C"}),
-        Command("picture.file", "File of exported pictures", "Says where the export dialog writes to.",
+        Command("picture.file", "Picture file", "Says where the export dialog writes to.",
                 [](Session& session, const std::string& file) {
                     check_file_name(file);
                     session.exporting.file = file;
@@ -111,13 +111,13 @@ std::vector<Command> export_commands() {
                     if (session.dialog == Dialog::export_picture) session.input.set_text(file);
                 },
                 {.menu = kNoMenu, .argument = "FILE.png"}),
-        Command("picture.browse", "Choose where exported pictures go", "Asks for the file of the export dialog.",
+        Command("picture.browse", "Browse for the picture file", "Asks for the file of the export dialog.",
                 [](Session& session) {
                     name_file(session);
                     session.open_dialog(Dialog::export_file);
                 },
                 {.menu = kNoMenu}),
-        Command("picture.write", "Export as in the dialog",
+        Command("picture.write", "Write picture as in the dialog",
                 "Writes the picture as the export dialog says, to its file or another one.",
                 [](Session& session, const std::string& file) {
                     write_and_tell(session, order_to_export(session),
