@@ -75,7 +75,7 @@ Command command_of(const ExportOption& option) {
     const auto set = [&option](Session& session, const std::string& text) {
         option.parse(text, session.settings.picture_export);
     };
-    CommandTraits traits{.menu = kNoMenu, .argument = option.argument, .enabled = always};
+    CommandTraits traits{.menu = kNoMenu, .argument = option.argument};
     if (!option.choices.empty()) {
         traits.choices = [&option](const Session&) { return option.choices; };
         traits.chosen = [&option](const Session& session, const std::string& choice) {

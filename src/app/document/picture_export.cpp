@@ -93,7 +93,7 @@ std::vector<ExportOption> all_export_options() {
          .parse = [](const std::string& text, PictureExport& to) { to.samples = parse_samples(text); },
          .text = [](const PictureExport& of) { return std::to_string(of.samples); }},
         {.key = "background",
-         .title = "Picture background",
+         .title = "Picture transparency",
          .doc = "Says whether exported pictures are seen through where nothing is drawn.",
          .argument = "opaque|transparent",
          .choices = backgrounds,
