@@ -237,6 +237,13 @@ const std::string& nearest(std::string_view word, std::span<const std::string> n
     });
 }
 
+std::string bytes_text(std::uintmax_t bytes) {
+    const double size = static_cast<double>(bytes);
+    if (bytes < 1000) return formatted("%ju B", bytes);
+    if (size < 999.5e3) return formatted("%.*f kB", size < 9.95e3 ? 1 : 0, size / 1e3);
+    return formatted("%.1f MB", size / 1e6);
+}
+
 std::string shell_word(const std::string& word) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
     if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;

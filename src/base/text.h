@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -83,6 +84,9 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> nam
 
 /// The name with the least edit distance; the first of equals. There must be one.
 const std::string& nearest(std::string_view word, std::span<const std::string> names);
+
+/// "512 B", "4.2 kB", "48 kB", "1.3 MB"
+std::string bytes_text(std::uintmax_t bytes);
 
 /// A word as a POSIX shell takes it literally: in single quotes where it needs them.
 std::string shell_word(const std::string& word);

@@ -105,6 +105,7 @@ template <auto member>
 ViewOption toggle(ViewOption row) {
     row.toggle = member;
     if (row.schema.empty()) row.schema = R"({"type": "boolean"})";
+    if (row.menu == "View/Show") row.without = "false";
     row.read = [](const JsonPlace& place, ViewState& view) { view.*member = place.boolean(); };
     row.write = [](JsonWriter& out, const ViewState& view) { out.value(view.*member); };
     row.parse = [](const std::string& text, ViewState& view) { view.*member = text == "true"; };
@@ -395,6 +396,8 @@ std::vector<ViewOption> all_view_options() {
                  "Shows beside the pair under test the pairs that called it (ancestors), those that its parent called "
                  "before it too (siblings), all that were tested before, or none (pair).",
              .argument = "[pair|ancestors|siblings|all]",
+             .without = "pair",
+             .may_be_seen = [](const ViewState& view) { return view.query.has_value(); },
              .choices = {"pair", "ancestors", "siblings", "all"},
              .choice_titles = {"Only the pair under test", "+ ancestors", "+ siblings", "All"},
              .refused_in_file = "{} are no past tests",
@@ -409,7 +412,9 @@ std::vector<ViewOption> all_view_options() {
              .title = "Candidates",
              .menu = "Go/Crowd",
              .shortcut = "A",
-             .doc = "Shows the moves that the followed agent could choose, and what became of each."}),
+             .doc = "Shows the moves that the followed agent could choose, and what became of each.",
+             .without = "false",
+             .may_be_seen = [](const ViewState& view) { return !view.follow.empty(); }}),
         toggle<&ViewState::disks>(
             {.key = "disks",
              .option = "--disks,!--no-disks",
@@ -466,6 +471,16 @@ std::vector<ViewOption> all_view_options() {
                                     .menu = "View/Show",
                                     .shortcut = "K",
                                     .doc = "Shows what colours and lines stand for."}),
+        toggle<&ViewState::inset>(
+            {.key = "inset",
+             .option = "--inset,!--no-inset",
+             .help = "The small map of the floor",
+             .command = "view.inset",
+             .title = "Floor inset",
+             .menu = "View/Show",
+             .doc = "Shows the small picture of the floor at the time cursor, in the corner.",
+             .may_be_seen =
+                 [](const ViewState& view) { return view.time.has_value() && view.show == Show::space_time; }}),
         toggle<&ViewState::fold_caption>({.key = "fold_caption",
                                           .option = "--fold-caption,!--unfold-caption",
                                           .help = "The caption as one short line",
@@ -507,6 +522,11 @@ std::span<const ViewOption> view_options() {
 
 const ViewOption& view_option(std::string_view key) {
     return *std::ranges::find(view_options(), key, &ViewOption::key);
+}
+
+bool can_leave_out(const ViewOption& option, const ViewState& view) {
+    if (option.without.empty() || (option.may_be_seen && !option.may_be_seen(view))) return false;
+    return option.text(view) != option.without;
 }
 
 namespace {

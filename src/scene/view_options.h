@@ -8,7 +8,8 @@
 ///      "levels": "1:3", "query": 0, "step": "40%", "past": "ancestors",
 ///      "projection": {"participant": 0, "node": 0, "sample": 3}, "time": 1.5, "time_height": 2,
 ///      "hidden": ["B"], "pinned": [], "arrange": "none", "color_by": "agent", "theme": "dark",
-///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true}
+///      "disks": true, "boxes": true, "floor": true, "time_axis": true, "labels": true, "legend": true,
+///      "inset": true}
 ///
 /// `levels` is a level or what `--level` takes, `step` an event number or what `--step` takes.
 #pragma once
@@ -59,6 +60,11 @@ struct ViewOption {
     std::string_view doc{};
     std::string_view argument{};  ///< of a choice, as Command has it: "[dark|light]"
 
+    // Where an exported picture can be without it.
+    std::string_view without{};  ///< the text that leaves it out; empty: it stays
+    /// Whether a view's picture can have it; empty: every one.
+    std::function<bool(const ViewState&)> may_be_seen{};
+
     // Of a choice: its names, what menus call them (empty: the names), and what is said of another one ({}) in a file
     // and in the window.
     std::vector<std::string_view> choices{};
@@ -86,6 +92,9 @@ std::span<const ViewOption> view_options();
 
 /// Requires that there is one.
 const ViewOption& view_option(std::string_view key);
+
+/// Whether the picture of a view has something that an exported one can be without.
+bool can_leave_out(const ViewOption& option, const ViewState& view);
 
 /// The word for no agent in options, where no agent is called so.
 inline constexpr std::string_view kNobody = "none";

@@ -118,10 +118,11 @@ struct ViewState {
     bool labels = true;     ///< all text
     bool caption = true;    ///< the sentences at the top; where a title says it they are not needed
     bool legend = true;
+    bool inset = true;  ///< the small map of the floor
     // Overlays fold to a header in their corner; where the picture has no room they do so by themselves.
     bool fold_caption = false;
     bool fold_legend = false;
-    bool fold_inset = false;    ///< the small map of the floor
+    bool fold_inset = false;
     bool whole_legend = false;  ///< all its rows, not the first six
     friend bool operator==(const ViewState&, const ViewState&) = default;
 };

@@ -1,4 +1,5 @@
 // What each command does to the session, and that undo takes it back where it edits.
+#include <app/commands/picture_order.h>
 #include <render/drawlist/view_projection.h>
 #include <render/pictures/build_draw_list.h>
 
@@ -7,9 +8,12 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
@@ -23,11 +27,19 @@ struct CommandWorld {
     CrossingFolder folder;
     Session session{false};
     std::string clipboard;
-    std::filesystem::path exported;
+    std::optional<DrawList> drawn;  ///< the last picture that was asked for
+    int samples = 0;
+    std::size_t copied_bytes = 0;  ///< of a picture
 
     CommandWorld() {
         session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
-        session.hooks.export_picture = [this](const std::filesystem::path& file) { exported = file; };
+        session.hooks.draw_picture = [this](const DrawList& list, int wanted) {
+            drawn = list;
+            samples = wanted;
+            return Image(list.size.width, list.size.height);
+        };
+        session.hooks.set_clipboard_picture = [this](std::string_view png) { copied_bytes = png.size(); };
+        session.hooks.why_no_clipboard_picture = [] { return std::string_view(); };
         session.hooks.viewport_size = [] { return PictureSize{800, 600}; };
         session.settings.recent = {folder.file("walk.csv")};
         session.settings.last.files = {folder.file("walk.csv"), folder.file("stand.csv")};
@@ -111,7 +123,51 @@ std::vector<Case> cases() {
         EXPECT_EQ(load_scene(w.folder.file("other.json")).agents.size(), 3u);
     });
     look("file.export_picture", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::export_picture); });
-    look("file.export_picture", "@p.png", [](CommandWorld& w) { EXPECT_EQ(w.exported, w.folder.file("p.png")); });
+    add({"file.export_picture", "@p.png", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
+             ASSERT_TRUE(std::filesystem::exists(w.folder.file("p.png")));
+             EXPECT_EQ(w.drawn->size, (PictureSize{800, 600})) << "the viewport's, whatever the dialog says";
+         }});
+    look("file.copy_picture", "", [](CommandWorld& w) {
+        EXPECT_EQ(w.drawn->size, (PictureSize{800, 600}));
+        EXPECT_GT(w.copied_bytes, 100u);
+    });
+    look("picture.file", "@here.png", [](CommandWorld& w) { EXPECT_EQ(w.session.exporting.file, w.path("here.png")); });
+    look("picture.browse", "", [](CommandWorld& w) { EXPECT_EQ(w.session.dialog, Dialog::export_file); });
+    const auto exports = [&](const std::string& option, const std::string& text,
+                             std::function<void(CommandWorld&)> check) {
+        add({"picture." + option, text, {}, [check](CommandWorld& w) {
+                 run_command(w.session, "picture.write", w.path("x.png"));
+                 ASSERT_TRUE(std::filesystem::exists(w.folder.file("x.png")));
+                 check(w);
+             }});
+    };
+    exports("size", "640x360", [](CommandWorld& w) { EXPECT_EQ(w.drawn->size, (PictureSize{640, 360})); });
+    look("picture.shape", "free", [](CommandWorld& w) { EXPECT_FALSE(w.session.settings.picture_export.keeps_shape); });
+    exports("scale", "2", [](CommandWorld& w) {
+        EXPECT_NE(render_line(w.session, order_to_export(w.session), "p.png")->find(" --scale 2 "), std::string::npos);
+    });
+    exports("samples", "8", [](CommandWorld& w) { EXPECT_EQ(w.samples, 8); });
+    exports("background", "transparent", [](CommandWorld& w) { EXPECT_EQ(w.drawn->background->a, 0); });
+    exports("theme", "light", [](CommandWorld& w) {
+        EXPECT_FALSE(w.drawn->palette.dark);
+        EXPECT_EQ(w.view().theme, Theme::dark) << "of the picture alone";
+    });
+    exports("without", "legend boxes", [](CommandWorld& w) {
+        EXPECT_TRUE(w.drawn->boxes.empty());
+        EXPECT_TRUE(w.view().boxes);
+    });
+    add({"picture.write", "@p.png", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
+             EXPECT_TRUE(std::filesystem::exists(w.folder.file("p.png")));
+             EXPECT_EQ(w.drawn->size, (PictureSize{640, 360}));
+         }});
+    add({"picture.copy", "", {{"picture.size", "640x360"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.drawn->size, (PictureSize{640, 360}));
+             EXPECT_GT(w.copied_bytes, 100u);
+         }});
+    add({"picture.copy_command", "", {{"picture.size", "640x360"}, {"picture.without", "legend"}}, [](CommandWorld& w) {
+             EXPECT_EQ(w.clipboard, "mobbscope render " + w.path("scene.json") + " --no-legend --size 640x360 -o " +
+                                        w.path("scene.png"));
+         }});
     look("file.copy_command", "", [](CommandWorld& w) {
         EXPECT_EQ(w.clipboard, "mobbscope render " + w.path("scene.json") + " --size 800x600 -o picture.png");
     });
@@ -401,6 +457,7 @@ std::vector<Case> cases() {
     add({"view.past", "", {{"view.past", "all"}}, [](CommandWorld& w) {
              EXPECT_EQ(w.view().past, Past::pair) << "the first follows the last";
          }});
+    look("view.inset", "", [](CommandWorld& w) { EXPECT_FALSE(w.view().inset); });
     add({"view.fold_legend", "", {{"view.fold_legend", ""}}, [](CommandWorld& w) {
              EXPECT_FALSE(w.view().fold_legend);
          }});

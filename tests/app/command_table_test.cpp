@@ -1,12 +1,16 @@
 // The table as a whole: ids, shortcuts, arguments, what can be done when.
 #include "app/crossing_folder.h"
 
+#include <app/commands/picture_order.h>
 #include <app/panels/panels.h>
+#include <base/text.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -324,7 +328,25 @@ TEST(CommandTable, TheLineToCopyTellsThePicture) {
     run_command(session, "query.none");
     run_command(session, "go.agent", "A");
     run_command(session, "agent.nudge", "1 0");
-    EXPECT_NE(refusal(session, "file.copy_command").find("save the scene first"), std::string::npos);
+    // No file has this scene: it gets one, whatever else is there, and its line.
+    run_command(session, "file.copy_command");
+    ASSERT_TRUE(session.exporting.aside);
+    const std::filesystem::path aside = session.exporting.aside->file;
+    EXPECT_NE(copied.find(shell_word(aside.string())), std::string::npos) << copied;
+    EXPECT_EQ(load_scene(aside).agents[0].placement.translate, session.scene().agents[0].placement.translate);
+    EXPECT_EQ(load_scene(aside).view, session.view());
+    EXPECT_TRUE(session.modified()) << "it is not saved by that";
+    // The same scene seen otherwise takes options, another scene another file.
+    run_command(session, "view.floor");
+    run_command(session, "file.copy_command");
+    EXPECT_EQ(session.exporting.aside->file, aside);
+    EXPECT_NE(copied.find(" --"), std::string::npos) << copied;
+    run_command(session, "agent.nudge", "1 0");
+    EXPECT_EQ(render_line(session, order_of_viewport(session), "picture.png"), std::nullopt);
+    run_command(session, "file.copy_command");
+    EXPECT_NE(session.exporting.aside->file, aside);
+    std::filesystem::remove_all(aside.parent_path());
+    std::filesystem::remove_all(session.exporting.aside->file.parent_path());
 }
 
 }  // namespace

@@ -30,6 +30,13 @@ TEST(Settings, AreReadBackAsTheyWereWritten) {
     settings.last.view.query = 2;
     settings.last.view.camera.yaw_deg = 12.5;
     settings.last.view.theme = Theme::light;
+    settings.picture_export = {.size = PictureSize{640, 360},
+                               .keeps_shape = false,
+                               .scale = 1.25,
+                               .samples = 8,
+                               .transparent = true,
+                               .theme = Theme::dark,
+                               .without = {"legend", "past"}};
     save_settings(file, settings);
     EXPECT_EQ(load_settings(file), settings);
     EXPECT_EQ(settings.recent.front().filename(), "b.json");

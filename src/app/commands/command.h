@@ -116,6 +116,7 @@ Command option_command(const ViewOption& option);
 
 // The parts of the table, one file each.
 std::vector<Command> file_commands();
+std::vector<Command> export_commands();  ///< among those of files
 std::vector<Command> edit_commands();
 std::vector<Command> clip_commands();
 std::vector<Command> view_commands();

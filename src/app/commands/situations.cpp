@@ -9,7 +9,7 @@ namespace {
 
 bool in_file_dialog(const Session& session) {
     const Dialog open = session.behind_help();
-    return open == Dialog::open || open == Dialog::add || open == Dialog::save_as || open == Dialog::export_picture ||
+    return open == Dialog::open || open == Dialog::add || open == Dialog::save_as || open == Dialog::export_file ||
            open == Dialog::review;
 }
 
@@ -51,6 +51,13 @@ std::span<const Situation> situations() {
          {{"Tab, Enter", "Go to the next option, and change it"},
           {"Ctrl+Z, Ctrl+Y", "Undo and redo what was changed"},
           {"Escape", "Close it"}}},
+        {"A picture is exported",
+         "Say how large it is and what it is without; the preview and the command line follow.",
+         in_dialog<Dialog::export_picture>,
+         {},
+         {{"Enter", "Export it; where a file would be overwritten, Enter once more"},
+          {"Tab, Enter", "Go to the next field, and change it"},
+          {"Escape", "Close it; the settings stay"}}},
         {"You look at picture tests",
          "Go through the cases that differ; accept what is right, and leave the rest to be mended.",
          [](const Session& session) { return session.reviewing(); },

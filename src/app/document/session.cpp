@@ -469,6 +469,11 @@ void Session::close_dialog() {
         input.opening = opening + 1;
         return;
     }
+    if (dialog == Dialog::export_file) {
+        // It lies over the dialog that asked for the file.
+        dialog = Dialog::export_picture;
+        return ask_anew({.text = exporting.file});
+    }
     dialog = Dialog::none;
     ask_anew({});
     pending_ = nullptr;

@@ -9,6 +9,7 @@
 #include <app/document/history.h>
 #include <app/document/job.h>
 #include <app/document/message_level.h>
+#include <app/document/picture_export.h>
 #include <app/document/review.h>
 #include <app/document/selection.h>
 #include <app/document/settings.h>
@@ -16,6 +17,7 @@
 #include <crowd/simulation/choice.h>
 #include <explain/query_findings.h>
 #include <mobb/level_figures.h>
+#include <render/drawlist/draw_list.h>
 #include <render/image/image.h>
 #include <scene/answer.h>
 #include <scene/crowd_run.h>
@@ -29,6 +31,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope::app {
@@ -48,7 +51,8 @@ enum class Dialog {
     dropped,
     import_clip,
     history,
-    review
+    review,
+    export_file  ///< where Dialog::export_picture writes to
 };
 
 /// A command that a message offers; it is drawn as a button.
@@ -92,8 +96,12 @@ struct Hooks {
     std::function<std::string()> clipboard;                 ///< likewise
     std::function<PictureSize()> viewport_size;             ///< of the viewport's picture
     std::function<double()> viewport_scale;                 ///< of its text and lines, as build_draw_list takes it
-    std::function<void(const std::filesystem::path&)> export_picture;  ///< the viewport's picture as PNG; throws
-    std::function<double()> ui_scale;                                  ///< at which text and panels are drawn now
+    std::function<Image(const DrawList&, int samples)> draw_picture;         ///< as Renderer::draw
+    std::function<Image(const DrawList&, int divisor)> draw_coarse_picture;  ///< as Renderer::draw_coarse
+    std::function<std::string(int samples)> why_no_samples;                  ///< a pixel; empty: they can be drawn
+    std::function<void(std::string_view png)> set_clipboard_picture;         ///< throws MachineError
+    std::function<std::string_view()> why_no_clipboard_picture;              ///< empty: pictures can be copied
+    std::function<double()> ui_scale;                                        ///< at which text and panels are drawn now
 };
 
 /// What was put into the open dialog so far; the dialog says what it means by it.
@@ -358,6 +366,7 @@ class Session {
     // Dialogs and messages.
     Dialog dialog = Dialog::none;  ///< the open one
     DialogInput input;             ///< ... and what was put into it
+    ExportDialog exporting;        ///< what the dialog Dialog::export_picture holds
     FileBrowser browser;           ///< what a dialog for files looks at
     FilePreview preview;           ///< ... and into
     void open_dialog(Dialog which, DialogInput with = {});

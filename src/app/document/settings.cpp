@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -151,6 +152,28 @@ Json json_of(const LastSession& last) {
     return {{"files", texts_of(last.files)}, {"view", Json::parse(view.str())}};
 }
 
+/// What cannot be read is as at first.
+PictureExport read_export(const Json& json) {
+    PictureExport out;
+    const auto at = json.find("export");
+    if (at == json.end() || !at->is_object()) return out;
+    for (const ExportOption& option : export_options()) {
+        const std::string text = setting_text(*at, std::string(option.key).c_str());
+        try {
+            if (!text.empty()) option.parse(text, out);
+        } catch (const std::invalid_argument&) {
+            // Another version's.
+        }
+    }
+    return out;
+}
+
+Json json_of(const PictureExport& wanted) {
+    Json out = Json::object();
+    for (const ExportOption& option : export_options()) out[option.key] = option.text(wanted);
+    return out;
+}
+
 std::filesystem::path folder_named_by(const char* variable) {
     const char* value = std::getenv(variable);
     const std::filesystem::path folder = value ? value : "";
@@ -201,6 +224,7 @@ Settings load_settings(const std::filesystem::path& file) {
     const std::string order = setting_text(json, "file_order");
     if (std::ranges::find(kFileOrders, order) != kFileOrders.end()) settings.file_order = order;
     settings.last = read_last(json);
+    settings.picture_export = read_export(json);
     return settings;
 }
 
@@ -230,6 +254,7 @@ void save_settings(const std::filesystem::path& file, const Settings& settings) 
     if (settings.window) json["window"] = json_of(*settings.window);
     json["folded"] = settings.folded;
     json["last_session"] = json_of(settings.last);
+    json["export"] = json_of(settings.picture_export);
     std::error_code ignored;
     std::filesystem::create_directories(file.parent_path(), ignored);
     try {

@@ -1,6 +1,7 @@
 /// What the window remembers from one time to the next; nothing that a picture without a window depends on.
 #pragma once
 
+#include <app/document/picture_export.h>
 #include <scene/view_state.h>
 
 #include <filesystem>
@@ -41,6 +42,7 @@ struct Settings {
     std::string file_order =
         "name";  ///< of the file dialog: "name", "size" or "date", with "-" from the last to the first
     LastSession last;
+    PictureExport picture_export;  ///< what the export dialog was last asked for
 
     /// Puts a file first.
     void remember(const std::filesystem::path& file);

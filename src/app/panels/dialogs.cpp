@@ -80,17 +80,21 @@ void dropped(Ui& ui) {
 void dialogs(Ui& ui) {
     Session& session = ui.session;
     // Of lists and fields in a dialog Escape closes these first.
-    const bool escape_is_taken = session.dialog == Dialog::import_clip &&
-                                 (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) || ImGui::GetIO().WantTextInput);
+    const bool in_popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    const bool escape_is_taken = (session.dialog == Dialog::export_picture && in_popup) ||
+                                 (session.dialog == Dialog::import_clip && (in_popup || ImGui::GetIO().WantTextInput));
     switch (session.dialog) {
         case Dialog::none:
             return;
         case Dialog::open:
         case Dialog::add:
         case Dialog::save_as:
-        case Dialog::export_picture:
+        case Dialog::export_file:
         case Dialog::review:
             file_dialog(ui);
+            break;
+        case Dialog::export_picture:
+            export_dialog(ui);
             break;
         case Dialog::unsaved:
             unsaved(ui);

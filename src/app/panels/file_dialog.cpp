@@ -1,5 +1,6 @@
 #include <app/commands/arguments.h>
 #include <app/commands/command.h>
+#include <app/commands/picture_order.h>
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
@@ -57,8 +58,8 @@ Purpose purpose_of(Dialog dialog) {
             return {"Add files", "Add", "add", "file.add", openable_extensions(), nullptr};
         case Dialog::save_as:
             return {"Save as", "Save", "save", "file.save_as", kScenes, ".json"};
-        case Dialog::export_picture:
-            return {"Export picture", "Export", "export", "file.export_picture", kPictures, ".png"};
+        case Dialog::export_file:
+            return {"Export picture to", "Choose", "file", "picture.file", kPictures, ".png"};
         case Dialog::review:
             return {"Review picture tests", "Review this folder", "review", "file.review", kScenes, nullptr};
         default:
@@ -72,13 +73,6 @@ bool is_folder(const std::filesystem::path& path) {
 }
 
 bool is_clip(const FileEntry& entry) { return !entry.folder && lower_extension(entry.name) != ".json"; }
-
-std::string size_text(std::uintmax_t bytes) {
-    const double size = static_cast<double>(bytes);
-    if (bytes < 1000) return formatted("%ju B", bytes);
-    if (size < 999.5e3) return formatted("%.*f kB", size < 9.95e3 ? 1 : 0, size / 1e3);
-    return formatted("%.1f MB", size / 1e6);
-}
 
 /// Pictures that are compared must not change with the dates of files.
 std::string date_text(const Session& session, std::time_t when) {
@@ -95,10 +89,13 @@ void begin(Session& session, const Purpose& purpose) {
     if (purpose.writes() && session.file()) folder = session.file()->parent_path();
     if (!folder.empty() && !is_folder(folder)) folder.clear();
     const std::string open = session.scene().file.filename().string();
+    const bool to_export = session.dialog == Dialog::export_file;
+    const std::filesystem::path exported = to_export ? export_file(session) : std::filesystem::path();
+    if (to_export && is_folder(exported.parent_path())) folder = exported.parent_path();
     session.browser.order_by(session.settings.file_order);
     session.browser.begin(folder, purpose.extensions, open);
     const std::string stem = std::filesystem::path(session.title()).stem().string();
-    session.input.set_text(purpose.writes() ? stem + purpose.extension : "");
+    session.input.set_text(to_export ? exported.filename().string() : purpose.writes() ? stem + purpose.extension : "");
 }
 
 /// What was typed led elsewhere; the name of a file that is to be written stays.
@@ -156,6 +153,8 @@ void take_written(Session& session, const Purpose& purpose) {
             input.fresh = true;
         }
     };
+    // Who agreed here is not asked again where it is written.
+    if (session.dialog == Dialog::export_file) session.exporting.agreed = input.confirming ? path : "";
     session.dialog == Dialog::save_as ? pending_goes_on() : take(session, purpose, {path});
 }
 
@@ -351,7 +350,7 @@ bool file_row(Ui& ui, const FileEntry& entry, std::size_t index, const Columns& 
     ImGui::PopID();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float y = at.y + (height - ImGui::GetFontSize()) / 2;
-    const std::string size = entry.folder ? "" : size_text(entry.size);
+    const std::string size = entry.folder ? "" : bytes_text(entry.size);
     const float name_room = columns.size - text_size(*ui.style.mono, size).x - ui.px(16);
     const std::string name = fitted_text(entry.name + (entry.folder ? "/" : ""), name_room);
     draw.AddText({at.x + ui.px(6), y}, entry.folder ? ui.style.accent : ui.style.text, name.c_str());

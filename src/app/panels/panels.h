@@ -41,7 +41,7 @@ void window_layout(Ui& ui, std::vector<Viewport>& viewports, QueryPictures& pict
 
 // The dialogs, one function each; dialogs() calls the one that is open.
 void palette(Ui& ui);
-void file_dialog(Ui& ui);  ///< open, add, save as, export: a path is asked for
+void file_dialog(Ui& ui);  ///< open, add, save as, where to export: a path is asked for
 void help_sheet(Ui& ui);
 /// What the mouse does, as the help sheet says it; README says the same.
 std::span<const std::pair<const char*, const char*>> mouse_help();
@@ -50,6 +50,7 @@ void message_list(Ui& ui);
 void import_dialog(Ui& ui);  ///< how a clip is read from its file
 /// The clip in the import dialog as it is: path, skeleton, radius over time, trim.
 void import_preview(Ui& ui, const SceneClip& clip);
-void history_list(Ui& ui);  ///< what can be undone and redone, and the way there
+void export_dialog(Ui& ui);  ///< how a picture is exported: size, background, what is left out, a preview, the command
+void history_list(Ui& ui);   ///< what can be undone and redone, and the way there
 
 }  // namespace mobbscope::app

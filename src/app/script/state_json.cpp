@@ -150,10 +150,20 @@ Json import_json(const Session& session) {
 }
 
 std::string_view kind_name(Dialog dialog) {
-    constexpr std::array<std::string_view, 14> kNames{"none",    "open",        "add",     "save_as", "export_picture",
+    constexpr std::array<std::string_view, 15> kNames{"none",    "open",        "add",     "save_as", "export_picture",
                                                       "unsaved", "palette",     "help",    "about",   "messages",
-                                                      "dropped", "import_clip", "history", "review"};
+                                                      "dropped", "import_clip", "history", "review",  "export_file"};
     return kNames[static_cast<std::size_t>(dialog)];
+}
+
+/// The export dialog: what it is asked for, by the options' keys, and the file.
+Json export_json(const Session& session) {
+    Json json{{"file", session.exporting.file}};
+    for (const ExportOption& option : export_options()) {
+        json[option.key] = option.text(session.settings.picture_export);
+    }
+    if (session.exporting.aside) json["scene_aside"] = session.exporting.aside->file.string();
+    return json;
 }
 
 Json review_json(const Session& session) {
@@ -287,6 +297,7 @@ Json state_json(const Session& session) {
     json["job"] = nullptr;
     if (const Job* job = session.job()) json["job"] = {{"title", job->title()}, {"progress", job->progress()}};
     if (session.dialog == Dialog::import_clip) json["import"] = import_json(session);
+    if (session.dialog == Dialog::export_picture) json["export"] = export_json(session);
     if (session.review()) json["review"] = review_json(session);
     if (session.view_count() > 1) {
         json["views"] = Json::array();

@@ -1,4 +1,5 @@
 #include <app/window/glfw_window.h>
+#include <app/window/picture_clipboard.h>
 #include <base/error.h>
 #include <render/drawlist/palette.h>
 
@@ -241,12 +242,16 @@ struct GlfwWindow::State {
             const char* text = glfwGetClipboardString(window);
             return text ? text : "";
         };
+        session.hooks.set_clipboard_picture = copy_picture_to_clipboard;
+        session.hooks.why_no_clipboard_picture = why_no_picture_clipboard;
     }
     ~State() {
         session.end_work();  // it would wake a window that is gone
         session.hooks.wake = nullptr;
         session.hooks.set_clipboard = nullptr;
         session.hooks.clipboard = nullptr;
+        session.hooks.set_clipboard_picture = nullptr;
+        session.hooks.why_no_clipboard_picture = nullptr;
         for (const auto& [shape, cursor] : cursors) glfwDestroyCursor(cursor);
     }
 

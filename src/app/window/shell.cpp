@@ -4,8 +4,8 @@
 #include <app/window/answer_pace.h>
 #include <app/window/shell.h>
 #include <app/window/window_gl.h>
+#include <base/error.h>
 #include <render/gl/renderer.h>
-#include <render/image/png.h>
 
 #include <imgui_internal.h>
 
@@ -287,8 +287,8 @@ struct Shell::State {
     bool waits_for_field() {
         const Dialog open = session.dialog;
         const bool has_field = open == Dialog::open || open == Dialog::add || open == Dialog::save_as ||
-                               open == Dialog::export_picture || open == Dialog::review || open == Dialog::palette ||
-                               open == Dialog::help;
+                               open == Dialog::export_picture || open == Dialog::export_file ||
+                               open == Dialog::review || open == Dialog::palette || open == Dialog::help;
         if (!has_field || !session.input.fresh)
             waited = 0;
         else if (++waited <= kFramesToFocus)
@@ -421,13 +421,29 @@ double Shell::steady_seconds() {
 
 Shell::Shell(std::unique_ptr<GlContext> context, Session& session, double scale, Clock clock)
     : state_(std::make_unique<State>(std::move(context), session, scale, std::move(clock))) {
-    session.hooks.export_picture = [this](const std::filesystem::path& file) { write_png(file, viewport_picture()); };
+    session.hooks.draw_picture = [this](const DrawList& list, int samples) {
+        state_->renderer.check_samples(samples);
+        return state_->renderer.draw(list, samples);
+    };
+    session.hooks.draw_coarse_picture = [this](const DrawList& list, int divisor) {
+        return state_->renderer.draw_coarse(list, divisor);
+    };
+    session.hooks.why_no_samples = [this](int samples) -> std::string {
+        try {
+            state_->renderer.check_samples(samples);
+            return "";
+        } catch (const MachineError& error) {
+            return error.what();
+        }
+    };
     session.hooks.ui_scale = [this] { return state_->scale(); };
 }
 
 Shell::~Shell() {
     Hooks& hooks = state_->session.hooks;
-    hooks.export_picture = nullptr;
+    hooks.draw_picture = nullptr;
+    hooks.draw_coarse_picture = nullptr;
+    hooks.why_no_samples = nullptr;
     hooks.ui_scale = nullptr;
     hooks.viewport_size = nullptr;
     hooks.viewport_scale = nullptr;

@@ -46,6 +46,17 @@ Rgba opaque_ground_of(const DrawList& list) {
     return is_seen_through(list) ? list.palette.background : ground_of(list);
 }
 
+/// What `draw_on` gives of a ground; where the background is seen through, of two: what is drawn covers each pixel as
+/// much as it hides their difference.
+template <class DrawOn>
+Image on_its_background(const DrawList& list, const DrawOn& draw_on) {
+    if (!is_seen_through(list)) return draw_on(ground_of(list));
+    const Rgba ground = list.palette.background;
+    const Rgba other = list.palette.dark ? Rgba(1) : Rgba(0, 0, 0, 1);
+    const Image on_ground = draw_on(ground);
+    return with_transparent_background({on_ground, ground}, {draw_on(other), other}, *list.background);
+}
+
 // Of a picture that is painted in parts.
 constexpr std::size_t kDisksAtFirst = 32;
 constexpr double kPartSeconds = 0.01;
@@ -275,8 +286,8 @@ struct Renderer::State {
         context->check("drawing");
     }
 
-    Image draw(const DrawList& list, int samples, Rgba ground) {
-        paint(list, samples, ground);
+    /// What was painted last.
+    Image read_back(const DrawList& list) {
         Image image(list.size.width, list.size.height);
         glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
         context->check("reading the picture");
@@ -384,13 +395,18 @@ const Texture& Renderer::paint_highlights(const DrawList& list, int samples) {
 }
 
 Image Renderer::draw(const DrawList& list, int samples) {
-    if (!is_seen_through(list)) return state_->draw(list, samples, ground_of(list));
-    // What is drawn covers each pixel as much as it hides the difference of two grounds.
-    const Rgba ground = list.palette.background;
-    const Rgba other = list.palette.dark ? Rgba(1) : Rgba(0, 0, 0, 1);
-    const Image on_ground = state_->draw(list, samples, ground);
-    return with_transparent_background({on_ground, ground}, {state_->draw(list, samples, other), other},
-                                       *list.background);
+    return on_its_background(list, [&](Rgba ground) {
+        state_->paint(list, samples, ground);
+        return state_->read_back(list);
+    });
+}
+
+Image Renderer::draw_coarse(const DrawList& list, int divisor) {
+    if (divisor == 1) return draw(list, 1);
+    return on_its_background(list, [&](Rgba ground) {
+        state_->paint_coarse(list, divisor, ground);
+        return state_->read_back(list);
+    });
 }
 
 IdImage Renderer::draw_ids(const DrawList& list) {

@@ -86,6 +86,9 @@ class Renderer {
     /// Paints and reads back; has alpha if the list's background is seen through. Throws MachineError as paint does.
     Image draw(const DrawList& list, int samples = kPictureSamples);
 
+    /// The same picture as paint_coarse has it: a preview.
+    Image draw_coarse(const DrawList& list, int divisor);
+
     /// What is nearest in each pixel: disks, and the boxes of nodes whether or not their faces are shown.
     IdImage draw_ids(const DrawList& list);
 

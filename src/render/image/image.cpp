@@ -51,6 +51,35 @@ Image make_strip(std::span<const Image* const> pictures) {
     return out;
 }
 
+Image shrunk(const Image& image, int side) {
+    Image out((image.width + side - 1) / side, (image.height + side - 1) / side);
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x) {
+            const int end_x = std::min((x + 1) * side, image.width);
+            const int end_y = std::min((y + 1) * side, image.height);
+            // Colours count as much as they cover.
+            unsigned red = 0, green = 0, blue = 0, cover = 0, count = 0;
+            for (int from_y = y * side; from_y < end_y; ++from_y) {
+                for (int from_x = x * side; from_x < end_x; ++from_x) {
+                    const std::uint8_t* pixel = image.at(from_x, from_y);
+                    red += pixel[0] * unsigned{pixel[3]};
+                    green += pixel[1] * unsigned{pixel[3]};
+                    blue += pixel[2] * unsigned{pixel[3]};
+                    cover += pixel[3];
+                    ++count;
+                }
+            }
+            std::uint8_t* pixel = out.at(x, y);
+            const unsigned covered = std::max(cover, 1u);
+            pixel[0] = static_cast<std::uint8_t>((red + covered / 2) / covered);
+            pixel[1] = static_cast<std::uint8_t>((green + covered / 2) / covered);
+            pixel[2] = static_cast<std::uint8_t>((blue + covered / 2) / covered);
+            pixel[3] = static_cast<std::uint8_t>((cover + count / 2) / count);
+        }
+    }
+    return out;
+}
+
 Image with_transparent_background(const OnGround& first, const OnGround& second, Rgba background) {
     const glm::vec3 ground(first.ground);
     const float between_grounds = sum(glm::vec3(second.ground) - ground);

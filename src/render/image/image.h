@@ -43,6 +43,9 @@ inline constexpr long long kMostStripPixels = 500'000'000;
 /// their pixels. At least one. Throws std::invalid_argument if that is more than kMostStripPixels.
 Image make_strip(std::span<const Image* const> pictures);
 
+/// One pixel for each square of `side` x `side` (>= 1), their mean; what remains at the right and below is a pixel too.
+Image shrunk(const Image& image, int side);
+
 /// A picture on an opaque ground.
 struct OnGround {
     const Image& image;

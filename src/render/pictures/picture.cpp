@@ -86,6 +86,7 @@ DrawList Picture::draw() {
         say_what_view_does(said.caption);
         if (!view_.caption) said.caption = {};
         if (!view_.legend) said.legend.clear();
+        if (!view_.inset) said.map = {};
         if (const auto map = add_overlays(list_, said, view_, metrics_)) add_map(*map);
     }
     // Labels stay out of the panels.

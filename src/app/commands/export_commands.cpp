@@ -1,0 +1,142 @@
+#include <app/commands/arguments.h>
+#include <app/commands/command.h>
+#include <app/commands/picture_order.h>
+#include <base/file.h>
+#include <base/text.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// Another document's picture gets another name.
+void name_file(Session& session) {
+    ExportDialog& dialog = session.exporting;
+    if (dialog.opening == session.opening()) return;
+    dialog.file.clear();
+    dialog.file = export_file(session).string();
+    dialog.agreed.clear();
+    dialog.opening = session.opening();
+}
+
+void open_export_dialog(Session& session) {
+    name_file(session);
+    const ExportDialog& dialog = session.exporting;
+    session.open_dialog(Dialog::export_picture, {.text = dialog.file});
+}
+
+void write_and_tell(Session& session, const PictureOrder& order, const std::filesystem::path& file) {
+    const std::size_t bytes = write_picture(session, order, file);
+    session.tell(Message::Level::info,
+                 "Wrote " + file.string() + " (" + size_text(order.options.size) + ", " + bytes_text(bytes) + ")");
+}
+
+void copy_picture_of(Session& session, const PictureOrder& order) {
+    const std::string png = png_of(session, order);
+    if (!session.hooks.set_clipboard_picture) throw std::invalid_argument("there is no clipboard for pictures");
+    session.hooks.set_clipboard_picture(png);
+    session.tell(Message::Level::info, "Copied the picture (" + size_text(order.options.size) + ")");
+}
+
+/// `shown`: the line stands in the dialog.
+void copy_line_of(Session& session, const PictureOrder& order, const std::string& output, bool shown) {
+    const bool has_file = render_line(session, order, output).has_value();
+    const std::string line = render_line_with_scene(session, order, output);
+    if (session.hooks.set_clipboard) session.hooks.set_clipboard(line);
+    std::string said = shown ? "Copied the command line" : "Copied: " + line;
+    if (!has_file) {
+        said += ". No file holds the scene as it is: it was written to " + session.exporting.aside->file.string();
+    }
+    session.tell(Message::Level::info, said);
+}
+
+const Condition kHasPictureClipboard{[](const Session& session) {
+                                         return has_scene(session) && session.hooks.why_no_clipboard_picture &&
+                                                session.hooks.why_no_clipboard_picture().empty();
+                                     },
+                                     [](const Session& session) -> std::string_view {
+                                         return session.hooks.why_no_clipboard_picture
+                                                    ? session.hooks.why_no_clipboard_picture()
+                                                    : "there is no clipboard without a display";
+                                     }};
+
+Command command_of(const ExportOption& option) {
+    static std::vector<std::string> ids = [] {
+        std::vector<std::string> out;
+        for (const ExportOption& each : export_options()) out.push_back("picture." + std::string(each.key));
+        return out;
+    }();
+    const std::string& id = ids[static_cast<std::size_t>(&option - export_options().data())];
+    const auto set = [&option](Session& session, const std::string& text) {
+        option.parse(text, session.settings.picture_export);
+    };
+    CommandTraits traits{.menu = kNoMenu, .argument = option.argument};
+    if (!option.choices.empty()) {
+        traits.choices = [&option](const Session&) { return option.choices; };
+        traits.chosen = [&option](const Session& session, const std::string& choice) {
+            return option.text(session.settings.picture_export) == choice;
+        };
+    }
+    return {id, option.title, option.doc, set, std::move(traits)};
+}
+
+}  // namespace
+
+std::vector<Command> export_commands() {
+    std::vector<Command> rows{
+        Command("file.export_picture", "Export picture...",
+                "Writes the picture in the middle of the window to a PNG file; without a name a dialog asks for more.",
+                [](Session& session, const std::string& file) {
+                    file.empty() ? open_export_dialog(session)
+                                 : write_and_tell(session, order_of_viewport(session), file);
+                },
+                {.shortcut = "Ctrl+E", .argument = "[FILE.png]"}),
+        Command("file.copy_picture", "Copy picture", "Copies the picture in the middle of the window.",
+                [](Session& session) { copy_picture_of(session, order_of_viewport(session)); },
+                {.enabled = kHasPictureClipboard}),
+        Command("file.copy_command", "Copy as command",
+                "Copies the command line that draws this picture again without a window.",
+                [](Session& session) { copy_line_of(session, order_of_viewport(session), "picture.png", false); },
+                {.shortcut = "Ctrl+Shift+C"}),
+        Command("picture.file", "Picture file", "Says where the export dialog writes to.",
+                [](Session& session, const std::string& file) {
+                    check_file_name(file);
+                    session.exporting.file = file;
+                    session.exporting.opening = session.opening();
+                    if (session.dialog == Dialog::export_picture) session.input.set_text(file);
+                },
+                {.menu = kNoMenu, .argument = "FILE.png"}),
+        Command("picture.browse", "Browse for the picture file", "Asks for the file of the export dialog.",
+                [](Session& session) {
+                    name_file(session);
+                    session.open_dialog(Dialog::export_file);
+                },
+                {.menu = kNoMenu}),
+        Command("picture.write", "Write picture as in the dialog",
+                "Writes the picture as the export dialog says, to its file or another one.",
+                [](Session& session, const std::string& file) {
+                    write_and_tell(session, order_to_export(session),
+                                   file.empty() ? export_file(session) : std::filesystem::path(file));
+                },
+                {.menu = kNoMenu, .argument = "[FILE.png]"}),
+        Command("picture.copy", "Copy picture as in the dialog", "Copies the picture as the export dialog says.",
+                [](Session& session) { copy_picture_of(session, order_to_export(session)); },
+                {.menu = kNoMenu, .enabled = kHasPictureClipboard}),
+        Command("picture.copy_command", "Copy command line of the dialog",
+                "Copies the command line that writes the same file as the export dialog; a scene that no file holds is "
+                "written to a temporary one.",
+                [](Session& session) {
+                    copy_line_of(session, order_to_export(session), export_file(session).string(), true);
+                },
+                {.menu = kNoMenu}),
+    };
+    for (const ExportOption& option : export_options()) rows.push_back(command_of(option));
+    return rows;
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,265 @@
+#include <app/commands/camera_commands.h>
+#include <app/commands/picture_order.h>
+#include <base/error.h>
+#include <base/file.h>
+#include <base/text.h>
+#include <render/drawlist/view_projection.h>
+#include <render/image/png.h>
+#include <render/pictures/build_draw_list.h>
+#include <scene/arrangement.h>
+#include <scene/drawn_agent.h>
+#include <scene/scene_edits.h>
+#include <scene/view_options.h>
+
+#include <stdlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <initializer_list>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// What is selected, where the picture shows it.
+std::optional<NamedPart> selected_part(const Session& session, const PictureOrder& order) {
+    const Selection& selected = session.selection;
+    const FittedScene& fitted = session.fitted();
+    if (!selected.on_path()) return std::nullopt;
+    const auto agent = index_in_view(fitted, order.view, selected.path);
+    if (!agent) return std::nullopt;
+    try {
+        const std::vector<DrawnAgent> agents = drawn_agents(fitted, order.view);
+        NamedPart named{agents.at(static_cast<std::size_t>(*agent)).name, selected.part()};
+        DrawList list;
+        static_cast<PictureFrame&>(list) = picture_frame(fitted, order.view, order.options.size);
+        add_selection(list, fitted, order.view, named, 1);
+        return named;
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;
+    }
+}
+
+void select_in(const Session& session, PictureOrder& order) {
+    order.select = selected_part(session, order);
+    if (order.select) order.options.selected = order.select->agent;
+}
+
+// --- the command line
+
+/// Numbers with commas between them.
+std::string with_commas(std::initializer_list<double> numbers) {
+    std::string out;
+    for (const double number : numbers) out += (out.empty() ? "" : ",") + short_double(number);
+    return out;
+}
+
+/// The options that lead from one camera to another; the file's is taken as it is.
+std::string camera_options(const Camera& file, const Camera& now) {
+    if (now == file) return "";
+    Camera reached = file;  // as `render` applies the options
+    reached.preset = now.preset;
+    std::string out = " --view " + std::string(name(now.preset));
+    if (now.preset == CameraPreset::free) {
+        reached.yaw_deg = now.yaw_deg;
+        reached.pitch_deg = now.pitch_deg;
+        out += " --yaw " + short_double(now.yaw_deg) + " --pitch " + short_double(now.pitch_deg);
+    }
+    if (orientation(now).perspective != orientation(reached).perspective) {
+        out += now.perspective ? " --perspective" : " --ortho";
+    }
+    if (now.fov_deg != file.fov_deg && (orientation(now).perspective || now.target)) {
+        out += " --fov " + short_double(now.fov_deg);
+    }
+    if (!now.target) return out;
+    out += " --target " + with_commas({now.target->x, now.target->y, now.target->z});
+    out += " --distance " + short_double(now.distance);
+    if (now.shift != glm::dvec2(0)) out += " --shift " + with_commas({now.shift.x, now.shift.y});
+    return out;
+}
+
+/// The options that lead from the view of a file with these agents to another; none if that takes more than options.
+std::optional<std::string> view_options_between(const ViewState& file, const ViewState& now,
+                                                const std::vector<std::string>& agents) {
+    std::string out = camera_options(file.camera, now.camera);
+    ViewState reached = file;  // as `render` applies the options
+    reached.camera = now.camera;
+    for (const ViewOption& option : view_options()) {
+        const bool needed = option.needed ? option.needed(reached, now) : !option.same(reached, now);
+        if (!needed) continue;
+        if (option.option.empty()) return std::nullopt;
+        out += in_command_line(option, now, agents);
+        if (option.names) {
+            reached.*option.names = now.*option.names;
+        } else {
+            parse_option(option, option.text(now), agents, reached);
+        }
+    }
+    return out;
+}
+
+/// The options of a fit.
+std::string fit_options(const mobb::FitOptions& fit) {
+    return " --tree " + std::string(mobb::name(fit.tree)) + " --leaf " + std::to_string(fit.leaf) + " --levels " +
+           std::to_string(fit.levels) + " --axes " + std::string(mobb::name(fit.axes)) + " --time-scale " +
+           short_double(fit.time_scale);
+}
+
+std::string picture_options(const PictureOptions& options) {
+    std::string out = " --size " + std::to_string(options.size.width) + 'x' + std::to_string(options.size.height);
+    if (options.scale > 0) out += " --scale " + short_double(options.scale);
+    if (options.samples != kPictureSamples) out += " --samples " + std::to_string(options.samples);
+    if (options.background) out += " --background transparent";
+    return out;
+}
+
+/// Whether the one file that was opened holds the scene.
+bool is_in_its_file(const Session& session) {
+    const std::filesystem::path& file = session.scene().file;
+    const bool one_file =
+        session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
+    return !session.modified() && !session.in_excerpt() && one_file && !file.empty();
+}
+
+/// A file that holds a scene, seen so.
+struct SceneFile {
+    const std::filesystem::path& path;
+    const Scene& scene;
+    const ViewState& view;
+};
+
+/// The line that draws a file's scene as ordered; `fit`: the options of the fit, where they are not the file's.
+std::optional<std::string> render_line_of(const SceneFile& file, const std::string& fit, const PictureOrder& order,
+                                          const std::string& output) {
+    const auto view = view_options_between(file.view, order.view, names_in_view(file.scene));
+    if (!view) return std::nullopt;
+    const std::string select = order.select ? " --select " + shell_word(text_of(*order.select)) : "";
+    return "mobbscope render " + shell_word(file.path.string()) + fit + *view + select +
+           picture_options(order.options) + " -o " + shell_word(output);
+}
+
+/// A new file in a new folder, which nobody else can have.
+std::filesystem::path temporary_scene_file(const Session& session) {
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (error) folder = "/tmp";
+    std::string name = (folder / "mobbscope-XXXXXX").string();
+    if (!::mkdtemp(name.data())) {
+        throw MachineError(folder.string() + ": no temporary folder can be made there: " + std::strerror(errno));
+    }
+    const std::string stem = std::filesystem::path(session.title()).stem().string();
+    return std::filesystem::path(name) / ((stem.empty() ? "scene" : stem) + ".json");
+}
+
+/// Throws MachineError, and leaves nothing, if it cannot be written.
+std::filesystem::path write_scene_aside(const Session& session, const ViewState& view) {
+    Scene aside = session.scene();
+    aside.view = view;
+    aside.fit = session.document().fitted->options();
+    const std::filesystem::path file = temporary_scene_file(session);
+    try {
+        move_to_file(aside, file);
+        write_file(file, to_json(aside));
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(file.parent_path(), ignored);
+        throw;
+    }
+    return file;
+}
+
+}  // namespace
+
+PictureOrder order_of_viewport(const Session& session) {
+    PictureOrder out{session.view(), {}, {}};
+    out.options.size = viewport_size(session);
+    // 0: what suits the size, as `render` takes it without being told.
+    out.options.scale = session.hooks.viewport_scale ? session.hooks.viewport_scale() : 0;
+    select_in(session, out);
+    return out;
+}
+
+PictureOrder order_to_export(const Session& session) {
+    const PictureExport& wanted = session.settings.picture_export;
+    PictureOrder out = order_of_viewport(session);
+    if (wanted.size && *wanted.size != out.options.size) {
+        out.options.size = *wanted.size;
+        out.options.scale = 0;
+    }
+    if (wanted.scale > 0) out.options.scale = wanted.scale;
+    out.options.samples = wanted.samples;
+    if (wanted.transparent) out.options.background = Rgba(0);
+    if (wanted.theme) out.view.theme = *wanted.theme;
+    for (const ViewOption& option : view_options()) {
+        const bool left_out = wanted.without.contains(std::string(option.key));
+        if (left_out && can_leave_out(option, out.view)) option.parse(std::string(option.without), out.view);
+    }
+    return out;
+}
+
+DrawList draw_list_of(const Session& session, const PictureOrder& order) {
+    check(order.options.size);
+    DrawList list = build_draw_list(*session.document().fitted, order.view, order.options);
+    if (order.select) {
+        const float scale = metrics_of(order.options.size, order.options.scale).scale;
+        add_selection(list, session.fitted(), order.view, *order.select, scale);
+    }
+    return list;
+}
+
+std::string png_of(const Session& session, const PictureOrder& order) {
+    if (!session.hooks.draw_picture) throw std::invalid_argument("there is no window to take a picture of");
+    return png_bytes(session.hooks.draw_picture(draw_list_of(session, order), order.options.samples));
+}
+
+std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file) {
+    check_file_name(file);
+    session.check_may_write(file);
+    if (lower_extension(file) != ".png") {
+        throw InputError(file.string(), "", "pictures are written as .png; rename the output");
+    }
+    const std::string bytes = png_of(session, order);
+    write_file(file, bytes);
+    return bytes.size();
+}
+
+std::filesystem::path export_file(const Session& session) {
+    const std::filesystem::path folder = session.file() ? session.file()->parent_path() : session.settings.folder;
+    const std::string& typed = session.exporting.file;
+    if (typed.empty()) return folder / (std::filesystem::path(session.title()).stem().string() + ".png");
+    std::filesystem::path file = typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {});
+    if (file.has_filename() && !file.has_extension()) file += ".png";
+    return file;
+}
+
+std::string size_text(PictureSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+
+std::optional<std::string> render_line(const Session& session, const PictureOrder& order, const std::string& output) {
+    const FittedScene& fitted = *session.document().fitted;
+    if (is_in_its_file(session)) {
+        // Of an unchanged scene, its `view` is the one in the file.
+        const std::string fit = fitted.fits().size() == 1 ? "" : fit_options(fitted.options());
+        if (auto line =
+                render_line_of({session.scene().file, session.scene(), session.scene().view}, fit, order, output))
+            return line;
+    }
+    const std::optional<ExportDialog::SceneAside>& aside = session.exporting.aside;
+    std::error_code ignored;
+    if (!aside || &aside->of->scene() != &fitted.scene() || !std::filesystem::exists(aside->file, ignored)) {
+        return std::nullopt;
+    }
+    const std::string fit = fitted.options() == aside->of->options() ? "" : fit_options(fitted.options());
+    return render_line_of({aside->file, session.scene(), aside->view}, fit, order, output);
+}
+
+std::string render_line_with_scene(Session& session, const PictureOrder& order, const std::string& output) {
+    if (auto line = render_line(session, order, output)) return *line;
+    session.check_may_write(output);
+    session.exporting.aside = {session.document().fitted, order.view, write_scene_aside(session, order.view)};
+    return render_line(session, order, output).value();
+}
+
+}  // namespace mobbscope::app

@@ -1,0 +1,56 @@
+/// A picture as `render` is asked for it: what the viewport shows, or as the export dialog says; and the command line
+/// that asks for it.
+#pragma once
+
+#include <app/document/session.h>
+#include <render/drawlist/draw_list.h>
+#include <render/drawlist/picture_options.h>
+#include <render/parts/highlights.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace mobbscope::app {
+
+/// Of the session's document.
+struct PictureOrder {
+    ViewState view;
+    PictureOptions options;
+    std::optional<NamedPart> select;  ///< what is highlighted
+};
+
+/// What the active viewport shows.
+PictureOrder order_of_viewport(const Session& session);
+
+/// The same as the settings of the export dialog say. Its size may be one that `check` refuses.
+PictureOrder order_to_export(const Session& session);
+
+/// Throws std::invalid_argument if it cannot be drawn.
+DrawList draw_list_of(const Session& session, const PictureOrder& order);
+
+/// The bytes of its PNG file. Throws std::invalid_argument if it cannot be drawn, or there is no window to draw it;
+/// MachineError if the machine cannot.
+std::string png_of(const Session& session, const PictureOrder& order);
+
+/// Writes it, and returns how many bytes that are. Throws as png_of does; InputError, MachineError if the file cannot
+/// be written: nothing is left then.
+std::size_t write_picture(const Session& session, const PictureOrder& order, const std::filesystem::path& file);
+
+/// Where the export dialog writes to: a name alone goes beside the scene's file, else where a file was opened or
+/// written last; without an extension it gets ".png". Of an empty field the scene's name.
+std::filesystem::path export_file(const Session& session);
+
+/// "1280 x 720"
+std::string size_text(PictureSize size);
+
+/// "mobbscope render ..." that draws the picture into `output`, quoted for a shell. None if no file holds the scene as
+/// it is: neither that which was opened nor the one that was written aside last.
+std::optional<std::string> render_line(const Session& session, const PictureOrder& order, const std::string& output);
+
+/// The same; where no file holds the scene it is written to a new one among the temporary files, and the session
+/// remembers that. Throws MachineError if that cannot be written.
+std::string render_line_with_scene(Session& session, const PictureOrder& order, const std::string& output);
+
+}  // namespace mobbscope::app

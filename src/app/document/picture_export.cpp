@@ -1,0 +1,131 @@
+#include <app/document/picture_export.h>
+#include <base/text.h>
+#include <scene/view_options.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// The keys of what can be left out.
+std::vector<std::string_view> keys_to_leave_out() {
+    std::vector<std::string_view> out;
+    for (const ViewOption& option : view_options()) {
+        if (!option.without.empty()) out.push_back(option.key);
+    }
+    return out;
+}
+
+std::set<std::string> parse_without(const std::string& text) {
+    std::set<std::string> out;
+    if (text == "none") return out;
+    const std::vector<std::string_view> known = keys_to_leave_out();
+    std::istringstream words(text);
+    for (std::string key; words >> key;) {
+        if (std::ranges::find(known, key) == known.end()) {
+            throw std::invalid_argument(in_quotes(key) + " cannot be left out: give none, or " + listed(known));
+        }
+        out.insert(key);
+    }
+    return out;
+}
+
+std::string text_of(const std::set<std::string>& without) {
+    std::string out;
+    for (const std::string& key : without) out += (out.empty() ? "" : " ") + key;
+    return out.empty() ? "none" : out;
+}
+
+/// The index of a text among an option's choices.
+std::size_t choice_in(const std::string& text, const std::vector<std::string>& choices, const char* what) {
+    const auto at = std::ranges::find(choices, text);
+    if (at == choices.end()) {
+        throw std::invalid_argument(in_quotes(text) + " is no " + what + ": give " +
+                                    either(std::vector<std::string_view>(choices.begin(), choices.end())));
+    }
+    return static_cast<std::size_t>(at - choices.begin());
+}
+
+std::vector<ExportOption> all_export_options() {
+    const std::vector<std::string> shapes{"free", "kept"};
+    const std::vector<std::string> backgrounds{"opaque", "transparent"};
+    const std::vector<std::string> themes{"view", "dark", "light"};
+    return {
+        {.key = "size",
+         .title = "Picture size",
+         .doc = "Says how large the export dialog makes pictures, in pixels; viewport: as the picture in the window.",
+         .argument = "WxH|viewport",
+         .choices = {"viewport", "1280x720", "1920x1080", "2560x1440", "3840x2160", "1080x1080"},
+         .parse =
+             [](const std::string& text, PictureExport& to) {
+                 to.size = text == "viewport" ? std::nullopt : std::optional(parse_size(text));
+             },
+         .text =
+             [](const PictureExport& of) {
+                 return of.size ? std::to_string(of.size->width) + 'x' + std::to_string(of.size->height) : "viewport";
+             }},
+        {.key = "shape",
+         .title = "Picture shape",
+         .doc = "Says whether a side that is changed in the export dialog takes the other one along.",
+         .argument = "free|kept",
+         .choices = shapes,
+         .parse = [shapes](const std::string& text,
+                           PictureExport& to) { to.keeps_shape = choice_in(text, shapes, "shape") == 1; },
+         .text = [shapes](const PictureExport& of) { return shapes[of.keeps_shape ? 1 : 0]; }},
+        {.key = "scale",
+         .title = "Picture text and lines",
+         .doc = "Says how large text and lines of exported pictures are; 1 suits 1280x720, auto what the size is.",
+         .argument = "X|auto",
+         .choices = {"auto", "1", "1.5", "2", "3"},
+         .parse =
+             [](const std::string& text, PictureExport& to) {
+                 to.scale = text == "auto" ? 0 : parse_number_within(text, kLeastScale, kMostScale);
+             },
+         .text = [](const PictureExport& of) { return of.scale > 0 ? short_double(of.scale) : "auto"; }},
+        {.key = "samples",
+         .title = "Picture samples",
+         .doc = "Says how many samples a pixel of exported pictures has: more make smoother edges.",
+         .argument = "1|2|4|8",
+         .choices = {"1", "2", "4", "8"},
+         .parse = [](const std::string& text, PictureExport& to) { to.samples = parse_samples(text); },
+         .text = [](const PictureExport& of) { return std::to_string(of.samples); }},
+        {.key = "background",
+         .title = "Picture transparency",
+         .doc = "Says whether exported pictures are seen through where nothing is drawn.",
+         .argument = "opaque|transparent",
+         .choices = backgrounds,
+         .parse = [backgrounds](
+                      const std::string& text,
+                      PictureExport& to) { to.transparent = choice_in(text, backgrounds, "background") == 1; },
+         .text = [backgrounds](const PictureExport& of) { return backgrounds[of.transparent ? 1 : 0]; }},
+        {.key = "theme",
+         .title = "Picture theme",
+         .doc = "Says whether exported pictures are dark or light; view: as the window.",
+         .argument = "view|dark|light",
+         .choices = themes,
+         .parse =
+             [themes](const std::string& text, PictureExport& to) {
+                 choice_in(text, themes, "theme");
+                 to.theme = theme_from_name(text);
+             },
+         .text = [](const PictureExport& of) { return of.theme ? std::string(name(*of.theme)) : "view"; }},
+        {.key = "without",
+         .title = "Picture without",
+         .doc = "Says what exported pictures are without, beside what the view does not show: keys of its options.",
+         .argument = "none|KEY...",
+         .parse = [](const std::string& text, PictureExport& to) { to.without = parse_without(text); },
+         .text = [](const PictureExport& of) { return text_of(of.without); }},
+    };
+}
+
+}  // namespace
+
+std::span<const ExportOption> export_options() {
+    static const std::vector<ExportOption> table = all_export_options();
+    return table;
+}
+
+}  // namespace mobbscope::app

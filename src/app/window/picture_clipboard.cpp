@@ -1,0 +1,143 @@
+#include <app/window/picture_clipboard.h>
+#include <base/error.h>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace mobbscope::app {
+
+namespace {
+
+/// A program that takes a picture from its standard input, and stays in the background to give it to who asks.
+struct ClipboardProgram {
+    const char* name;
+    const char* display;  ///< the variable that says where it shows something
+    std::vector<const char*> arguments;
+    std::string_view missing;
+};
+
+const std::array<ClipboardProgram, 2>& clipboard_programs() {
+    static const std::array<ClipboardProgram, 2> table{{{"wl-copy",
+                                                         "WAYLAND_DISPLAY",
+                                                         {"--type", "image/png"},
+                                                         "it needs the program wl-copy: sudo apt install wl-clipboard"},
+                                                        {"xclip",
+                                                         "DISPLAY",
+                                                         {"-selection", "clipboard", "-target", "image/png", "-in"},
+                                                         "it needs the program xclip: sudo apt install xclip"}}};
+    return table;
+}
+
+bool has_its_display(const ClipboardProgram& program) {
+    const char* display = std::getenv(program.display);
+    return display && *display != '\0';
+}
+
+/// Where a program is; empty: nowhere in PATH.
+std::string found_in_path(const char* name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::string file = (folder.empty() ? "." : folder) + '/' + name;
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0) return file;
+    }
+    return {};
+}
+
+/// The first that is there and has a display; null: none.
+const ClipboardProgram* usable_program() {
+    for (const ClipboardProgram& program : clipboard_programs()) {
+        if (has_its_display(program) && !found_in_path(program.name).empty()) return &program;
+    }
+    return nullptr;
+}
+
+[[noreturn]] void refuse_copy(const ClipboardProgram& program, const std::string& why) {
+    throw MachineError(std::string("the picture cannot be copied: ") + program.name + ": " + why);
+}
+
+struct FileCloser {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+/// A file without a name that holds the bytes, at its beginning.
+std::unique_ptr<std::FILE, FileCloser> nameless_file(const ClipboardProgram& program, std::string_view bytes) {
+    std::unique_ptr<std::FILE, FileCloser> file(std::tmpfile());
+    const bool written = file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
+                         std::fflush(file.get()) == 0 && std::fseek(file.get(), 0, SEEK_SET) == 0;
+    if (!written) refuse_copy(program, std::string("no temporary file can be written: ") + std::strerror(errno));
+    return file;
+}
+
+/// Waits until it has read all and went to the background.
+void wait_for_end(const ClipboardProgram& program, pid_t child) {
+    constexpr std::chrono::seconds kLongest{5};
+    constexpr std::chrono::milliseconds kAskEvery{5};
+    const auto end = std::chrono::steady_clock::now() + kLongest;
+    int status = 0;
+    for (;;) {
+        const pid_t ended = ::waitpid(child, &status, WNOHANG);
+        if (ended == child) break;
+        if (ended < 0 && errno != EINTR) refuse_copy(program, std::strerror(errno));
+        if (std::chrono::steady_clock::now() >= end) {
+            ::kill(child, SIGKILL);
+            ::waitpid(child, &status, 0);
+            refuse_copy(program, "it does not answer");
+        }
+        std::this_thread::sleep_for(kAskEvery);
+    }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+    refuse_copy(program, WIFEXITED(status) ? "it ended with status " + std::to_string(WEXITSTATUS(status))
+                                           : std::string("it crashed"));
+}
+
+}  // namespace
+
+std::string_view why_no_picture_clipboard() {
+    if (usable_program()) return "";
+    for (const ClipboardProgram& program : clipboard_programs()) {
+        if (has_its_display(program)) return program.missing;
+    }
+    return "there is no clipboard without a display";
+}
+
+void copy_picture_to_clipboard(std::string_view png) {
+    const ClipboardProgram* program = usable_program();
+    if (!program) throw MachineError("the picture cannot be copied: " + std::string(why_no_picture_clipboard()));
+    const auto picture = nameless_file(*program, png);
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(picture.get()), STDIN_FILENO);
+    // It stays when this program is gone, and must not hold its terminal.
+    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    std::string name = found_in_path(program->name);
+    std::vector<char*> argv{name.data()};
+    std::vector<std::string> arguments(program->arguments.begin(), program->arguments.end());
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    const int error = ::posix_spawn(&child, name.c_str(), &actions, nullptr, argv.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) refuse_copy(*program, std::strerror(error));
+    wait_for_end(*program, child);
+}
+
+}  // namespace mobbscope::app

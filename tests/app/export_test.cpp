@@ -1,0 +1,279 @@
+// Exported pictures: the dialog by keys and clicks, and the command line that does the same.
+#include <app/commands/picture_order.h>
+#include <app/script/script.h>
+#include <app/window/headless_window.h>
+#include <app/window/picture_clipboard.h>
+#include <base/error.h>
+#include <base/text.h>
+#include <render/gl/gl_context.h>
+#include <render/image/png.h>
+#include <scene/load_files.h>
+
+#include <support/temp_folder.h>
+
+#include "app/crossing_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace mobbscope::app {
+namespace {
+
+using mobbscope::testing::slurp;
+using mobbscope::testing::TempFolder;
+using testing::all_messages;
+using testing::CrossingFolder;
+using testing::refusal;
+
+class ExportTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        try {
+            window = std::make_unique<HeadlessWindow>(GlContext::open(Backend::automatic), session,
+                                                      PictureSize{1000, 640}, 1);
+        } catch (const MachineError& error) {
+            GTEST_SKIP() << error.what();
+        }
+        session.hooks.set_clipboard = [this](const std::string& text) { copied = text; };
+        session.open({folder.scene});
+        window->settle();
+        run("run picture.file " + file.string());
+    }
+
+    void TearDown() override {
+        if (session.exporting.aside) std::filesystem::remove_all(session.exporting.aside->file.parent_path());
+    }
+
+    std::string run(const std::string& script) {
+        std::ostringstream out;
+        Script::parse(script, "test").run(session, *window, out);
+        return out.str();
+    }
+
+    /// Exports by the dialog's command, then runs its line, as a person pastes it: the same file, byte for byte.
+    void expect_the_line_does_the_same(const std::string& script) {
+        SCOPED_TRACE(script);
+        run(script + "\nrun picture.write\nrun picture.copy_command");
+        const std::string exported = slurp(file);
+        ASSERT_FALSE(exported.empty());
+        std::filesystem::remove(file);
+        SCOPED_TRACE(copied);
+        ASSERT_TRUE(copied.starts_with("mobbscope render "));
+        const std::string line = shell_word(MOBBSCOPE_PROGRAM) + copied.substr(std::string("mobbscope").size());
+        ASSERT_EQ(std::system(line.c_str()), 0);
+        EXPECT_TRUE(slurp(file) == exported);
+    }
+
+    CrossingFolder folder;
+    std::filesystem::path file = folder.file("a picture's.png");
+    Session session{false};
+    std::unique_ptr<HeadlessWindow> window;
+    std::string copied;
+};
+
+TEST_F(ExportTest, TheCommandLineDrawsTheSameBytes) {
+    expect_the_line_does_the_same("");
+    expect_the_line_does_the_same("drag viewport 90 -35\nscroll viewport 2\nrun picture.size 640x360");
+    expect_the_line_does_the_same("run picture.background transparent\nrun picture.without caption legend floor");
+    expect_the_line_does_the_same(
+        "run go.node A 2\nrun picture.scale 1.75\nrun picture.samples 1\nrun picture.theme light");
+    expect_the_line_does_the_same(
+        "run query.select 0\nrun step.first\nrun step.to 7\nrun time.at 0.4\nrun view.past all\nrun picture.without "
+        "inset time_axis");
+    expect_the_line_does_the_same("run picture.without past\nrun picture.samples 2\nrun picture.background opaque");
+    expect_the_line_does_the_same("run query.none\nrun view.moment\nrun time.at 0.4\nrun picture.without none");
+}
+
+TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
+    run("run go.agent A\nrun agent.nudge 1 0");
+    ASSERT_TRUE(session.modified());
+    expect_the_line_does_the_same("run picture.size 640x360");
+    ASSERT_TRUE(session.exporting.aside);
+    EXPECT_EQ(session.exporting.aside->file.extension(), ".json");
+    EXPECT_NE(all_messages(session).find("No file holds the scene as it is"), std::string::npos);
+    // Seen otherwise, and with another fit beside it.
+    const std::filesystem::path first = session.exporting.aside->file;
+    expect_the_line_does_the_same("run view.top\nrun picture.without boxes");
+    EXPECT_EQ(session.exporting.aside->file, first) << "it holds this scene still";
+    expect_the_line_does_the_same("run view.split\nrun tree.kind umobb\nrun picture.without none");
+}
+
+TEST_F(ExportTest, WhatTheViewportShowsIsExportedUnlessTheDialogSaysOtherwise) {
+    run("run go.agent B\nmove 5 5\nrun picture.write");
+    EXPECT_EQ(read_png(file).rgba, window->shell().viewport_picture().rgba);
+    run("run picture.size 640x360\nrun picture.background transparent\nrun file.export_picture " + file.string());
+    EXPECT_EQ(read_png(file).rgba, window->shell().viewport_picture().rgba);
+    run("run picture.write");
+    const Image other = read_png(file);
+    EXPECT_EQ(other.width, 640);
+    EXPECT_EQ(other.at(0, 359)[3], 0) << "nothing is drawn there";
+}
+
+TEST_F(ExportTest, TheDialogIsWorkedByKeysAlone) {
+    run("key Ctrl+E\nexpect /dialog \"export_picture\"");
+    EXPECT_EQ(session.input.text, file.string()) << "what was said before";
+    run("key Ctrl+A\ntype other\nexpect /export/file \"other\"\nkey Tab\nexpect /focus \"export.browse\"\nkey Tab");
+    run("expect /focus \"export.size\"\nkey Enter\nkey Down\nkey Enter\nexpect /export/size \"1280x720\"");
+    // A side takes the other one along.
+    run("key Tab\nexpect /focus \"export.width\"\nkey Enter\nkey Ctrl+A\ntype 640\nkey Enter");
+    run("expect /export/size \"640x360\"");
+    run("key Escape\nexpect /dialog \"none\"\nkey Ctrl+E\nexpect /export/file \"other\"");
+    run("key Enter\nexpect /dialog \"none\"");
+    const Image image = read_png(folder.file("other.png"));
+    EXPECT_EQ(image.width, 640) << "the settings stay, and a name alone goes beside the scene";
+    EXPECT_NE(all_messages(session).find("Wrote " + folder.file("other.png").string() + " (640 x 360, "),
+              std::string::npos)
+        << all_messages(session);
+}
+
+TEST_F(ExportTest, ClicksChangeTheSettingsAndThePreview) {
+    run("key Ctrl+E");
+    const auto preview = [&] { return session.exporting.image; };
+    const auto before = preview();
+    ASSERT_TRUE(before);
+    const Image whole = window->shell().viewport_picture();
+    EXPECT_NEAR(static_cast<double>(before->width) / before->height, static_cast<double>(whole.width) / whole.height,
+                0.02);
+    run("click export.without.legend\nclick export.without.boxes\nexpect /export/without \"boxes legend\"");
+    const auto without = preview();
+    ASSERT_TRUE(without);
+    EXPECT_NE(without->rgba, before->rgba);
+    run("click export.background.transparent\nclick export.samples.2\nclick export.theme.light");
+    run("expect /export/background \"transparent\"\nexpect /export/samples \"2\"\nexpect /export/theme \"light\"");
+    EXPECT_EQ(preview()->at(0, preview()->height - 1)[3], 0);
+    EXPECT_EQ(session.view().theme, Theme::dark);
+    run("click export.without.legend\nclick export.without.boxes\nexpect /export/without \"none\"");
+    // What the view does not show either cannot be left out.
+    run("run view.legend\nclick export.without.legend\nexpect /export/without \"none\"");
+    run("click export.copy_command");
+    EXPECT_TRUE(copied.ends_with(" --background transparent -o " + shell_word(file.string()))) << copied;
+    EXPECT_EQ(session.dialog, Dialog::export_picture);
+    run("click export.close\nexpect /dialog \"none\"");
+}
+
+TEST_F(ExportTest, AFileIsOverwrittenOnceItWasAsked) {
+    folder.write(file.filename().string(), "precious");
+    run("key Ctrl+E\nkey Enter\nexpect /dialog \"export_picture\"");
+    EXPECT_TRUE(session.input.confirming);
+    EXPECT_EQ(slurp(file), "precious");
+    // Another name is another question.
+    run("type x");
+    EXPECT_FALSE(session.input.confirming);
+    run("key Backspace\nkey Enter\nkey Escape\nexpect /dialog \"none\"");
+    EXPECT_EQ(slurp(file), "precious");
+    run("key Ctrl+E\nkey Enter\nkey Enter\nexpect /dialog \"none\"");
+    const std::string first = slurp(file);
+    EXPECT_NE(first, "precious");
+    run("run view.top\nkey Ctrl+E\nkey Enter\nexpect /dialog \"none\"");
+    EXPECT_NE(slurp(file), first) << "it is the window's own by now";
+}
+
+TEST_F(ExportTest, BrowseAsksForTheFileAndLeadsBack) {
+    folder.write("there.png", "precious");
+    run("key Ctrl+E\nclick export.browse\nexpect /dialog \"export_file\"");
+    EXPECT_EQ(session.input.text, file.filename().string());
+    run("key Escape\nexpect /dialog \"export_picture\"");
+    EXPECT_EQ(session.input.text, file.string());
+    run("click export.browse\nkey Ctrl+A\ntype there.png\nkey Enter\nexpect /dialog \"export_file\"");
+    EXPECT_TRUE(session.input.confirming);
+    run("key Enter\nexpect /dialog \"export_picture\"");
+    EXPECT_EQ(export_file(session), folder.file("there.png"));
+    EXPECT_EQ(slurp(folder.file("there.png")), "precious") << "it was only chosen";
+    run("key Enter\nexpect /dialog \"none\"");
+    EXPECT_NE(slurp(folder.file("there.png")), "precious") << "who agreed there is not asked again";
+}
+
+TEST_F(ExportTest, WhatCannotBeIsRefusedAndNothingIsLeft) {
+    EXPECT_NE(refusal(session, "picture.size", "0x5").find("each side must be 64 to 8192"), std::string::npos);
+    EXPECT_NE(refusal(session, "picture.size", "8192x8192").find("at most 33177600"), std::string::npos);
+    EXPECT_NE(refusal(session, "picture.scale", "100").find("8"), std::string::npos);
+    EXPECT_NE(refusal(session, "picture.samples", "3").find("give 1, 2, 4 or 8"), std::string::npos);
+    EXPECT_NE(refusal(session, "picture.background", "pink").find("give opaque or transparent"), std::string::npos);
+    EXPECT_NE(refusal(session, "picture.without", "legend heads").find("'heads' cannot be left out"),
+              std::string::npos);
+    EXPECT_EQ(session.settings.picture_export, PictureExport{}) << "nothing of what was refused";
+    EXPECT_NE(refusal(session, "picture.write", folder.file("no/such.png").string()), "");
+    EXPECT_NE(refusal(session, "picture.write", folder.file("a.jpg").string()).find("rename the output"),
+              std::string::npos);
+    EXPECT_NE(refusal(session, "file.copy_picture"), "");
+    const auto names = [&] {
+        std::set<std::string> out;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.scene.parent_path())) {
+            out.insert(entry.path().filename().string());
+        }
+        return out;
+    };
+    EXPECT_EQ(names(), (std::set<std::string>{"scene.json", "stand.csv", "walk.csv"}));
+    // In the dialog Enter does nothing then.
+    for (const char* typed : {"no/such.png", "a.jpg", "../"}) {
+        SCOPED_TRACE(typed);
+        run("run picture.file " + folder.file(typed).string() + "\nkey Ctrl+E\nkey Enter\nkey Enter");
+        EXPECT_EQ(session.dialog, Dialog::export_picture);
+        EXPECT_FALSE(session.input.confirming);
+        run("key Escape");
+    }
+    EXPECT_EQ(names(), (std::set<std::string>{"scene.json", "stand.csv", "walk.csv"}));
+}
+
+/// What a test changes of the environment, until it ends.
+class Environment {
+  public:
+    Environment(const char* name, const std::string& value) : name_(name) {
+        if (const char* now = std::getenv(name)) before_ = now;
+        ::setenv(name, value.c_str(), 1);
+    }
+    ~Environment() { before_ ? ::setenv(name_, before_->c_str(), 1) : ::unsetenv(name_); }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+  private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+void write_program(const TempFolder& folder, const char* name, const std::string& text) {
+    const std::filesystem::path file = folder.write(name, "#!/bin/sh\n" + text);
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+}
+
+TEST(PictureClipboard, AProgramOfTheDesktopTakesThePicture) {
+    const TempFolder folder;
+    const std::string path = std::getenv("PATH");
+    const Environment no_wayland("WAYLAND_DISPLAY", "");
+    const Environment display("DISPLAY", ":7");
+    const Environment programs("PATH", folder.path().string());
+    EXPECT_NE(why_no_picture_clipboard().find("apt install xclip"), std::string_view::npos);
+    EXPECT_THROW(copy_picture_to_clipboard("png"), MachineError);
+    const std::string taken = (folder.path() / "taken").string();
+    write_program(folder, "xclip",
+                  "PATH='" + path + "'\nprintf '%s ' \"$@\" >'" + taken + ".how'\ncat >'" + taken + "'\n");
+    EXPECT_EQ(why_no_picture_clipboard(), "");
+    const std::string bytes = "\x89PNG" + std::string(200'000, 'x');
+    copy_picture_to_clipboard(bytes);
+    EXPECT_TRUE(slurp(taken) == bytes);
+    EXPECT_EQ(slurp(taken + ".how"), "-selection clipboard -target image/png -in ");
+    write_program(folder, "xclip", "exit 3\n");
+    try {
+        copy_picture_to_clipboard(bytes);
+        ADD_FAILURE() << "it did not take it";
+    } catch (const MachineError& error) {
+        EXPECT_NE(std::string(error.what()).find("xclip: it ended with status 3"), std::string::npos) << error.what();
+    }
+    const Environment wayland("WAYLAND_DISPLAY", "wayland-0");
+    EXPECT_EQ(why_no_picture_clipboard(), "") << "through the X11 side of the desktop";
+    std::filesystem::remove(folder.path() / "xclip");
+    EXPECT_NE(why_no_picture_clipboard().find("apt install wl-clipboard"), std::string_view::npos);
+    const Environment none("DISPLAY", "");
+    const Environment nothing("WAYLAND_DISPLAY", "");
+    EXPECT_NE(why_no_picture_clipboard().find("without a display"), std::string_view::npos);
+}
+
+}  // namespace
+}  // namespace mobbscope::app
