@@ -126,6 +126,17 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
     }
 }
 
+std::filesystem::path whole_path(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::path whole = std::filesystem::absolute(path.empty() ? "." : path, ignored).lexically_normal();
+    return whole.has_filename() || !whole.has_relative_path() ? whole : whole.parent_path();
+}
+
+std::string own_name(const std::filesystem::path& path) {
+    const std::filesystem::path whole = whole_path(path);
+    return (whole.has_filename() ? whole.filename() : whole).string();
+}
+
 std::string lower_extension(const std::filesystem::path& file) { return lower(file.extension().string()); }
 
 }  // namespace mobbscope

@@ -19,6 +19,12 @@ std::string read_file(const std::filesystem::path& file);
 /// MachineError; InputError for what check_file_name refuses.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
+/// The path from the root, without a slash at its end, "." and ".."; "" is the present folder.
+std::filesystem::path whole_path(const std::filesystem::path& path);
+
+/// What a file or folder is called in its folder, also one that is written "." or with a slash at its end.
+std::string own_name(const std::filesystem::path& path);
+
 /// The extension in lower case, with its dot (".csv"); "" if there is none.
 std::string lower_extension(const std::filesystem::path& file);
 

@@ -166,7 +166,7 @@ TEST_F(ExportTest, AFileIsOverwrittenOnceItWasAsked) {
     // Another name is another question.
     run("type x");
     EXPECT_FALSE(session.input.confirming);
-    run("key Backspace\nkey Enter\nkey Escape\nexpect /dialog \"none\"");
+    run("key Ctrl+A\ntype " + file.string() + "\nkey Enter\nkey Escape\nexpect /dialog \"none\"");
     EXPECT_EQ(slurp(file), "precious");
     run("key Ctrl+E\nkey Enter\nkey Enter\nexpect /dialog \"none\"");
     const std::string first = slurp(file);

@@ -359,9 +359,9 @@ TEST(Keyboard, ADialogGivesTheFocusBack) {
 TEST(Keyboard, ASuggestedNameIsReplacedByWhatIsTyped) {
     KeyboardWindow w;
     w.key("Ctrl+E");
-    EXPECT_EQ(w.session.input.text, "scene.png");
+    EXPECT_EQ(w.session.input.text, w.folder.file("scene.png"));
     w.type("made");
-    EXPECT_EQ(w.session.input.text, "made.png");
+    EXPECT_EQ(w.session.input.text, w.folder.file("made.png"));
     w.quick(Key::ctrl, Key::a);
     w.type("other");
     EXPECT_EQ(w.session.input.text, "other");

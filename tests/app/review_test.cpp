@@ -608,7 +608,7 @@ TEST(Review, TitleAndStatusBarAreAboutIt) {
     w.window->settle();
     const float of_scene = w.mark("status.counts").size().x;
     w.open();
-    EXPECT_EQ(w.session.shown_title(), w.files.cases().string());
+    EXPECT_EQ(w.session.shown_title(), w.files.cases().filename().string());
     EXPECT_FALSE(w.session.shows_unsaved());
     EXPECT_NE(w.mark("status.counts").size().x, of_scene) << "they count the cases";
     run_command(w.session, "review.leave");

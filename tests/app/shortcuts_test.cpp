@@ -88,12 +88,13 @@ struct KeyWorld {
     Json outcome() const {
         Json json = state_json(*session);
         json.erase("file");  // every time another folder
-        for (Json& message : json["messages"]) {
-            std::string text = message["text"];
-            const std::string here = folder->scene.parent_path().string();
+        const auto take_folder_out = [here = folder->scene.parent_path().string()](Json& said) {
+            std::string text = said;
             const std::size_t at = text.find(here);
-            if (at != std::string::npos) message["text"] = text.erase(at, here.size());
-        }
+            if (at != std::string::npos) said = text.erase(at, here.size());
+        };
+        for (Json& message : json["messages"]) take_folder_out(message["text"]);
+        if (json.contains("export")) take_folder_out(json["export"]["file"]);
         if (session->playing()) {
             // Frames go by until it is looked at.
             json.erase("time");

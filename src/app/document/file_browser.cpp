@@ -49,13 +49,6 @@ bool before_by_name(const FileEntry& a, const FileEntry& b) {
     return a.name < b.name;
 }
 
-/// Without a slash at its end.
-std::filesystem::path whole_path(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::filesystem::path whole = std::filesystem::absolute(path.empty() ? "." : path, error).lexically_normal();
-    return whole.has_filename() || !whole.has_relative_path() ? whole : whole.parent_path();
-}
-
 /// Folders, and the files with these extensions.
 std::vector<FileEntry> entries_in(const std::filesystem::path& folder, std::span<const std::string_view> extensions,
                                   std::error_code& error) {

@@ -23,9 +23,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 /// "crossing.json", or "3 files".
 std::string title_of_files(const std::vector<std::filesystem::path>& files) {
     if (files.size() != 1) return counted(files.size(), "file", "files");
-    // A folder may end in a slash.
-    const std::filesystem::path& only = files.front();
-    return (only.has_filename() ? only : only.parent_path()).filename().string();
+    return own_name(files.front());
 }
 
 /// The first that is not there; null: all are.

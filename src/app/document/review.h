@@ -4,6 +4,7 @@
 
 #include <app/document/job.h>
 #include <app/document/message_level.h>
+#include <base/file.h>
 #include <cases/case_file.h>
 #include <cases/case_result.h>
 #include <cases/drawing_child.h>
@@ -125,6 +126,7 @@ class Review {
     Review& operator=(const Review&) = delete;
 
     const std::filesystem::path& folder() const { return folder_; }
+    std::string title() const { return own_name(folder_); }
     const std::filesystem::path& output() const { return output_; }
     const picture_tests::CaseDrawer& drawer() const { return surroundings_.drawer; }
     const std::vector<ReviewCase>& cases() const { return cases_; }

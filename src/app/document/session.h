@@ -350,7 +350,7 @@ class Session {
     /// Whether they are shown: commands and panels are about them then, not about the scene.
     bool reviewing() const { return reviewing_; }
     /// What the window shows, for its title: the scene, or the folder of the picture tests.
-    std::string shown_title() const { return reviewing_ ? review_->folder().string() : title(); }
+    std::string shown_title() const { return reviewing_ ? review_->title() : title(); }
     /// Whether it has changes that are not saved.
     bool shows_unsaved() const { return !reviewing_ && modified(); }
     /// Shows what was open before the picture tests, or them again; asks about unsaved changes of a case's scene.

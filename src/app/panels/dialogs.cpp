@@ -3,6 +3,7 @@
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
+#include <base/file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -46,9 +47,7 @@ void dropped(Ui& ui) {
     begin_dialog(ui, "dropped", {480, 150 + 22 * static_cast<float>(std::min(files.size(), kMostNames + 1))});
     dialog_title(ui, session.may_add() ? "Add to this scene, or open instead?" : "Open in place of what is open?");
     for (std::size_t i = 0; i < std::min(files.size(), kMostNames); ++i) {
-        const std::filesystem::path& file = files[i];
-        const std::string name = (file.has_filename() ? file : file.parent_path()).filename().string();
-        ImGui::TextUnformatted(fitted_text(name, ImGui::GetContentRegionAvail().x).c_str());
+        ImGui::TextUnformatted(fitted_text(own_name(files[i]), ImGui::GetContentRegionAvail().x).c_str());
     }
     if (files.size() > kMostNames) {
         ImGui::TextDisabled("and %s more", std::to_string(files.size() - kMostNames).c_str());

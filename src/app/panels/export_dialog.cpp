@@ -78,7 +78,7 @@ bool file_field(Ui& ui, const ExportTarget& target) {
     Session& session = ui.session;
     const float browse = button_width("Browse...") + ImGui::GetStyle().ItemSpacing.x;
     ImGui::BeginChild("file", {-browse, ImGui::GetFrameHeight()});
-    const FieldEvents events = text_field(ui, "The file to write, a .png");
+    const FieldEvents events = text_field(ui, "The file to write, a .png", {}, FieldText::file_name);
     ui.mark("export.path");
     ImGui::EndChild();
     session.exporting.file = session.input.text;
@@ -144,9 +144,7 @@ void size_presets(Ui& ui) {
     const bool is_preset = std::ranges::find(option->choices, now) != option->choices.end();
     const PictureSize viewport = viewport_size(session);
     form_label(ui, "Size", "In pixels");
-    const bool open = ImGui::BeginCombo("##size", (is_preset ? size_label(now, viewport) : "Other").c_str());
-    ui.mark("export.size");
-    if (!open) return;
+    if (!begin_dropdown(ui, "export.size", is_preset ? size_label(now, viewport) : "Other", "Size")) return;
     for (const std::string& choice : option->choices) {
         if (ImGui::Selectable(size_label(choice, viewport).c_str(), choice == now)) set_export(ui, "size", choice);
         ui.mark("export.size." + choice);

@@ -84,8 +84,9 @@ std::vector<Line> all_lines(const Session& session) {
 std::vector<Line> lines_with(const Session& session, const std::string& search) {
     std::vector<std::pair<double, Line>> found;
     const auto add = [&](const Line& line) {
-        // What can be done now stands first.
+        // What can be done now stands first, and of equals what stands in a menu.
         double score = line.command && !line.command->enabled(session) ? -1000 : 0;
+        if (line.command && line.command->menu.empty()) score -= 1;
         for (const std::string& word : words_of(search)) {
             const auto in_title = word_score(word, line.what);
             const auto in_keys = word_score(word, line.keys);

@@ -179,9 +179,7 @@ void order_and_filter(Ui& ui, const Review& review) {
     const std::string now(kReviewOrders[static_cast<std::size_t>(review.look.order)]);
     flow(ui.px(112));
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-    const bool open = ImGui::BeginCombo("##order", ("by " + now).c_str());
-    ui.mark("review.order");
-    if (!open) return;
+    if (!begin_dropdown(ui, "review.order", "by " + now, "Order")) return;
     for (const std::string_view order : kReviewOrders) {
         const std::string name(order);
         if (ImGui::Selectable(("by " + name).c_str(), name == now)) invoke(ui.session, "review.order", name);
