@@ -106,7 +106,8 @@ std::span<const KeyHelp> focus_help() {
     static constexpr std::array<KeyHelp, 8> kKeys{{
         {"Tab, Shift+Tab", "Go to the next button, field or list, or the one before"},
         {"Arrows", "Go through a list, or to what is beside"},
-        {"Enter, Space", "Press what has the focus; in a number, type it. Enter on a button gives the keys to the picture"},
+        {"Enter, Space",
+         "Press what has the focus; in a number, type it. Enter on a button gives the keys to the picture"},
         {"Up, Down", "Step a number; Shift finer, Ctrl coarser"},
         {"Escape", "Close what is topmost; back to the viewport"},
         {"Escape in a drag", "Put back what is dragged"},

@@ -299,8 +299,8 @@ void Session::go_to_state(std::size_t state) {
 }
 
 Session::BeforeDrag Session::before_drag() const {
-    return {history_, settings, handed_over_, picture_size_, cameras_aside,
-            reviewing_ ? std::optional(review_->look) : std::nullopt};
+    return {history_,      settings,      handed_over_,
+            picture_size_, cameras_aside, reviewing_ ? std::optional(review_->look) : std::nullopt};
 }
 
 void Session::restore(BeforeDrag before) {
