@@ -70,16 +70,14 @@ int parse_pixel_shift(const std::string& text) {
     throw std::invalid_argument(in_quotes(text) + " is neither 0 nor 1: a pixel is the most that may be forgiven");
 }
 
-std::string text_of(PictureSize size) { return std::to_string(size.width) + 'x' + std::to_string(size.height); }
-
 /// The mask's picture; nothing if none is given. Throws InputError if it does not fit the picture.
 std::optional<Image> read_mask(const DiffCommandArguments& arguments, const Image& picture) {
     if (!arguments.mask) return std::nullopt;
     Image mask = read_png(*arguments.mask);
     if (mask.width != picture.width || mask.height != picture.height) {
         throw InputError(arguments.mask->string(), "",
-                         "the mask has " + text_of({mask.width, mask.height}) + " pixels and " +
-                             in_quotes(arguments.b.string()) + ' ' + text_of({picture.width, picture.height}) +
+                         "the mask has " + size_word({mask.width, mask.height}) + " pixels and " +
+                             in_quotes(arguments.b.string()) + ' ' + size_word({picture.width, picture.height}) +
                              "; make them one size");
     }
     return mask;

@@ -105,6 +105,26 @@ TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
     expect_the_line_does_the_same("run view.split\nrun tree.kind umobb\nrun picture.without none");
 }
 
+TEST_F(ExportTest, TheLineOfACasesSceneDrawsWhatTheCaseShows) {
+    std::filesystem::create_directories(folder.file("cases"));
+    folder.write("cases/one.case.json",
+                 R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"level": 1}, "fit": {"tree": "umobb"}})");
+    std::filesystem::create_directories(folder.file("drawn"));
+    session.review(folder.file("cases"), folder.file("drawn"));
+    session.open_case(0);
+    window->settle();
+    ASSERT_EQ(session.open_case_name(), "one");
+    ASSERT_EQ(session.document().fitted->options().tree, mobb::TreeKind::umobb);
+    expect_the_line_does_the_same("run picture.size 640x360");
+}
+
+TEST_F(ExportTest, AnotherSceneClosesTheDialog) {
+    run("key Ctrl+E\nclick export.browse\nexpect /dialog \"export_file\"");
+    session.open({folder.write("other.json", R"({"clips": {"a": {"dt": 1, "samples": [[0, 0, 1]]}}})")});
+    window->settle();
+    EXPECT_EQ(session.dialog, Dialog::none);
+}
+
 TEST_F(ExportTest, WhatTheViewportShowsIsExportedUnlessTheDialogSaysOtherwise) {
     run("run go.agent B\nmove 5 5\nrun picture.write");
     EXPECT_EQ(read_png(file).rgba, window->shell().viewport_picture().rgba);
@@ -131,6 +151,11 @@ TEST_F(ExportTest, TheDialogIsWorkedByKeysAlone) {
     EXPECT_NE(all_messages(session).find("Wrote " + folder.file("other.png").string() + " (640 x 360, "),
               std::string::npos)
         << all_messages(session);
+}
+
+TEST_F(ExportTest, AnExtensionIsMeantOnce) {
+    run("key Ctrl+E\ntype mine.png\nkey Enter\nexpect /dialog \"none\"");
+    EXPECT_TRUE(std::filesystem::exists(folder.file("mine.png")));
 }
 
 TEST_F(ExportTest, ClicksChangeTheSettingsAndThePreview) {

@@ -552,6 +552,27 @@ TEST(Help, BeginsWithThePresentSituation) {
     }
 }
 
+TEST(Keyboard, AClickWorksWhereTheMouseRestedWhileKeysCloseAMenu) {
+    KeyboardWindow w;
+    w.click("menu.view");
+    const auto is_open = [&] { return w.window.shell().marks().all().contains("menu.view.frame_all"); };
+    ASSERT_TRUE(is_open());
+    w.key("Escape");
+    ASSERT_FALSE(is_open());
+    w.send(MouseButton{0, true});
+    w.send(MouseButton{0, false});
+    EXPECT_TRUE(is_open()) << "the mouse has not moved";
+}
+
+TEST(Keyboard, AKeyThatCanDoNothingNowSaysWhy) {
+    KeyboardWindow w;
+    run_command(w.session, "query.select", "0");
+    w.window.settle();
+    w.key("]");
+    EXPECT_NE(all_messages(w.session).find("Finer level: a query is in the picture"), std::string::npos)
+        << all_messages(w.session);
+}
+
 TEST(Help, RunsWhatIsPicked) {
     KeyboardWindow w;
     run_command(w.session, "query.select", "0");

@@ -1,6 +1,7 @@
 // What is put aside while something else is open, and what undo, a reload and a job must leave as it is.
 #include <app/document/shown_agents.h>
 #include <app/window/headless_window.h>
+#include <base/error.h>
 #include <render/gl/gl_context.h>
 #include <scene/scene_edits.h>
 
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -304,6 +306,39 @@ struct SteppedWorld : AsideWorld {
     }
     int last() const { return session.recorded()->trace.size() - 1; }
 };
+
+TEST(PutAside, ARenamedAgentLeavesNoStepsUnderItsOldName) {
+    AsideWorld w;
+    run_command(w.session, "query.select", "0");
+    run_command(w.session, "step.to", "3");
+    run_command(w.session, "go.agent", "A");
+    run_command(w.session, "agent.rename", "first");
+    for (const auto& [key, steps] : w.session.document().steps) EXPECT_NE(std::get<0>(key.first), "A");
+}
+
+TEST(Saving, AsksOnceMoreWhereAnotherProgramHasWrittenTheFile) {
+    AsideWorld w;
+    w.nudge();
+    const std::string theirs = mobbscope::testing::slurp(w.folder.scene) + "\n";
+    w.folder.write("scene.json", theirs);
+    fs::last_write_time(w.folder.scene, fs::last_write_time(w.folder.scene) + std::chrono::seconds(2));
+    EXPECT_THROW(w.session.save(), InputError);
+    EXPECT_EQ(mobbscope::testing::slurp(w.folder.scene), theirs);
+    EXPECT_TRUE(w.session.modified());
+    w.session.save();
+    EXPECT_FALSE(w.session.modified());
+    w.nudge();
+    w.session.save();
+    EXPECT_FALSE(w.session.modified()) << "what was saved here is no other program's";
+}
+
+TEST(Saving, SaysWhichFilesOfClipsAreGone) {
+    AsideWorld w;
+    w.nudge();
+    fs::remove(w.folder.file("stand.csv"));
+    w.session.save();
+    EXPECT_NE(all_messages(w.session).find("stand.csv, which is not there any more"), std::string::npos);
+}
 
 TEST(Steps, AreRememberedForEachKindOfTrees) {
     SteppedWorld w;

@@ -22,7 +22,7 @@ namespace {
 constexpr PictureSize kWithoutWindow{1280, 720};
 
 // The camera that follows a test goes farther back than it needs to, or it would fly at every step.
-constexpr float kSmallTest = 0.15f;   // of the picture's shorter side
+constexpr float kSmallTest = 0.25f;   // of the picture's shorter side
 constexpr float kShareOfPart = 0.6f;  // of the free part that is filled
 
 /// In (x, y, t).

@@ -178,7 +178,7 @@ std::vector<Command> edit_commands() {
         Command("agent.move", "Place agent at", "Places the selected agent on the floor, in metres.", move,
                 {.menu = kNoMenu,
                  .argument = "X Y",
-                 .enabled = {has_selected_agent, why_no_agent},
+                 .enabled = {has_selected_agent, why_nothing_to_place},
                  .present =
                      [](const Session& session) {
                          const glm::dvec2 at = selected_placement(session).translate;
@@ -189,21 +189,21 @@ std::vector<Command> edit_commands() {
             "Turns the selected agent's path about its clip's origin: degrees, counter-clockwise.", turn,
             {.menu = kNoMenu,
              .argument = "DEG",
-             .enabled = {has_selected_agent, why_no_agent},
+             .enabled = {has_selected_agent, why_nothing_to_place},
              .present = [](const Session& session) { return short_double(selected_placement(session).rotate_deg); }}),
         Command("agent.start", "Start agent at", "Lets the selected agent begin at a moment, in seconds.", start,
                 {.menu = kNoMenu,
                  .argument = "S",
-                 .enabled = {has_selected_agent, why_no_agent},
+                 .enabled = {has_selected_agent, why_nothing_to_place},
                  .present = [](const Session& session) { return short_double(selected_placement(session).start); }}),
         Command("agent.nudge", "Move agent by", "Moves the selected agent on the floor by metres.", nudge,
-                {.menu = kNoMenu, .argument = "DX DY", .enabled = {has_selected_agent, why_no_agent}}),
+                {.menu = kNoMenu, .argument = "DX DY", .enabled = {has_selected_agent, why_nothing_to_place}}),
         Command("agent.shift_start", "Shift agent in time by",
                 "Lets the selected agent begin later by seconds; below 0 earlier.", shift_start,
-                {.menu = kNoMenu, .argument = "S", .enabled = {has_selected_agent, why_no_agent}}),
+                {.menu = kNoMenu, .argument = "S", .enabled = {has_selected_agent, why_nothing_to_place}}),
         Command("agent.color", "Colour agent", "Gives the selected agent a colour of its own, or the palette's again.",
                 set_color,
-                {.menu = kNoMenu, .argument = "#RRGGBB|none", .enabled = {has_selected_agent, why_no_agent}}),
+                {.menu = kNoMenu, .argument = "#RRGGBB|none", .enabled = {has_selected_agent, why_nothing_to_place}}),
     };
     return in_menu("Edit", rows);
 }

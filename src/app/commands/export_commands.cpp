@@ -78,6 +78,12 @@ Command command_of(const ExportOption& option) {
     CommandTraits traits{.menu = kNoMenu, .argument = option.argument};
     if (!option.choices.empty()) {
         traits.choices = [&option](const Session&) { return option.choices; };
+        if (!option.choice_titles.empty()) {
+            traits.choice_title = [&option](const std::string& choice) {
+                const auto at = std::ranges::find(option.choices, choice) - option.choices.begin();
+                return option.choice_titles.at(static_cast<std::size_t>(at));
+            };
+        }
         traits.chosen = [&option](const Session& session, const std::string& choice) {
             return option.text(session.settings.picture_export) == choice;
         };

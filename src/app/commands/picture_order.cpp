@@ -109,7 +109,7 @@ std::string fit_options(const mobb::FitOptions& fit) {
 }
 
 std::string picture_options(const PictureOptions& options) {
-    std::string out = " --size " + std::to_string(options.size.width) + 'x' + std::to_string(options.size.height);
+    std::string out = " --size " + size_word(options.size);
     if (options.scale > 0) out += " --scale " + short_double(options.scale);
     if (options.samples != kPictureSamples) out += " --samples " + std::to_string(options.samples);
     if (options.background) out += " --background transparent";
@@ -121,7 +121,9 @@ bool is_in_its_file(const Session& session) {
     const std::filesystem::path& file = session.scene().file;
     const bool one_file =
         session.opened().empty() || (session.opened().size() == 1 && session.opened().front() == file);
-    return !session.modified() && !session.in_excerpt() && one_file && !file.empty();
+    // The scene of a case is seen and fitted as the case says, not as its file.
+    const bool as_file = !session.modified() && !session.in_excerpt() && session.open_case_name().empty();
+    return as_file && one_file && !file.empty();
 }
 
 /// A file that holds a scene, seen so.
@@ -154,8 +156,9 @@ std::filesystem::path temporary_scene_file(const Session& session) {
     return std::filesystem::path(name) / ((stem.empty() ? "scene" : stem) + ".json");
 }
 
-/// Throws MachineError, and leaves nothing, if it cannot be written.
+/// Throws MachineError, and leaves nothing, if it cannot be written; InputError where nothing may be.
 std::filesystem::path write_scene_aside(const Session& session, const ViewState& view) {
+    session.check_may_write("a temporary file for " + session.title());
     Scene aside = session.scene();
     aside.view = view;
     aside.fit = session.document().fitted->options();
@@ -230,12 +233,8 @@ std::filesystem::path export_file(const Session& session) {
     const std::filesystem::path folder = session.file() ? session.file()->parent_path() : session.settings.folder;
     const std::string& typed = session.exporting.file;
     if (typed.empty()) return folder / (std::filesystem::path(session.title()).stem().string() + ".png");
-    std::filesystem::path file = typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {});
-    if (file.has_filename() && !file.has_extension()) file += ".png";
-    return file;
+    return with_extension(typed.find('/') == std::string::npos ? folder / typed : typed_path(typed, {}), ".png");
 }
-
-std::string size_text(PictureSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
 
 std::optional<std::string> render_line(const Session& session, const PictureOrder& order, const std::string& output) {
     const FittedScene& fitted = *session.document().fitted;
@@ -257,9 +256,8 @@ std::optional<std::string> render_line(const Session& session, const PictureOrde
 
 std::string render_line_with_scene(Session& session, const PictureOrder& order, const std::string& output) {
     if (auto line = render_line(session, order, output)) return *line;
-    session.check_may_write(output);
     session.exporting.aside = {session.document().fitted, order.view, write_scene_aside(session, order.view)};
-    return render_line(session, order, output).value();
+    return *render_line(session, order, output);  // as no option differs from a scene that was just written
 }
 
 }  // namespace mobbscope::app

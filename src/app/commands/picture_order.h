@@ -42,15 +42,12 @@ std::size_t write_picture(const Session& session, const PictureOrder& order, con
 /// written last; without an extension it gets ".png". Of an empty field the scene's name.
 std::filesystem::path export_file(const Session& session);
 
-/// "1280 x 720"
-std::string size_text(PictureSize size);
-
 /// "mobbscope render ..." that draws the picture into `output`, quoted for a shell. None if no file holds the scene as
 /// it is: neither that which was opened nor the one that was written aside last.
 std::optional<std::string> render_line(const Session& session, const PictureOrder& order, const std::string& output);
 
 /// The same; where no file holds the scene it is written to a new one among the temporary files, and the session
-/// remembers that. Throws MachineError if that cannot be written.
+/// remembers that. Throws MachineError if that cannot be written, InputError where nothing may be (may_write).
 std::string render_line_with_scene(Session& session, const PictureOrder& order, const std::string& output);
 
 }  // namespace mobbscope::app

@@ -160,6 +160,10 @@ void show_levels(Session& session, LevelRange levels) {
     });
 }
 
+std::string_view why_no_level(const Session& session) {
+    return shows_levels(session) ? "there is no further level" : "a query is in the picture: Q closes it";
+}
+
 bool can_be_finer(const Session& session) {
     const LevelRange levels = session.view().levels;
     return shows_levels(session) && !levels.leaves && levels.last + 1 < depth_in_view(session);
@@ -378,9 +382,9 @@ std::vector<Command> level_commands() {
                  .argument = "N|A:B|leaves",
                  .present = [](const Session& session) { return to_string(session.view().levels); }}),
         Command("view.finer", "Finer level", "Shows the boxes one level further down the trees.", finer,
-                {.shortcut = "]", .repeats = true, .enabled = can_be_finer}),
+                {.shortcut = "]", .repeats = true, .enabled = {can_be_finer, why_no_level}}),
         Command("view.coarser", "Coarser level", "Shows the boxes one level nearer to the roots.", coarser,
-                {.shortcut = "[", .repeats = true, .enabled = can_be_coarser}),
+                {.shortcut = "[", .repeats = true, .enabled = {can_be_coarser, why_no_level}}),
         Command(
             "view.leaves", "Leaves", "Shows the leaves of the trees, whatever their level; leaves the query in view.",
             [](Session& session) { set_shown_levels(session, "leaves"); },

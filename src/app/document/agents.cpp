@@ -43,6 +43,11 @@ std::string_view why_no_agent(const Session& session) {
     return has_selected_agent(session) ? "there is only one agent" : "no agent is selected";
 }
 
+std::string_view why_nothing_to_place(const Session& session) {
+    if (session.crowd()) return "a run is not edited";
+    return shows_bare_clips(session) ? "no clip is selected" : "no agent is selected";
+}
+
 int selected_agent(const Session& session) { return session.selection.path.agent; }
 
 std::string selected_agent_name(const Session& session) {

@@ -25,8 +25,9 @@ bool has_selected_of_several(const Session& session);
 /// Whether what is seen are clips: there are no agents yet.
 bool shows_bare_clips(const Session& session);
 
-/// Why a command about an agent cannot be done.
+/// Why a command about an agent of the scene cannot be done; and one that a clip may have too, as it makes it an agent.
 std::string_view why_no_agent(const Session& session);
+std::string_view why_nothing_to_place(const Session& session);
 
 /// Its index among the scene's agents, or its clip's in a scene without agents, which is the agent's that an edit
 /// makes. Requires has_selected_agent.

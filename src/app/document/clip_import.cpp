@@ -57,7 +57,7 @@ std::vector<std::pair<int, ImportOptions>> Session::options_wanted(const ImportC
 
 void Session::set_import(int clip, bool whole_file, const std::string& option, const std::string& text) {
     if (!import_option(option)) throw std::invalid_argument("there is no import option " + in_quotes(option));
-    const ImportChange change{clip, whole_file, option, text};
+    const ImportChange change{clip, whole_file, option, text, history_.has_open_group()};
     importing.refused.erase(option);
     try {
         options_wanted(change);
@@ -101,7 +101,17 @@ void Session::start_import(const ImportChange& change) {
                 import_file_ = file;
                 // Other options may have been changed or undone meanwhile.
                 if (options_wanted(change) != wanted) return start_import(change);
-                edit_with_fits({name, [made](Scene& scene) { replace_clips(scene, *made); }, Purpose::imports});
+                edit_with_fits({.name = name,
+                                .change = [made](Scene& scene) { replace_clips(scene, *made); },
+                                .purpose = Purpose::imports,
+                                .then =
+                                    [this, change] {
+                                        // The camera stays, so what is ten times as large may be out of the picture.
+                                        if (change.option != "unit") return;
+                                        tell(Message::Level::info, "The clip has another size now",
+                                             MessageOffer{"view.frame_all", "", "Frame everything"});
+                                    },
+                                .goes_on = change.goes_on});
             };
         } catch (const InputError& error) {
             return refusal(without_file(error.what(), path));

@@ -3,6 +3,7 @@
 #include <explain/query_sentence.h>
 #include <mobb/kinds.h>
 #include <render/parts/node_boxes.h>
+#include <scene/path_figures.h>
 
 #include <cmath>
 #include <numbers>
@@ -67,16 +68,12 @@ void describe_path(Described& out, const FittedScene& fitted, const PlacedAgent&
 }
 
 void describe_clip(Described& out, const SceneClip& clip) {
-    double length = 0;
-    const auto samples = clip.clip->samples();
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-        length += std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y);
-    }
+    const PathFigures figures = figures_of(*clip.clip);
     out.name = clip.name;
     out.facts = {{"source", clip.source.value_or("samples in the scene")},
                  {"samples", std::to_string(clip.clip->count())},
                  {"lasts", formatted("%.3f s at %.5g a second", clip.clip->duration(), 1 / clip.clip->dt())},
-                 {"path", formatted("%.2f m, %.2f m/s", length, length / clip.clip->duration())}};
+                 {"path", formatted("%.2f m, %.2f m/s", figures.length, figures.mean_speed)}};
     if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
     for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", warning.text);
 }

@@ -77,6 +77,13 @@ std::string expanded(const std::string& text) {
     return home + typed.substr(1);
 }
 
+std::filesystem::path with_extension(std::filesystem::path file, std::string_view extension) {
+    if (file.has_filename() && !file.has_extension()) file += extension;
+    const std::filesystem::path stem = file.stem();
+    if (lower_extension(stem) == extension && lower_extension(file) == extension) file.replace_filename(stem);
+    return file;
+}
+
 std::filesystem::path typed_path(const std::string& typed, const std::filesystem::path& folder) {
     return folder / expanded(typed);
 }

@@ -27,6 +27,10 @@ std::string expanded(const std::string& text);
 /// What a person types, relative to a folder.
 std::filesystem::path typed_path(const std::string& typed, const std::filesystem::path& folder);
 
+/// A file that is to be written, with the extension (".png") that its name lacks; one that was typed before an
+/// extension that stood there already is meant once.
+std::filesystem::path with_extension(std::filesystem::path file, std::string_view extension);
+
 /// What was typed, as far as all agree that begin so among the folders and the files with these extensions (".json").
 std::string complete_path(const std::string& typed, const std::filesystem::path& folder,
                           std::span<const std::string_view> extensions);

@@ -50,6 +50,8 @@ class History {
         if (group_ == Group::closed) group_ = Group::open;
     }
 
+    bool has_open_group() const { return group_ == Group::open; }
+
     bool can_undo() const { return now_ > 0; }
     bool can_redo() const { return now_ + 1 < states_.size(); }
     /// Requires can_undo() (can_redo()).

@@ -9,6 +9,8 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 namespace mobbscope::app {
@@ -24,6 +26,14 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 std::string title_of_files(const std::vector<std::filesystem::path>& files) {
     if (files.size() != 1) return counted(files.size(), "file", "files");
     return own_name(files.front());
+}
+
+/// When a file was written last; none: there is none, or nobody can say.
+std::optional<std::filesystem::file_time_type> time_of(const std::optional<std::filesystem::path>& file) {
+    std::error_code error;
+    if (!file) return std::nullopt;
+    const auto time = std::filesystem::last_write_time(*file, error);
+    return error ? std::nullopt : std::optional(time);
 }
 
 /// The first that is not there; null: all are.
@@ -56,16 +66,21 @@ std::string Session::title() const {
 }
 
 void Session::turn_away() {
-    if (dialog == Dialog::import_clip) close_dialog();
-    if (behind_help_.first == Dialog::import_clip) behind_help_ = {Dialog::none, {}};
+    // What these ask is about the scene that was open.
+    const auto is_about_scene = [](Dialog which) {
+        return which == Dialog::import_clip || which == Dialog::export_picture || which == Dialog::export_file;
+    };
+    if (is_about_scene(behind_help_.first)) behind_help_ = {Dialog::none, {}};
+    if (dialog == Dialog::export_file) close_dialog();  // to the one that it lies over
+    if (is_about_scene(dialog)) close_dialog();
     reviewing_ = false;
     point_at_nothing();
     ++handed_over_;
-    // What was offered for the last scene is over with it; before the first one files were named.
+    // What was said and offered about the last scene is over with it; what was said before the first is not.
     if (openings_ > 0) {
         for (Message& message : messages_) message.offer.reset();
+        retire_messages();
     }
-    retire_messages();
 }
 
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
@@ -78,6 +93,7 @@ void Session::replace(Document document, const std::vector<std::filesystem::path
     document.opening = ++openings_;
     saved_ = document.fitted;
     file_ = scene_file_of(opened);
+    file_time_ = time_of(file_);
     opened_ = opened;
     remember(opened);
     // One that says no theme is seen in the person's.
@@ -247,6 +263,11 @@ void Session::save_as(const std::filesystem::path& file) {
     if (in_excerpt() && file_ && same_file(file, *file_)) {
         throw InputError(file.string(), "", "this is what the two were taken from; save them under another name");
     }
+    if (file_ && same_file(file, *file_) && std::exchange(file_time_, time_of(file)) != time_of(file)) {
+        throw InputError(file.string(), "",
+                         "another program has written it since it was opened: save under another name, or once more "
+                         "to overwrite it");
+    }
     Scene saved = scene();
     saved.view = view();
     saved.fit = document().fitted->options();
@@ -263,12 +284,24 @@ void Session::save_as(const std::filesystem::path& file) {
         history_.amend(with_scene(document(), std::move(saved)));
         saved_ = document().fitted;
         file_ = file;
+        file_time_ = time_of(file);
         opened_ = {file};
     }
     remember({file});
     tell(Message::Level::info, "Saved " + file.string());
+    tell_of_lost_sources();
     if (dialog == Dialog::save_as || dialog == Dialog::unsaved) dialog = Dialog::none;
     if (const auto then = std::exchange(pending_, nullptr)) then();
+}
+
+void Session::tell_of_lost_sources() {
+    for (const SceneClip& clip : scene().clips) {
+        std::error_code ignored;
+        if (!clip.source || std::filesystem::exists(source_path(scene(), clip), ignored)) continue;
+        tell(Message::Level::warning, "The scene refers to " + source_path(scene(), clip).string() +
+                                          ", which is not there any more: put it back before the scene is opened again");
+        return;
+    }
 }
 
 void Session::request_close() {
@@ -328,6 +361,7 @@ void Session::leave_excerpt() {
     whole.steps = origin->steps;
     whole.opening = origin->opening;
     history_.change(std::move(whole), {"going back to the whole", ""});
+    ++times_put_back_;
     changed();
 }
 
@@ -380,6 +414,7 @@ Session::Aside Session::put_aside() {
     return {history_,
             saved_,
             file_,
+            file_time_,
             opened_,
             std::exchange(jobs_, {}),
             std::exchange(import_changes_, {}),
@@ -400,6 +435,7 @@ void Session::bring_back(Aside before) {
     history_ = std::move(before.history);
     saved_ = std::move(before.saved);
     file_ = std::move(before.file);
+    file_time_ = before.file_time;
     opened_ = std::move(before.opened);
     // What is being opened goes on: it is about no scene that is open.
     for (Running& running : jobs_) {
@@ -418,6 +454,7 @@ void Session::bring_back(Aside before) {
     pointed_out_ = before.pointed_out;
     found_ = std::move(before.found);
     conflict = before.conflict;
+    ++times_put_back_;
     changed();
 }
 

@@ -63,10 +63,7 @@ std::vector<ExportOption> all_export_options() {
              [](const std::string& text, PictureExport& to) {
                  to.size = text == "viewport" ? std::nullopt : std::optional(parse_size(text));
              },
-         .text =
-             [](const PictureExport& of) {
-                 return of.size ? std::to_string(of.size->width) + 'x' + std::to_string(of.size->height) : "viewport";
-             }},
+         .text = [](const PictureExport& of) { return of.size ? size_word(*of.size) : "viewport"; }},
         {.key = "shape",
          .title = "Picture shape",
          .doc = "Says whether a side that is changed in the export dialog takes the other one along.",
@@ -97,6 +94,7 @@ std::vector<ExportOption> all_export_options() {
          .doc = "Says whether exported pictures are seen through where nothing is drawn.",
          .argument = "opaque|transparent",
          .choices = backgrounds,
+         .choice_titles = {"Opaque", "Transparent"},
          .parse = [backgrounds](
                       const std::string& text,
                       PictureExport& to) { to.transparent = choice_in(text, backgrounds, "background") == 1; },
@@ -106,6 +104,7 @@ std::vector<ExportOption> all_export_options() {
          .doc = "Says whether exported pictures are dark or light; view: as the window.",
          .argument = "view|dark|light",
          .choices = themes,
+         .choice_titles = {"As shown", "Dark", "Light"},
          .parse =
              [themes](const std::string& text, PictureExport& to) {
                  choice_in(text, themes, "theme");

@@ -39,6 +39,7 @@ struct ExportOption {
     std::string_view title, doc;
     std::string_view argument;  ///< as Command has it
     std::vector<std::string> choices{};
+    std::vector<std::string> choice_titles{};  ///< what menus and the dialog call them; empty: the choices
     /// Throws std::invalid_argument saying what is allowed.
     std::function<void(const std::string&, PictureExport&)> parse{};
     std::function<std::string(const PictureExport&)> text{};  ///< what `parse` reads
@@ -51,7 +52,7 @@ std::span<const ExportOption> export_options();
 struct ExportDialog {
     std::string file;                ///< as typed
     int opening = -1;                ///< of the document that the file's name was made for (Session::opening)
-    std::filesystem::path agreed{};  ///< that may be overwritten: the person was asked
+    std::filesystem::path agreed{};  ///< that may be overwritten: the person said so, or it was written here
     PictureSize shape{};             ///< that keeps_shape keeps
     PictureSize made{};              ///< ... the size that was last made from it
 

@@ -66,13 +66,17 @@ Scene Session::changed_scene(const std::function<void(Scene&)>& change) const {
 void Session::edit_with_fits(const FitEdit& edit, const FittedScene* fitted_beside) {
     Scene next = changed_scene(edit.change);
     if (quick_to_fit(next, *document().fitted, fitted_beside)) {
+        if (edit.goes_on) history_.reopen_group();
         change_document(with_scene(document(), std::move(next), fitted_beside), edit.name);
         if (edit.then) edit.then();
         return;
     }
+    FitEdit later = edit;
+    later.goes_on = edit.goes_on || history_.has_open_group();
     start(
         "Fitting trees",
-        [this, edit, before = document(), next = std::move(next)](JobControl& control) -> Job::Finish {
+        [this, edit = std::move(later), before = document(),
+         next = std::move(next)](JobControl& control) -> Job::Finish {
             const Document fitted = with_scene(before, next, nullptr, progress_of(control));
             // The document may have changed meanwhile: the edit is made on what it is now, with the trees made here.
             return [this, edit, fitted] { edit_with_fits(edit, fitted.fitted.get()); };
@@ -101,7 +105,9 @@ void Session::rename_agent(int agent, const std::string& name) {
         steps[{{a, b, same}, key.second}] = looked_at;
     }
     next.steps = std::move(steps);
-    change_document(std::move(next), {"renaming " + before + " to " + name, ""});
+    // Not change_document, which would remember a step under the name of before.
+    history_.change(std::move(next), {"renaming " + before + " to " + name, ""});
+    changed();
 }
 
 void Session::remember_step(Document& next) {
@@ -289,7 +295,7 @@ void Session::go_to_state(std::size_t state) {
     const int before = opening();
     stop();
     history_.go_to(state);
-    ++times_led_back_;
+    ++times_put_back_;
     // What is made for an excerpt is not put into the whole, nor the other way round.
     if (opening() != before) {
         while (!jobs_.empty()) cancel_job(0);
@@ -311,6 +317,7 @@ void Session::restore(BeforeDrag before) {
     // A border between panels may be what was dragged: cameras stand for the pictures of before.
     picture_size_ = before.picture_size;
     cameras_aside = std::move(before.cameras_aside);
+    ++times_put_back_;
     changed();
 }
 

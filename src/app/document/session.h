@@ -208,8 +208,9 @@ class Session {
     void redo();
     /// To a state of the history, < history().count().
     void go_to_state(std::size_t state);
-    /// How often that was done: what is seen then is as it was, and nothing follows it.
-    int times_led_back() const { return times_led_back_; }
+    /// How often what is seen was put back as it had been: by undo and redo, when a drag is given up, and on the way
+    /// back from an excerpt or the scene of a case. Nothing follows it.
+    int times_put_back() const { return times_put_back_; }
 
     /// Shows a query, at that step; none: at the one where it was left with this kind of trees, or its end.
     void show_query(int query, std::optional<Step> step = {});
@@ -327,7 +328,7 @@ class Session {
     struct BeforeDrag {
         History history;
         Settings settings;
-        int handed_over = 0;             ///< documents and edits that did not come from the hand
+        int handed_over = 0;  ///< documents and edits that did not come from the hand
         std::optional<PictureSize> picture_size;
         std::map<std::string_view, Camera> cameras_aside;
         std::optional<ReviewLook> look;  ///< of picture tests, while they are shown
@@ -446,6 +447,7 @@ class Session {
         std::function<void(Scene&)> change;  ///< holds by value what it needs
         Purpose purpose = Purpose::other;    ///< of the job
         std::function<void()> then{};        ///< once the document has changed; may be empty
+        bool goes_on = false;                ///< with the last edit, if that has the same group
     };
     /// Does it, in a job if the fits take long. `fitted_beside`: has trees to share; null: none.
     void edit_with_fits(const FitEdit& edit, const FittedScene* fitted_beside = nullptr);
@@ -484,10 +486,11 @@ class Session {
     std::shared_ptr<const FittedScene> pointed_into_;  ///< what selection and hovered are of
     std::shared_ptr<const FittedScene> saved_;
     std::optional<std::filesystem::path> file_;
+    std::optional<std::filesystem::file_time_type> file_time_;  ///< of file_, when it was opened or saved
     std::vector<std::filesystem::path> opened_;
     int openings_ = 0;  ///< of files and excerpts so far
     std::optional<PictureSize> picture_size_;
-    int times_led_back_ = 0;
+    int times_put_back_ = 0;
     bool stepping_ = false;  ///< the step was changed in the present interaction
     std::vector<Message> messages_;
     std::deque<std::function<void()>> queue_;
@@ -512,6 +515,7 @@ class Session {
         bool whole_file = false;
         std::string option;
         std::string text;
+        bool goes_on = false;  ///< with the last edit, as FitEdit has it
     };
     bool imports() const;
     /// The clips that a change is of, with their options then; those that have them already are left out. Throws
@@ -523,6 +527,8 @@ class Session {
     /// What the file of the clip in the dialog has to offer, for the options that it has now.
     void ask_for_offer();
     /// Points to the first warning that an option mends, of the clips from that index on.
+    /// Of a saved scene: whether a clip's file is gone.
+    void tell_of_lost_sources();
     void tell_of_warnings(std::size_t from);
     std::deque<ImportChange> import_changes_;        ///< not begun yet
     std::shared_ptr<const SourceFile> import_file_;  ///< that was read last
@@ -574,6 +580,7 @@ class Session {
         History history;
         std::shared_ptr<const FittedScene> saved;
         std::optional<std::filesystem::path> file;
+        std::optional<std::filesystem::file_time_type> file_time;
         std::vector<std::filesystem::path> opened;
         std::vector<Running> jobs;
         std::deque<ImportChange> import_changes;

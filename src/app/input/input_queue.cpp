@@ -1,6 +1,7 @@
 #include <app/input/input_queue.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <initializer_list>
 #include <utility>
 
@@ -69,7 +70,8 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
     const bool after_key = std::exchange(frame.after_key, false);
     const bool alone = std::holds_alternative<MouseMove>(event) ? alt_alone_ : std::exchange(alt_alone_, false);
     if (const auto* move = std::get_if<MouseMove>(&event)) {
-        io.MousePos = {move->at.x, move->at.y};
+        mouse_ = ImVec2{move->at.x, move->at.y};
+        io.MousePos = *mouse_;
         frame.moved = true;
     } else if (const auto* button = std::get_if<MouseButton>(&event)) {
         const auto index = static_cast<std::size_t>(button->button);
@@ -122,7 +124,14 @@ void InputQueue::apply(const InputEvent& event, Frame& frame, ImGuiIO& io, const
 void InputQueue::feed(ImGuiIO& io, const Others& others) {
     Frame frame;
     frame.in_text = io.WantTextInput;
-    while (!waiting_.empty() && !must_wait(waiting_.front(), frame)) {
+    while (!waiting_.empty()) {
+        // Keys in menus put the mouse away; a button brings it back where it is, as moving it does.
+        const bool is_away = io.MousePos.x == -FLT_MAX;
+        if (is_away && mouse_ && std::holds_alternative<MouseButton>(waiting_.front())) {
+            io.MousePos = *mouse_;
+            frame.moved = true;
+        }
+        if (must_wait(waiting_.front(), frame)) return;
         const InputEvent event = std::move(waiting_.front());
         waiting_.pop_front();
         apply(event, frame, io, others);

@@ -9,6 +9,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <optional>
 
 namespace mobbscope::app {
 
@@ -47,6 +48,7 @@ class InputQueue {
     std::array<bool, 3> buttons_{};
     std::array<bool, static_cast<std::size_t>(Key::count)> keys_{};
     std::array<bool, static_cast<std::size_t>(Key::count)> commands_{};  ///< keys that are down and were a command's
+    std::optional<ImVec2> mouse_;    ///< where it was moved to last; none: it was not yet
     bool alt_alone_ = false;         ///< nothing else was pressed since Alt went down
     bool typed_by_command_ = false;  ///< the last key was one, so the letter that follows means nothing
 };

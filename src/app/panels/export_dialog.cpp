@@ -17,6 +17,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -37,8 +38,8 @@ constexpr float kSettingsWidth = 400;
 constexpr int kLongestRest = 400;  // milliseconds that a preview waits for the hand to rest
 constexpr int kMostLineRows = 6;   // of the command line, before it scrolls
 
-void set_export(Ui& ui, const char* option, const std::string& text) {
-    invoke(ui.session, std::string("picture.") + option, text);
+void set_export(Ui& ui, std::string_view option, const std::string& text) {
+    invoke(ui.session, "picture." + std::string(option), text);
 }
 
 // --- the file
@@ -106,30 +107,29 @@ void flow_below(Ui& ui, float left, const char* label) {
     ImGui::SetCursorPosX(left);
 }
 
-struct ExportChoice {
-    std::string text, label;
-    std::string why_not{};  ///< empty: it can be chosen
-};
-
-/// A few choices side by side, the present one filled.
-void choice_buttons(Ui& ui, const char* option, const std::vector<ExportChoice>& choices, const std::string& now) {
-    const float left = ImGui::GetCursorPosX();
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-        const auto& [text, label, why_not] = choices[i];
-        if (i > 0) flow_below(ui, left, label.c_str());
-        ImGui::BeginDisabled(!why_not.empty());
-        if (ImGui::RadioButton((label + "##" + option).c_str(), text == now)) set_export(ui, option, text);
-        ImGui::EndDisabled();
-        ui.mark(std::string("export.") + option + '.' + text);
-        if (!why_not.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-            ImGui::SetTooltip("Not now: %s", why_not.c_str());
-        }
-    }
+const ExportOption& export_option(std::string_view key) {
+    return *std::ranges::find(export_options(), key, &ExportOption::key);
 }
 
-std::string text_now(const Session& session, std::string_view option) {
-    const auto at = std::ranges::find(export_options(), option, &ExportOption::key);
-    return at->text(session.settings.picture_export);
+/// The choices of an option side by side, the present one filled. `why_not`: why a choice cannot be made, empty where
+/// it can; null: all can.
+void choice_buttons(Ui& ui, std::string_view key, const std::function<std::string(const std::string&)>& why_not = {}) {
+    const ExportOption& option = export_option(key);
+    const std::string now = option.text(ui.session.settings.picture_export);
+    const float left = ImGui::GetCursorPosX();
+    for (std::size_t i = 0; i < option.choices.size(); ++i) {
+        const std::string& choice = option.choices[i];
+        const std::string& label = option.choice_titles.empty() ? choice : option.choice_titles[i];
+        const std::string why = why_not ? why_not(choice) : "";
+        if (i > 0) flow_below(ui, left, label.c_str());
+        ImGui::BeginDisabled(!why.empty());
+        if (ImGui::RadioButton((label + "##" + std::string(key)).c_str(), choice == now)) set_export(ui, key, choice);
+        ImGui::EndDisabled();
+        ui.mark("export." + std::string(key) + '.' + choice);
+        if (!why.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+            ImGui::SetTooltip("Not now: %s", why.c_str());
+        }
+    }
 }
 
 std::string size_label(const std::string& choice, PictureSize viewport) {
@@ -139,13 +139,13 @@ std::string size_label(const std::string& choice, PictureSize viewport) {
 
 void size_presets(Ui& ui) {
     Session& session = ui.session;
-    const auto option = std::ranges::find(export_options(), "size", &ExportOption::key);
-    const std::string now = option->text(session.settings.picture_export);
-    const bool is_preset = std::ranges::find(option->choices, now) != option->choices.end();
+    const ExportOption& option = export_option("size");
+    const std::string now = option.text(session.settings.picture_export);
+    const bool is_preset = std::ranges::find(option.choices, now) != option.choices.end();
     const PictureSize viewport = viewport_size(session);
     form_label(ui, "Size", "In pixels");
     if (!begin_dropdown(ui, "export.size", is_preset ? size_label(now, viewport) : "Other", "Size")) return;
-    for (const std::string& choice : option->choices) {
+    for (const std::string& choice : option.choices) {
         if (ImGui::Selectable(size_label(choice, viewport).c_str(), choice == now)) set_export(ui, "size", choice);
         ui.mark("export.size." + choice);
         if (choice == now) ui.focus.begin_here();
@@ -197,7 +197,7 @@ void size_fields(Ui& ui, PictureSize size) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("A side that is changed takes the other one along");
     if (wanted == size) return;
     if (keeps) dialog.made = wanted;
-    invoke(session, "picture.size", std::to_string(wanted.width) + 'x' + std::to_string(wanted.height));
+    invoke(session, "picture.size", size_word(wanted));
 }
 
 void scale_field(Ui& ui, const PictureOrder& order) {
@@ -238,11 +238,9 @@ void shown_boxes(Ui& ui) {
         bool shown = is_seen && !without.contains(key);
         ImGui::BeginDisabled(!is_seen);
         if (ImGui::Checkbox(std::string(option.title).c_str(), &shown)) {
-            std::set<std::string> next = without;
-            shown ? static_cast<void>(next.erase(key)) : static_cast<void>(next.insert(key));
-            std::string text;
-            for (const std::string& each : next) text += (text.empty() ? "" : " ") + each;
-            set_export(ui, "without", text.empty() ? "none" : text);
+            PictureExport next = session.settings.picture_export;
+            shown ? static_cast<void>(next.without.erase(key)) : static_cast<void>(next.without.insert(key));
+            set_export(ui, "without", export_option("without").text(next));
         }
         ImGui::EndDisabled();
         ui.mark("export.without." + key);
@@ -259,18 +257,14 @@ void settings_fields(Ui& ui, const PictureOrder& order, const std::string& why_n
     if (!why_no_size.empty()) words(ui.style.error, why_no_size);
     scale_field(ui, order);
     form_label(ui, "Samples", "Per pixel: more make smoother edges");
-    std::vector<ExportChoice> samples;
-    for (const int count : {1, 2, 4, 8}) {
+    choice_buttons(ui, "samples", [&](const std::string& count) {
         const auto& why_no = session.hooks.why_no_samples;
-        samples.push_back({std::to_string(count), std::to_string(count), why_no ? why_no(count) : ""});
-    }
-    choice_buttons(ui, "samples", samples, text_now(session, "samples"));
+        return why_no ? why_no(parse_samples(count)) : "";
+    });
     form_label(ui, "Background", "Transparent: seen through where nothing is drawn");
-    choice_buttons(ui, "background", {{"opaque", "Opaque"}, {"transparent", "Transparent"}},
-                   text_now(session, "background"));
+    choice_buttons(ui, "background");
     form_label(ui, "Theme", "Of the picture alone");
-    choice_buttons(ui, "theme", {{"view", "Window's"}, {"dark", "Dark"}, {"light", "Light"}},
-                   text_now(session, "theme"));
+    choice_buttons(ui, "theme");
     heading(ui, "IN THE PICTURE");
     shown_boxes(ui);
 }
@@ -412,9 +406,9 @@ void export_now(Ui& ui, const ExportTarget& target) {
         return;
     }
     session.enqueue([&session, file = target.file] {
-        session.exporting.agreed = file;
         try {
             run_command(session, "picture.write", file.string());
+            session.exporting.agreed = file;
             if (session.dialog == Dialog::export_picture) session.close_dialog();
         } catch (const std::exception& error) {
             session.tell(Message::Level::error, error.what());

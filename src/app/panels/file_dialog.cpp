@@ -131,12 +131,7 @@ void take_written(Session& session, const Purpose& purpose) {
     DialogInput& input = session.input;
     std::filesystem::path path = typed_path(input.text, session.browser.folder());
     if (is_folder(path)) return go_into(session, purpose, path);
-    if (path.has_filename() && !path.has_extension()) path += purpose.extension;
-    // Who typed an extension before the one that stood there means it once.
-    const std::filesystem::path stem = path.stem();
-    if (lower_extension(stem) == purpose.extension && lower_extension(path) == purpose.extension) {
-        path.replace_filename(stem);
-    }
+    path = with_extension(path, purpose.extension);
     std::error_code ignored;
     const bool keeps_own = session.dialog == Dialog::save_as && session.file() &&
                            std::filesystem::equivalent(path, *session.file(), ignored);

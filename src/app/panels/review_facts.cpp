@@ -183,9 +183,6 @@ void text_row(Ui& ui, const char* label, const std::string& text) {
 void numbers(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
     if (!pictures.diff) return;
     const ImageDiff& diff = *pictures.diff;
-    const auto size_text = [](PictureSize size) {
-        return std::to_string(size.width) + " x " + std::to_string(size.height);
-    };
     heading(ui, "PIXELS", std::string(name(one.result.tolerance)) + " tolerance");
     if (!diff.same_size) {
         text_row(ui, "golden", size_text(diff.reference_size));

@@ -71,7 +71,7 @@ void append_agent(std::vector<MenuEntry>& menu, const Session& session) {
     }
     if (who) {
         const std::string& name = name_in_view(session.fitted().scene(), *who);
-        append(menu, shown_menu(session, {name, {name}}));
+        append(menu, shown_menu(session, {text_of_agent(name), {name}}));
     }
     if (session.is_crowd()) append(menu, entries_of(kInCrowd));
     if (shows_bare_clips(session)) {

@@ -78,11 +78,18 @@ HandlePlaces handle_places(Ui& ui, const ShownPicture& picture, const mobb::Plac
 }
 
 Handle handle_at(Ui& ui, const HandlePlaces& places, ImVec2 mouse) {
-    const auto near = [&](const std::optional<ImVec2>& at) { return at && distance(*at, mouse) <= ui.px(kReach); };
-    if (near(places.turn)) return Handle::turn;
-    if (near(places.shift)) return Handle::shift;
-    if (near(places.move)) return Handle::move;
-    return Handle::none;
+    // Seen from low down they stand close together: the nearest is meant.
+    Handle found = Handle::none;
+    float least = ui.px(kReach);
+    const auto consider = [&](const std::optional<ImVec2>& at, Handle handle) {
+        if (!at || distance(*at, mouse) > least) return;
+        least = distance(*at, mouse);
+        found = handle;
+    };
+    consider(places.shift, Handle::shift);
+    consider(places.turn, Handle::turn);
+    consider(places.move, Handle::move);
+    return found;
 }
 
 void draw_handles(Ui& ui, const ShownPicture& picture, const HandlePlaces& places, Handle lit) {

@@ -32,13 +32,13 @@ struct HandlePlaces {
 };
 HandlePlaces handle_places(Ui& ui, const ShownPicture& picture, const mobb::PlacedClip& clip);
 
-/// The handle at a pixel of the window.
+/// The handle nearest to a pixel of the window, if one is within reach of it.
 Handle handle_at(Ui& ui, const HandlePlaces& places, ImVec2 mouse);
 
 /// Draws them; `lit` is under the mouse or held.
 void draw_handles(Ui& ui, const ShownPicture& picture, const HandlePlaces& places, Handle lit);
 
-/// One drag of a handle, or of the path itself: where the mouse took hold, and what then was.
+/// One drag of a handle: where the mouse took hold, and what then was.
 struct HandleDrag {
     Handle handle = Handle::none;
     int agent = -1;

@@ -262,11 +262,11 @@ void Viewport::update_picture(Ui& ui, PictureSize size) {
 /// Lets the camera go to another step's pair, if it is to and the pair is not well seen beside the panels.
 void Viewport::follow_test(Ui& ui) {
     const Session& session = ui.session;
-    const bool led_back = std::exchange(times_led_back_, session.times_led_back()) != session.times_led_back();
+    const bool put_back = std::exchange(times_put_back_, session.times_put_back()) != session.times_put_back();
     if (!session.follow_test || !session.recorded()) return test_looked_for_.reset();
     const std::pair test(*session.view().query, session.step());
-    // Undo has brought back the camera too.
-    if (led_back) test_looked_for_ = test;
+    // The camera was put back too.
+    if (put_back) test_looked_for_ = test;
     if (flight_ || test_looked_for_ == test) return;
     test_looked_for_ = test;
     const std::optional<TestCorners> boxes = corners_of_test(session);
@@ -441,20 +441,12 @@ std::optional<Viewport::Handles> Viewport::handles(Ui& ui, const ShownPicture& p
 }
 
 std::optional<HandleDrag> Viewport::take_hold(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) const {
-    const Session& session = ui.session;
     const auto held = handles(ui, picture);
     if (!held) return std::nullopt;
     const auto& [who, places] = *held;
     const Handle handle = handle_at(ui, places, ImGui::GetIO().MousePos);
-    if (handle != Handle::none) return HandleDrag{handle, who.agent, who.placement, places.pivot, places.time, pixel};
-    if (session.selection.kind != Selection::Kind::path) return std::nullopt;
-    // The selected path itself moves on the floor, at the height where it is held.
-    for (const Pick& hit : pick(*list_, pixel)) {
-        if (hit.id.kind != ObjectId::Kind::disk) continue;
-        if (agent_in_view(session.fitted(), session.view(), hit.id.agent) != session.selection.path) break;
-        return HandleDrag{Handle::move, who.agent, who.placement, places.pivot, hit.place.z, pixel};
-    }
-    return std::nullopt;
+    if (handle == Handle::none) return std::nullopt;
+    return HandleDrag{handle, who.agent, who.placement, places.pivot, places.time, pixel};
 }
 
 void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
@@ -466,12 +458,13 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     asks_ = io.MouseDown[1];
     place_.reset();
     const auto on_overlay = list_ ? overlay_click(*list_, pixel) : std::nullopt;
+    const bool may_hold = list_ && is_active(ui) && !overlay_at(*list_, pixel);
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
     } else if (on_overlay) {
         drag_ = Drag::none;
         if (on_overlay->command) invoke(ui.session, on_overlay->command);
-    } else if (const auto hold = is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt) {
+    } else if (const auto hold = may_hold ? take_hold(ui, picture, pixel) : std::nullopt) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;
         lit_ = hold->handle;

@@ -256,8 +256,13 @@ struct Shell::State {
         if (busy && !chord.ctrl && edits_text(chord)) return Taken::nobodys;
         // Each press is undone by itself, also of those that one frame takes in.
         if (!ImGui::IsAnyItemActive()) session.close_group();
-        // A key that has nothing to do now says nothing.
-        if (command->enabled(session)) invoke(session, command->id);
+        if (command->enabled(session)) {
+            invoke(session, command->id);
+        } else {
+            std::string title(command->title);
+            if (title.ends_with("...")) title.resize(title.size() - 3);
+            session.tell(Message::Level::info, title.append(": ").append(why_not(session, *command)));
+        }
         // No panel is being drawn: what comes next from the keyboard meets what this one has done.
         session.run_queue();
         const bool opened = session.dialog != Dialog::none || session.focus_move != FocusMove::none;

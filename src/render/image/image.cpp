@@ -28,6 +28,9 @@ std::uint8_t to_byte(float value) {
 
 }  // namespace
 
+std::string size_word(PictureSize size) { return std::to_string(size.width) + 'x' + std::to_string(size.height); }
+std::string size_text(PictureSize size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+
 Image make_strip(std::span<const Image* const> pictures) {
     long long width = kStripGap * (static_cast<long long>(pictures.size()) - 1);
     long long height = 0;

@@ -17,6 +17,10 @@ struct PictureSize {
     friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
+/// "1280x720", as options and files have it, and "1280 x 720" for people.
+std::string size_word(PictureSize size);
+std::string size_text(PictureSize size);
+
 /// Rows from top to bottom, 4 bytes a pixel (RGBA, straight alpha).
 struct Image {
     int width = 0;

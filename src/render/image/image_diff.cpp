@@ -127,8 +127,6 @@ void write_bounds(JsonWriter& out, const std::optional<PixelRect>& bounds) {
     out.end_object();
 }
 
-std::string in_words(PictureSize size) { return std::to_string(size.width) + 'x' + std::to_string(size.height); }
-
 /// "0.18 %", "13.8 %"; 100 % only if it is all.
 std::string percent(double share) {
     const double value = 100 * share;
@@ -226,7 +224,7 @@ void write_diff(JsonWriter& out, const ImageDiff& diff) {
 
 std::string what_differs(const ImageDiff& diff) {
     if (!diff.same_size) {
-        return "the sizes are " + in_words(diff.actual_size) + " and " + in_words(diff.reference_size);
+        return "the sizes are " + size_word(diff.actual_size) + " and " + size_word(diff.reference_size);
     }
     const std::string all = std::to_string(diff.pixels);
     const std::string beyond = " by more than " + level(diff.options.channel_tolerance);
@@ -238,7 +236,7 @@ std::string what_differs(const ImageDiff& diff) {
     const std::int64_t allowed = diff.allowed();
     return std::to_string(diff.differing) + " of " + all + " pixels (" + percent(diff.fraction()) + ") " +
            (diff.differing == 1 ? "differs" : "differ") + beyond + ", up to " + level(diff.largest) + ", within " +
-           in_words({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
+           size_word({at.width, at.height}) + " at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
            "); allowed: " + std::to_string(allowed);
 }
 
