@@ -417,7 +417,7 @@ void export_now(Ui& ui, const ExportTarget& target) {
             run_command(session, "picture.write", file.string());
             if (session.dialog == Dialog::export_picture) session.close_dialog();
         } catch (const std::exception& error) {
-            session.tell(Message::Level::error, error.what());
+            session.tell(MessageLevel::error, error.what());
             session.input.confirming = false;
         }
     });
