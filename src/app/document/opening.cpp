@@ -125,7 +125,7 @@ void Session::load(const std::string& title, const LoadAll& load_all, const std:
 
 bool Session::complain_of_missing(const std::vector<std::filesystem::path>& files) {
     const std::filesystem::path* missing = missing_of(files);
-    if (missing) tell(Message::Level::error, missing->string() + ": no such file; check the path");
+    if (missing) tell(MessageLevel::error, missing->string() + ": no such file; check the path");
     return missing;
 }
 
@@ -266,7 +266,7 @@ void Session::save_as(const std::filesystem::path& file) {
         opened_ = {file};
     }
     remember({file});
-    tell(Message::Level::info, "Saved " + file.string());
+    tell(MessageLevel::info, "Saved " + file.string());
     if (dialog == Dialog::save_as || dialog == Dialog::unsaved) dialog = Dialog::none;
     if (const auto then = std::exchange(pending_, nullptr)) then();
 }
@@ -339,7 +339,7 @@ void Session::review(const ReviewFolder& found) {
         Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); }, case_drawer});
     close_case([this, opened] {
         stop();
-        if (review_ && review_->folder() == opened->folder()) opened->begin_at(review_->shown().file.name);
+        if (review_) opened->begin_as(*review_);
         review_ = opened;
         reviewing_ = true;
         retire_messages();

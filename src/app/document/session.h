@@ -65,8 +65,7 @@ struct MessageOffer {
 /// A line for the person: what went wrong and what to do, or what was done. It lies over the picture for some seconds,
 /// then it is kept in a list behind a bell.
 struct Message {
-    using Level = MessageLevel;
-    Level level = Level::info;
+    MessageLevel level = MessageLevel::info;
     std::string text;
     std::optional<MessageOffer> offer{};  ///< none once another document is open: it was about the last one
     std::optional<double> shown_at{};     ///< seconds of the window's clock, when it was shown first
@@ -327,7 +326,7 @@ class Session {
     struct BeforeDrag {
         History history;
         Settings settings;
-        int handed_over = 0;             ///< documents and edits that did not come from the hand
+        int handed_over = 0;  ///< documents and edits that did not come from the hand
         std::optional<PictureSize> picture_size;
         std::map<std::string_view, Camera> cameras_aside;
         std::optional<ReviewLook> look;  ///< of picture tests, while they are shown
@@ -357,6 +356,8 @@ class Session {
     void leave_review();
     /// Requires review().
     void back_to_review();
+    /// Ends their run, if there is one, and says so.
+    void cancel_review_run();
     /// Opens what a case draws as a scene; what is open is put aside, with its jobs, until that scene is left.
     void open_case(std::size_t index);
     /// The name of the case whose scene is open; empty if none is.
@@ -376,7 +377,9 @@ class Session {
     Dialog behind_help() const { return behind_help_.first; }
     /// Nothing comes of it: what waited for its answer is forgotten.
     void close_dialog();
-    void tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
+    /// That message goes behind the bell, if it lies over the picture.
+    void take_down(const std::string& text);
+    void tell(MessageLevel level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
     /// The oldest first, at most 50; the list behind the bell.
     const std::vector<Message>& messages() const { return messages_; }
     /// Whether a warning or an error lies over the picture: what was only done goes by itself.
@@ -453,7 +456,8 @@ class Session {
     /// Warnings and errors so far were about what was shown before.
     void retire_messages();
     /// Replaces the document by what `load_all` gives, seen as that says or as `view`, after asking if there are
-    /// unsaved changes. What cannot be loaded leaves all as it was.
+    /// unsaved changes. What cannot be loaded leaves all as it was: what `load_all` and document_of throw in the job
+    /// (InputError, MachineError, std::invalid_argument, Cancelled) becomes a message.
     void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
               const std::optional<ViewState>& view = std::nullopt);
     /// Says so if one of them is not there; whether it did.
