@@ -337,7 +337,7 @@ class Session {
 
     // Picture tests.
     /// Shows picture tests in place of the scene, and draws them, unless an `output` of theirs is to be looked at.
-    /// Those of a folder that was looked at before begin at the case that was shown then.
+    /// Those of a folder that was looked at before begin at the case that was chosen then, if one was.
     void review(const ReviewFolder& found);
     /// Throws InputError as find_review does.
     void review(const std::filesystem::path& folder, const std::filesystem::path& output = {}) {
