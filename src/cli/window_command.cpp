@@ -90,9 +90,9 @@ void show_window(const Named& named, const WindowArguments& arguments) {
     if (arguments.ui_scale) session.settings.ui_scale = *arguments.ui_scale;
     app::GlfwWindow window(session, arguments.size);
     show_named(session, named, arguments);
-    if (!kept.empty()) session.tell(app::Message::Level::warning, kept);
+    if (!kept.empty()) session.tell_of_window(app::MessageLevel::warning, kept);
     if (arguments.files.empty() && !session.reviewing() && session.has_last()) {
-        session.tell(app::Message::Level::info, "Last time: " + session.last_title(),
+        session.tell(app::MessageLevel::info, "Last time: " + session.last_title(),
                      app::MessageOffer{"file.reopen_last", "", "Reopen last session"});
     }
     window.run();

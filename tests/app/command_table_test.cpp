@@ -163,7 +163,7 @@ TEST(CommandTable, AsInvokedWhatGoesWrongIsAMessage) {
     EXPECT_TRUE(session.messages().empty()) << "it has not run yet";
     session.run_queue();
     ASSERT_EQ(session.messages().size(), 1u);
-    EXPECT_EQ(session.messages()[0].level, Message::Level::error);
+    EXPECT_EQ(session.messages()[0].level, MessageLevel::error);
     EXPECT_EQ(session.messages()[0].text, "\"View from above\" cannot be done now");
 }
 

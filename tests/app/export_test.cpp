@@ -108,7 +108,7 @@ TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
 TEST_F(ExportTest, TheLineOfACasesSceneDrawsWhatTheCaseShows) {
     std::filesystem::create_directories(folder.file("cases"));
     folder.write("cases/one.case.json",
-                 R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"level": 1}, "fit": {"tree": "umobb"}})");
+                 R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"levels": "leaves"}, "fit": {"tree": "umobb"}})");
     std::filesystem::create_directories(folder.file("drawn"));
     session.review(folder.file("cases"), folder.file("drawn"));
     session.open_case(0);

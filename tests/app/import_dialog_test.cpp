@@ -367,7 +367,7 @@ TEST(ImportDialog, LongImportsRunBesideTheWindow) {
     EXPECT_EQ(session.scene().clips[0].options.fps, 34);
     EXPECT_EQ(session.scene().clips[0].options.unit, "in");
     EXPECT_EQ(session.scene().clips[0].facts.unit, 0.0254);
-    EXPECT_EQ(all_messages(session), "");
+    EXPECT_EQ(all_messages(session), "The clip has another size now\n") << "as the camera stays";
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(Keyboard, EscapeClosesOneThingAfterTheOther) {
     KeyboardWindow w;
     run_command(w.session, "query.select", "0");
     run_command(w.session, "go.agent", "A");
-    w.session.tell(Message::Level::error, "This went wrong");
+    w.session.tell(MessageLevel::error, "This went wrong");
     w.window.settle();
     w.key("Tab");
     const std::string focus = w.session.focus;

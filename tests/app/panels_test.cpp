@@ -599,8 +599,8 @@ TEST(Panels, UnsavedChangesAreAskedAbout) {
 
 TEST(Panels, MessagesGoBehindTheBellWhereTheyAreRead) {
     Window w;
-    w.session.tell(Message::Level::info, "Saved it");
-    w.session.tell(Message::Level::error, "This went wrong");
+    w.session.tell(MessageLevel::info, "Saved it");
+    w.session.tell(MessageLevel::error, "This went wrong");
     const auto up = [&] { return std::ranges::count(w.session.messages(), true, &Message::up); };
     w.window.run_for(3.5);
     EXPECT_EQ(up(), 2);
@@ -635,7 +635,7 @@ TEST(Panels, MessagesCoverNeitherLegendNorCaption) {
         run_command(w.session, "step.last");
         const std::string path = "/home/somebody/" + std::string(40, 'x') + "/a/long/way/" + std::string(40, 'y');
         for (int i = 0; i < 3; ++i) {
-            w.session.tell(Message::Level::error, "Saved " + path + '/' + std::to_string(i) + "/crossing.json");
+            w.session.tell(MessageLevel::error, "Saved " + path + '/' + std::to_string(i) + "/crossing.json");
         }
         w.window.run_for(0.2);
         const Rect viewport = w.window.shell().marks().all().at("viewport");
@@ -654,7 +654,7 @@ TEST(Panels, MessagesCoverNeitherLegendNorCaption) {
 
 TEST(Panels, MessagesStayWhileTheMouseIsOnThem) {
     Window w;
-    w.session.tell(Message::Level::info, "Saved it");
+    w.session.tell(MessageLevel::info, "Saved it");
     w.window.run_for(0.2);
     w.window.shell().feed(MouseMove{w.window.shell().marks().all().at("message.0").center()});
     w.window.run_for(8);
@@ -667,7 +667,7 @@ TEST(Panels, MessagesStayWhileTheMouseIsOnThem) {
 TEST(Panels, EscapePutsErrorsAwayBeforeItLeavesTheQuery) {
     Window w;
     run_command(w.session, "query.select", "0");
-    w.session.tell(Message::Level::error, "This went wrong");
+    w.session.tell(MessageLevel::error, "This went wrong");
     w.window.settle();
     w.key("Escape");
     EXPECT_FALSE(w.has("message.0"));
@@ -677,7 +677,7 @@ TEST(Panels, EscapePutsErrorsAwayBeforeItLeavesTheQuery) {
 
 TEST(Panels, WhatAMessageOffersIsAButton) {
     Window w;
-    w.session.tell(Message::Level::warning, "The unit was guessed", MessageOffer{"view.top", "", "Look from above"});
+    w.session.tell(MessageLevel::warning, "The unit was guessed", MessageOffer{"view.top", "", "Look from above"});
     w.window.run_for(0.2);
     w.change_view("offer");
     w.click("message.0.offer");

@@ -254,7 +254,7 @@ TEST(Opening, ErrorsKeepWhatWasOpen) {
         EXPECT_EQ(session.document().fitted, before);
         EXPECT_EQ(session.file(), folder.scene);
         ASSERT_FALSE(session.messages().empty());
-        EXPECT_EQ(session.messages().back().level, Message::Level::error);
+        EXPECT_EQ(session.messages().back().level, MessageLevel::error);
         EXPECT_NE(session.messages().back().text.find(file.filename().string()), std::string::npos);
         session.add({file});
         EXPECT_EQ(session.document().fitted, before);
@@ -759,7 +759,7 @@ TEST(Jobs, UnattendedTheyAreWaitedFor) {
 
 TEST(Messages, AreFiftyAtMostAndSaidOnce) {
     Session session(false);
-    for (int i = 0; i < 62; ++i) session.tell(Message::Level::info, std::to_string(i % 60));
+    for (int i = 0; i < 62; ++i) session.tell(MessageLevel::info, std::to_string(i % 60));
     ASSERT_EQ(session.messages().size(), 50u);
     EXPECT_EQ(session.messages().back().text, "1");
     session.dismiss(49);

@@ -36,7 +36,7 @@ void stop_following(Session& session) {
 void follow(Session& session, const std::string& name) {
     if (!name.empty()) return follow_agent(session, name, kAroundFollowed);
     const std::string who = current_agent(session);
-    if (who.empty()) return session.tell(Message::Level::info, "Click somebody first to follow them");
+    if (who.empty()) return session.tell(MessageLevel::info, "Click somebody first to follow them");
     if (who == session.view().follow) return stop_following(session);
     follow_agent(session, who, kAroundFollowed);
 }

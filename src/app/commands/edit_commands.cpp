@@ -129,7 +129,7 @@ void go_to_state(Session& session, const std::string& text) {
 void copy_figures(Session& session) {
     const Described what = describe(session.fitted(), session.selection);
     if (session.hooks.set_clipboard) session.hooks.set_clipboard(lines_of(what));
-    session.tell(Message::Level::info, "Copied the figures of " + what.name);
+    session.tell(MessageLevel::info, "Copied the figures of " + what.name);
 }
 
 }  // namespace

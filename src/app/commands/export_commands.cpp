@@ -32,7 +32,7 @@ void open_export_dialog(Session& session) {
 
 void write_and_tell(Session& session, const PictureOrder& order, const std::filesystem::path& file) {
     const std::size_t bytes = write_picture(session, order, file);
-    session.tell(Message::Level::info,
+    session.tell(MessageLevel::info,
                  "Wrote " + file.string() + " (" + size_text(order.options.size) + ", " + bytes_text(bytes) + ")");
 }
 
@@ -40,7 +40,7 @@ void copy_picture_of(Session& session, const PictureOrder& order) {
     const std::string png = png_of(session, order);
     if (!session.hooks.set_clipboard_picture) throw std::invalid_argument("there is no clipboard for pictures");
     session.hooks.set_clipboard_picture(png);
-    session.tell(Message::Level::info, "Copied the picture (" + size_text(order.options.size) + ")");
+    session.tell(MessageLevel::info, "Copied the picture (" + size_text(order.options.size) + ")");
 }
 
 /// `shown`: the line stands in the dialog.
@@ -52,7 +52,7 @@ void copy_line_of(Session& session, const PictureOrder& order, const std::string
     if (!has_file) {
         said += ". No file holds the scene as it is: it was written to " + session.exporting.aside->file.string();
     }
-    session.tell(Message::Level::info, said);
+    session.tell(MessageLevel::info, said);
 }
 
 const Condition kHasPictureClipboard{[](const Session& session) {

@@ -139,7 +139,7 @@ void copy_answer(Session& session, const std::string& text) {
         answer += sentence + '\n';
     }
     if (session.hooks.set_clipboard) session.hooks.set_clipboard(answer);
-    session.tell(Message::Level::info, "Copied: " + answer);
+    session.tell(MessageLevel::info, "Copied: " + answer);
 }
 
 // --- steps
@@ -202,7 +202,7 @@ void to_next(Session& session, Outcome outcome, const char* what) {
     for (int event = from + 1; event < trace.size(); ++event) {
         if (trace[event].outcome == outcome) return to_event(session, event);
     }
-    session.tell(Message::Level::info, std::string("There is no later test that ") + what);
+    session.tell(MessageLevel::info, std::string("There is no later test that ") + what);
 }
 
 /// Which side of the query in view the selected node is of; none if no node of it is selected.
@@ -219,7 +219,7 @@ void to_next_of_node(Session& session) {
         const int event = (session.step() + i) % trace.size();
         if ((of_a ? trace[event].a : trace[event].b) == session.selection.index) return to_event(session, event);
     }
-    session.tell(Message::Level::info, "The selected node is never tested: the search ended before it");
+    session.tell(MessageLevel::info, "The selected node is never tested: the search ended before it");
 }
 
 /// The next event of the same pair, or of the next pair that is not below it.

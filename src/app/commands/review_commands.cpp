@@ -22,7 +22,7 @@ void leave_or_put_away(Session& session) {
     if (session.has_message_up()) return session.put_messages_away();
     session.leave_review();
     if (session.reviewing()) return;
-    session.tell(Message::Level::info, "The picture tests are left, not closed",
+    session.tell(MessageLevel::info, "The picture tests are left, not closed",
                  MessageOffer{"review.back", "", "Back to them"});
 }
 
@@ -256,6 +256,12 @@ void accept_cases(Session& session, const std::vector<std::size_t>& indices) {
     session.poll();
 }
 
+/// What was said of the same before is not true any more.
+void tell_instead(Session& session, const ReviewNews& news) {
+    session.take_down(news.instead_of);
+    session.tell(news.level, news.text);
+}
+
 constexpr std::string_view kItsCasesWait = "its cases are being drawn: wait, or stop the run";
 
 std::string_view why_no_undo(const Session& session) {
@@ -279,8 +285,8 @@ std::vector<Command> golden_commands() {
                 {.shortcut = "M", .argument = "[CASE]", .enabled = has_review, .checked = so([](const Review& review) {
                                                                                    return review.shown().marked;
                                                                                })}),
-        Command("review.mark_failing", "Mark all failing cases",
-                "Marks every case that did not pass and has a picture to accept.", mark_failing,
+        Command("review.mark_failing", "Mark all that can be accepted",
+                "Marks every case that did not pass and has a picture to accept; takes other marks away.", mark_failing,
                 {.shortcut = "Ctrl+A", .enabled = has_review}),
         Command("review.accept_marked", "Accept marked cases", "Makes the pictures of all marked cases their goldens.",
                 [](Session& session) { accept_cases(session, session.review()->marked()); },
@@ -295,19 +301,11 @@ std::vector<Command> golden_commands() {
                      [](const Review& review) { return !review.viewed().empty(); },
                      [](const Session&) -> std::string_view { return "none that could be accepted was looked at"; })}),
         Command("review.undo", "Undo", "Gives back the goldens that were there before.",
-                [](Session& session) {
-                    const std::string title = session.review()->undo_title();
-                    session.review()->undo();
-                    session.tell(Message::Level::info, "Undone: " + title);
-                },
+                [](Session& session) { tell_instead(session, session.review()->undo()); },
                 {.shortcut = "Ctrl+Z",
                  .enabled = when([](const Review& review) { return review.can_undo(); }, why_no_undo)}),
         Command("review.redo", "Redo", "Takes again the goldens that were given back.",
-                [](Session& session) {
-                    const std::string title = session.review()->redo_title();
-                    session.review()->redo();
-                    session.tell(Message::Level::info, "Done again: " + title);
-                },
+                [](Session& session) { tell_instead(session, session.review()->redo()); },
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .enabled = when([](const Review& review) { return review.can_redo(); }, why_no_redo)}),
     };
@@ -322,7 +320,7 @@ void copy_line(Session& session) {
     const Review& review = *session.review();
     const std::string line = test_command_line(review.drawer(), review.folder(), review.shown().file.name);
     if (session.hooks.set_clipboard) session.hooks.set_clipboard(line);
-    session.tell(Message::Level::info, "Copied: " + line);
+    session.tell(MessageLevel::info, "Copied: " + line);
 }
 
 std::vector<Command> run_commands() {
@@ -340,7 +338,7 @@ std::vector<Command> run_commands() {
                 },
                 {.shortcut = "Shift+R F5", .enabled = if_idle()}),
         Command("review.cancel", "Stop drawing", "Leaves the cases that are not drawn yet as they were.",
-                [](Session& session) { session.review()->cancel(); },
+                &Session::cancel_review_run,
                 {.enabled = when([](const Review& review) { return review.drawing(); },
                                  [](const Session&) -> std::string_view { return "nothing is drawn"; })}),
         Command("review.open", "Open the case as a scene",

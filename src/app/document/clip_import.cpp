@@ -108,7 +108,7 @@ void Session::start_import(const ImportChange& change) {
                                     [this, change] {
                                         // The camera stays, so what is ten times as large may be out of the picture.
                                         if (change.option != "unit") return;
-                                        tell(Message::Level::info, "The clip has another size now",
+                                        tell(MessageLevel::info, "The clip has another size now",
                                              MessageOffer{"view.frame_all", "", "Frame everything"});
                                     },
                                 .goes_on = change.goes_on});
@@ -127,7 +127,7 @@ void Session::refuse_import(const ImportChange& change, const std::string& why) 
         importing.refused[change.option] = {change.text, why};
         return;
     }
-    tell(Message::Level::error,
+    tell(MessageLevel::error,
          source_path(scene(), scene().clips.at(static_cast<std::size_t>(change.clip))).string() + ": " + why);
 }
 
@@ -177,7 +177,7 @@ void Session::tell_of_warnings(std::size_t from) {
     }
     if (!worst) return;
     const std::string others = clips > 1 ? " (" + counted(clips - 1, "more clip", "more clips") + ")" : "";
-    tell(Message::Level::warning, of->name + ": " + worst->text + others,
+    tell(MessageLevel::warning, of->name + ": " + worst->text + others,
          MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."});
 }
 

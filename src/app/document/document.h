@@ -62,12 +62,14 @@ struct Document {
     int opening = 0;                                    ///< which one it is of: of files or an excerpt, each its own
 };
 
-/// A scene with the fit that it says, seen as it says; trees that `previous` (null: none) has are shared.
+/// A scene with the fit that it says, seen as it says; trees that `previous` (null: none) has are shared. Throws
+/// what `progress` throws, such as Cancelled, and std::invalid_argument if a fit option is out of range: those of a
+/// scene that was read are checked.
 Document document_of(Scene scene, const FittedScene* previous, const Progress& progress = {});
 
 /// The document with another scene, whose `fit` are the options of the fit in use and whose `view` is the active one.
 /// Its other fits and views are made anew for that scene; trees that `present` or `fitted_beside` (null: none) has are
-/// shared.
+/// shared. Throws as document_of does.
 Document with_scene(const Document& present, Scene scene, const FittedScene* fitted_beside = nullptr,
                     const Progress& progress = {});
 

@@ -76,11 +76,11 @@ void Session::turn_away() {
     reviewing_ = false;
     point_at_nothing();
     ++handed_over_;
-    // What was said and offered about the last scene is over with it; what was said before the first is not.
+    // What was offered for the last scene is over with it; before the first one files were named.
     if (openings_ > 0) {
         for (Message& message : messages_) message.offer.reset();
-        retire_messages();
     }
+    retire_messages();
 }
 
 void Session::replace(Document document, const std::vector<std::filesystem::path>& opened) {
@@ -141,7 +141,7 @@ void Session::load(const std::string& title, const LoadAll& load_all, const std:
 
 bool Session::complain_of_missing(const std::vector<std::filesystem::path>& files) {
     const std::filesystem::path* missing = missing_of(files);
-    if (missing) tell(Message::Level::error, missing->string() + ": no such file; check the path");
+    if (missing) tell(MessageLevel::error, missing->string() + ": no such file; check the path");
     return missing;
 }
 
@@ -288,7 +288,7 @@ void Session::save_as(const std::filesystem::path& file) {
         opened_ = {file};
     }
     remember({file});
-    tell(Message::Level::info, "Saved " + file.string());
+    tell(MessageLevel::info, "Saved " + file.string());
     tell_of_lost_sources();
     if (dialog == Dialog::save_as || dialog == Dialog::unsaved) dialog = Dialog::none;
     if (const auto then = std::exchange(pending_, nullptr)) then();
@@ -298,7 +298,7 @@ void Session::tell_of_lost_sources() {
     for (const SceneClip& clip : scene().clips) {
         std::error_code ignored;
         if (!clip.source || std::filesystem::exists(source_path(scene(), clip), ignored)) continue;
-        tell(Message::Level::warning, "The scene refers to " + source_path(scene(), clip).string() +
+        tell(MessageLevel::warning, "The scene refers to " + source_path(scene(), clip).string() +
                                           ", which is not there any more: put it back before the scene is opened again");
         return;
     }
@@ -373,7 +373,7 @@ void Session::review(const ReviewFolder& found) {
         Review::Surroundings{attended_, hooks.wake, [this](const auto& file) { check_may_write(file); }, case_drawer});
     close_case([this, opened] {
         stop();
-        if (review_ && review_->folder() == opened->folder()) opened->begin_at(review_->shown().file.name);
+        if (review_) opened->begin_as(*review_);
         review_ = opened;
         reviewing_ = true;
         retire_messages();

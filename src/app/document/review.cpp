@@ -150,16 +150,20 @@ void Review::show(std::size_t index) {
     chosen_ = true;
 }
 
-void Review::begin_at(const std::string& name) {
-    const auto at = std::ranges::find(cases_, name, [](const ReviewCase& one) { return one.file.name; });
+void Review::begin_as(const Review& before) {
+    if (!before.chosen_ || before.folder_ != folder_) return;
+    const auto at =
+        std::ranges::find(cases_, before.shown().file.name, [](const ReviewCase& one) { return one.file.name; });
     if (at != cases_.end()) show(static_cast<std::size_t>(at - cases_.begin()));
 }
 
 void Review::show_first_failing() {
-    if (chosen_) return;
+    if (chosen_ || found_failing_) return;
     const std::vector<std::size_t> rows = listed();
     const auto failing = std::ranges::find_if(rows, [&](std::size_t index) { return cases_[index].failing(); });
-    if (failing != rows.end()) show(*failing);
+    if (failing == rows.end()) return;
+    current_ = *failing;
+    found_failing_ = true;
 }
 
 std::vector<std::size_t> Review::listed() const {
@@ -333,6 +337,7 @@ std::vector<ReviewNews> Review::poll() {
         accept_drawn(to_tell);
     } catch (const std::exception& error) {
         to_tell.push_back({MessageLevel::error, error.what()});
+        tell_not_accepted(to_tell);
     }
     taking_.clear();
     end_run();
@@ -368,6 +373,15 @@ void Review::accept_drawn(std::vector<ReviewNews>& to_tell) {
     }
     if (ready.empty()) return;
     for (ReviewNews& news : write(ready)) to_tell.push_back(std::move(news));
+}
+
+void Review::tell_not_accepted(std::vector<ReviewNews>& to_tell) const {
+    std::string names;
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+        const bool taken = std::ranges::find(taking_, i) != taking_.end() && why_not_accept(i).empty();
+        if (taken || cases_[i].accept_if) names += (names.empty() ? "" : ", ") + cases_[i].file.name;
+    }
+    if (!names.empty()) to_tell.push_back({MessageLevel::warning, "Not accepted: " + names});
 }
 
 // --- goldens
@@ -437,10 +451,10 @@ std::vector<ReviewNews> Review::write(const std::vector<std::size_t>& indices) {
     if (step.taken.empty()) std::rethrow_exception(first_refusal);
     step.title = step.taken.size() == 1 ? "accepting " + cases_[step.taken.front().index].file.name
                                         : "accepting " + counted(step.taken.size(), "picture", "pictures");
+    step.said = "Accepted " + step.title.substr(std::string_view("accepting ").size()) + "; undo gives the golden" +
+                (step.taken.size() == 1 ? "" : "s") + " back";
     steps_.resize(done_);
-    std::vector<ReviewNews> said{
-        {MessageLevel::info, "Accepted " + step.title.substr(std::string_view("accepting ").size()) +
-                                 "; undo gives the golden" + (step.taken.size() == 1 ? "" : "s") + " back"}};
+    std::vector<ReviewNews> said{{MessageLevel::info, step.said}};
     steps_.push_back(std::move(step));
     ++done_;
     said.insert(said.end(), refused.begin(), refused.end());
@@ -468,10 +482,17 @@ std::vector<GoldenChange> changes_of(const std::vector<Taken>& taken) {
     return out;
 }
 
+/// In place of what was said of the step before.
+template <class Step>
+ReviewNews said_now(Step& step, const std::string& what) {
+    const std::string before = std::exchange(step.said, what + step.title);
+    return {MessageLevel::info, step.said, before};
+}
+
 }  // namespace
 
-void Review::undo() {
-    const Step& step = steps_[done_ - 1];
+ReviewNews Review::undo() {
+    Step& step = steps_[done_ - 1];
     picture_tests::write_goldens(picture_tests::taken_back(changes_of(step.taken)));
     for (const Step::Taken& taken : step.taken) {
         ReviewCase& one = cases_[taken.index];
@@ -481,10 +502,11 @@ void Review::undo() {
     }
     --done_;
     show_some_of(step);
+    return said_now(step, "Undone: ");
 }
 
-void Review::redo() {
-    const Step& step = steps_[done_];
+ReviewNews Review::redo() {
+    Step& step = steps_[done_];
     picture_tests::write_goldens(changes_of(step.taken));
     for (const Step::Taken& taken : step.taken) {
         ReviewCase& one = cases_[taken.index];
@@ -494,6 +516,7 @@ void Review::redo() {
     }
     ++done_;
     show_some_of(step);
+    return said_now(step, "Done again: ");
 }
 
 }  // namespace mobbscope::app

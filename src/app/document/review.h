@@ -107,6 +107,7 @@ ReviewFolder find_review(const std::filesystem::path& folder, const std::filesys
 struct ReviewNews {
     MessageLevel level = MessageLevel::info;
     std::string text;
+    std::string instead_of{};  ///< an earlier line that is over with this one; empty: none
 };
 
 class Review {
@@ -133,12 +134,12 @@ class Review {
     picture_tests::Summary summary() const;  ///< of those that are drawn
     ReviewLook look;
 
-    // Which one: until one is chosen, the first that fails.
+    // Which one: until somebody chooses one, the first that fails.
     std::size_t current() const { return current_; }
     const ReviewCase& shown() const { return cases_[current_]; }
     void show(std::size_t index);
-    /// The one of that name is shown, if it is there.
-    void begin_at(const std::string& name);
+    /// If `before` is of the same folder and somebody chose a case there, that one is shown, if it is still there.
+    void begin_as(const Review& before);
     /// The cases of the list, in its order.
     std::vector<std::size_t> listed() const;
     /// The listed case one row further (`by` 1) or back (-1); none behind the ends.
@@ -182,14 +183,15 @@ class Review {
     std::string undo_title() const { return has_undo() ? steps_[done_ - 1].title : ""; }
     std::string redo_title() const { return has_redo() ? steps_[done_].title : ""; }
     /// The very bytes of before, or of after. Require can_undo() or can_redo(). Throw InputError if a golden was
-    /// changed by somebody else meanwhile, MachineError: nothing is changed then.
-    void undo();
-    void redo();
+    /// changed by somebody else meanwhile, MachineError: nothing is changed then. Return what was done.
+    ReviewNews undo();
+    ReviewNews redo();
 
   private:
     /// Goldens that were taken together.
     struct Step {
         std::string title;
+        std::string said;  ///< of it last
         struct Taken {
             std::size_t index;
             picture_tests::PackedResult before;  ///< whose fresh goldens were written
@@ -207,6 +209,8 @@ class Review {
     void take_in(const picture_tests::NamedResult& result, std::vector<ReviewNews>& to_tell);
     /// What was drawn anew to be accepted, and all that was accepted with it.
     void accept_drawn(std::vector<ReviewNews>& to_tell);
+    /// The run failed, and with it what waited to be accepted; call it before end_run.
+    void tell_not_accepted(std::vector<ReviewNews>& to_tell) const;
     /// Writes the goldens of the cases, as one step; those that refuse are left out of it, and said.
     std::vector<ReviewNews> write(const std::vector<std::size_t>& indices);
     void show_some_of(const Step& step);
@@ -218,7 +222,8 @@ class Review {
     Surroundings surroundings_;
     std::vector<ReviewCase> cases_;
     std::size_t current_ = 0;
-    bool chosen_ = false;  ///< somebody wants that one, or it is the first that failed
+    bool chosen_ = false;         ///< somebody wants that one
+    bool found_failing_ = false;  ///< ... or it is the first that failed: it stays when an earlier one fails too
     std::optional<std::size_t> unpacked_;
     ReviewPictures pictures_;
     std::vector<Step> steps_;

@@ -436,7 +436,7 @@ void Session::find_conflicts() {
         std::vector<SceneConflict> found = conflicts_in(*in, progress_of(control));
         return [this, in, found = std::move(found)]() mutable {
             if (&in->scene() != &scene()) {
-                return tell(Message::Level::info, "The scene has changed: look for conflicts again");
+                return tell(MessageLevel::info, "The scene has changed: look for conflicts again");
             }
             found_ = Found{in, std::move(found)};
             conflict = -1;
@@ -491,17 +491,28 @@ void Session::ask_anew(DialogInput with) {
     input = std::move(with);
 }
 
-void Session::tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer) {
+void Session::tell(MessageLevel level, const std::string& text, std::optional<MessageOffer> offer) {
     const std::string said = shortened(text, kLongestMessage);
     // Twice the same says nothing new.
     std::erase_if(messages_, [&](const Message& message) { return message.text == said; });
-    messages_.push_back({level, said, std::move(offer), {}, 0, true, level == Message::Level::info});
+    messages_.push_back({level, said, std::move(offer), {}, 0, true, level == MessageLevel::info});
     if (messages_.size() > kMostMessages) messages_.erase(messages_.begin());
+}
+
+void Session::tell_of_window(MessageLevel level, const std::string& text) {
+    tell(level, text);
+    messages_.back().of_window = true;
+}
+
+void Session::take_down(const std::string& text) {
+    for (Message& message : messages_) {
+        if (message.text == shortened(text, kLongestMessage)) message.up = false;
+    }
 }
 
 void Session::retire_messages() {
     for (Message& message : messages_) {
-        if (message.level == Message::Level::info) continue;
+        if (message.level == MessageLevel::info || message.of_window) continue;
         message.up = false;
         message.read = true;
     }
@@ -527,9 +538,9 @@ double Session::age_messages(double now, bool held) {
         if (!message.up) continue;
         if (!message.shown_at) {
             message.shown_at = now;
-            message.goes_at = now + (message.offer                           ? kOfferSeconds
-                                     : message.level == Message::Level::info ? kInfoSeconds
-                                                                             : kErrorSeconds);
+            message.goes_at = now + (message.offer                         ? kOfferSeconds
+                                     : message.level == MessageLevel::info ? kInfoSeconds
+                                                                           : kErrorSeconds);
         }
         if (held) message.goes_at = std::max(message.goes_at, now + kLeftSeconds);
         message.up = now < message.goes_at;
@@ -540,7 +551,7 @@ double Session::age_messages(double now, bool held) {
 
 bool Session::has_message_up() const {
     return std::ranges::any_of(
-        messages_, [](const Message& message) { return message.up && message.level != Message::Level::info; });
+        messages_, [](const Message& message) { return message.up && message.level != MessageLevel::info; });
 }
 
 void Session::dismiss(std::size_t message) {
@@ -555,7 +566,7 @@ bool Session::run_queue() {
         try {
             next();
         } catch (const std::exception& error) {
-            tell(Message::Level::error, error.what());
+            tell(MessageLevel::error, error.what());
         }
     }
     return had_any;
@@ -575,7 +586,13 @@ void Session::cancel_job(std::size_t index) {
     if (index >= jobs_.size()) return;
     if (jobs_[index].purpose == Purpose::imports) import_changes_.clear();
     jobs_.erase(jobs_.begin() + static_cast<std::ptrdiff_t>(index));
-    tell(Message::Level::info, "Cancelled");
+    tell(MessageLevel::info, "Cancelled");
+}
+
+void Session::cancel_review_run() {
+    if (!review_ || !review_->drawing()) return;
+    review_->cancel();
+    tell(MessageLevel::info, "Cancelled");
 }
 
 void Session::end_work() {
@@ -606,11 +623,11 @@ void Session::finish(Job& job) {
     try {
         job.finish();
     } catch (const Cancelled&) {
-        tell(Message::Level::info, "Cancelled");
+        tell(MessageLevel::info, "Cancelled");
     } catch (const std::bad_alloc&) {
-        tell(Message::Level::error, "there is not enough memory for this");
+        tell(MessageLevel::error, "there is not enough memory for this");
     } catch (const std::exception& error) {
-        tell(Message::Level::error, error.what());
+        tell(MessageLevel::error, error.what());
     }
 }
 

@@ -65,14 +65,14 @@ struct MessageOffer {
 /// A line for the person: what went wrong and what to do, or what was done. It lies over the picture for some seconds,
 /// then it is kept in a list behind a bell.
 struct Message {
-    using Level = MessageLevel;
-    Level level = Level::info;
+    MessageLevel level = MessageLevel::info;
     std::string text;
     std::optional<MessageOffer> offer{};  ///< none once another document is open: it was about the last one
     std::optional<double> shown_at{};     ///< seconds of the window's clock, when it was shown first
     double goes_at = 0;                   ///< ... when it goes behind the bell; only once it was shown
     bool up = true;                       ///< it lies over the picture
     bool read = false;                    ///< the list was opened since, or it was only what was done (info)
+    bool of_window = false;               ///< about no scene: it stays when another one is opened
 };
 
 /// Where a command sends the keys.
@@ -339,7 +339,7 @@ class Session {
 
     // Picture tests.
     /// Shows picture tests in place of the scene, and draws them, unless an `output` of theirs is to be looked at.
-    /// Those of a folder that was looked at before begin at the case that was shown then.
+    /// Those of a folder that was looked at before begin at the case that was chosen then, if one was.
     void review(const ReviewFolder& found);
     /// Throws InputError as find_review does.
     void review(const std::filesystem::path& folder, const std::filesystem::path& output = {}) {
@@ -358,6 +358,8 @@ class Session {
     void leave_review();
     /// Requires review().
     void back_to_review();
+    /// Ends their run, if there is one, and says so.
+    void cancel_review_run();
     /// Opens what a case draws as a scene; what is open is put aside, with its jobs, until that scene is left.
     void open_case(std::size_t index);
     /// The name of the case whose scene is open; empty if none is.
@@ -377,7 +379,11 @@ class Session {
     Dialog behind_help() const { return behind_help_.first; }
     /// Nothing comes of it: what waited for its answer is forgotten.
     void close_dialog();
-    void tell(Message::Level level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
+    /// That message goes behind the bell, if it lies over the picture.
+    void take_down(const std::string& text);
+    void tell(MessageLevel level, const std::string& text, std::optional<MessageOffer> offer = std::nullopt);
+    /// About no scene: see Message::of_window.
+    void tell_of_window(MessageLevel level, const std::string& text);
     /// The oldest first, at most 50; the list behind the bell.
     const std::vector<Message>& messages() const { return messages_; }
     /// Whether a warning or an error lies over the picture: what was only done goes by itself.
@@ -455,7 +461,8 @@ class Session {
     /// Warnings and errors so far were about what was shown before.
     void retire_messages();
     /// Replaces the document by what `load_all` gives, seen as that says or as `view`, after asking if there are
-    /// unsaved changes. What cannot be loaded leaves all as it was.
+    /// unsaved changes. What cannot be loaded leaves all as it was: what `load_all` and document_of throw in the job
+    /// (InputError, MachineError, std::invalid_argument, Cancelled) becomes a message.
     void load(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
               const std::optional<ViewState>& view = std::nullopt);
     /// Says so if one of them is not there; whether it did.

@@ -411,7 +411,7 @@ void export_now(Ui& ui, const ExportTarget& target) {
             session.exporting.agreed = file;
             if (session.dialog == Dialog::export_picture) session.close_dialog();
         } catch (const std::exception& error) {
-            session.tell(Message::Level::error, error.what());
+            session.tell(MessageLevel::error, error.what());
             session.input.confirming = false;
         }
     });

@@ -121,7 +121,7 @@ void take(Session& session, const Purpose& purpose, const std::vector<std::files
         run_command(session, purpose.command, as_argument(files));
         if (session.dialog == dialog) session.close_dialog();
     } catch (const std::exception& error) {
-        session.tell(Message::Level::error, error.what());
+        session.tell(MessageLevel::error, error.what());
         session.input.fresh = true;
     }
 }
@@ -144,7 +144,7 @@ void take_written(Session& session, const Purpose& purpose) {
         try {
             session.save_as(path);  // closes the dialog, and goes on with what waited for it
         } catch (const std::exception& error) {
-            session.tell(Message::Level::error, error.what());
+            session.tell(MessageLevel::error, error.what());
             input.fresh = true;
         }
     };

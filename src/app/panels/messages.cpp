@@ -24,10 +24,10 @@ constexpr float kListWidth = 640;   // pixels at scale 1
 constexpr float kListHeight = 420;  // pixels at scale 1
 constexpr float kBarWidth = 3;      // pixels at scale 1: of the coloured edge that says how bad it is
 
-ImU32 color_of(const Ui& ui, Message::Level level) {
-    return level == Message::Level::error     ? ui.style.error
-           : level == Message::Level::warning ? ui.style.warning
-                                              : ui.style.accent;
+ImU32 color_of(const Ui& ui, MessageLevel level) {
+    return level == MessageLevel::error     ? ui.style.error
+           : level == MessageLevel::warning ? ui.style.warning
+                                            : ui.style.accent;
 }
 
 /// "12 s ago"; empty for one that was not shown.
@@ -205,7 +205,7 @@ float message_bell(Ui& ui) {
         ImGui::SetTooltip("%s (%s)", text.c_str(), key.c_str());
     }
     const bool error = std::ranges::any_of(session.messages(), [](const Message& message) {
-        return !message.read && message.level == Message::Level::error;
+        return !message.read && message.level == MessageLevel::error;
     });
     const ImU32 color = unread > 0 ? (error ? ui.style.error : ui.style.warning)
                         : hovered  ? ui.style.text

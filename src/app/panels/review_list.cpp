@@ -213,17 +213,8 @@ void review_list(Ui& ui) {
         if (top < ImGui::GetScrollY()) ImGui::SetScrollY(top);
         if (top + row > ImGui::GetScrollY() + view) ImGui::SetScrollY(top + row - view);
     }
-    ui.focus.begin_list(ImGui::GetID("cases"), static_cast<int>(rows.size()));
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(rows.size()), height + ui.px(1));
-    if (const auto wanted = ui.focus.wanted_row()) clipper.ForceDisplayRangeByIndices(*wanted, *wanted + 1);
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            ui.focus.row(i);
-            case_row(ui, review, rows[static_cast<std::size_t>(i)], height);
-        }
-    }
-    ui.focus.end_list();
+    clipped_rows(ui, "cases", static_cast<int>(rows.size()), height + ui.px(1),
+                 [&](int i) { case_row(ui, review, rows[static_cast<std::size_t>(i)], height); });
     ImGui::EndChild();
     ImGui::PopStyleVar();
 }

@@ -74,7 +74,7 @@ std::vector<const Job*> work_under_way(const Session& session) {
 /// Ends the first of it.
 void cancel_first(Session& session) {
     if (session.job()) return session.cancel_job(0);
-    if (session.review()) session.review()->cancel();
+    session.cancel_review_run();
 }
 
 /// The work under way from `right` to the left; returns where it begins.

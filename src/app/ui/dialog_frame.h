@@ -31,14 +31,15 @@ bool pressed(Key key);
 /// Moves `picked` through a list of `count` with Up, Down, PageUp and PageDown; true if it moved.
 bool move_picked(int& picked, int count);
 
-/// Shows and edits the text of the session's `input`. `complete`: what Tab makes of the text; without it Tab goes to
-/// the next widget. `what`: of a file's name all but its folder and extension is selected when the field gets the keys,
-/// so that what is typed replaces it; of other texts nothing is, and they are gone on with.
+/// What a field holds. When it gets the keys, all of a file's name but its folder and extension is selected, so that
+/// what is typed replaces it; of a search nothing is, and typing goes on with it.
 enum class FieldText { search, file_name };
 struct FieldEvents {
     bool changed = false;
     bool entered = false;  ///< Enter was pressed
 };
+/// Shows and edits the text of the session's `input`. `complete`: what Tab makes of the text; without it Tab goes to
+/// the next widget.
 FieldEvents text_field(Ui& ui, const char* hint, const std::function<std::string(const std::string&)>& complete = {},
                        FieldText what = FieldText::search);
 

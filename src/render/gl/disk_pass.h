@@ -44,9 +44,10 @@ class DiskPass {
     void draw(const DrawList& list, Detail detail, DrawStatistics& statistics);
     /// What draw would draw. Another list than the last ends what is drawn in parts.
     Surfaces surfaces(const DrawList& list, Detail detail);
-    /// The same as draw in parts: begins with the surfaces of the list that was asked about last; draws at most so many
-    /// disks and tubes more (> 0) of it, true once that was all.
+    /// The same as draw, in parts. Requires that `surfaces` is what surfaces() returned last: ranges are of the pieces
+    /// that are kept of that list.
     void begin(const Surfaces& surfaces, DrawStatistics& statistics);
+    /// At most so many disks and tubes more (> 0) of the same list; true once that was all.
     bool draw_more(const DrawList& list, std::size_t most, DrawStatistics& statistics);
     /// Brings the colours of the disks of the list that was asked about last into the bound framebuffer, where they are
     /// seen. `surface`: what was drawn to output 0, with as many samples.

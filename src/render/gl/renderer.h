@@ -86,7 +86,8 @@ class Renderer {
     /// Paints and reads back; has alpha if the list's background is seen through. Throws MachineError as paint does.
     Image draw(const DrawList& list, int samples = kPictureSamples);
 
-    /// The same picture as paint_coarse has it: a preview.
+    /// As draw with one sample, but as paint_coarse has it: a preview. `divisor` >= 1; 1 is draw with one sample.
+    /// Throws MachineError as draw does.
     Image draw_coarse(const DrawList& list, int divisor);
 
     /// What is nearest in each pixel: disks, and the boxes of nodes whether or not their faces are shown.

@@ -32,7 +32,7 @@ void attach_texture(const Texture& texture, GLenum attachment, GLenum internal_f
 /// Its samples are read one by one.
 void attach_samples(const Texture& texture, GLenum attachment, GLenum internal_format, PictureSize size, int samples) {
     glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.name());
-    // Beside a renderbuffer the samples must lie where they lie by themselves.
+    // A framebuffer that has a renderbuffer too needs textures with fixed sample locations (OpenGL 3.3, 4.4.4).
     glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, internal_format, size.width, size.height, GL_TRUE);
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D_MULTISAMPLE, texture.name(), 0);
 }
