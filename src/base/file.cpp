@@ -128,7 +128,8 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
 
 std::filesystem::path whole_path(const std::filesystem::path& path) {
     std::error_code ignored;
-    const std::filesystem::path whole = std::filesystem::absolute(path.empty() ? "." : path, ignored).lexically_normal();
+    const std::filesystem::path whole =
+        std::filesystem::absolute(path.empty() ? "." : path, ignored).lexically_normal();
     return whole.has_filename() || !whole.has_relative_path() ? whole : whole.parent_path();
 }
 

@@ -107,8 +107,9 @@ TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
 
 TEST_F(ExportTest, TheLineOfACasesSceneDrawsWhatTheCaseShows) {
     std::filesystem::create_directories(folder.file("cases"));
-    folder.write("cases/one.case.json",
-                 R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"levels": "leaves"}, "fit": {"tree": "umobb"}})");
+    folder.write(
+        "cases/one.case.json",
+        R"({"mobbscope_case": 1, "scene": "../scene.json", "view": {"levels": "leaves"}, "fit": {"tree": "umobb"}})");
     std::filesystem::create_directories(folder.file("drawn"));
     session.review(folder.file("cases"), folder.file("drawn"));
     session.open_case(0);

@@ -21,12 +21,14 @@ namespace mobbscope::app {
 inline bool has_scene(const Session& session) { return !session.empty(); }
 inline bool always(const Session&) { return true; }
 
+/// Why a command that says no more cannot be done.
+inline constexpr std::string_view kNotNow = "not now";
+
 /// Whether a command can be done; and why not, where a scene is open and no job under way.
 struct Condition {
     template <class Holds>
     Condition(
-        Holds if_,
-        std::string_view (*else_)(const Session&) = [](const Session&) -> std::string_view { return "not now"; })
+        Holds if_, std::string_view (*else_)(const Session&) = [](const Session&) { return kNotNow; })
         : holds(if_), why_not(else_) {}
     bool operator()(const Session& session) const { return holds(session); }
 

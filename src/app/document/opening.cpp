@@ -299,7 +299,7 @@ void Session::tell_of_lost_sources() {
         std::error_code ignored;
         if (!clip.source || std::filesystem::exists(source_path(scene(), clip), ignored)) continue;
         tell(MessageLevel::warning, "The scene refers to " + source_path(scene(), clip).string() +
-                                          ", which is not there any more: put it back before the scene is opened again");
+                                        ", which is not there any more: put it back before the scene is opened again");
         return;
     }
 }

@@ -410,7 +410,7 @@ void Viewport::mouse(Ui& ui, const ShownPicture& picture) {
     if (drag_ == Drag::none) {
         const auto held = over && list_ && is_active(ui) ? handles(ui, picture) : std::nullopt;
         const bool on_overlay = over && list_ && overlay_at(*list_, pixel);
-        lit_ = held && !on_overlay ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
+        lit_ = held ? handle_at(ui, held->places, ImGui::GetIO().MousePos) : Handle::none;
         if (over && list_ && is_active(ui) && lit_ == Handle::none && !on_overlay) {
             hover(ui, pixel);
         } else {
@@ -458,16 +458,17 @@ void Viewport::press(Ui& ui, const ShownPicture& picture, glm::vec2 pixel) {
     asks_ = io.MouseDown[1];
     place_.reset();
     const auto on_overlay = list_ ? overlay_click(*list_, pixel) : std::nullopt;
-    const bool may_hold = list_ && is_active(ui) && !overlay_at(*list_, pixel);
+    // Handles stand over the panels.
+    const auto hold = list_ && is_active(ui) ? take_hold(ui, picture, pixel) : std::nullopt;
     if (io.MouseDown[1] || io.MouseDown[2] || io.KeyShift) {
         drag_ = Drag::pan;
-    } else if (on_overlay) {
-        drag_ = Drag::none;
-        if (on_overlay->command) invoke(ui.session, on_overlay->command);
-    } else if (const auto hold = may_hold ? take_hold(ui, picture, pixel) : std::nullopt) {
+    } else if (hold) {
         drag_ = Drag::handle;
         handle_drag_ = *hold;
         lit_ = hold->handle;
+    } else if (on_overlay) {
+        drag_ = Drag::none;
+        if (on_overlay->command) invoke(ui.session, on_overlay->command);
     }
 }
 

@@ -258,10 +258,10 @@ struct Shell::State {
         if (!ImGui::IsAnyItemActive()) session.close_group();
         if (command->enabled(session)) {
             invoke(session, command->id);
-        } else if (!session.empty()) {
+        } else if (const std::string_view why = why_not(session, *command); !session.empty() && why != kNotNow) {
             std::string title(command->title);
             if (title.ends_with("...")) title.resize(title.size() - 3);
-            session.tell(MessageLevel::info, title.append(": ").append(why_not(session, *command)));
+            session.tell(MessageLevel::info, title.append(": ").append(why));
         }
         // No panel is being drawn: what comes next from the keyboard meets what this one has done.
         session.run_queue();
