@@ -1,3 +1,4 @@
+#include <base/error.h>
 #include <render/drawlist/pen.h>
 #include <render/drawlist/view_projection.h>
 #include <render/gl/disk_pass.h>
@@ -13,6 +14,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace mobbscope {
@@ -27,6 +29,8 @@ struct Vertex {
 using ColorBytes = std::array<std::uint8_t, 4>;
 
 constexpr std::size_t kColorColumns = 1024;  // of the texture of colours
+// Numbers of disks that floats tell apart, which is as many as the texture holds where it may have 16384 rows.
+constexpr std::size_t kMostNumbers = std::size_t{1} << 24;
 // Units of textures.
 constexpr GLint kSurfaces = 0;
 constexpr GLint kSurfaceSamples = 1;
@@ -84,6 +88,9 @@ DiskPass::DiskPass(GlContext& context) : program_(context, "disk"), tint_(contex
     glBindVertexArray(tile_array_.name());
     glBindBuffer(GL_ARRAY_BUFFER, tiles_.name());
     VertexLayout(sizeof(Rect), 1).floats(0, 4, 0);
+    GLint rows = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &rows);
+    most_disks_ = std::min(kMostNumbers - 1, kColorColumns * static_cast<std::size_t>(rows));
 }
 
 /// Upper face, side and lower face, in this order: each part is one range.
@@ -299,6 +306,10 @@ void DiskPass::draw(const DrawList& list, Detail detail, DrawStatistics& statist
 }
 
 DiskPass::Surfaces DiskPass::surfaces(const DrawList& list, Detail detail) {
+    if (list.disks.size() > most_disks_) {
+        throw MachineError("this OpenGL draws at most " + std::to_string(most_disks_) + " disks, not " +
+                           std::to_string(list.disks.size()) + "; hide some of the agents");
+    }
     keep(list);
     const ViewProjection& projection = list.projection;
     Surfaces out{shapes_, detail, {}, projection.clip_from_world, projection.right, projection.back};

@@ -42,7 +42,8 @@ class DiskPass {
     /// Into the bound framebuffer: to output 0 which disk is seen and how bright, for `tint`; of fine disks ids to
     /// output 1.
     void draw(const DrawList& list, Detail detail, DrawStatistics& statistics);
-    /// What draw would draw. Another list than the last ends what is drawn in parts.
+    /// What draw would draw. Another list than the last ends what is drawn in parts. Throws MachineError for more disks
+    /// than can be told apart.
     Surfaces surfaces(const DrawList& list, Detail detail);
     /// The same as draw, in parts. Requires that `surfaces` is what surfaces() returned last: ranges are of the pieces
     /// that are kept of that list.
@@ -80,6 +81,7 @@ class DiskPass {
     Buffer tiles_;    ///< of the picture, in which disks may be seen
     Texture colors_;  ///< of all disks in drawing order
     bool has_colors_ = false;
+    std::size_t most_disks_ = 0;         ///< of one picture
     int shapes_ = 0;                     ///< counts other ones
     std::map<int, Cylinder> cylinders_;  ///< by the number of sides; made when first needed
     SharedValues<DiskInstance> kept_;    ///< of the last list
