@@ -162,7 +162,7 @@ std::filesystem::path write_scene_aside(const Session& session, const ViewState&
     Scene aside = session.scene();
     aside.view = view;
     aside.fit = session.document().fitted->options();
-    const std::filesystem::path file = temporary_scene_file(session);
+    std::filesystem::path file = temporary_scene_file(session);
     try {
         move_to_file(aside, file);
         write_file(file, to_json(aside));

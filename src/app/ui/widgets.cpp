@@ -65,15 +65,16 @@ std::string short_path(const std::string& path, float room) {
     const std::string name = path.substr(path.rfind('/') + 1);
     const std::vector<std::string> halves = parts_of_word(name, (room - text_width(ellipsis)) / 2);
     if (halves.size() < 2) return ellipsis + "/" + name;
-    std::string end;
+    const std::string begin = halves.front() + ellipsis;
+    std::string whole = begin;
     for (std::size_t i = name.size(); i-- > 0;) {
-        const std::string longer = name.substr(i);
         const bool in_letter = (static_cast<unsigned char>(name[i]) & 0xC0u) == 0x80u;
         if (in_letter) continue;
-        if (text_width(halves.front() + ellipsis + longer) > room) break;
-        end = longer;
+        const std::string longer = std::string(begin).append(name, i);
+        if (text_width(longer) > room) break;
+        whole = longer;
     }
-    return halves.front() + ellipsis + end;
+    return whole;
 }
 
 }  // namespace
