@@ -4,6 +4,7 @@
 #include <base/file.h>
 #include <base/text.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string>

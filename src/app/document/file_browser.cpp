@@ -223,7 +223,7 @@ void FileBrowser::choose(std::size_t index, Choose how) {
     if (how == Choose::none) return;
     if (how == Choose::range) {
         chosen_.clear();
-        const auto [first, last] = std::minmax(std::min(anchor_, entries_.size() - 1), index);
+        const auto [first, last] = std::minmax({std::min(anchor_, entries_.size() - 1), index});
         for (std::size_t i = first; i <= last; ++i) chosen_.insert(entries_[i].name);
         return;
     }
