@@ -210,17 +210,21 @@ TEST(ImportDialog, TrimHasAHandleAtEachEnd) {
     EXPECT_FALSE(w.clip().options.trim);
 }
 
-TEST(ImportDialog, JointsAreFoundByAFewLetters) {
-    ImportWindow w;
+/// More joints than are seen at once: a chain of fingers.
+std::string bvh_of_many_joints() {
     std::string many = body_bvh();
-    // More joints than are seen at once: a chain of fingers.
     std::string fingers;
     for (int i = 0; i < 20; ++i) {
         fingers += "JOINT Finger" + std::to_string(i) + " {\nOFFSET 0 1 0\nCHANNELS 0\n";
     }
     fingers += "End Site\n{\nOFFSET 0 1 0\n}\n" + std::string(20, '}');
     many.replace(many.find("End Site"), 0, fingers + "\n");
-    w.folder.write("many.bvh", many);
+    return many;
+}
+
+TEST(ImportDialog, JointsAreFoundByAFewLetters) {
+    ImportWindow w;
+    w.folder.write("many.bvh", bvh_of_many_joints());
     w.open("many.bvh");
     run_command(w.session, "clip.import");
     w.window.settle();
@@ -241,14 +245,7 @@ TEST(ImportDialog, JointsAreFoundByAFewLetters) {
 
 TEST(ImportDialog, ListsAreGoneThroughByKeys) {
     ImportWindow w;
-    std::string many = body_bvh();
-    std::string fingers;
-    for (int i = 0; i < 20; ++i) {
-        fingers += "JOINT Finger" + std::to_string(i) + " {\nOFFSET 0 1 0\nCHANNELS 0\n";
-    }
-    fingers += "End Site\n{\nOFFSET 0 1 0\n}\n" + std::string(20, '}');
-    many.replace(many.find("End Site"), 0, fingers + "\n");
-    w.folder.write("many.bvh", many);
+    w.folder.write("many.bvh", bvh_of_many_joints());
     w.open("many.bvh");
     run_command(w.session, "clip.import");
     w.window.settle();

@@ -61,6 +61,15 @@ struct ReviewWorld {
             std::make_unique<HeadlessWindow>(GlContext::open(Backend::automatic), session, PictureSize{1024, 700}, 1);
         session.hooks.set_clipboard = [this](const std::string& text) { clipboard = text; };
     }
+    /// Opens a scene of the person's own, and leaves a change in it that is not saved.
+    fs::path edit_own_scene() {
+        const fs::path own = files.path() / "own.json";
+        std::ofstream(own) << walkers("5");
+        session.open({own});
+        run_command(session, "go.agent", "A");
+        run_command(session, "agent.move", "2 2");
+        return own;
+    }
     void open() {
         run_command(session, "file.review", files.cases().string());
         window->settle();
@@ -681,11 +690,7 @@ float width_of_caption(const std::string& text) {
 
 TEST(Review, TitleAndStatusBarAreAboutIt) {
     ReviewWorld w;
-    const fs::path own = w.files.path() / "own.json";
-    std::ofstream(own) << walkers("5");
-    w.session.open({own});
-    run_command(w.session, "go.agent", "A");
-    run_command(w.session, "agent.move", "2 2");
+    const fs::path own = w.edit_own_scene();
     ASSERT_TRUE(w.session.shows_unsaved());
     w.window->settle();
     w.open();
@@ -831,11 +836,7 @@ TEST(Review, TheWheelKeepsThePixelUnderTheMouse) {
 
 TEST(Review, ACaseOpensAsASceneAndWhatWasOpenIsBack) {
     ReviewWorld w;
-    const fs::path own = w.files.path() / "own.json";
-    std::ofstream(own) << walkers("5");
-    w.session.open({own});
-    run_command(w.session, "go.agent", "A");
-    run_command(w.session, "agent.move", "2 2");
+    const fs::path own = w.edit_own_scene();
     ASSERT_TRUE(w.session.modified());
     const auto before = w.session.document().fitted;
     w.open();

@@ -44,6 +44,16 @@ click() {
   sleep 0.2
   xdotool click "${5:-1}"
 }
+# move_until FILE RIGHT DOWN: step by step until the script has written the file.
+move_until() {
+  for _ in $(seq 200); do
+    xdotool mousemove_relative -- "$2" "$3"
+    watch
+    sleep 0.06
+    [ -e "$1" ] && break
+  done
+  reached "$1"
+}
 # pull FILE RIGHT DOWN: with the button held, step by step until the script has written the file.
 pull() {
   xdotool mousedown 1

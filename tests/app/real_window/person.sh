@@ -12,13 +12,7 @@ pull orbited.txt 12 1
 
 # From the left over the scene until there is a box under the mouse.
 to orbited.txt viewport -300 0
-for _ in $(seq 200); do
-  xdotool mousemove_relative -- 12 0
-  watch
-  sleep 0.06
-  [ -e over-box.txt ] && break
-done
-reached over-box.txt
+move_until over-box.txt 12 0
 xdotool click 1
 reached box.txt
 xdotool click 3

@@ -24,13 +24,7 @@ reached kinds.txt
 click kinds.txt tree.kind.umobb
 reached kind.txt
 to kind.txt viewport -300 0
-for _ in $(seq 200); do
-  xdotool mousemove_relative -- 12 0
-  watch
-  sleep 0.06
-  [ -e over-box.txt ] && break
-done
-reached over-box.txt
+move_until over-box.txt 12 0
 xdotool click 1
 reached selected.txt
 
