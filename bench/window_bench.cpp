@@ -174,6 +174,7 @@ class LiveWindow {
     Answer answer_to(std::deque<double> presses, Key key) {
         const double last = presses.empty() ? 0 : presses.back();
         const Image before = shell_.frames_drawn() > 0 ? picture() : Image{};
+        Image latest = before;
         const double begin = wall_seconds();
         const double cpu = cpu_seconds();
         const int drawn = shell_.frames_drawn();
@@ -193,9 +194,11 @@ class LiveWindow {
                 continue;
             }
             next = shell_.frame(kWindow, wall_seconds());
-            const Image now = picture();
-            out.fine = wall_seconds() - begin - last;
-            if (out.changed == 0 && now.rgba != before.rgba) out.changed = wall_seconds() - begin;
+            Image now = picture();
+            // Panels go on for longer: a message goes after a while.
+            if (now.rgba != latest.rgba) out.fine = wall_seconds() - begin - last;
+            latest = std::move(now);
+            if (out.changed == 0 && latest.rgba != before.rgba) out.changed = wall_seconds() - begin;
         }
         out.cpu = cpu_seconds() - cpu;
         out.frames = shell_.frames_drawn() - drawn;

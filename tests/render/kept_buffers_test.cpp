@@ -119,6 +119,15 @@ TEST_P(KeptBuffersTest, SteppingDrawsNoDiskAnew) {
     EXPECT_FALSE(renderer().has_disks(build_draw_list(paths_, {}, {.size = {200, 120}}), 4));
 }
 
+TEST_P(KeptBuffersTest, OtherLevelsDrawNoDiskAnew) {
+    ViewState view;
+    settle(view, 4);
+    for (int level = 0; level < 5; ++level) {
+        view.levels = {level, level, false};
+        EXPECT_TRUE(renderer().has_disks(build_draw_list(paths_, view, {.size = kSmallSize}), 4)) << level;
+    }
+}
+
 /// What is kept shows what a renderer without a past would.
 TEST_P(KeptBuffersTest, WhatIsKeptIsWhatIsShown) {
     ViewState view;

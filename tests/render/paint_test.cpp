@@ -90,6 +90,54 @@ TEST_P(PaintTest, WhatDisksHideOfEachOtherIsLeftOutWithoutATrace) {
     }
 }
 
+/// So many boxes, each this far from the one before.
+DrawList with_boxes(DrawList list, std::size_t count, glm::vec3 apart, bool edges) {
+    BoxInstance box = list.boxes.front();
+    box.fill.a = 0;
+    if (!edges) box.edge.a = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        box.center += apart;
+        list.boxes.push_back(box);
+    }
+    return list;
+}
+
+constexpr std::size_t kEdgeTriangles = 2 * 24;  // of a box: before and behind the disks
+
+TEST_P(PaintTest, BoxesBesideThePictureAreLeftOutWithoutATrace) {
+    const DrawList list = everything();
+    const auto triangles = [&](bool edges) {
+        const DrawList more = with_boxes(list, 4000, list.projection.right, edges);
+        static_cast<void>(renderer().draw(more));
+        return renderer().statistics().triangles;
+    };
+    const std::size_t without = triangles(false);
+    EXPECT_LT(triangles(true), without + 100 * kEdgeTriangles);
+    DrawList boxes = list;
+    boxes.boxes.clear();
+    const Image nothing = renderer().draw(boxes);
+    for (const float far : {3.0f, 10.0f, 100.0f}) {
+        boxes = with_boxes(list, 1, far * list.projection.right, true);
+        boxes.boxes.erase(boxes.boxes.begin(), boxes.boxes.end() - 1);
+        const bool is_seen = list.projection.project(boxes.boxes.front().center - boxes.boxes.front().extents[0])->x <
+                             static_cast<float>(list.size.width);
+        EXPECT_EQ(renderer().draw(boxes).rgba != nothing.rgba, is_seen) << far;
+    }
+}
+
+TEST_P(PaintTest, OfManyBoxesACoarsePictureHasTheEdgesOfSome) {
+    const DrawList list = everything();
+    const glm::vec3 hardly = list.projection.up * 1e-4f;
+    const auto coarse = [&](bool edges) { return renderer().draw_coarse(with_boxes(list, 5000, hardly, edges), 4); };
+    const Image without = coarse(false);
+    const std::size_t triangles = renderer().statistics().triangles;
+    EXPECT_NE(coarse(true).rgba, without.rgba);
+    EXPECT_GT(renderer().statistics().triangles, triangles + 500 * kEdgeTriangles);
+    EXPECT_LE(renderer().statistics().triangles, triangles + 1000 * kEdgeTriangles);
+    static_cast<void>(renderer().draw(with_boxes(list, 5000, hardly, true)));
+    EXPECT_GE(renderer().statistics().triangles, 5000 * kEdgeTriangles) << "a fine one has all";
+}
+
 /// A clock by which each part of a picture takes longer than there is time for.
 PaintPace one_part() {
     static double now = 0;

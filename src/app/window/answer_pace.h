@@ -15,7 +15,7 @@ class AnswerPace {
     /// What a coarse one may take.
     static constexpr double kCoarse = 0.05;
     /// Without a change after which the fine picture is begun.
-    static constexpr double kRest = 0.12;
+    static constexpr double kRest = 0.06;
     /// It is painted for so long between looks at what has come from mouse and keys.
     static constexpr double kSlice = 0.03;
     static constexpr int kCoarsest = 4;

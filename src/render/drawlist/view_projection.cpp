@@ -51,6 +51,23 @@ Stand fit_perspective(const ViewProjection& projection, const ShownPoints& point
     return {{(right - left) / 2, (top - bottom) / 2, std::max(distance, nearest + 1e-3f)}, 1};
 }
 
+/// The depths to coarse steps, so that boxes that come and go leave the projection, and with it what has been
+/// drawn of the disks, as it is.
+void round_outwards(ViewProjection& projection) {
+    constexpr float kStepsPerDoubling = 4;
+    if (projection.perspective) {
+        projection.near_depth =
+            std::exp2(std::floor(kStepsPerDoubling * std::log2(projection.near_depth)) / kStepsPerDoubling);
+        projection.far_depth =
+            std::exp2(std::ceil(kStepsPerDoubling * std::log2(projection.far_depth)) / kStepsPerDoubling);
+        return;
+    }
+    const float step =
+        std::exp2(std::floor(std::log2(projection.far_depth - projection.near_depth))) / kStepsPerDoubling;
+    projection.near_depth = step * std::floor(projection.near_depth / step);
+    projection.far_depth = step * std::ceil(projection.far_depth / step);
+}
+
 /// Column-major, to OpenGL's clip space.
 glm::mat4 projection_matrix(bool perspective, glm::vec2 scale, float near_depth, float far_depth) {
     glm::mat4 m(0);
@@ -180,6 +197,7 @@ ViewProjection make_projection(const Camera& camera, const ShownPoints& points, 
         projection.far_depth = std::max(projection.far_depth, 1e-3f);
         projection.near_depth = std::max(projection.near_depth, 1e-3f * projection.far_depth);
     }
+    round_outwards(projection);
     projection.scale = projection.perspective ? glm::vec2(1 / (tan_y * aspect), 1 / tan_y)
                                               : glm::vec2(1 / (stand.half_height * aspect), 1 / stand.half_height);
     if (target) projection.middle = 2.0f * glm::vec2(camera.shift);

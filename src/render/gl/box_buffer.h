@@ -31,7 +31,8 @@ class BoxBuffer {
     std::size_t size() const { return shapes_.size(); }
     const std::vector<DrawOrder>& orders() const { return orders_; }
     const std::vector<Look>& looks() const { return looks_; }
-    const Buffer& shapes() const { return shape_buffer_; }
+    const std::vector<Shape>& shapes() const { return shapes_; }
+    const Buffer& shape_buffer() const { return shape_buffer_; }
     const Buffer& look_buffer() const { return look_buffer_; }
 
   private:

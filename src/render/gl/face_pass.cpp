@@ -37,7 +37,7 @@ Rect covered_by(const BoxInstance& box, const ViewProjection& projection, const 
 FacePass::FacePass(GlContext& context, const BoxBuffer& boxes)
     : boxes_(boxes), faces_(context, "face"), composite_(context, "composite") {
     glBindVertexArray(array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, boxes.shapes().name());
+    glBindBuffer(GL_ARRAY_BUFFER, boxes.shape_buffer().name());
     const VertexLayout shape(sizeof(BoxBuffer::Shape), 1);
     shape.floats(0, 3, offsetof(BoxBuffer::Shape, center));
     for (GLuint axis = 0; axis < 3; ++axis) {

@@ -4,6 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mobbscope {
 
@@ -18,6 +19,38 @@ struct LinePass::Instance {
 namespace {
 
 constexpr GLuint kColor = 4;
+
+/// So many boxes beside the picture are drawn along rather than begin a draw call anew.
+constexpr std::size_t kDrawnAlong = 16;
+
+/// Pixels by which lines may reach beyond what they are drawn along.
+constexpr float kReach = 8;
+
+/// Whether any of a box may be in the picture.
+bool may_be_seen(const BoxBuffer::Shape& box, const ViewProjection& projection) {
+    const glm::mat4& clip = projection.clip_from_world;
+    const glm::vec4 center = clip * glm::vec4(box.center, 1);
+    glm::vec3 half(0);  // of its extent in x, y and w
+    glm::vec4 extents[3];
+    for (int i = 0; i < 3; ++i) {
+        extents[i] = clip * glm::vec4(box.extents[i], 0);
+        half += glm::abs(glm::vec3(extents[i].x, extents[i].y, extents[i].w));
+    }
+    if (center.w + half.z <= 0) return false;
+    const glm::vec2 edge(1 + 2 * kReach / static_cast<float>(projection.size.width),
+                         1 + 2 * kReach / static_cast<float>(projection.size.height));
+    for (int axis = 0; axis < 2; ++axis) {
+        for (const float side : {-1.f, 1.f}) {
+            // w * edge + side * x >= 0 holds in the picture.
+            float farthest = edge[axis] * center.w + side * center[axis];
+            for (const glm::vec4& extent : extents) {
+                farthest += std::abs(edge[axis] * extent.w + side * extent[axis]);
+            }
+            if (farthest < 0) return false;
+        }
+    }
+    return true;
+}
 
 /// Colour, dash, and width, cap and what is kept when hidden, of lines and of the edges of boxes.
 void describe_look(const VertexLayout& layout, std::size_t color, std::size_t dash, std::size_t line) {
@@ -42,10 +75,10 @@ void LinePass::bind_lines(const Buffer& lines, std::size_t first) {
                   begin + offsetof(Instance, shape));
 }
 
-void LinePass::bind_boxes(std::size_t first) {
+void LinePass::bind_boxes(std::size_t first, std::size_t step) {
     glBindVertexArray(box_array_.name());
-    glBindBuffer(GL_ARRAY_BUFFER, boxes_.shapes().name());
-    const VertexLayout shape(sizeof(BoxBuffer::Shape), 1);
+    glBindBuffer(GL_ARRAY_BUFFER, boxes_.shape_buffer().name());
+    const VertexLayout shape(step * sizeof(BoxBuffer::Shape), 1);
     const std::size_t begin = first * sizeof(BoxBuffer::Shape);
     shape.floats(0, 3, begin + offsetof(BoxBuffer::Shape, center));
     for (GLuint axis = 0; axis < 3; ++axis) {
@@ -53,7 +86,7 @@ void LinePass::bind_boxes(std::size_t first) {
     }
     glBindBuffer(GL_ARRAY_BUFFER, boxes_.look_buffer().name());
     const std::size_t look = first * sizeof(BoxBuffer::Look);
-    describe_look(VertexLayout(sizeof(BoxBuffer::Look), 1), look + offsetof(BoxBuffer::Look, edge),
+    describe_look(VertexLayout(step * sizeof(BoxBuffer::Look), 1), look + offsetof(BoxBuffer::Look, edge),
                   look + offsetof(BoxBuffer::Look, dash), look + offsetof(BoxBuffer::Look, line));
 }
 
@@ -69,39 +102,49 @@ void LinePass::begin(const glm::mat4& clip_from_world, PictureSize size) {
 
 void LinePass::draw(const Batch& batch, const Buffer& lines, DrawStatistics& statistics) {
     glUniform1i(program_.uniform("edges"), batch.of_boxes);
-    const GLsizei count = static_cast<GLsizei>(batch.count);
+    const std::size_t drawn = (batch.count + batch.step - 1) / batch.step;
+    const GLsizei count = static_cast<GLsizei>(drawn);
     if (batch.of_boxes) {
-        bind_boxes(batch.first);
+        bind_boxes(batch.first, batch.step);
         glDrawArraysInstanced(GL_TRIANGLES, 0, 72, count);
     } else {
         bind_lines(lines, batch.first);
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
     }
-    statistics.triangles += (batch.of_boxes ? 24 : 2) * batch.count;
+    statistics.triangles += (batch.of_boxes ? 24 : 2) * drawn;
     ++statistics.draw_calls;
 }
 
 /// Lines and the edges of boxes, in drawing order.
-std::vector<LinePass::Batch> LinePass::batches(const std::vector<const LineInstance*>& lines) const {
+std::vector<LinePass::Batch> LinePass::batches(const DrawList& list, const std::vector<const LineInstance*>& lines,
+                                               std::size_t most_boxes) const {
     std::vector<Batch> out;
     const auto add = [&](bool of_boxes, std::size_t index) {
-        if (out.empty() || out.back().of_boxes != of_boxes) out.push_back({of_boxes, index, 0});
+        const bool goes_on = !out.empty() && out.back().of_boxes == of_boxes &&
+                             index <= out.back().first + out.back().count + kDrawnAlong;
+        if (!goes_on) out.push_back({of_boxes, index, 0});
         out.back().count = index + 1 - out.back().first;
     };
     std::size_t line = 0;
+    std::size_t seen = 0;
     for (std::size_t box = 0; box < boxes_.size(); ++box) {
-        // A box without edges is no reason to begin anew.
-        if (boxes_.looks()[box].edge.a <= 0) continue;
+        if (boxes_.looks()[box].edge.a <= 0 || !may_be_seen(boxes_.shapes()[box], list.projection)) continue;
+        ++seen;
         while (line < lines.size() && !(boxes_.orders()[box] < lines[line]->order)) add(false, line++);
         add(true, box);
     }
     while (line < lines.size()) add(false, line++);
+    if (seen > most_boxes) {
+        for (Batch& batch : out) {
+            if (batch.of_boxes) batch.step = (seen + most_boxes - 1) / most_boxes;
+        }
+    }
     return out;
 }
 
-void LinePass::draw_scene(const DrawList& list, DrawStatistics& statistics) {
+void LinePass::draw_scene(const DrawList& list, std::size_t most_boxes, DrawStatistics& statistics) {
     const std::vector<const LineInstance*> lines = in_order(list.lines);
-    const std::vector<Batch> all = batches(lines);
+    const std::vector<Batch> all = batches(list, lines, most_boxes);
     if (all.empty()) return;
     std::vector<Instance> instances;
     instances.reserve(lines.size());

@@ -17,8 +17,9 @@ class LinePass {
     LinePass(GlContext& context, const BoxBuffer& boxes);
 
     /// The list's lines and the edges of its boxes, into a framebuffer with the disks' depth: what the disks hide first
-    /// and fainter, then the rest.
-    void draw_scene(const DrawList& list, DrawStatistics& statistics);
+    /// and fainter, then the rest. Where more boxes than `most_boxes` are in the picture, only every so manieth of
+    /// them.
+    void draw_scene(const DrawList& list, std::size_t most_boxes, DrawStatistics& statistics);
     /// What is pointed out, over the scene.
     void draw_highlights(const DrawList& list, DrawStatistics& statistics);
     /// The lines over the picture: uploads the list's; draws what was uploaded.
@@ -27,17 +28,19 @@ class LinePass {
 
   private:
     struct Instance;
-    /// Successive lines, or boxes whose edges are drawn.
+    /// Successive lines, or boxes whose edges are drawn; of `count` every `step`-th.
     struct Batch {
         bool of_boxes = false;
         std::size_t first = 0, count = 0;
+        std::size_t step = 1;
     };
     void begin(const glm::mat4& clip_from_world, PictureSize size);
-    std::vector<Batch> batches(const std::vector<const LineInstance*>& lines) const;
+    std::vector<Batch> batches(const DrawList& list, const std::vector<const LineInstance*>& lines,
+                               std::size_t most_boxes) const;
     /// `lines`: what a batch of lines is of.
     void draw(const Batch& batch, const Buffer& lines, DrawStatistics& statistics);
     void bind_lines(const Buffer& lines, std::size_t first);
-    void bind_boxes(std::size_t first);
+    void bind_boxes(std::size_t first, std::size_t step);
 
     const BoxBuffer& boxes_;
     ShaderProgram program_;

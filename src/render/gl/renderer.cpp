@@ -61,6 +61,10 @@ Image on_its_background(const DrawList& list, const DrawOn& draw_on) {
 constexpr std::size_t kDisksAtFirst = 32;
 constexpr double kPartSeconds = 0.01;
 
+// Whose edges are drawn; of a coarse picture they would take longer than all else.
+constexpr std::size_t kAllBoxes = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kMostBoxesCoarse = 1000;
+
 std::unique_ptr<GlContext> made_current(std::unique_ptr<GlContext> context) {
     context->make_current();
     return context;
@@ -192,7 +196,7 @@ struct Renderer::State {
                 work->next = Part::lines;
                 return false;
             case Part::lines:
-                lines.draw_scene(list, statistics);
+                lines.draw_scene(list, kAllBoxes, statistics);
                 work->next = Part::words;
                 return false;
             case Part::words:
@@ -252,7 +256,7 @@ struct Renderer::State {
         coarse.surfaces.reset();
         coarse.targets->enlarge(*low.targets);
         glBindFramebuffer(GL_FRAMEBUFFER, coarse.targets->scene().name());
-        lines.draw_scene(list, statistics);
+        lines.draw_scene(list, kMostBoxesCoarse, statistics);
         keep_words(list);
         finish(*coarse.targets, list);
         painted = {&list, &coarse};

@@ -175,9 +175,11 @@ TEST(RealWindow, APersonsCameraMovesWhenItIsAskedTo) {
     EXPECT_NE(camera("turned"), camera("opened"));
     EXPECT_EQ(camera("turned")["target"], camera("opened")["target"]) << "it turns about its target";
     EXPECT_EQ(camera("turned-step"), camera("turned"));
-    EXPECT_NE(camera("framed")["target"], camera("turned")["target"]);
+    EXPECT_EQ(camera("front")["target"], camera("turned")["target"]);
+    EXPECT_EQ(camera("front")["distance"], camera("turned")["distance"]);
+    EXPECT_NE(camera("framed")["target"], camera("front")["target"]);
     EXPECT_NE(camera("home")["target"], camera("framed")["target"]);
-    EXPECT_EQ(camera("home")["yaw_deg"], camera("turned")["yaw_deg"]) << "the direction stays";
+    EXPECT_EQ(camera("home")["yaw_deg"], camera("framed")["yaw_deg"]) << "the direction stays";
     EXPECT_EQ(camera("resized")["target"], camera("home")["target"]);
     const auto height = [&](const std::string& name) {
         std::istringstream marks(slurp(folder / (name + ".txt")));
