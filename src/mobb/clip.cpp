@@ -16,7 +16,8 @@ bool within(double value, double limit) { return std::isfinite(value) && std::ab
 
 }  // namespace
 
-Clip::Clip(double dt, std::vector<Disk> samples) : dt_(dt), samples_(std::move(samples)), reach_(0) {
+Clip::Clip(double dt, std::vector<Disk> samples, Motion motion)
+    : dt_(dt), motion_(motion), samples_(std::move(samples)), reach_(0) {
     // Written so that NaN fails it.
     if (!(dt >= kLeastDt) || !std::isfinite(dt))
         throw std::invalid_argument("dt must be a finite number of at least 1e-12 s");

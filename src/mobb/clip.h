@@ -6,7 +6,9 @@
 #include <cassert>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace mobb {
@@ -27,15 +29,24 @@ inline constexpr double kLeastDt = 1e-12;
 /// Sample and node indices are int; a tree has fewer than twice as many nodes as samples.
 inline constexpr std::size_t kMaxSamples = 500'000'000;
 
-/// N >= 1 disks at uniform spacing dt > 0 seconds; disk i holds over [i*dt, (i+1)*dt). Immutable: share it freely.
+/// What a disk does until the next sample. `held`: it stays (paper, Section 3). `linear`: centre and radius run
+/// linearly to those of the next sample, as swept disks (the paper's alternative, Section 3); the last one stays.
+enum class Motion { held, linear };
+
+std::string_view name(Motion motion);
+std::optional<Motion> motion_from_name(std::string_view name);
+std::span<const std::string_view> motion_names();
+
+/// N >= 1 disks at uniform spacing dt > 0 seconds; disk i belongs to [i*dt, (i+1)*dt). Immutable: share it freely.
 class Clip {
   public:
     /// Throws std::invalid_argument, naming the sample, if dt is not finite or below kLeastDt, there is no sample, a
     /// number is not finite or beyond kMaxLength, a radius is negative, the clip lasts longer than kMaxTime, or there
     /// are more samples than kMaxSamples.
-    Clip(double dt, std::vector<Disk> samples);
+    Clip(double dt, std::vector<Disk> samples, Motion motion = Motion::held);
 
     double dt() const { return dt_; }
+    Motion motion() const { return motion_; }
     int count() const { return static_cast<int>(samples_.size()); }
     std::span<const Disk> samples() const { return samples_; }
     /// Seconds: count * dt, as the last sample has its cylinder too (reading of Eq. 1, "o < t_end").
@@ -45,6 +56,7 @@ class Clip {
 
   private:
     double dt_;
+    Motion motion_;
     std::vector<Disk> samples_;
     double reach_;
 };

@@ -1,4 +1,5 @@
 // The names of every enumerator, as they stand in files.
+#include <mobb/clip.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
 
@@ -9,6 +10,7 @@ namespace mobb {
 
 namespace {
 
+constexpr std::array<std::string_view, 2> kMotionNames{"held", "linear"};
 constexpr std::array<std::string_view, 3> kAxesNames{"endpoints", "covariance", "minarea"};
 constexpr auto kTreeKindNames = rows::table<TreeKind>([](TreeKind kind) { return info(kind).name; });
 constexpr std::array<std::string_view, 5> kOutcomeNames{"disjoint_in_time", "separated", "overlap", "hit", "no_hit"};
@@ -22,6 +24,10 @@ std::optional<Enum> from_name(std::span<const std::string_view> names, std::stri
 }
 
 }  // namespace
+
+std::string_view name(Motion motion) { return kMotionNames[static_cast<std::size_t>(motion)]; }
+std::optional<Motion> motion_from_name(std::string_view name) { return from_name<Motion>(kMotionNames, name); }
+std::span<const std::string_view> motion_names() { return kMotionNames; }
 
 std::string_view name(Axes axes) { return kAxesNames[static_cast<std::size_t>(axes)]; }
 std::optional<Axes> axes_from_name(std::string_view name) { return from_name<Axes>(kAxesNames, name); }
