@@ -108,7 +108,7 @@ void Chain::append(std::span<const ChainLink> links) {
     for (const ChainLink& link : links) {
         const Tree& tree = link.part->tree();
         push({link.part, tree.nodes().data(), tree.clip().samples().data(), Rotation::from_degrees(link.rotate_deg),
-              link.translate, links_.empty() ? 0 : end(), tree.clip().count()});
+              link.translate, links_.empty() ? 0 : end(), tree.clip().count(), tree.clip().motion() == Motion::linear});
     }
     join_peaks();
 }
@@ -119,6 +119,7 @@ void Chain::drop_before(double seconds) {
     if (stays == links_.begin()) return;
     std::vector<Link> kept(std::make_move_iterator(stays), std::make_move_iterator(links_.end()));
     links_.clear();
+    linear_ = false;
     upper_.clear();
     peaks_.clear();
     perfect_ = 0;
@@ -131,6 +132,7 @@ void Chain::push(Link link) {
     upper_.resize(perfect_);
     const int k = static_cast<int>(links_.size());
     Peak peak{~k, k, 1, link.part->outline().placed(link.rotation, link.translate)};
+    linear_ = linear_ || link.linear;
     links_.push_back(std::move(link));
     while (!peaks_.empty() && peaks_.back().links == peak.links) {
         peak = joined(peaks_.back(), peak);
@@ -161,16 +163,25 @@ Chain::Peak Chain::joined(const Peak& left, const Peak& right) {
     return peak;
 }
 
-Disk Chain::disk(int i) const {
-    const auto after = std::ranges::upper_bound(links_, i, {}, &Link::first);
-    return std::prev(after)->disk(i);
+const Chain::Link& Chain::link_of(int sample) const {
+    return *std::prev(std::ranges::upper_bound(links_, sample, {}, &Link::first));
+}
+
+Disk Chain::disk(int i) const { return link_of(i).disk(i); }
+
+Disk Chain::disk_at_end(int i) const {
+    const Link& link = link_of(i);
+    return link.disk(link.runs_to(i));
 }
 
 Clip flattened(const Chain& chain) {
+    if (chain.is_linear() && chain.links() > 1) {
+        throw std::invalid_argument("a chain of linear clips is no clip: the last sample of each stays for its dt");
+    }
     std::vector<Disk> samples;
     samples.reserve(static_cast<std::size_t>(chain.end() - chain.first()));
     for (int i = chain.first(); i < chain.end(); ++i) samples.push_back(chain.disk(i));
-    return {chain.dt(), std::move(samples)};
+    return {chain.dt(), std::move(samples), chain.is_linear() ? Motion::linear : Motion::held};
 }
 
 }  // namespace mobb

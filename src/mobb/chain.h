@@ -92,8 +92,11 @@ class Chain {
     /// The node's box in the chain's frame and time.
     Box box(const ChainNode& node) const;
 
-    /// Sample i in the chain's frame, first() <= i < end(); in O(log links).
+    /// Sample i in the chain's frame, first() <= i < end(), and what it has become when it ends; in O(log links).
     Disk disk(int i) const;
+    Disk disk_at_end(int i) const;
+    /// Whether any link's clip is linear.
+    bool is_linear() const { return linear_; }
 
   private:
     friend class ChainSamples;
@@ -106,7 +109,10 @@ class Chain {
         glm::dvec2 translate;
         int first;  ///< in the chain
         int count;
+        bool linear;
 
+        /// The sample that sample i becomes until it ends.
+        int runs_to(int i) const { return linear && i + 1 < end() ? i + 1 : i; }
         int end() const { return first + count; }
         Disk disk(int i) const { return placed(samples[i - first], rotation, translate); }
     };
@@ -129,6 +135,7 @@ class Chain {
         const int uppers = static_cast<int>(upper_.size());
         return child >= 0 ? uppers - 1 - child : uppers + (~child << shift_);
     }
+    const Link& link_of(int sample) const;
     void push(Link link);
     Peak joined(const Peak& left, const Peak& right);
     void join_peaks();
@@ -141,6 +148,7 @@ class Chain {
     double dt_ = 0;
     double time_scale_ = 0;
     double reach_ = 0;
+    bool linear_ = false;
 };
 
 inline ChainNode Chain::node(int id) const {
@@ -176,7 +184,8 @@ inline Box Chain::box(const ChainNode& node) const {
     return box;
 }
 
-/// The clip of all samples of a chain that have not been dropped, in its frame: bit for bit the same disks.
+/// The clip of all samples of a chain that have not been dropped, in its frame: bit for bit the same disks. Throws
+/// std::invalid_argument for several links of which one is linear: its last sample stays, which no clip's sample does.
 Clip flattened(const Chain& chain);
 
 }  // namespace mobb

@@ -110,6 +110,7 @@ class PlacedClip {
     PlacedClip(const Clip& clip, const Placement& placement)
         : samples_(clip.samples().data()),
           dt_(clip.dt()),
+          last_to_(clip.motion() == Motion::linear ? clip.count() - 1 : -1),
           clip_(&clip),
           rotate_deg_(placement.rotate_deg),
           frame_{Rotation::from_degrees(placement.rotate_deg), placement.translate, placement.start, clip.reach(),
@@ -128,12 +129,16 @@ class PlacedClip {
 
     /// Sample i in the world.
     Disk disk(int i) const { return placed(samples_[i], frame_.rotation, frame_.translate); }
+    /// What sample i has become when it ends: of a linear clip the next sample, where there is one.
+    Disk disk_at_end(int i) const { return disk(i < last_to_ ? i + 1 : i); }
+    bool is_linear() const { return last_to_ >= 0; }
     /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
     double time(int i) const { return frame_.start + i * dt_; }
 
   private:
     const Disk* samples_;
     double dt_;
+    int last_to_;  ///< the last sample that another runs to; -1 of a held clip
     const Clip* clip_;
     double rotate_deg_;
     PlacedFrame frame_;

@@ -22,6 +22,12 @@ std::span<const Disk> disks(const Clip& clip, SampleRange range) {
     return clip.samples().subspan(static_cast<std::size_t>(range.first), static_cast<std::size_t>(range.count));
 }
 
+/// What a box around a range must hold: of a linear clip also the disk that the range's last one runs to.
+std::span<const Disk> swept_disks(const Clip& clip, SampleRange range) {
+    const bool runs_on = clip.motion() == Motion::linear && range.end() < clip.count();
+    return disks(clip, {range.first, range.count + (runs_on ? 1 : 0)});
+}
+
 glm::dvec2 perpendicular(glm::dvec2 u) { return {-u.y, u.x}; }
 
 /// Extent of a set along one axis.
@@ -66,13 +72,14 @@ Box rectangle_over_time(const Clip& clip, SampleRange range, std::span<const Dis
 }
 
 Box rectangle_over_time(const Clip& clip, SampleRange range, glm::dvec2 u, double w) {
-    return rectangle_over_time(clip, range, disks(clip, range), u, w);
+    return rectangle_over_time(clip, range, swept_disks(clip, range), u, w);
 }
 
 /// The box along given axes. A cylinder spans p.a -/+ r*|a_xy|, and its height w*dt shifts one side by w*dt*a_t: Fig.
-/// 6, whose signs hold for one orientation only.
+/// 6, whose signs hold for one orientation only. A slanted one lies between the disks at its ends.
 Box box_along(const Clip& clip, SampleRange range, const Axes3& axes, double w) {
     const double height = w * clip.dt();
+    const bool runs = clip.motion() == Motion::linear;
     Box box;
     box.kind = BoxKind::obb3d;
     box.axes = axes;
@@ -84,9 +91,10 @@ Box box_along(const Clip& clip, SampleRange range, const Axes3& axes, double w) 
         const double above = std::max(0.0, height * a.z);
         Extent e;
         int i = range.first;
-        for (const Disk& d : disks(clip, range)) {
+        for (const Disk& d : swept_disks(clip, range)) {
             const double p = d.x * a.x + d.y * a.y + (height * i) * a.z;
-            e.add(p - d.r * in_plane + below, p + d.r * in_plane + above);
+            const bool stays = i < range.end() && (!runs || i + 1 == clip.count());
+            e.add(p - d.r * in_plane + (stays ? below : 0), p + d.r * in_plane + (stays ? above : 0));
             ++i;
         }
         box.center += e.center() * a;
@@ -109,8 +117,8 @@ glm::dvec2 travel_axis(std::span<const Disk> disks) {
 }
 
 /// The direction of the smallest rectangle around the disks, over 1,800 angles in a quarter turn and the two other
-/// axes, of which `along` is one.
-glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along) {
+/// axes, `along` and `principal`.
+glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along, glm::dvec2 principal) {
     constexpr int kCells = 90;
     constexpr int kAnglesPerCell = 20;
     constexpr double kCellAngle = std::numbers::pi / 2 / kCells;
@@ -130,7 +138,6 @@ glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along
         }
     };
     consider(best, sides(best));
-    const glm::dvec2 principal = principal_axis(disks);
     consider(principal, sides(principal));
 
     // A side changes by at most the diameter of the centres per radian: a whole cell of angles can be ruled out at
@@ -157,15 +164,15 @@ glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along
     return best;
 }
 
-/// Of a rectangle around the disks of a walk along `along`.
-glm::dvec2 axis_2d(std::span<const Disk> disks, glm::dvec2 along, Axes axes) {
+/// Of a rectangle around `bounded`, the disks of a walk along `along` and the one that it runs to, if any.
+glm::dvec2 axis_2d(std::span<const Disk> disks, std::span<const Disk> bounded, glm::dvec2 along, Axes axes) {
     switch (axes) {
         case Axes::endpoints:
             return along;
         case Axes::covariance:
             return principal_axis(disks);
         case Axes::minarea:
-            return smallest_rectangle_axis(disks, along);
+            return smallest_rectangle_axis(bounded, along, principal_axis(disks));
     }
     return {1, 0};
 }
@@ -176,15 +183,21 @@ glm::dvec2 drift_per_sample(std::span<const Disk> disks) {
 }
 
 /// Where the disks are against a centre that drifts so and passes the origin in the middle of their time: each at the
-/// beginning and at the end of its hold interval, over which it stands still and so falls behind.
-std::vector<Disk> drifting(std::span<const Disk> disks, glm::dvec2 per_sample) {
+/// beginning and at the end of its hold interval, over which it stands still and so falls behind. Those of a linear
+/// clip run straight from one to the next: the range's own come first.
+std::vector<Disk> drifting(const Clip& clip, SampleRange range, glm::dvec2 per_sample) {
     std::vector<Disk> out;
-    out.reserve(2 * disks.size());
-    double samples = -0.5 * static_cast<double>(disks.size());
-    for (const Disk& d : disks) {
+    out.reserve(2 * static_cast<std::size_t>(range.count));
+    const bool runs = clip.motion() == Motion::linear;
+    int i = range.first;
+    const auto add = [&](const Disk& d, int at) {
+        const double samples = at - range.first - 0.5 * range.count;
         out.push_back({d.x - samples * per_sample.x, d.y - samples * per_sample.y, d.r});
-        samples += 1;
-        out.push_back({d.x - samples * per_sample.x, d.y - samples * per_sample.y, d.r});
+    };
+    for (const Disk& d : swept_disks(clip, range)) {
+        add(d, i);
+        if (i < range.end() && (!runs || i + 1 == clip.count())) add(d, i + 1);
+        ++i;
     }
     return out;
 }
@@ -266,7 +279,7 @@ Box smallest_box(const Clip& clip, SampleRange range, double w) {
 
 Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
     const std::span<const Disk> all = disks(clip, range);
-    return rectangle_over_time(clip, range, axis_2d(all, travel_axis(all), axes), time_scale);
+    return rectangle_over_time(clip, range, axis_2d(all, swept_disks(clip, range), travel_axis(all), axes), time_scale);
 }
 
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
@@ -286,8 +299,10 @@ Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale)
 Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
     const std::span<const Disk> all = disks(clip, range);
     const glm::dvec2 per_sample = drift_per_sample(all);
-    const std::vector<Disk> seen = drifting(all, per_sample);
-    Box box = rectangle_over_time(clip, range, seen, axis_2d(seen, travel_axis(all), axes), time_scale);
+    const std::vector<Disk> seen = drifting(clip, range, per_sample);
+    const std::span<const Disk> own =
+        clip.motion() == Motion::linear ? std::span(seen).first(all.size()) : std::span(seen);
+    Box box = rectangle_over_time(clip, range, seen, axis_2d(own, seen, travel_axis(all), axes), time_scale);
     box.kind = BoxKind::moving;
     box.drift = 0.5 * range.count * per_sample;
     return box;

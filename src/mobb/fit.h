@@ -34,7 +34,8 @@ struct SampleRange {
 inline constexpr double kStandingStill = 1e-6;
 
 /// The tight box around the cylinders of a range, which must lie in the clip and hold a sample. The time axis is scaled
-/// by w > 0 (m/s).
+/// by w > 0 (m/s). Of a linear clip the cylinders are slanted: the box also holds the disk that the range's last one
+/// runs to, but the directions, the velocity and what follows from a count of 1 come from the range's own samples.
 ///
 /// An obb2d, moving box or aabb is a rectangle extruded over the range's time. An obb3d whose first axis would be along
 /// time (one sample, or first and last centre within kStandingStill) comes out as an obb2d: this is where the 2D tests

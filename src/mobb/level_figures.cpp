@@ -2,12 +2,19 @@
 
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 namespace mobb {
 
 double cylinder_volume(const Clip& clip) {
     double sum = 0;
-    for (const Disk& d : clip.samples()) sum += d.r * d.r;
+    const std::span<const Disk> samples = clip.samples();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const bool runs = clip.motion() == Motion::linear && i + 1 < samples.size();
+        const double r0 = samples[i].r;
+        const double r1 = samples[runs ? i + 1 : i].r;
+        sum += runs ? (r0 * r0 + r0 * r1 + r1 * r1) / 3 : r0 * r0;
+    }
     return std::numbers::pi * sum * clip.dt();
 }
 

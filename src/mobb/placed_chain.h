@@ -12,7 +12,9 @@ class ChainSamples {
         : link_(&chain.links_[static_cast<std::size_t>(link)]), frame_(&frame), dt_(chain.dt()) {}
 
     Disk disk(int i) const { return placed(link_->disk(i), frame_->rotation, frame_->translate); }
+    Disk disk_at_end(int i) const { return disk(link_->runs_to(i)); }
     double time(int i) const { return frame_->start + i * dt_; }
+    bool is_linear() const { return link_->linear; }
 
   private:
     const Chain::Link* link_;
@@ -50,6 +52,9 @@ class PlacedChain {
     int end() const { return chain_->end(); }
     /// Sample i in the world; in O(log links).
     Disk disk(int i) const { return placed(chain_->disk(i), frame_.rotation, frame_.translate); }
+    /// What sample i has become when it ends. The last of a link stays, also of a linear one.
+    Disk disk_at_end(int i) const { return placed(chain_->disk_at_end(i), frame_.rotation, frame_.translate); }
+    bool is_linear() const { return chain_->is_linear(); }
     /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
     double time(int i) const { return frame_.start + i * dt_; }
 

@@ -15,11 +15,13 @@ namespace mobb {
 
 /// The earliest pair of samples that collide.
 struct Contact {
-    double time = 0;  ///< global seconds: the start of the pair's overlap
+    double time = 0;  ///< global seconds: when the two begin to overlap
     int a_sample = 0;
     int b_sample = 0;
-    double distance = 0;  ///< metres between the centres
-    double radii = 0;     ///< sum of the two radii, metres; distance < radii
+    /// Then, metres: between the centres, and the sum of the radii. distance < radii, unless the contact begins by
+    /// touching: then they are equal but for rounding.
+    double distance = 0;
+    double radii = 0;
 
     friend bool operator==(const Contact&, const Contact&) = default;
 };
@@ -32,12 +34,18 @@ struct Interval {
     friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// What is known of the pair (i, j), which must overlap in time.
+/// The pair (i, j) over the time that it shares; it must share some.
+template <PlacedSamples A, PlacedSamples B>
+Approach approach_of(const A& a, int i, const B& b, int j) {
+    return {swept(a, i), swept(b, j)};
+}
+
+/// What is known of the pair (i, j), which must collide.
 template <PlacedSamples A, PlacedSamples B>
 Contact contact_of(const A& a, int i, const B& b, int j) {
-    const Disk disk_a = a.disk(i);
-    const Disk disk_b = b.disk(j);
-    return {std::max(a.time(i), b.time(j)), i, j, std::sqrt(squared_distance(disk_a, disk_b)), disk_a.r + disk_b.r};
+    const Approach approach = approach_of(a, i, b, j);
+    const double s = approach.overlap().begin;
+    return {approach.time(s), i, j, std::sqrt(approach.squared_distance(s)), approach.radii(s)};
 }
 
 /// Collects hits that come in order of time into maximal intervals.
@@ -48,13 +56,14 @@ struct IntervalCollector {
     std::vector<Interval> intervals;
 
     bool operator()(int i, int j) {
-        const double t0 = std::max(a.time(i), b.time(j));
-        const double t1 = std::min(a.time(i + 1), b.time(j + 1));
+        const Approach approach = approach_of(a, i, b, j);
+        const auto [begin, end] = approach.overlap();
+        const Interval next{approach.time(begin), approach.time(end)};
         // Pairs that share less than kMinOverlap are never tested: such a crack does not end a contact.
-        if (!intervals.empty() && t0 - intervals.back().t1 <= kMinOverlap) {
-            intervals.back().t1 = t1;
+        if (!intervals.empty() && next.t0 - intervals.back().t1 <= kMinOverlap) {
+            intervals.back().t1 = next.t1;
         } else {
-            intervals.push_back({t0, t1});
+            intervals.push_back(next);
         }
         return false;
     }

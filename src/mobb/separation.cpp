@@ -17,17 +17,25 @@ constexpr double kSlackFactor = 256 * std::numeric_limits<double>::epsilon();
 /// Metres. Squares of lengths below 1e-154 underflow in the hit predicate, which then sees disks closer than they are.
 constexpr double kLeastSlack = 1e-150;
 
+/// The predicate of swept disks takes A, B and C, of at most the square of the lengths involved, for less than they are
+/// by some ten epsilons: disks that are apart by the root of that, and no less, are seen apart for certain.
+constexpr double kSweptSlackFactor = 1e-7;
+constexpr double kLeastSweptSlack = 1e-70;  // metres: B^2 is a fourth power
+
 double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 }  // namespace
 
-RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
+RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale, Motion motion)
     : rotation_(a.rotation.inverse() * b.rotation), to_world_(a.rotation) {
     const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
     offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
     const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
     const double times = std::abs(a.start) + std::abs(b.start) + a.duration + b.duration;
     slack2d_ = kLeastSlack + kSlackFactor * lengths;
+    if (motion == Motion::linear) {
+        slack2d_ += kLeastSweptSlack + kSweptSlackFactor * (manhattan(between) + a.reach + b.reach);
+    }
     slack_time_ = kSlackFactor * time_scale * times;
     slack3d_ = slack2d_ + slack_time_;
 }

@@ -26,8 +26,9 @@ struct Separation {
 /// The placement of B's frame in A's, and the slack that a gap must exceed. One per query.
 class RelativeFrame {
   public:
-    /// `time_scale` w is that of both trees.
-    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale);
+    /// `time_scale` w is that of both trees. `motion`: linear if any sample may move; the slack then covers the squares
+    /// that its predicate subtracts.
+    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale, Motion motion = Motion::held);
 
     glm::dvec2 direction(glm::dvec2 v) const { return rotation_(v); }
     glm::dvec3 direction(glm::dvec3 v) const {

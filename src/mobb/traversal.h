@@ -12,12 +12,21 @@
 
 namespace mobb {
 
-/// Placed samples: sample i is a disk in the world that holds over [time(i), time(i + 1)).
+/// Placed samples: sample i is a disk in the world over [time(i), time(i + 1)). It stays, or runs to disk_at_end(i); of
+/// samples that are not linear all stay.
 template <class S>
 concept PlacedSamples = requires(const S& samples, int i) {
     { samples.disk(i) } -> std::convertible_to<Disk>;
+    { samples.disk_at_end(i) } -> std::convertible_to<Disk>;
     { samples.time(i) } -> std::convertible_to<double>;
+    { samples.is_linear() } -> std::convertible_to<bool>;
 };
+
+/// Sample i as it runs.
+template <PlacedSamples S>
+SweptDisk swept(const S& samples, int i) {
+    return {samples.disk(i), samples.disk_at_end(i), samples.time(i), samples.time(i + 1)};
+}
 
 /// Placed samples [first(), end()) that the direct search can run through.
 template <class S>
@@ -63,11 +72,10 @@ struct PairVisit {
     bool stopped = false;  ///< on_hit asked to stop
 };
 
-/// Visits, in order of time, every pair (i, j) of samples from [first_a, end_a) x [first_b, end_b) whose hold intervals
-/// overlap, measures their distance, and calls on_hit(i, j) on those that collide, until it returns true.
-template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer, class OnHit>
-PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int first_b, int end_b,
-                             [[maybe_unused]] Observer& observer, OnHit& on_hit) {
+/// visit_sample_pairs for samples of which none moves (held) or any may (linear).
+template <Motion motion, PlacedSamples A, PlacedSamples B, TraversalObserver Observer, class OnHit>
+PairVisit visit_pairs(const A& a, int first_a, int end_a, const B& b, int first_b, int end_b,
+                      [[maybe_unused]] Observer& observer, OnHit& on_hit) {
     PairVisit visit;
     const double begin = std::max(a.time(first_a), b.time(first_b));
     int i = first_ending_after(a, first_a, end_a, begin);
@@ -77,14 +85,22 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
     Disk disk_a = a.disk(i), disk_b = b.disk(j);
     double begin_a = a.time(i), until_a = a.time(i + 1);
     double begin_b = b.time(j), until_b = b.time(j + 1);
-    for (;;) {
-        if (overlap_in_time(begin_a, until_a, begin_b, until_b)) {
+    const auto measure = [&] {
+        if constexpr (motion == Motion::held) {
             if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
-            if (collide(disk_a, disk_b)) {
-                visit.hit = true;
-                visit.stopped = on_hit(i, j);
-                if (visit.stopped) return visit;
-            }
+            return collide(disk_a, disk_b);
+        } else {
+            const Approach approach({disk_a, a.disk_at_end(i), begin_a, until_a},
+                                    {disk_b, b.disk_at_end(j), begin_b, until_b});
+            if constexpr (Observer::watches) observer.sample_pair(i, j, approach.squared_distance(approach.least()));
+            return approach.collides();
+        }
+    };
+    for (;;) {
+        if (overlap_in_time(begin_a, until_a, begin_b, until_b) && measure()) {
+            visit.hit = true;
+            visit.stopped = on_hit(i, j);
+            if (visit.stopped) return visit;
         }
         if (until_a < until_b) {
             if (++i == end_a) return visit;
@@ -100,6 +116,17 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
     }
 }
 
+/// Visits, in order of time, every pair (i, j) of samples from [first_a, end_a) x [first_b, end_b) whose hold intervals
+/// overlap, measures their distance (where they move, at the earliest time at which they are deepest in each other or
+/// nearest, see Approach::least), and calls on_hit(i, j) on those that collide, until it returns true.
+template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer, class OnHit>
+PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int first_b, int end_b, Observer& observer,
+                             OnHit& on_hit) {
+    return a.is_linear() || b.is_linear()
+               ? visit_pairs<Motion::linear>(a, first_a, end_a, b, first_b, end_b, observer, on_hit)
+               : visit_pairs<Motion::held>(a, first_a, end_a, b, first_b, end_b, observer, on_hit);
+}
+
 /// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says
 /// whether to stop.
 template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit>
@@ -108,17 +135,19 @@ class Traversal {
     Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
         : a_(a),
           b_(b),
-          frame_(a.frame(), b.frame(), a.time_scale()),
+          motion_(a.samples().is_linear() || b.samples().is_linear() ? Motion::linear : Motion::held),
+          frame_(a.frame(), b.frame(), a.time_scale(), motion_),
           same_scale_(a.time_scale() == b.time_scale()),
           observer_(observer),
           on_hit_(on_hit) {}
 
     /// Returns true if on_hit stopped it.
-    bool run() { return visit(0, 0); }
+    bool run() { return motion_ == Motion::held ? visit<Motion::held>(0, 0) : visit<Motion::linear>(0, 0); }
 
   private:
     enum class Side { a, b };
 
+    template <Motion motion>
     bool visit(int ia, int ib) {
         const auto& na = a_.node(ia);
         const auto& nb = b_.node(ib);
@@ -126,13 +155,13 @@ class Traversal {
         bool stop = false;
         if (may_meet_in_time(na, nb) && may_meet_in_space(a_.box(na), b_.box(nb))) {
             if (na.is_leaf()) {
-                stop = nb.is_leaf() ? test_samples(na, nb) : walk<Side::b>(ia, nb);
+                stop = nb.is_leaf() ? test_samples<motion>(na, nb) : walk<motion, Side::b>(ia, nb);
             } else if (nb.is_leaf()) {
-                stop = walk<Side::a>(ib, na);
+                stop = walk<motion, Side::a>(ib, na);
             } else {
                 // In this order the traversal runs forward in time: one of the two mixed pairs is always apart in time.
-                stop = visit(na.children[0], nb.children[0]) || visit(na.children[0], nb.children[1]) ||
-                       visit(na.children[1], nb.children[0]) || visit(na.children[1], nb.children[1]);
+                stop = visit<motion>(na.children[0], nb.children[0]) || visit<motion>(na.children[0], nb.children[1]) ||
+                       visit<motion>(na.children[1], nb.children[0]) || visit<motion>(na.children[1], nb.children[1]);
             }
         }
         if constexpr (Observer::watches) observer_.leave();
@@ -141,7 +170,7 @@ class Traversal {
 
     /// A leaf against the children of the other side's inner node (Fig. 4): in time only, as a box test gains nothing
     /// there.
-    template <Side inner_side>
+    template <Motion motion, Side inner_side>
     bool walk(int leaf, const auto& inner) {
         for (const int child : inner.children) {
             const int ia = inner_side == Side::a ? child : leaf;
@@ -152,9 +181,9 @@ class Traversal {
             bool stop = false;
             if (may_meet_in_time(na, nb)) {
                 if constexpr (inner_side == Side::a) {
-                    stop = na.is_leaf() ? test_samples(na, nb) : walk<Side::a>(leaf, na);
+                    stop = na.is_leaf() ? test_samples<motion>(na, nb) : walk<motion, Side::a>(leaf, na);
                 } else {
-                    stop = nb.is_leaf() ? test_samples(na, nb) : walk<Side::b>(leaf, nb);
+                    stop = nb.is_leaf() ? test_samples<motion>(na, nb) : walk<motion, Side::b>(leaf, nb);
                 }
             }
             if constexpr (Observer::watches) observer_.leave();
@@ -184,15 +213,17 @@ class Traversal {
         }
     }
 
+    template <Motion motion>
     bool test_samples(const auto& na, const auto& nb) {
-        const PairVisit pairs = visit_sample_pairs(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first,
-                                                   nb.end(), observer_, on_hit_);
+        const PairVisit pairs = visit_pairs<motion>(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first,
+                                                    nb.end(), observer_, on_hit_);
         if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
         return pairs.stopped;
     }
 
     const A& a_;
     const B& b_;
+    Motion motion_;  ///< linear if any sample may move
     RelativeFrame frame_;
     bool same_scale_;
     Observer& observer_;

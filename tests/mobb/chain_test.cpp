@@ -114,6 +114,73 @@ TEST(Chain, EveryQueryGivesTheRebuiltTreesAnswerAndContact) {
     EXPECT_LT(hits, asked * 9 / 10);
 }
 
+/// Links of which about half are linear.
+std::vector<ChainLink> random_running_links(Random& random, int most, double time_scale, int most_samples) {
+    std::vector<ChainLink> links = random_links(random, most, time_scale, most_samples);
+    for (ChainLink& link : links) {
+        link.part = part_of(test::random_motion(random, link.part->tree().shared_clip()), link.part->tree().options());
+    }
+    return links;
+}
+
+/// Of all pairs of samples of two chains, the one that collides first.
+std::optional<Contact> earliest_of_chains(const PlacedChain& a, const PlacedChain& b) {
+    for (int i = a.first(); i < a.end(); ++i) {
+        for (int j = b.first(); j < b.end(); ++j) {
+            if (!overlap_in_time(a.time(i), a.time(i + 1), b.time(j), b.time(j + 1))) continue;
+            if (approach_of(a, i, b, j).collides()) return contact_of(a, i, b, j);
+        }
+    }
+    return std::nullopt;
+}
+
+TEST(Chain, OfLinearClipsEachLinksLastSampleStays) {
+    const auto clip = std::make_shared<const Clip>(0.5, std::vector<Disk>{{0, 0, 0.1}, {1, 0, 0.3}}, Motion::linear);
+    const ChainPartPtr part = part_of(clip, {});
+    const Chain chain(std::vector<ChainLink>{{part, {0, 0}, 0}, {part, {5, 0}, 0}});
+    EXPECT_TRUE(chain.is_linear());
+    EXPECT_EQ(chain.disk_at_end(0).x, 1);
+    EXPECT_EQ(chain.disk_at_end(1).x, 1) << "and does not run to the next link";
+    EXPECT_EQ(chain.disk_at_end(2).x, 6);
+    EXPECT_EQ(chain.disk_at_end(3).r, 0.3);
+    EXPECT_THROW(flattened(chain), std::invalid_argument);
+    const Clip alone = flattened(Chain(std::vector<ChainLink>{{part, {0, 0}, 0}}));
+    EXPECT_EQ(alone.motion(), Motion::linear);
+}
+
+TEST(Chain, OfLinearAndHeldClipsGivesTheDirectSearchsAnswer) {
+    const int budget = query_budget() / 10;
+    Random random(41);
+    int asked = 0, hits = 0;
+    while (asked < budget) {
+        const double w = random_scale(random);
+        const Chain a(random_running_links(random, 12, w, 300)), b(random_running_links(random, 12, w, 300));
+        const ClipPtr clip = test::random_motion(random, test::random_clip(random, 300));
+        FitOptions fit = test::random_fit(random);
+        fit.time_scale = w;
+        const Tree tree(clip, fit);
+        for (int k = 0; k < 20; ++k) {
+            Placement place_a, place_b, place_c;
+            // Of the first links alone, as that is all that placing asks for.
+            test::random_placements(random, a.part(0).clip(), b.part(0).clip(), place_a, place_b);
+            test::random_placements(random, a.part(0).clip(), *clip, place_a, place_c);
+            const PlacedChain chain_a(a, place_a), chain_b(b, place_b);
+            const PlacedTree placed(tree, place_c);
+            const std::optional<Contact> expected = direct_search(chain_a, chain_b);
+            ASSERT_EQ(query(chain_a, chain_b), expected) << asked;
+            ASSERT_EQ(query(chain_a, placed), direct_search(chain_a, placed.placed_clip())) << asked;
+            ASSERT_EQ(contact_intervals(chain_a, chain_b), direct_contact_intervals(chain_a, chain_b)) << asked;
+            if (k == 0 && a.end() < 300 && b.end() < 300) {
+                const std::optional<Contact> first = earliest_of_chains(chain_a, chain_b);
+                ASSERT_EQ(first.has_value(), expected.has_value());
+            }
+            asked += 2;
+            hits += expected.has_value();
+        }
+    }
+    EXPECT_GT(hits, asked / 30);
+}
+
 TEST(Chain, BoxesAreAboutAsTightAsARebuiltTreesAtEqualCount) {
     Random random(35);
     for (const int links : {2, 8, 60, 500}) {

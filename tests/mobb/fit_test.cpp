@@ -30,9 +30,10 @@ Reach reach_along(const Clip& clip, SampleRange range, glm::dvec3 axis, double w
     const glm::dvec2 rim = in_plane > 0 ? glm::dvec2{axis.x, axis.y} / in_plane : glm::dvec2{1, 0};
     Reach reach;
     for (int i = range.first; i < range.end(); ++i) {
-        const Disk d = clip.samples()[static_cast<std::size_t>(i)];
         for (const double side : {-1.0, 1.0}) {
             for (const int end : {0, 1}) {
+                const bool runs = clip.motion() == Motion::linear && i + 1 < clip.count();
+                const Disk d = clip.samples()[static_cast<std::size_t>(runs ? i + end : i)];
                 const double wt = w * clip.dt() * (i + end);
                 const glm::dvec2 q = -(wt - drift.middle) * drift.velocity;
                 const glm::dvec3 p{d.x + side * d.r * rim.x + q.x, d.y + side * d.r * rim.y + q.y, wt};
@@ -73,7 +74,7 @@ void expect_tight(const Clip& clip, SampleRange range, const Box& box, double w)
 TEST(Fit, EveryBoxIsTightAndContainsItsCylinders) {
     Random random(1);
     for (int round = 0; round < 400; ++round) {
-        const ClipPtr clip = test::random_clip(random, 300);
+        const ClipPtr clip = test::random_motion(random, test::random_clip(random, 300));
         FitOptions options = test::random_fit(random);
         const Tree tree(clip, options);
         for (const Node& node : tree.nodes()) {
@@ -248,7 +249,7 @@ double area(const Clip& clip, glm::dvec2 u) {
 TEST(Fit, MinareaIsWithinOnePercentOfTheBestOf1800Angles) {
     Random random(2);
     for (int round = 0; round < 150; ++round) {
-        const ClipPtr clip = test::random_clip(random, 200);
+        const ClipPtr clip = test::random_motion(random, test::random_clip(random, 200));
         double best = 1e300;
         for (int k = 0; k < 1800; ++k) {
             const double angle = std::numbers::pi * k / 1800;
@@ -277,6 +278,19 @@ TEST(Fit, AMovingBoxMovesFromTheFirstCentreToTheLast) {
     EXPECT_EQ(fit(BoxKind::moving, clip, {0, 1}, Axes::endpoints, 1).drift, glm::dvec2(0)) << "one sample stands still";
 }
 
+TEST(Fit, OfALinearClipHoldsTheDiskThatTheLastOneRunsTo) {
+    const Clip clip(1, {{0, 0, 0.5}, {2, 0, 0.5}, {4, 6, 1}}, Motion::linear);
+    const Box first = fit(BoxKind::obb2d, clip, {0, 2}, Axes::endpoints, 1);
+    EXPECT_EQ(first.axes[0], glm::dvec3(1, 0, 0)) << "the way of its own samples";
+    EXPECT_DOUBLE_EQ(first.half.x, 5.5 / 2);
+    EXPECT_DOUBLE_EQ(first.half.y, 7.5 / 2);
+    EXPECT_EQ(fit(BoxKind::obb3d, clip, {1, 1}, Axes::endpoints, 1).kind, BoxKind::obb2d) << "one sample of its own";
+    // Walking straight, a box that moves along has nothing to make up for.
+    const Clip walk(1, {{0, 0, 0.5}, {1, 0, 0.5}, {2, 0, 0.5}, {3, 0, 0.5}}, Motion::linear);
+    EXPECT_DOUBLE_EQ(fit(BoxKind::moving, walk, {0, 3}, Axes::endpoints, 1).half.x, 0.5);
+    EXPECT_DOUBLE_EQ(fit(BoxKind::moving, walk, {0, 4}, Axes::endpoints, 1).half.x, 1) << "the last sample stays";
+}
+
 TEST(Fit, AMovingBoxIsAsNarrowAsAStraightWalk) {
     // Along the way a disk falls behind by one step within its hold interval, and no more.
     std::vector<Disk> walk;
@@ -292,7 +306,7 @@ TEST(Fit, AMovingBoxIsAsNarrowAsAStraightWalk) {
 TEST(Fit, MinareaOfMovingBoxesIsNeverLooserThanTheOthers) {
     Random random(6);
     for (int round = 0; round < 200; ++round) {
-        const ClipPtr clip = test::random_clip(random, 200);
+        const ClipPtr clip = test::random_motion(random, test::random_clip(random, 200));
         const auto size = [&](Axes axes) {
             return volume(fit(BoxKind::moving, *clip, {0, clip->count()}, axes, 1), 1);
         };
@@ -334,7 +348,7 @@ TEST(Fit, MinareaInSpaceTimeBeatsBothOthersWhereTheyAreLoose) {
 TEST(Fit, MinareaInSpaceTimeIsNeverLooserThanTheOthers) {
     Random random(3);
     for (int round = 0; round < 200; ++round) {
-        const ClipPtr clip = test::random_clip(random, 200);
+        const ClipPtr clip = test::random_motion(random, test::random_clip(random, 200));
         const SampleRange all{0, clip->count()};
         const double w = random.real(0.2, 5);
         const double found = volume(fit(BoxKind::obb3d, *clip, all, Axes::minarea, w), w);

@@ -23,8 +23,8 @@ void for_all_pairs(const PlacedClip& a, const PlacedClip& b, Visit visit) {
     }
 }
 
-/// Eq. 1 as it stands.
-std::optional<Contact> earliest_of_all_pairs(const PlacedClip& a, const PlacedClip& b) {
+/// Eq. 1 as it stands, of held clips.
+std::optional<Contact> earliest_of_held_pairs(const PlacedClip& a, const PlacedClip& b) {
     std::optional<Contact> earliest;
     for_all_pairs(a, b, [&](int i, int j, double overlap) {
         if (!(overlap > 1e-9)) return;
@@ -37,6 +37,20 @@ std::optional<Contact> earliest_of_all_pairs(const PlacedClip& a, const PlacedCl
     return earliest;
 }
 
+/// Of the pairs whose disks collide as they run, the one that begins first.
+std::optional<Contact> earliest_of_swept_pairs(const PlacedClip& a, const PlacedClip& b) {
+    std::optional<Contact> earliest;
+    double begin = 0;
+    for_all_pairs(a, b, [&](int i, int j, double overlap) {
+        if (!(overlap > 1e-9) || !approach_of(a, i, b, j).collides()) return;
+        const double time = std::max(a.time(i), b.time(j));
+        if (earliest && time >= begin) return;
+        earliest = contact_of(a, i, b, j);
+        begin = time;
+    });
+    return earliest;
+}
+
 TEST(DirectSearch, EqualsAllPairs) {
     Random random(10);
     int hits = 0;
@@ -45,7 +59,25 @@ TEST(DirectSearch, EqualsAllPairs) {
         Placement place_a, place_b;
         test::random_placements(random, *a, *b, place_a, place_b);
         const PlacedClip placed_a(*a, place_a), placed_b(*b, place_b);
-        const std::optional<Contact> expected = earliest_of_all_pairs(placed_a, placed_b);
+        const std::optional<Contact> expected = earliest_of_held_pairs(placed_a, placed_b);
+        ASSERT_EQ(direct_search(placed_a, placed_b), expected) << round;
+        ASSERT_EQ(earliest_of_swept_pairs(placed_a, placed_b), expected) << round;
+        hits += expected.has_value();
+    }
+    EXPECT_GT(hits, 800);
+    EXPECT_LT(hits, 3200);
+}
+
+TEST(DirectSearch, EqualsAllPairsOfDisksThatRun) {
+    Random random(40);
+    int hits = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const ClipPtr a = test::random_motion(random, test::random_clip(random, 60));
+        const ClipPtr b = test::random_motion(random, test::random_partner(random, *a, 60));
+        Placement place_a, place_b;
+        test::random_placements(random, *a, *b, place_a, place_b);
+        const PlacedClip placed_a(*a, place_a), placed_b(*b, place_b);
+        const std::optional<Contact> expected = earliest_of_swept_pairs(placed_a, placed_b);
         ASSERT_EQ(direct_search(placed_a, placed_b), expected) << round;
         hits += expected.has_value();
     }
@@ -58,7 +90,8 @@ TEST(Query, EveryTreeGivesTheDirectSearchsAnswerAndContact) {
     Random random(11);
     int asked = 0, hits = 0;
     while (asked < budget) {
-        const ClipPtr a = test::random_clip(random), b = test::random_partner(random, *a);
+        const ClipPtr a = test::random_motion(random, test::random_clip(random));
+        const ClipPtr b = test::random_motion(random, test::random_partner(random, *a));
         const FitOptions fit_a = test::random_fit(random);
         FitOptions fit_b = test::random_partner_fit(random, fit_a);
         // Trees of different scales do not compare free boxes: mostly the same, so that they do.
@@ -83,7 +116,8 @@ TEST(Query, EveryLeafSizeFrom1To50) {
     Random random(12);
     for (int leaf = 1; leaf <= 50; ++leaf) {
         for (int kind = 0; kind < static_cast<int>(tree_kind_names().size()); ++kind) {
-            const ClipPtr a = test::random_clip(random, 300), b = test::random_partner(random, *a, 300);
+            const ClipPtr a = test::random_motion(random, test::random_clip(random, 300));
+            const ClipPtr b = test::random_motion(random, test::random_partner(random, *a, 300));
             const FitOptions fit{.tree = static_cast<TreeKind>(kind), .leaf = leaf};
             const Tree tree_a(a, fit), tree_b(b, fit);
             for (int k = 0; k < 50; ++k) {
@@ -99,7 +133,8 @@ TEST(Query, EveryLeafSizeFrom1To50) {
 TEST(Query, DoesNotDependOnWhoIsAsked) {
     Random random(13);
     for (int round = 0; round < 500; ++round) {
-        const ClipPtr a = test::random_clip(random, 200), b = test::random_partner(random, *a, 200);
+        const ClipPtr a = test::random_motion(random, test::random_clip(random, 200));
+        const ClipPtr b = test::random_motion(random, test::random_partner(random, *a, 200));
         const FitOptions fit_a = test::random_fit(random);
         const Tree tree_a(a, fit_a), tree_b(b, test::random_partner_fit(random, fit_a));
         for (int k = 0; k < 40; ++k) {
@@ -165,7 +200,8 @@ TEST(Query, MovingTheSceneFarAwayChangesNoClearAnswer) {
 TEST(Query, MixedTimeScalesStillGiveTheAnswer) {
     Random random(15);
     for (int round = 0; round < 3000; ++round) {
-        const ClipPtr a = test::random_clip(random, 200), b = test::random_partner(random, *a, 200);
+        const ClipPtr a = test::random_motion(random, test::random_clip(random, 200));
+        const ClipPtr b = test::random_motion(random, test::random_partner(random, *a, 200));
         FitOptions fit_a = test::random_fit(random), fit_b = test::random_partner_fit(random, fit_a);
         fit_a.time_scale = random.real(0.01, 50);
         fit_b.time_scale = random.chance(0.5) ? fit_a.time_scale : random.real(0.01, 50);

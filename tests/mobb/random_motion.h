@@ -37,7 +37,7 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-enum class Motion { standing, straight, wander, loop, circles, jitter, jumps, count };
+enum class Path { standing, straight, wander, loop, circles, jitter, jumps, count };
 
 /// 1 to `most` samples; most clips are short, some are long, and one in ten lies far from its own origin. dt > 0 is
 /// taken if given.
@@ -63,7 +63,7 @@ inline ClipPtr random_clip(Random& random, int most = 2000, double given_dt = 0)
     const double dt = given_dt > 0         ? given_dt
                       : random.chance(0.7) ? kSpacings[random.integer(0, 5)]
                                            : random.real(0.005, 0.3);
-    const auto motion = static_cast<Motion>(random.integer(0, static_cast<int>(Motion::count) - 1));
+    const auto path = static_cast<Path>(random.integer(0, static_cast<int>(Path::count) - 1));
     const double speed = random.real(0.1, 5);
     const double radius = random.chance(0.1) ? 0 : random.real(0.05, 0.6);
     const double sway = random.chance(0.5) ? random.real(0, 0.15) : 0;
@@ -74,35 +74,42 @@ inline ClipPtr random_clip(Random& random, int most = 2000, double given_dt = 0)
     for (int i = 0; i < n; ++i) {
         const double phase = static_cast<double>(i) / n;
         Disk d{x, y, std::max(0.0, radius + sway * std::sin(0.7 * i))};
-        switch (motion) {
-            case Motion::standing:
+        switch (path) {
+            case Path::standing:
                 break;
-            case Motion::straight:
+            case Path::straight:
                 x += speed * dt * std::cos(heading), y += speed * dt * std::sin(heading);
                 break;
-            case Motion::wander:
+            case Path::wander:
                 heading += random.real(-0.3, 0.3);
                 x += speed * dt * std::cos(heading), y += speed * dt * std::sin(heading);
                 break;
-            case Motion::loop:  // the last centre is the first
+            case Path::loop:  // the last centre is the first
                 d.x += speed * std::cos(2 * std::numbers::pi * (n > 1 ? i / double(n - 1) : 0));
                 d.y += speed * std::sin(2 * std::numbers::pi * (n > 1 ? i / double(n - 1) : 0));
                 break;
-            case Motion::circles:
+            case Path::circles:
                 d.x += 2 * std::cos(20 * phase), d.y += 2 * std::sin(20 * phase);
                 break;
-            case Motion::jitter:
+            case Path::jitter:
                 d.x += random.real(-0.2, 0.2), d.y += random.real(-0.2, 0.2);
                 break;
-            case Motion::jumps:
+            case Path::jumps:
                 d.x += random.chance(0.05) ? 3 : 0, d.r *= random.chance(0.1) ? 0 : 1;
                 break;
-            case Motion::count:
+            case Path::count:
                 break;
         }
         samples.push_back(d);
     }
     return std::make_shared<const Clip>(dt, std::move(samples));
+}
+
+/// Held or linear, the same samples.
+inline ClipPtr random_motion(Random& random, const ClipPtr& clip) {
+    const Motion motion = random.chance(0.5) ? Motion::linear : Motion::held;
+    return std::make_shared<const Clip>(clip->dt(), std::vector(clip->samples().begin(), clip->samples().end()),
+                                        motion);
 }
 
 /// A second clip for a pair: now and then with the first one's dt, so that their frames can be aligned.
