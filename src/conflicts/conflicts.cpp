@@ -24,11 +24,12 @@ struct DeepestPair {
     Conflict& conflict;
 
     bool operator()(int i, int j) {
-        const mobb::Contact contact = mobb::contact_of(a, i, b, j);
-        const double clearance = contact.distance - contact.radii;
+        const mobb::Approach approach = mobb::approach_of(a, i, b, j);
+        const double s = approach.nearest();
+        const double clearance = approach.clearance(s);
         if (clearance >= conflict.least_clearance) return false;
         conflict.least_clearance = clearance;
-        conflict.time = contact.time;
+        conflict.time = approach.time(s);
         conflict.a_sample = i;
         conflict.b_sample = j;
         return false;
@@ -56,8 +57,10 @@ Conflict conflict_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, Searc
 
 constexpr int kPieceSamples = 16;  // few enough that a piece is small on the floor, enough that pieces are few
 constexpr double kMostCellsPerPiece = 8;
-// Widens the pieces by more than any rounding of the predicate: it must not hit where they are apart.
+// Widen the pieces by more than any rounding of the predicate, of held and of linear clips (see mobb/separation.cpp):
+// it must not hit where they are apart.
 constexpr double kWidening = 1e-14;
+constexpr double kLinearWidening = 1e-6;
 
 /// Some samples of a member: where they are on the floor, and when.
 struct PathPiece {
@@ -75,13 +78,16 @@ std::vector<PathPiece> cut(std::span<const mobb::PlacedTree> crowd) {
     std::vector<PathPiece> pieces;
     for (std::size_t member = 0; member < crowd.size(); ++member) {
         const mobb::PlacedClip& clip = crowd[member].placed_clip();
+        const double widening = clip.is_linear() ? kLinearWidening : kWidening;
         for (int first = 0; first < clip.count(); first += kPieceSamples) {
             const int end = std::min(clip.count() - first, kPieceSamples) + first;
             constexpr double kFar = std::numeric_limits<double>::infinity();
             PathPiece piece{static_cast<int>(member), clip.time(first), clip.time(end), kFar, -kFar, kFar, -kFar};
-            for (int i = first; i < end; ++i) {
+            // The last sample of a piece may run to the first of the next.
+            const int reached = std::min(clip.is_linear() ? end + 1 : end, clip.count());
+            for (int i = first; i < reached; ++i) {
                 const mobb::Disk disk = clip.disk(i);
-                const double wide = disk.r + kWidening * (std::abs(disk.x) + std::abs(disk.y) + disk.r);
+                const double wide = disk.r + widening * (std::abs(disk.x) + std::abs(disk.y) + disk.r);
                 piece.x0 = std::min(piece.x0, disk.x - wide);
                 piece.x1 = std::max(piece.x1, disk.x + wide);
                 piece.y0 = std::min(piece.y0, disk.y - wide);

@@ -21,7 +21,7 @@ struct Conflict {
     std::vector<mobb::Interval> intervals;  ///< all that they collide over, earliest first; at least one
     /// Metres: the least of distance of centres minus radii over the pairs of samples that overlap in time; at most 0.
     double least_clearance = 0;
-    double time = 0;  ///< global seconds: when that pair's overlap begins; of equals the earliest
+    double time = 0;  ///< global seconds: when it is so; of held clips when that pair's overlap begins; the earliest
     int a_sample = 0;
     int b_sample = 0;
 };

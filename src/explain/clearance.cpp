@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -23,16 +24,20 @@ struct PieceRecorder : mobb::ObserverBase {
 
     PieceRecorder(const mobb::PlacedClip& a_, const mobb::PlacedClip& b_) : a(a_), b(b_) {}
 
-    void sample_pair(int i, int j, double squared_distance) {
-        const double apart = std::sqrt(squared_distance) - (a.disk(i).r + b.disk(j).r);
+    void sample_pair(int i, int j, double /*squared_distance*/) {
+        const mobb::Approach approach = mobb::approach_of(a, i, b, j);
+        const double s = approach.nearest();
+        const double apart = approach.clearance(s);
         // The predicate decides on squares; a root that rounds may not contradict it.
-        out.pieces.push_back(
-            {std::max(a.time(i), b.time(j)), std::min(a.time(i + 1), b.time(j + 1)), std::max(apart, 0.0), i, j});
+        out.pieces.push_back({approach, approach.t0, approach.t1, std::max(apart, 0.0), approach.time(s), i, j});
         colliding = std::min(apart, -std::numeric_limits<double>::denorm_min());
     }
     bool operator()(int /*i*/, int /*j*/) {
-        out.pieces.back().clearance = colliding;
-        if (!out.contact) out.contact = out.pieces.size() - 1;
+        ClearancePiece& piece = out.pieces.back();
+        piece.clearance = colliding;
+        if (out.contact) return false;
+        out.contact = out.pieces.size() - 1;
+        out.contact_time = piece.approach.time(piece.approach.overlap().begin);
         return false;
     }
 
@@ -151,7 +156,24 @@ class Least {
     const Value& value_of_;
 };
 
+/// The least and the most clearance of a piece from one global time to another.
+std::pair<double, double> range_within(const ClearancePiece& piece, double from, double to) {
+    // Convex over the piece: least at its least or at the end nearer to that, most at an end.
+    const double begin = std::clamp(from, piece.t0, piece.t1);
+    const double end = std::clamp(to, begin, piece.t1);
+    const double least_at = std::clamp(piece.least_at, begin, end);
+    const auto clearance = [&](double t) { return clearance_at(piece, t); };
+    return {least_at == piece.least_at ? piece.clearance : clearance(least_at),
+            std::max({clearance(begin), clearance(end), piece.clearance})};
+}
+
 }  // namespace
+
+double clearance_at(const ClearancePiece& piece, double time) {
+    if (piece.approach.is_still()) return piece.clearance;
+    const double s = std::clamp((time - piece.t0) / (piece.t1 - piece.t0), 0.0, 1.0);
+    return piece.approach.clearance(s);
+}
 
 Clearance clearance_over_time(const mobb::PlacedClip& a, const mobb::PlacedClip& b) {
     PieceRecorder recorder(a, b);
@@ -176,9 +198,12 @@ std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, d
         // A piece that ends where a column begins is not in it, but is always in some column.
         const std::size_t last = std::max(first, column(std::ceil((piece.t1 - t0) * per_second) - 1));
         for (std::size_t i = first; i <= last; ++i) {
+            const auto border = [&](std::size_t k) { return t0 + static_cast<double>(k) / per_second; };
+            const auto [least, most] =
+                range_within(piece, i == first ? piece.t0 : border(i), i == last ? piece.t1 : border(i + 1));
             ClearanceColumn& at = out[i];
-            at.least = at.any ? std::min(at.least, piece.clearance) : piece.clearance;
-            at.most = at.any ? std::max(at.most, piece.clearance) : piece.clearance;
+            at.least = at.any ? std::min(at.least, least) : least;
+            at.most = at.any ? std::max(at.most, most) : most;
             at.any = true;
         }
     }
@@ -186,6 +211,7 @@ std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, d
 }
 
 FloorPaths floor_paths(const mobb::PlacedClip& clip_a, const mobb::PlacedClip& clip_b, std::int64_t most_visits) {
+    if (clip_a.is_linear() || clip_b.is_linear()) return {};
     const Ranges a(clip_a);
     const Ranges b(clip_b);
     std::int64_t visits = most_visits;

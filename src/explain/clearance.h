@@ -11,19 +11,25 @@
 
 namespace mobbscope {
 
-/// A pair of samples that share time. Between two events of the clips nothing moves, so its clearance is constant.
+/// A pair of samples that share time. Between two events of held clips nothing moves; disks of linear clips run.
 struct ClearancePiece {
+    mobb::Approach approach;
     double t0 = 0;  ///< what they share, global seconds [t0, t1)
     double t1 = 0;
-    double clearance = 0;  ///< metres between the disks; below 0 exactly where the pair collides
+    double clearance = 0;  ///< the least over that time, metres; below 0 exactly where the pair collides
+    double least_at = 0;   ///< global seconds: when, the earliest
     int a_sample = 0;
     int b_sample = 0;
 };
+
+/// Of a piece at a global time in it, metres.
+double clearance_at(const ClearancePiece& piece, double time);
 
 struct Clearance {
     std::vector<ClearancePiece> pieces;  ///< in order of time, every pair that the direct search would measure
     std::optional<std::size_t> least;    ///< the piece that is nearest, the earliest of equals; none without pieces
     std::optional<std::size_t> contact;  ///< the first piece that collides
+    double contact_time = 0;             ///< global seconds: when it begins to
 };
 
 /// Takes time linear in the samples that share time.
@@ -48,7 +54,8 @@ struct FloorMeeting {
 };
 
 struct FloorPaths {
-    bool known = false;  ///< false: too many samples lie too near each other to tell in the time of a frame
+    /// False: too many samples lie too near each other to tell in the time of a frame, or disks run between samples.
+    bool known = false;
     std::optional<FloorMeeting> meeting;  ///< if the paths overlap on the floor
     double apart = 0;                     ///< metres between them if not; else 0
 };

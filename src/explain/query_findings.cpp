@@ -50,7 +50,7 @@ QueryFindings find_out(const FittedScene& fitted, const ViewState& view, const R
 
 std::string answer_words(std::span<const DrawnAgent> sides, const Clearance& clearance) {
     if (!clearance.contact) return sides[0].label + " and " + sides[1].label + " never collide";
-    return "They collide at " + with_unit(clearance.pieces[*clearance.contact].t0, "s");
+    return "They collide at " + with_unit(clearance.contact_time, "s");
 }
 
 std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clearance& clearance,
@@ -63,7 +63,8 @@ std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clea
                       with_unit(-piece.clearance, "m") + ".");
         const ClearancePiece& deepest = clearance.pieces[*clearance.least];
         if (*clearance.least != *clearance.contact) {
-            out.push_back("Deepest at " + with_unit(deepest.t0, "s") + ": " + with_unit(-deepest.clearance, "m") + ".");
+            out.push_back("Deepest at " + with_unit(deepest.least_at, "s") + ": " + with_unit(-deepest.clearance, "m") +
+                          ".");
         }
         return out;
     }
@@ -72,8 +73,8 @@ std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clea
         out.insert(out.begin(), no_common_time(sides));
     } else {
         const ClearancePiece& nearest = clearance.pieces[*clearance.least];
-        out.push_back("They come nearest at " + with_unit(nearest.t0, "s") + ": " + with_unit(nearest.clearance, "m") +
-                      " apart.");
+        out.push_back("They come nearest at " + with_unit(nearest.least_at, "s") + ": " +
+                      with_unit(nearest.clearance, "m") + " apart.");
     }
     return out;
 }

@@ -1,6 +1,7 @@
 #include <base/text.h>
 #include <explain/axis_intervals.h>
 #include <explain/query_sentence.h>
+#include <mobb/query.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,8 @@ std::string sample_outcome(std::span<const DrawnAgent> sides, const mobb::Trace:
     if (event.pairs.empty()) return "no pair of samples overlaps in time";
     double clearance = std::numeric_limits<double>::max();
     for (const mobb::MeasuredPair& pair : event.pairs) {
-        clearance = std::min(clearance, pair.distance - a.disk(pair.i).r - b.disk(pair.j).r);
+        const mobb::Approach approach = mobb::approach_of(a, pair.i, b, pair.j);
+        clearance = std::min(clearance, approach.clearance(approach.nearest()));
     }
     return "no hit in " + counted(event.pairs.size(), "pair", "pairs") + " of samples, the nearest " +
            with_unit(clearance, "m") + " apart";

@@ -78,6 +78,8 @@ class Approach {
     /// Whether the disks overlap at some time. Decides without a division.
     bool collides() const { return C < 0 || at_end < 0 || (A > 0 && -2 * A < B && B < 0 && B * B > 4 * A * C); }
 
+    /// Whether neither moves against the other.
+    bool is_still() const { return d_change == glm::dvec2(0) && r_change == 0; }
     double time(double s) const { return s >= 1 ? t1 : t0 + s * (t1 - t0); }
     double squared_distance(double s) const {
         const double x = d.x + s * d_change.x;
@@ -86,6 +88,17 @@ class Approach {
     }
     double radii(double s) const { return r + s * r_change; }
 
+    /// Metres between the disks; < 0: how deep they overlap.
+    double clearance(double s) const { return std::sqrt(squared_distance(s)) - radii(s); }
+    /// An s at which the clearance is least, the earliest but for rounding. Not where f is, if the radii change.
+    double nearest() const {
+        const double along = d.x * d_change.x + d.y * d_change.y;
+        const double speed_squared = d_change.x * d_change.x + d_change.y * d_change.y;
+        if (speed_squared <= r_change * r_change) return clearance(1) < clearance(0) ? 1 : 0;
+        const double aside = std::abs(d.x * d_change.y - d.y * d_change.x);
+        const double beyond = aside * r_change / std::sqrt(speed_squared - r_change * r_change);
+        return std::clamp((beyond - along) / speed_squared, 0.0, 1.0);
+    }
     /// The earliest s at which f is least.
     double least() const {
         if (A > 0) return std::clamp(-B / (2 * A), 0.0, 1.0);

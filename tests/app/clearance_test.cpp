@@ -1,7 +1,7 @@
 /// Clearance over time against a direct computation.
 #include <explain/clearance.h>
 #include <gtest/gtest.h>
-#include <mobb/predicate.h>
+#include <mobb/query.h>
 
 #include <cmath>
 
@@ -16,16 +16,34 @@ using mobb::PlacedClip;
 using mobb::Placement;
 using mobb::test::Random;
 
+struct Pair {
+    double t0, t1, clearance;
+    int a_sample, b_sample;
+};
+
+/// By halving the time: the clearance is convex.
+double least_clearance(const mobb::SweptDisk& a, const mobb::SweptDisk& b, double t0, double t1) {
+    const auto at = [&](double t) {
+        const mobb::Disk p = a.at(t), q = b.at(t);
+        return std::hypot(p.x - q.x, p.y - q.y) - p.r - q.r;
+    };
+    for (int i = 0; i < 100; ++i) {
+        const double first = t0 + (t1 - t0) / 3;
+        const double second = t1 - (t1 - t0) / 3;
+        (at(first) <= at(second) ? t1 : t0) = at(first) <= at(second) ? second : first;
+    }
+    return at(0.5 * (t0 + t1));
+}
+
 /// All pairs that share time, by looking at all pairs there are.
-std::vector<ClearancePiece> by_all_pairs(const PlacedClip& a, const PlacedClip& b) {
-    std::vector<ClearancePiece> out;
+std::vector<Pair> by_all_pairs(const PlacedClip& a, const PlacedClip& b) {
+    std::vector<Pair> out;
     for (int i = 0; i < a.count(); ++i) {
         for (int j = 0; j < b.count(); ++j) {
             if (!mobb::overlap_in_time(a.time(i), a.time(i + 1), b.time(j), b.time(j + 1))) continue;
-            const double dx = a.disk(i).x - b.disk(j).x;
-            const double dy = a.disk(i).y - b.disk(j).y;
-            out.push_back({std::max(a.time(i), b.time(j)), std::min(a.time(i + 1), b.time(j + 1)),
-                           std::hypot(dx, dy) - a.disk(i).r - b.disk(j).r, i, j});
+            const double t0 = std::max(a.time(i), b.time(j));
+            const double t1 = std::min(a.time(i + 1), b.time(j + 1));
+            out.push_back({t0, t1, least_clearance(mobb::swept(a, i), mobb::swept(b, j), t0, t1), i, j});
         }
     }
     std::stable_sort(out.begin(), out.end(), [](const auto& p, const auto& q) { return p.t0 < q.t0; });
@@ -37,8 +55,8 @@ TEST(Clearance, IsThatOfAllPairsThatShareTime) {
     int with_contact = 0;
     int without_time = 0;
     for (int round = 0; round < 400; ++round) {
-        const ClipPtr a = mobb::test::random_clip(random, 120);
-        const ClipPtr b = mobb::test::random_partner(random, *a, 120);
+        const ClipPtr a = mobb::test::random_motion(random, mobb::test::random_clip(random, 120));
+        const ClipPtr b = mobb::test::random_motion(random, mobb::test::random_partner(random, *a, 120));
         Placement place_a, place_b;
         mobb::test::random_placements(random, *a, *b, place_a, place_b);
         const PlacedClip pa(*a, place_a), pb(*b, place_b);
@@ -51,7 +69,8 @@ TEST(Clearance, IsThatOfAllPairsThatShareTime) {
             EXPECT_EQ(found.pieces[k].b_sample, expected[k].b_sample);
             EXPECT_EQ(found.pieces[k].t0, expected[k].t0);
             EXPECT_EQ(found.pieces[k].t1, expected[k].t1);
-            EXPECT_NEAR(found.pieces[k].clearance, expected[k].clearance, 1e-9);
+            EXPECT_NEAR(found.pieces[k].clearance, expected[k].clearance, 1e-7);
+            EXPECT_NEAR(clearance_at(found.pieces[k], found.pieces[k].least_at), found.pieces[k].clearance, 1e-9);
             least = std::min(least, found.pieces[k].clearance);
         }
         EXPECT_EQ(found.least.has_value(), !expected.empty());
@@ -64,12 +83,12 @@ TEST(Clearance, IsThatOfAllPairsThatShareTime) {
         const auto contact = mobb::direct_search(pa, pb);
         ASSERT_EQ(found.contact.has_value(), contact.has_value()) << round;
         for (const ClearancePiece& piece : found.pieces) {
-            EXPECT_EQ(piece.clearance < 0, mobb::collide(pa.disk(piece.a_sample), pb.disk(piece.b_sample)));
+            EXPECT_EQ(piece.clearance < 0, piece.approach.collides());
         }
         if (!contact) continue;
         ++with_contact;
         const ClearancePiece& first = found.pieces[*found.contact];
-        EXPECT_EQ(first.t0, contact->time);
+        EXPECT_EQ(found.contact_time, contact->time);
         EXPECT_EQ(first.a_sample, contact->a_sample);
         EXPECT_EQ(first.b_sample, contact->b_sample);
     }
@@ -80,8 +99,8 @@ TEST(Clearance, IsThatOfAllPairsThatShareTime) {
 TEST(Clearance, ColumnsLoseNoMinimum) {
     Random random(2);
     for (int round = 0; round < 200; ++round) {
-        const ClipPtr a = mobb::test::random_clip(random, 300);
-        const ClipPtr b = mobb::test::random_partner(random, *a, 300);
+        const ClipPtr a = mobb::test::random_motion(random, mobb::test::random_clip(random, 300));
+        const ClipPtr b = mobb::test::random_motion(random, mobb::test::random_partner(random, *a, 300));
         Placement place_a, place_b;
         mobb::test::random_placements(random, *a, *b, place_a, place_b);
         const PlacedClip pa(*a, place_a), pb(*b, place_b);
@@ -110,8 +129,8 @@ TEST(Clearance, ColumnsLoseNoMinimum) {
         for (const ClearancePiece& piece : found.pieces) {
             const double middle = 0.5 * (piece.t0 + piece.t1);
             const auto k = static_cast<std::size_t>(std::clamp((middle - t0) / (t1 - t0) * count, 0.0, count - 1.0));
-            EXPECT_LE(columns[k].least, piece.clearance);
-            EXPECT_GE(columns[k].most, piece.clearance);
+            EXPECT_LE(columns[k].least, clearance_at(piece, middle) + 1e-9);
+            EXPECT_GE(columns[k].most, clearance_at(piece, middle) - 1e-9);
         }
     }
 }

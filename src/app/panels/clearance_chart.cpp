@@ -51,7 +51,8 @@ void text_at(ImDrawList& list, const Style& style, const Chart& chart, ImVec2 at
 
 void least_mark(ImDrawList& list, const Style& style, const Chart& chart, const ClearancePiece& least) {
     const EventMark mark = least.clearance < 0 ? EventMark::hit : EventMark::separated;
-    const ImVec2 at{chart.x.pixel(0.5 * (least.t0 + least.t1)), chart.y.pixel(least.clearance)};
+    const ImVec2 at{chart.x.pixel(least.approach.is_still() ? 0.5 * (least.t0 + least.t1) : least.least_at),
+                    chart.y.pixel(least.clearance)};
     list.AddCircleFilled(at, 3.5f * style.scale, mark_color(style, mark));
     list.AddCircle(at, 3.5f * style.scale, style.text, 0, style.scale);
 }
@@ -86,7 +87,7 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
         return;
     }
     const ClearancePiece& least = clearance.pieces[*clearance.least];
-    const std::string when = (least.clearance < 0 ? "deepest at " : "least at ") + with_unit(least.t0, "s");
+    const std::string when = (least.clearance < 0 ? "deepest at " : "least at ") + with_unit(least.least_at, "s");
     number_row(ui, when.c_str(), signed_metres(least.clearance) + " m", least.clearance, "m");
 
     const float label = ui.style.caption->FontSize + ui.px(4);
@@ -130,8 +131,8 @@ void QueryPictures::clearance(Ui& ui, const QueryFindings& findings, float heigh
     const double t = std::clamp(chart.x.value(ImGui::GetIO().MousePos.x), chart.time.t0, chart.time.t1);
     if (const ClearancePiece* piece = piece_at(clearance, t)) {
         ImGui::SetTooltip("%s: %s m\nsample %d of %s, sample %d of %s", with_unit(t, "s").c_str(),
-                          signed_metres(piece->clearance).c_str(), piece->a_sample, findings.sides[0].label.c_str(),
-                          piece->b_sample, findings.sides[1].label.c_str());
+                          signed_metres(clearance_at(*piece, t)).c_str(), piece->a_sample,
+                          findings.sides[0].label.c_str(), piece->b_sample, findings.sides[1].label.c_str());
     } else {
         ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
     }

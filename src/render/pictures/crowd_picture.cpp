@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <mobb/traversal.h>
 #include <render/layout/annotations.h>
 #include <render/layout/follow.h>
 #include <render/layout/framing.h>
@@ -134,7 +135,7 @@ class CrowdPicture final : public Picture {
         for (const DrawnAgent& agent : agents_) {
             const auto sample = sample_at(agent, time_);
             if (!sample || agent.hidden) continue;
-            const mobb::Disk disk = agent.clip().disk(*sample);
+            const mobb::Disk disk = mobb::swept(agent.clip(), *sample).at(time_);
             const glm::vec3 middle = list_.space.point(disk.x, disk.y, time_);
             const float radius = static_cast<float>(disk.r) * list_.projection.pixels_per_metre(middle);
             const auto pixel = list_.projection.project(middle);

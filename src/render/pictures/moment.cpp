@@ -2,6 +2,7 @@
 #include <import/skeleton/disk_sampler.h>
 #include <import/skeleton/motion.h>
 #include <mobb/predicate.h>
+#include <mobb/traversal.h>
 #include <render/layout/annotations.h>
 #include <render/parts/paths.h>
 #include <render/pictures/moment.h>
@@ -124,7 +125,8 @@ Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> hei
     for (std::size_t i = 0; i < agents.size(); ++i) {
         const std::optional<int> sample = sample_at(agents[i], time);
         if (!sample) continue;
-        Body body{static_cast<int>(i), *sample, agents[i].clip().disk(*sample), heights[i], std::nullopt, false};
+        Body body{static_cast<int>(i), *sample,      mobb::swept(agents[i].clip(), *sample).at(time),
+                  heights[i],          std::nullopt, false};
         out.bodies.push_back(body);
     }
     // Radii of more are shown by no picture.
