@@ -79,7 +79,9 @@ std::vector<PathPiece> cut(std::span<const mobb::PlacedTree> crowd) {
             const int end = std::min(clip.count() - first, kPieceSamples) + first;
             constexpr double kFar = std::numeric_limits<double>::infinity();
             PathPiece piece{static_cast<int>(member), clip.time(first), clip.time(end), kFar, -kFar, kFar, -kFar};
-            for (int i = first; i < end; ++i) {
+            // A linear clip runs on to the next disk.
+            const bool runs_on = clip.clip().motion() == mobb::Motion::linear && end < clip.count();
+            for (int i = first; i < (runs_on ? end + 1 : end); ++i) {
                 const mobb::Disk disk = clip.disk(i);
                 const double wide = disk.r + kWidening * (std::abs(disk.x) + std::abs(disk.y) + disk.r);
                 piece.x0 = std::min(piece.x0, disk.x - wide);
