@@ -11,7 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using mobb::Motion;
 using testing::kWalker;
 using testing::TempFolder;
 
@@ -20,20 +19,21 @@ constexpr const char* kPlanRows = "schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - 
 
 struct FileOf {
     const char* name;
-    const char* text;
-    Motion usual;
+    std::string text;
+    mobb::Motion usual;
 };
 
 TEST(MotionBetweenSamples, IsLinearOfTracksAndHeldOfTheRest) {
     const TempFolder folder;
-    for (const FileOf& of :
-         {FileOf{"walk.bvh", kWalker, Motion::held}, FileOf{"one.csv", "t,x,y,r\n0,0,0,1\n1,0,0,1\n", Motion::held},
-          FileOf{"ids.csv", "id,t,x,y,r\na,0,0,0,1\na,1,0,0,1\n", Motion::linear},
-          FileOf{"crowd.txt", kTrackRows, Motion::linear}, FileOf{"plan.yaml", kPlanRows, Motion::linear}}) {
+    for (const FileOf& of : {FileOf{"walk.bvh", kWalker, mobb::Motion::held},
+                             FileOf{"one.csv", "t,x,y,r\n0,0,0,1\n1,0,0,1\n", mobb::Motion::held},
+                             FileOf{"ids.csv", "id,t,x,y,r\na,0,0,0,1\na,1,0,0,1\n", mobb::Motion::linear},
+                             FileOf{"crowd.txt", kTrackRows, mobb::Motion::linear},
+                             FileOf{"plan.yaml", kPlanRows, mobb::Motion::linear}}) {
         const ParsedFile file = parse_clip_file(folder.write(of.name, of.text));
         EXPECT_EQ(file.clips({}).front().clip->motion(), of.usual) << of.name;
         EXPECT_EQ(file.offer({}).find("motion")->taken, name(of.usual)) << of.name;
-        for (const Motion motion : {Motion::held, Motion::linear}) {
+        for (const mobb::Motion motion : {mobb::Motion::held, mobb::Motion::linear}) {
             ImportOptions options;
             options.motion = motion;
             const ImportedClip made = file.clips(options).front();
@@ -45,17 +45,17 @@ TEST(MotionBetweenSamples, IsLinearOfTracksAndHeldOfTheRest) {
 TEST(MotionBetweenSamples, SurvivesTrimAndOtherRates) {
     const TempFolder folder;
     ImportOptions options;
-    options.motion = Motion::linear;
+    options.motion = mobb::Motion::linear;
     options.trim = {0.1, 0.3};
-    EXPECT_EQ(import_clips(folder.write("walk.bvh", kWalker), options).front().clip->motion(), Motion::linear);
+    EXPECT_EQ(import_clips(folder.write("walk.bvh", kWalker), options).front().clip->motion(), mobb::Motion::linear);
     ImportOptions resampled;
     resampled.fps = 25;
     const auto crowd = import_clips(folder.write("crowd.txt", kTrackRows), resampled);
     EXPECT_EQ(crowd.front().clip->count(), 11);
-    EXPECT_EQ(crowd.front().clip->motion(), Motion::linear);
+    EXPECT_EQ(crowd.front().clip->motion(), mobb::Motion::linear);
     resampled.origin = Origin::start_heading;
     const auto csv = import_clips(folder.write("ids.csv", "id,t,x,y,r\na,0,0,0,1\na,1,0,0,1\na,7,0,0,1\n"), resampled);
-    EXPECT_EQ(csv.front().clip->motion(), Motion::linear);
+    EXPECT_EQ(csv.front().clip->motion(), mobb::Motion::linear);
 }
 
 TEST(HeldStep, TheOneThatExceedsItsRadiusMostIsFound) {
@@ -68,7 +68,7 @@ TEST(HeldStep, TheOneThatExceedsItsRadiusMostIsFound) {
 }
 
 TEST(HeldStep, NoneIsTooLongOfALinearClipNorOfOneThatStands) {
-    EXPECT_FALSE(longest_held_step({1, {{0, 0, 0.1}, {9, 0, 0.1}}, Motion::linear}));
+    EXPECT_FALSE(longest_held_step({1, {{0, 0, 0.1}, {9, 0, 0.1}}, mobb::Motion::linear}));
     EXPECT_FALSE(longest_held_step({1, {{3, 4, 0}, {3, 4, 0}}}));
     EXPECT_FALSE(longest_held_step({1, {{3, 4, 0}}}));
     EXPECT_TRUE(longest_held_step({1, {{0, 0, 0.1}, {9, 0, 0.1}}}));
@@ -85,7 +85,7 @@ TEST(HeldStep, OfAFileIsWarnedOfAtTheOptionThatMendsIt) {
               "it meets in between goes unseen; give motion linear (--motion linear, or \"motion\": \"linear\" in the "
               "scene)");
     ImportOptions linear;
-    linear.motion = Motion::linear;
+    linear.motion = mobb::Motion::linear;
     EXPECT_TRUE(file.clips(linear).front().facts.warnings.empty());
 }
 

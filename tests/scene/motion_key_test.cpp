@@ -11,7 +11,6 @@
 namespace mobbscope {
 namespace {
 
-using mobb::Motion;
 using testing::input_error;
 using testing::TempFolder;
 
@@ -19,7 +18,7 @@ Scene scene_of(const std::string& clips, const std::filesystem::path& folder = "
     return parse_scene("{\"clips\": {" + clips + "}}", "s.json", folder, over);
 }
 
-ImportOptions over_with(Motion motion) {
+ImportOptions over_with(mobb::Motion motion) {
     ImportOptions out;
     out.motion = motion;
     return out;
@@ -32,9 +31,9 @@ constexpr const char* kInline = R"("a": {"dt": 1, "samples": [[0,0,1],[1,0,1]]},
 TEST(MotionKey, OfSamplesInTheSceneIsReadAndWritten) {
     const Scene scene = scene_of(kInline);
     for (const Scene& each : {scene, parse_scene(to_json(scene), "s.json", "")}) {
-        EXPECT_EQ(each.clips[0].clip->motion(), Motion::held);
-        EXPECT_EQ(each.clips[1].clip->motion(), Motion::held);
-        EXPECT_EQ(each.clips[2].clip->motion(), Motion::linear);
+        EXPECT_EQ(each.clips[0].clip->motion(), mobb::Motion::held);
+        EXPECT_EQ(each.clips[1].clip->motion(), mobb::Motion::held);
+        EXPECT_EQ(each.clips[2].clip->motion(), mobb::Motion::linear);
     }
 }
 
@@ -45,7 +44,8 @@ TEST(MotionKey, OfASourceIsReadAndWritten) {
     const Scene scene = scene_of(R"("a": {"source": "ids.csv"}, "b": {"source": "ids.csv", "motion": "held"},
         "c": {"source": "one.csv"}, "d": {"source": "one.csv", "motion": "linear"})",
                                  folder.path());
-    const Motion expected[] = {Motion::linear, Motion::held, Motion::held, Motion::linear};
+    const mobb::Motion expected[] = {mobb::Motion::linear, mobb::Motion::held, mobb::Motion::held,
+                                     mobb::Motion::linear};
     const Scene again = parse_scene(to_json(scene), "s.json", folder.path());
     const Scene inlined = parse_scene(to_json(scene, true), "s.json", "");
     for (std::size_t i = 0; i < 4; ++i) {
@@ -71,7 +71,7 @@ TEST(MotionKey, AnUnknownOneIsRefusedAtItsPlace) {
 }
 
 TEST(MotionKey, TheOptionOverrulesThatOfEveryClip) {
-    for (const Motion motion : {Motion::held, Motion::linear}) {
+    for (const mobb::Motion motion : {mobb::Motion::held, mobb::Motion::linear}) {
         const Scene scene = scene_of(kInline, "", over_with(motion));
         for (const SceneClip& clip : scene.clips) EXPECT_EQ(clip.clip->motion(), motion) << clip.name;
     }
@@ -81,17 +81,17 @@ TEST(MotionKey, LongHeldStepsOfSamplesInTheSceneAreWarnedOf) {
     const std::string clip = R"("c": {"dt": 1, "samples": [[0,0,0.5],[1,0,0.5]]})";
     ASSERT_EQ(scene_of(clip).clips[0].facts.warnings.size(), 1u);
     EXPECT_EQ(scene_of(clip).clips[0].facts.warnings[0].option, "motion");
-    EXPECT_TRUE(scene_of(clip, "", over_with(Motion::linear)).clips[0].facts.warnings.empty());
+    EXPECT_TRUE(scene_of(clip, "", over_with(mobb::Motion::linear)).clips[0].facts.warnings.empty());
     EXPECT_TRUE(scene_of(kInline).clips[0].facts.warnings.empty()) << "as long as the radius is not too long";
 }
 
 TEST(MotionKey, SamplesInTheSceneCanGetAnother) {
     Scene scene = scene_of(R"("c": {"dt": 1, "samples": [[0,0,0.5],[1,0,0.5]]})");
-    replace_clips(scene, {with_motion(scene, 0, Motion::linear)});
-    EXPECT_EQ(scene.clips[0].clip->motion(), Motion::linear);
+    replace_clips(scene, {with_motion(scene, 0, mobb::Motion::linear)});
+    EXPECT_EQ(scene.clips[0].clip->motion(), mobb::Motion::linear);
     EXPECT_EQ(scene.clips[0].clip->samples()[1].x, 1);
     EXPECT_TRUE(scene.clips[0].facts.warnings.empty());
-    replace_clips(scene, {with_motion(scene, 0, Motion::held)});
+    replace_clips(scene, {with_motion(scene, 0, mobb::Motion::held)});
     EXPECT_EQ(scene.clips[0].facts.warnings.size(), 1u);
 }
 
