@@ -385,7 +385,7 @@ TEST(ImportDialog, MotionBetweenSamplesIsAFieldThatIsUndone) {
     w.key("Ctrl+Z");
     EXPECT_EQ(w.clip().clip->motion(), mobb::Motion::linear);
     EXPECT_FALSE(w.has("import.motion.warning"));
-    w.key("Ctrl+Shift+Z");
+    w.key("Ctrl+Y");
     EXPECT_EQ(w.clip(2).clip->motion(), mobb::Motion::held);
     w.click("import.motion.reset");
     EXPECT_FALSE(w.clip(2).options.motion);
