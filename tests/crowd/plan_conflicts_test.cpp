@@ -47,6 +47,7 @@ TEST(PlanConflicts, WhoGoesWhereTheOtherComesFromSwaps) {
 
 TEST(PlanConflicts, WhoFollowsOrCrossesAtAnotherTimeHasNone) {
     EXPECT_EQ(conflicts_of({{0, 0}, {1, 0}, {2, 0}}, {{1, 0}, {2, 0}, {3, 0}}), "") << "one behind the other";
+    EXPECT_EQ(conflicts_of({{1, 0}, {2, 0}, {3, 0}}, {{0, 0}, {1, 0}, {2, 0}}), "") << "the other way round";
     EXPECT_EQ(conflicts_of({{0, 0}, {1, 0}}, {{1, 0}, {0, 0}}, 2), "") << "later";
     EXPECT_EQ(conflicts_of({{0, 0}, {1, 1}}, {{1, 0}, {0, 1}}), "") << "they cross, but on no common edge";
 }
