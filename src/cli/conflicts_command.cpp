@@ -6,11 +6,13 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <conflicts/conflicts.h>
+#include <conflicts/plan_conflicts.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/scene_edits.h>
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -97,6 +99,22 @@ struct Findings {
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
 
+    bool of_plan(const Conflict& conflict) const {
+        const Scene& scene = fitted.scene();
+        const auto from_plan = [&scene](int agent) {
+            return is_plan(scene.clips[static_cast<std::size_t>(scene.agents[static_cast<std::size_t>(agent)].clip)]);
+        };
+        return from_plan(conflict.a) && from_plan(conflict.b);
+    }
+
+    /// In the words of path finding; of agents of a plan.
+    std::vector<PlanConflict> in_plan(const Conflict& conflict) const {
+        const auto placed = [this](int agent) -> const mobb::PlacedClip& {
+            return crowd[static_cast<std::size_t>(agent)].placed_clip();
+        };
+        return plan_conflicts(placed(conflict.a), placed(conflict.b));
+    }
+
     double seconds() const {
         double sum = 0;
         for (const Conflict& conflict : conflicts.found) sum += duration(conflict);
@@ -109,6 +127,18 @@ struct Findings {
         return sum;
     }
 };
+
+void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& found) {
+    out.list("plan", found, [&](const PlanConflict& conflict) {
+        out.begin_object(Layout::row);
+        out.member("kind", name(conflict.kind));
+        out.member("t0", conflict.t0);
+        out.member("t1", conflict.t1);
+        out.member("a", {conflict.a.x, conflict.a.y});
+        out.member("b", {conflict.b.x, conflict.b.y});
+        out.end_object();
+    });
+}
 
 void write_json(const Findings& findings) {
     const Scene& scene = findings.fitted.scene();
@@ -133,6 +163,7 @@ void write_json(const Findings& findings) {
         out.member("a_sample", conflict.a_sample);
         out.member("b_sample", conflict.b_sample);
         out.member("position", {position.x, position.y});
+        if (findings.of_plan(conflict)) write_plan_conflicts(out, findings.in_plan(conflict));
         out.end_object();
     });
     out.end_object();
@@ -140,6 +171,26 @@ void write_json(const Findings& findings) {
 
 /// In metres, to the millimetre.
 std::string to_millimetres(double length) { return brief(std::round(length * 1000) / 1000); }
+
+std::string place_in_words(glm::dvec2 place) {
+    return "(" + to_millimetres(place.x) + ", " + to_millimetres(place.y) + ")";
+}
+
+/// "; vertex conflict at 3 s in (1, 2) and 2 more": the first of each kind.
+std::string plan_conflicts_in_words(const std::vector<PlanConflict>& found) {
+    std::string out;
+    for (const PlanConflictKind kind : {PlanConflictKind::vertex, PlanConflictKind::swap}) {
+        const auto first = std::ranges::find(found, kind, &PlanConflict::kind);
+        if (first == found.end()) continue;
+        out += kind == PlanConflictKind::vertex
+                   ? "; vertex conflict at " + brief(first->t0) + " s in " + place_in_words(first->a)
+                   : "; swap (edge) conflict from " + brief(first->t0) + " to " + brief(first->t1) + " s between " +
+                         place_in_words(first->a) + " and " + place_in_words(first->b);
+        const auto all = std::ranges::count(found, kind, &PlanConflict::kind);
+        if (all > 1) out += " and " + std::to_string(all - 1) + " more";
+    }
+    return out;
+}
 
 void print_text(const Findings& findings) {
     for (const Conflict& conflict : findings.conflicts.found) {
@@ -152,9 +203,9 @@ void print_text(const Findings& findings) {
             separator = ", ";
         }
         std::cout << " s; least clearance " << to_millimetres(conflict.least_clearance) << " m at "
-                  << brief(conflict.time) << " s near (" << to_millimetres(position.x) << ", "
-                  << to_millimetres(position.y) << "), samples " << conflict.a_sample << " and " << conflict.b_sample
-                  << '\n';
+                  << brief(conflict.time) << " s near " << place_in_words(position) << ", samples " << conflict.a_sample
+                  << " and " << conflict.b_sample
+                  << (findings.of_plan(conflict) ? plan_conflicts_in_words(findings.in_plan(conflict)) : "") << '\n';
     }
     std::cout << counted(findings.conflicts.found.size(), "conflict", "conflicts") << " among "
               << counted(findings.agents(), "agent", "agents") << ", " << brief(findings.seconds()) << " s in all; "

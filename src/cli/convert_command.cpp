@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -60,6 +61,32 @@ void warn_of_lost_dt(const Scene& scene) {
     }
 }
 
+/// What a CSV of these clips is read as.
+mobb::Motion motion_as_csv(const Scene& scene) {
+    return scene.clips.size() > 1 ? mobb::Motion::linear : mobb::Motion::held;
+}
+
+/// A CSV does not hold how its clips move between samples.
+void warn_of_lost_motion(const Scene& scene, const std::filesystem::path& out) {
+    const mobb::Motion read_as = motion_as_csv(scene);
+    std::vector<std::string> others;
+    for (const SceneClip& clip : scene.clips) {
+        if (clip.clip->motion() != read_as) others.push_back(clip.name);
+    }
+    if (others.empty()) return;
+    const mobb::Motion is = read_as == mobb::Motion::held ? mobb::Motion::linear : mobb::Motion::held;
+    const std::string give = "give --motion " + std::string(name(is));
+    const std::string reads = out.string() + ": a CSV with" + (scene.clips.size() > 1 ? "" : "out") +
+                              " ids is read as " + std::string(name(read_as)) + ", but ";
+    if (others.size() == scene.clips.size()) {
+        warn(reads + (others.size() > 1 ? "its clips are " : "its clip is ") + std::string(name(is)) + "; " + give +
+             " when reading it");
+        return;
+    }
+    warn(reads + counted(others.size(), "clip is ", "clips are ") + std::string(name(is)) + ", such as " +
+         in_quotes(others.front()) + "; " + give + " with --id when reading one of these, or write a scene (.json)");
+}
+
 void run_convert(const ConvertCommandArguments& arguments) {
     check_file_name(arguments.out);
     const std::string extension = lower_extension(arguments.out);
@@ -74,6 +101,7 @@ void run_convert(const ConvertCommandArguments& arguments) {
     check_clip_names(scene);
     write_file(arguments.out, to_csv(scene));
     warn_of_lost_dt(scene);
+    warn_of_lost_motion(scene, arguments.out);
 }
 
 }  // namespace

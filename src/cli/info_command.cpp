@@ -26,7 +26,8 @@ struct InfoCommandArguments {
 /// Of a clip with its samples in the scene, the scene is the file.
 SourceFacts facts_of(const SceneClip& clip) {
     if (clip.source) return clip.facts;
-    return {"scene", 1, clip.clip->count(), clip.clip->dt(), (clip.clip->count() - 1) * clip.clip->dt(), {}};
+    const mobb::Clip& samples = *clip.clip;
+    return {"scene", 1, samples.count(), samples.dt(), (samples.count() - 1) * samples.dt(), clip.facts.warnings};
 }
 
 /// Where a clip was read from: the source that its scene names, or the file itself.
@@ -63,6 +64,7 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("samples", clip.clip->count());
     out.member("dt", clip.clip->dt());
     out.member("duration", clip.clip->duration());
+    out.member("motion", mobb::name(clip.clip->motion()));
     out.member("path_length", figures.length);
     out.member("mean_speed", figures.mean_speed);
     out.member("min_radius", figures.min_radius);
@@ -113,7 +115,9 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
               << brief(facts.unit) << " m per unit" << guess_of(facts) << '\n'
               << "  taken        " << counted(clip.clip->count(), "sample", "samples") << " of "
-              << brief(clip.clip->dt()) << " s, " << brief(clip.clip->duration()) << " s in all\n"
+              << brief(clip.clip->dt()) << " s, " << brief(clip.clip->duration()) << " s in all, "
+              << mobb::name(clip.clip->motion())
+              << (clip.clip->motion() == mobb::Motion::held ? " until the next sample\n" : " to the next sample\n")
               << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
               << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
               << brief(figures.mean_radius) << " m\n";

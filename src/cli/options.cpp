@@ -1,6 +1,7 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <import/clip/held_steps.h>
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
 
@@ -37,14 +38,37 @@ std::pair<double, double> parse_trim(const std::string& text) {
 mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
     std::vector<mobb::Disk> samples(clip.samples().begin(), clip.samples().end());
     for (mobb::Disk& disk : samples) disk.r = radius;
-    return std::make_shared<const mobb::Clip>(clip.dt(), std::move(samples));
+    return std::make_shared<const mobb::Clip>(clip.dt(), std::move(samples), clip.motion());
+}
+
+/// The clip whose held steps are too long by most, and how many there are of them.
+void print_held_warning(const Scene& scene) {
+    const SceneClip* worst = nullptr;
+    double most = 0;
+    std::size_t count = 0;
+    for (const SceneClip& clip : scene.clips) {
+        const std::optional<HeldStep> step = longest_held_step(*clip.clip);
+        if (!step) continue;
+        ++count;
+        if (worst && step->length - step->radius <= most) continue;
+        most = step->length - step->radius;
+        worst = &clip;
+    }
+    if (!worst) return;
+    std::vector<ImportWarning> warnings;
+    warn_of_long_held_step(*worst->clip, warnings);
+    const std::string others = count > 1 ? " (and " + counted(count - 1, "more clip", "more clips") + ")" : "";
+    warn(scene.file.string() + ": clip " + in_quotes(worst->name) + others + ": " + warnings.front().text);
 }
 
 /// One warning a text, whatever the number of clips it holds for.
 void print_warnings(const Scene& scene) {
+    print_held_warning(scene);
     std::set<std::string> said;
     for (const SceneClip& clip : scene.clips) {
         for (const ImportWarning& warning : clip.facts.warnings) {
+            // Its figures differ from clip to clip.
+            if (warning.option == "motion") continue;
             if (said.insert(warning.text).second)
                 warn(scene.file.string() + ": clip " + in_quotes(clip.name) + ": " + warning.text);
         }
@@ -112,6 +136,10 @@ void add_import_options(Command& command, ImportOptions& options) {
     add("--dt", &ImportOptions::dt, parse_number,
         "Seconds between the rows of a CSV without times, or frames of trajectories", "S");
     add("--radius", &ImportOptions::radius, parse_number, "Radius of every sample, in metres", "R");
+    add("--motion", &ImportOptions::motion, one_of(mobb::motion_from_name, "held, linear"),
+        "What a disk does until the next sample: held, linear (tracks of people: linear; else held); inline samples "
+        "too",
+        "M");
     add("--id", &ImportOptions::id, as_it_is, "The track to take, of a file with several", "ID");
     add("--animation", &ImportOptions::animation, as_it_is, "Index or name of the animation", "A");
 }
@@ -162,15 +190,19 @@ std::uint64_t parse_seed(const std::string& text) {
 
 Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius) {
     Scene scene = load_scene(file, options);
-    print_warnings(scene);
     const auto has_source = [](const SceneClip& clip) { return clip.source.has_value(); };
     ImportOptions for_sources = options;
     if (radius == RadiusOf::every_clip && options.radius) {
         for (SceneClip& clip : scene.clips) {
-            if (!has_source(clip)) clip.clip = with_radius(*clip.clip, *options.radius);
+            if (has_source(clip)) continue;
+            clip.clip = with_radius(*clip.clip, *options.radius);
+            clip.facts.warnings.clear();
+            warn_of_long_held_step(*clip.clip, clip.facts.warnings);
         }
         for_sources.radius.reset();
     }
+    for_sources.motion.reset();
+    print_warnings(scene);
     if (for_sources != ImportOptions{} && std::none_of(scene.clips.begin(), scene.clips.end(), has_source)) {
         warn(file.string() + ": import options do not apply: every clip has its samples in the scene");
     }

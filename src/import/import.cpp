@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <import/bvh/bvh.h>
+#include <import/clip/held_steps.h>
 #include <import/import.h>
 #include <import/nodes/node_files.h>
 #include <import/skeleton/motion.h>
@@ -36,7 +37,9 @@ ParsedFile parse_once(const std::filesystem::path& file) {
     const auto checked = [file](const ImportOptions& options) { at_place(file.string(), "", [&] { check(options); }); };
     return {[=](const ImportOptions& options) {
                 checked(options);
-                return to_clips(*parsed, file, options);
+                std::vector<ImportedClip> clips = to_clips(*parsed, file, options);
+                for (ImportedClip& clip : clips) warn_of_long_held_step(*clip.clip, clip.facts.warnings);
+                return clips;
             },
             [=](const ImportOptions& options) {
                 checked(options);

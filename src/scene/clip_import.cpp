@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <import/clip/held_steps.h>
 #include <scene/clip_import.h>
 
 #include <algorithm>
@@ -72,6 +73,16 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
             {index, {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start}});
     }
     return out;
+}
+
+ReimportedClip with_motion(const Scene& scene, int clip, mobb::Motion motion) {
+    ReimportedClip made{clip, scene.clips.at(static_cast<std::size_t>(clip))};
+    const mobb::Clip& was = *made.is.clip;
+    made.is.clip = std::make_shared<const mobb::Clip>(
+        was.dt(), std::vector<mobb::Disk>(was.samples().begin(), was.samples().end()), motion);
+    made.is.facts.warnings.clear();
+    warn_of_long_held_step(*made.is.clip, made.is.facts.warnings);
+    return made;
 }
 
 void replace_clips(Scene& scene, const std::vector<ReimportedClip>& clips) {

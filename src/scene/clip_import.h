@@ -42,6 +42,9 @@ struct ReimportedClip {
 std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
                                      const std::vector<std::pair<int, ImportOptions>>& wanted);
 
+/// A clip with inline samples, between which it moves otherwise.
+ReimportedClip with_motion(const Scene& scene, int clip, mobb::Motion motion);
+
 /// Puts them into the scene; those that are no longer there, or are of another source now, are passed over. What was
 /// recorded of them is dropped: traces, and of expected answers the contact. Agents that started when their track did
 /// go on doing so.

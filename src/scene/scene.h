@@ -37,7 +37,7 @@ struct SceneClip {
     std::optional<std::string> source;           ///< relative to the scene file; none: the samples stand in the scene
     ImportOptions options;                       ///< of the source; empty for inline samples
     mobb::ClipPtr clip;                          ///< never null in a loaded scene
-    SourceFacts facts{};                         ///< of the source
+    SourceFacts facts{};                         ///< of the source; of inline samples the warnings alone
     std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton/motion.h
     double start = 0;                            ///< seconds: when it starts among the tracks of its source
 };
@@ -101,8 +101,8 @@ using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a trajectory file (a scene with an
 /// agent for each track, which starts when the track does; global time 0 is the file's first frame). `overrides` go
-/// over the import keys of every clip with a source. `progress` is told before each clip; a clip file is read in one
-/// go. Throws InputError; all files are checked before it returns.
+/// over the import keys of every clip with a source; their motion goes over that of every clip. `progress` is told
+/// before each clip; a clip file is read in one go. Throws InputError; all files are checked before it returns.
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {});
 
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.

@@ -2,6 +2,7 @@
 #include <base/file.h>
 #include <base/json.h>
 #include <base/text.h>
+#include <import/clip/held_steps.h>
 #include <import/import.h>
 #include <scene/arrangement.h>
 #include <scene/crowd_run.h>
@@ -60,6 +61,12 @@ void read_option(const JsonPlace& place, std::string_view, Origin& to) {
     to = *origin;
 }
 
+void read_option(const JsonPlace& place, std::string_view, mobb::Motion& to) {
+    const auto motion = mobb::motion_from_name(place.string());
+    if (!motion) place.fail(in_quotes(place.string()) + " is no motion; give held or linear");
+    to = *motion;
+}
+
 /// The name of a track: a string, or a whole number, which a file of tracks has as decimal digits.
 std::string read_id(const JsonPlace& place) {
     if (!place.is_number()) return place.string();
@@ -110,7 +117,9 @@ void append(std::vector<ImportWarning>& to, const std::vector<ImportWarning>& fr
     to.insert(to.end(), from.begin(), from.end());
 }
 
-mobb::ClipPtr read_samples(const JsonPlace& place) {
+mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Motion>& instead) {
+    mobb::Motion motion = mobb::Motion::held;
+    if (const auto key = place.find("motion")) read_option(*key, "motion", motion);
     const JsonPlace dt = place.require("dt");
     const double seconds = dt.number();
     const JsonPlace list = place.require("samples");
@@ -125,7 +134,7 @@ mobb::ClipPtr read_samples(const JsonPlace& place) {
                            sample[2].number(0, mobb::kMaxLength)});
     }
     try {
-        return std::make_shared<mobb::Clip>(seconds, std::move(samples));
+        return std::make_shared<mobb::Clip>(seconds, std::move(samples), instead.value_or(motion));
     } catch (const std::invalid_argument& error) {
         // The samples are in range by now: what is left is how long they last.
         dt.fail(error.what());
@@ -212,7 +221,8 @@ class SceneReader {
             read_source(place, clip);
         } else if (place.find("samples")) {
             refuse_import_keys(place);
-            clip.clip = read_samples(place);
+            clip.clip = read_samples(place, overrides_.motion);
+            warn_of_long_held_step(*clip.clip, clip.facts.warnings);
         } else {
             place.fail("a clip needs a source, or dt and samples");
         }
@@ -222,8 +232,9 @@ class SceneReader {
     static void refuse_import_keys(const JsonPlace& place) {
         for_each_import_option([&place](std::string_view key, auto) {
             const auto import_key = place.find(key);
-            // `dt` is that of the samples too.
-            if (import_key && key != "dt") import_key->fail("an import key is for a clip with a source; remove it");
+            // These two are those of the samples too.
+            if (import_key && key != "dt" && key != "motion")
+                import_key->fail("an import key is for a clip with a source; remove it");
         });
     }
 

@@ -18,6 +18,7 @@ using Layout = JsonWriter::Layout;
 
 void write_option(JsonWriter& out, const char* key, const auto& value) { out.member(key, value); }
 void write_option(JsonWriter& out, const char* key, Origin origin) { out.member(key, name(origin)); }
+void write_option(JsonWriter& out, const char* key, mobb::Motion motion) { out.member(key, mobb::name(motion)); }
 void write_option(JsonWriter& out, const char* key, const std::pair<double, double>& trim) {
     out.member(key, {trim.first, trim.second});
 }
@@ -35,6 +36,7 @@ void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
     }
     out.begin_object();
     out.member("dt", clip.clip->dt());
+    out.member("motion", mobb::name(clip.clip->motion()));
     out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.numbers({disk.x, disk.y, disk.r}); });
     out.end_object();
 }

@@ -191,6 +191,10 @@ std::vector<Case> cases() {
              EXPECT_FALSE(w.session.scene().clips[0].options.trim);
              EXPECT_EQ(w.session.fitted().tree(0).clip().count(), 60);
          }});
+    edit("clip.motion", "linear", [](CommandWorld& w) {
+        EXPECT_EQ(w.session.scene().clips[0].options.motion, mobb::Motion::linear);
+        EXPECT_EQ(w.session.fitted().tree(0).clip().motion(), mobb::Motion::linear);
+    });
 
     // Edit
     add({"edit.undo", "", {kSelectB, {"agent.move", "4 5"}}, [](CommandWorld& w) {

@@ -367,5 +367,46 @@ TEST(ImportDialog, LongImportsRunBesideTheWindow) {
     EXPECT_EQ(all_messages(session), "The clip has another size now\n") << "as the camera stays";
 }
 
+TEST(ImportDialog, MotionBetweenSamplesIsAFieldThatIsUndone) {
+    ImportWindow w;
+    w.open("people.txt");
+    w.session.select({Selection::Kind::clip, {}, 0});
+    w.session.enqueue([&] { run_command(w.session, "clip.import"); });
+    w.window.settle();
+    ASSERT_TRUE(w.has("import.motion"));
+    EXPECT_EQ(w.clip().clip->motion(), mobb::Motion::linear) << "tracks are";
+    w.click("import.motion");
+    w.click("import.motion.held");
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(w.clip(i).clip->motion(), mobb::Motion::held) << "for all of the file, " << i;
+        EXPECT_EQ(w.clip(i).options.motion, mobb::Motion::held);
+    }
+    EXPECT_TRUE(w.has("import.motion.warning")) << "steps of 100 m are longer than 0.2 m";
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.clip().clip->motion(), mobb::Motion::linear);
+    EXPECT_FALSE(w.has("import.motion.warning"));
+    w.key("Ctrl+Y");
+    EXPECT_EQ(w.clip(2).clip->motion(), mobb::Motion::held);
+    w.click("import.motion.reset");
+    EXPECT_FALSE(w.clip(2).options.motion);
+    EXPECT_EQ(w.clip(2).clip->motion(), mobb::Motion::linear);
+}
+
+TEST(ImportDialog, SamplesInTheSceneGetAnotherMotionByACommand) {
+    ImportWindow w;
+    w.folder.write("inline.json", R"({"clips": {"stand": {"dt": 1, "samples": [[0,0,1]]},
+        "far walk": {"dt": 1, "samples": [[0,0,0.5],[2,0,0.5]]}}})");
+    w.open("inline.json");
+    EXPECT_NE(all_messages(w.session).find("far walk: its disks are held, but it moves 2 m"), std::string::npos);
+    w.click("message.0.offer");
+    EXPECT_EQ(w.clip(1).clip->motion(), mobb::Motion::linear);
+    EXPECT_EQ(w.clip(0).clip->motion(), mobb::Motion::held);
+    EXPECT_EQ(w.session.fitted().tree(1).clip().motion(), mobb::Motion::linear);
+    w.key("Ctrl+Z");
+    EXPECT_EQ(w.clip(1).clip->motion(), mobb::Motion::held);
+    EXPECT_EQ(refusal(w.session, "clip.motion", "fast"), "motion is held or linear, not 'fast'");
+    EXPECT_NE(refusal(w.session, "clip.motion", "linear nobody"), "");
+}
+
 }  // namespace
 }  // namespace mobbscope::app

@@ -101,6 +101,50 @@ TEST(Conflicts, ARadiusIsForEveryClip) {
     EXPECT_TRUE(json::parse(run.out)["conflicts"].empty());
 }
 
+// Both come to cell (1, 0) at step 1; then they go on.
+const std::string kOneCell =
+    "schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - {t: 1, x: 1, y: 0}\n  - {t: 2, x: 2, y: 0}\n"
+    "  b:\n  - {t: 0, x: 1, y: 1}\n  - {t: 1, x: 1, y: 0}\n  - {t: 2, x: 1, y: -1}\n";
+
+TEST(Conflicts, OfAPlanNamesWhoIsInOneCell) {
+    const TempFolder folder;
+    const std::string file = folder.write("plan.yaml", kOneCell);
+    const json found = conflicts({file})["conflicts"];
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0]["plan"], json::parse(R"([{"kind": "vertex", "t0": 1, "t1": 1, "a": [1, 0], "b": [1, 0]}])"));
+    EXPECT_NE(run_program({"conflicts", file}).out.find("; vertex conflict at 1 s in (1, 0)\n"), std::string::npos);
+    EXPECT_FALSE(conflicts({folder.write("crowd.txt", kTrajectories)})["conflicts"][0].contains("plan"))
+        << "people are in no cells";
+}
+
+TEST(Conflicts, OfAPlanNamesWhoSwapCells) {
+    const TempFolder folder;
+    const std::string file = folder.write("plan.yaml",
+                                          "schedule:\n  a:\n  - {t: 0, x: 0, y: 0}\n  - {t: 1, x: 1, y: 0}\n"
+                                          "  b:\n  - {t: 0, x: 1, y: 0}\n  - {t: 1, x: 0, y: 0}\n");
+    const json found = conflicts({file})["conflicts"];
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0]["plan"], json::parse(R"([{"kind": "swap", "t0": 0, "t1": 1, "a": [0, 0], "b": [1, 0]}])"));
+    EXPECT_NE(
+        run_program({"conflicts", file}).out.find("; swap (edge) conflict from 0 to 1 s between (0, 0) and (1, 0)\n"),
+        std::string::npos);
+    EXPECT_EQ(run_program({"conflicts", file, "--check"}).status, 1);
+}
+
+TEST(Conflicts, AHeldCrowdIsWarnedOfOnceByItsLongestStep) {
+    const TempFolder folder;
+    const Result run = run_program({"conflicts", folder.write("plan.yaml", kOneCell), "--motion", "held", "--dt", "1",
+                                    "--unit", "2", "--radius", "0.5"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(
+        run.err.find("clip 'a' (and 1 more clip): its disks are held, but it moves 2 m from sample 0 to the next, "
+                     "more than its radius of 0.5 m"),
+        std::string::npos)
+        << run.err;
+    EXPECT_NE(run.err.find("--motion linear"), std::string::npos);
+}
+
 TEST(Conflicts, WithoutAgentsItIsRefused) {
     const TempFolder folder;
     const Result run =

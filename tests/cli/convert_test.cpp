@@ -98,6 +98,41 @@ TEST(Convert, WhatCannotBeWrittenIsStatusThree) {
     EXPECT_TRUE(is_one_line(run.err)) << run.err;
 }
 
+TEST(Convert, ASceneKeepsTheMotionBetweenSamples) {
+    const TempFolder folder;
+    const std::string tracks = folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,1\n1,1,0,0,1\n");
+    const std::string out = folder.path() / "out.json";
+    ASSERT_EQ(run_program({"convert", tracks, "-o", out}).status, 0);
+    EXPECT_NE(slurp(out).find("\"motion\": \"linear\""), std::string::npos);
+    EXPECT_EQ(load_scene(out).clips[0].clip->motion(), mobb::Motion::linear);
+    ASSERT_EQ(run_program({"convert", tracks, "-o", out, "--motion", "held"}).status, 0);
+    EXPECT_NE(slurp(out).find("\"motion\": \"held\""), std::string::npos);
+    EXPECT_EQ(load_scene(out).clips[0].clip->motion(), mobb::Motion::held);
+}
+
+TEST(Convert, ACsvThatIsReadAsAnotherMotionSaysSo) {
+    const TempFolder folder;
+    const std::string one = R"("a": {"dt": 1, "samples": [[0,0,1],[0,0,1]]})";
+    const std::string two = R"("b": {"dt": 1, "motion": "linear", "samples": [[0,0,1],[0,0,1]]})";
+    const std::string three = R"("c": {"dt": 1, "motion": "held", "samples": [[0,0,1],[0,0,1]]})";
+    const std::string out = folder.path() / "out.csv";
+    const auto said = [&](const std::string& clips) {
+        const Result run = run_program({"convert", folder.write("s.json", "{\"clips\": {" + clips + "}}"), "-o", out});
+        EXPECT_EQ(run.status, 0);
+        const std::string head = "mobbscope: warning: " + out + ": a CSV ";
+        EXPECT_TRUE(run.err.empty() || (run.err.starts_with(head) && is_one_line(run.err))) << run.err;
+        return run.err.empty() ? "" : run.err.substr(head.size());
+    };
+    EXPECT_EQ(said(one), "");
+    EXPECT_EQ(said(two), "without ids is read as held, but its clip is linear; give --motion linear when reading it\n");
+    EXPECT_EQ(run_program({"info", out, "--motion", "linear", "--json"}).status, 0);
+    EXPECT_EQ(said(one + ',' + three),
+              "with ids is read as linear, but its clips are held; give --motion held when reading it\n");
+    EXPECT_EQ(said(one + ',' + two),
+              "with ids is read as linear, but 1 clip is held, such as 'a'; give --motion held with --id when reading "
+              "one of these, or write a scene (.json)\n");
+}
+
 TEST(Convert, OneSampleLosesItsDtInACsvAndSaysSo) {
     const TempFolder folder;
     const std::string scene = folder.write("s.json", R"({"clips": {"c": {"dt": 0.25, "samples": [[0,0,1]]}}})");

@@ -26,13 +26,15 @@ TEST(Info, JsonTellsWhatIsInTheFiles) {
     const json clips = json::parse(run.out)["clips"];
     ASSERT_EQ(clips.size(), 2u);
     const json& a = clips[0];
-    EXPECT_EQ(testing::keys(a), (std::set<std::string>{"file",        "name",       "format",
-                                                       "animation",   "root",       "joints",
-                                                       "unit",        "root_why",   "guessed_from_height",
-                                                       "file_frames", "file_dt",    "file_duration",
-                                                       "samples",     "dt",         "duration",
-                                                       "path_length", "mean_speed", "min_radius",
-                                                       "mean_radius", "max_radius", "warnings"}));
+    EXPECT_EQ(testing::keys(a), (std::set<std::string>{"file",        "name",        "format",
+                                                       "animation",   "root",        "joints",
+                                                       "unit",        "root_why",    "guessed_from_height",
+                                                       "file_frames", "file_dt",     "file_duration",
+                                                       "samples",     "dt",          "duration",
+                                                       "motion",      "path_length", "mean_speed",
+                                                       "min_radius",  "mean_radius", "max_radius",
+                                                       "warnings"}));
+    EXPECT_EQ(a["motion"], "held");
     EXPECT_EQ(a["file"], csv);
     EXPECT_EQ(a["name"], "a");
     EXPECT_EQ(a["unit"], 0.01);
@@ -47,6 +49,42 @@ TEST(Info, JsonTellsWhatIsInTheFiles) {
     EXPECT_DOUBLE_EQ(a["max_radius"], 0.6);
     EXPECT_EQ(clips[1]["format"], "scene");
     EXPECT_EQ(clips[1]["mean_speed"], 0);
+}
+
+TEST(Info, TellsHowClipsMoveBetweenSamples) {
+    const TempFolder folder;
+    const std::string csv = folder.write("a.csv", "id,t,x,y,r\n1,0,0,0,0.2\n1,1,0.1,0,0.2\n");
+    const auto motion = [](const std::vector<std::string>& arguments) {
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.err, "");
+        return json::parse(run.out)["clips"][0]["motion"];
+    };
+    EXPECT_EQ(motion({"info", csv, "--json"}), "linear");
+    EXPECT_EQ(motion({"info", csv, "--json", "--motion", "held"}), "held");
+    EXPECT_NE(run_program({"info", csv}).out.find("2 s in all, linear to the next sample\n"), std::string::npos);
+    EXPECT_NE(run_program({"info", csv, "--motion", "held"}).out.find("2 s in all, held until the next sample\n"),
+              std::string::npos);
+    const std::string scene =
+        folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0, 0, 1], [0.5, 0, 1]]}}})");
+    EXPECT_EQ(motion({"info", scene, "--json"}), "held");
+    EXPECT_EQ(motion({"info", scene, "--json", "--motion", "linear"}), "linear") << "samples in the scene too";
+    const Result none = run_program({"info", csv, "--motion", "fast"});
+    EXPECT_EQ(none.status, 2);
+    EXPECT_EQ(none.err, "mobbscope: --motion: 'fast' is not one of held, linear; see mobbscope info --help\n");
+}
+
+TEST(Info, WarnsOnceOfAHeldClipWhoseStepsAreLongerThanItsRadius) {
+    const TempFolder folder;
+    const std::string scene = folder.write(
+        "s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,0.5],[0.5,0,0.5],[1.25,0,0.5],[3.25,0,0.5]]}}})");
+    const json clip = json::parse(run_program({"info", scene, "--json"}).out)["clips"][0];
+    ASSERT_EQ(clip["warnings"].size(), 1u);
+    EXPECT_EQ(clip["warnings"][0],
+              "its disks are held, but it moves 2 m from sample 2 to the next, more than its radius of 0.5 m: what it "
+              "meets in between goes unseen; give motion linear (--motion linear, or \"motion\": \"linear\" in the "
+              "scene)");
+    EXPECT_EQ(json::parse(run_program({"info", scene, "--json", "--motion", "linear"}).out)["clips"][0]["warnings"],
+              json::array());
 }
 
 TEST(Info, TheMeanRadiusLiesBetweenTheOthers) {

@@ -256,6 +256,19 @@ TEST(GraphBuild, RefusesWhatCannotBeCut) {
               std::string::npos);
 }
 
+TEST(GraphBuild, MovesKeepTheMotionOfTheirRecordings) {
+    const testing::TempFolder folder;
+    ImportOptions linear;
+    linear.motion = mobb::Motion::linear;
+    const Scene recordings = load_recordings(clip_files({kClips}), folder.path() / "graph.json", linear);
+    const BuiltGraph built = build_graph(recordings, {}, "clips");
+    ASSERT_FALSE(built.scene.clips.empty());
+    for (const SceneClip& clip : built.scene.clips) {
+        EXPECT_EQ(clip.clip->motion(), mobb::Motion::linear) << clip.name;
+        EXPECT_EQ(clip.options.motion, mobb::Motion::linear) << "and when it is read from its file";
+    }
+}
+
 TEST(GraphBuild, OnlyPiecesThatDifferAreKept) {
     // A walk along +x at 1 m/s and the same one later, and one that turns.
     PoseTrack track;

@@ -92,5 +92,33 @@ TEST(People, GoOnAsAnotherAgentWhereTheStepChanges) {
     EXPECT_EQ(people.clips[1].clip->count(), scene.clips[3].clip->count());
 }
 
+TEST(People, WhoPlaysLinearClipsIsAnAgentForEachPlay) {
+    Scene scene;
+    const SceneClip held = walk("held", 1.4, 0, 45, 1.0 / 30, 0.4);
+    SceneClip linear = held;
+    linear.name = "linear";
+    const auto samples = held.clip->samples();
+    linear.clip = std::make_shared<const mobb::Clip>(
+        held.clip->dt(), std::vector<mobb::Disk>(samples.begin(), samples.end()), mobb::Motion::linear);
+    scene.clips = {held, linear};
+    scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
+    CrowdRun run;
+    run.agents = {{"7",
+                   {{0, {}, 0, PlayKind::chosen},
+                    {0, {{2, 0}, 0, 1.5}, 1.5, PlayKind::chosen},
+                    {1, {{4, 0}, 90, 3}, 3, PlayKind::chosen},
+                    {1, {{4, 2}, 90, 4.5}, 4.5, PlayKind::chosen}}}};
+    scene.crowd = std::make_shared<CrowdRun>(run);
+    const Scene people = scene_of_people(scene);
+    ASSERT_EQ(people.agents.size(), 3u) << "held plays are one clip; the last disk of a linear one stays by itself";
+    EXPECT_EQ(people.clips[0].clip->count(), 2 * held.clip->count());
+    EXPECT_EQ(people.clips[0].clip->motion(), mobb::Motion::held);
+    EXPECT_EQ(people.agents[1].name, "7 from 3 s");
+    EXPECT_EQ(people.clips[1].clip, linear.clip);
+    EXPECT_EQ(people.agents[1].placement.translate, glm::dvec2(4, 0));
+    EXPECT_EQ(people.agents[1].placement.rotate_deg, 90);
+    EXPECT_EQ(people.agents[2].placement.start, 4.5);
+}
+
 }  // namespace
 }  // namespace mobbscope

@@ -30,9 +30,9 @@ std::string complaint(const char* key, const char* text) {
 TEST(ImportOption, TextsAreReadBackAsTheyWereWritten) {
     ImportOptions options;
     const std::vector<std::pair<const char*, const char*>> texts{
-        {"animation", "Walk"}, {"root", "Left Hip"}, {"fps", "29.97"}, {"unit", "cm"},
-        {"up", "z"},           {"trim", "0.5 3.2"},  {"id", "17"},     {"origin", "start_heading"},
-        {"radius", "0"},       {"dt", "0.04"}};
+        {"animation", "Walk"}, {"root", "Left Hip"}, {"fps", "29.97"},    {"unit", "cm"},
+        {"up", "z"},           {"trim", "0.5 3.2"},  {"id", "17"},        {"origin", "start_heading"},
+        {"radius", "0"},       {"dt", "0.04"},       {"motion", "linear"}};
     ASSERT_EQ(texts.size(), std::size(kImportOptions)) << "every option";
     for (const auto& [key, text] : texts) {
         const ImportOption& option = *import_option(key);
@@ -54,6 +54,7 @@ TEST(ImportOption, WhatIsNoneOrOutOfRangeIsNamed) {
     EXPECT_EQ(complaint("trim", "3"), "trim is two times in seconds, such as 0.5 3.2, not '3'");
     EXPECT_NE(complaint("trim", "3 2").find("0 <= A < B"), std::string::npos);
     EXPECT_EQ(complaint("origin", "here"), "origin is keep, start or start_heading, not 'here'");
+    EXPECT_EQ(complaint("motion", "fast"), "motion is held or linear, not 'fast'");
 }
 
 std::vector<std::string> values_of(const OptionOffer& offer) {
@@ -72,7 +73,7 @@ TEST(ImportOffer, OfASkeletonSaysWhatWasGuessedAndWhy) {
     const TempFolder folder;
     const ParsedFile file = parse_clip_file(folder.write("walk.bvh", kWalker));
     const ImportOffer offer = file.offer({});
-    EXPECT_EQ(keys_of(offer), "root fps unit up trim origin radius ");
+    EXPECT_EQ(keys_of(offer), "root fps unit up trim origin radius motion ");
     const ImportedClip taken = file.clips({}).front();
     EXPECT_EQ(offer.find("root")->taken, taken.facts.root);
     EXPECT_EQ(offer.find("root")->why, taken.facts.root_why);
@@ -98,19 +99,21 @@ TEST(ImportOffer, OfASkeletonSaysWhatWasGuessedAndWhy) {
 TEST(ImportOffer, OfATableAsksForWhatTheFileLacks) {
     const TempFolder folder;
     const auto offer_of = [&](const char* text) { return parse_clip_file(folder.write("a.csv", text)).offer({}); };
-    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n")), "unit trim origin radius ");
-    EXPECT_EQ(keys_of(offer_of("x,y\n0,0\n1,0\n")), "unit origin radius! dt! ");
-    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n5,0,0,1\n")), "fps unit trim origin radius ");
+    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n")), "unit trim origin radius motion ");
+    EXPECT_EQ(keys_of(offer_of("x,y\n0,0\n1,0\n")), "unit origin radius! dt! motion ");
+    EXPECT_EQ(keys_of(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n5,0,0,1\n")), "fps unit trim origin radius motion ");
     const ImportOffer several = offer_of("id,t,x,y,r\na,0,0,0,1\na,1,0,0,1\nb,0,0,0,1\nb,3,0,0,1\n");
     EXPECT_EQ(values_of(*several.find("id")), (std::vector<std::string>{"a", "b"}));
     EXPECT_EQ(several.seconds, 3);
+    EXPECT_EQ(several.find("motion")->taken, "linear") << "tracks";
+    EXPECT_EQ(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n").find("motion")->taken, "held");
 }
 
 TEST(ImportOffer, OfTracksSaysWhatWasAssumed) {
     const TempFolder folder;
     const ParsedFile file = parse_clip_file(folder.write("a.txt", "0 1 0 0\n10 1 1 0\n0 2 0 1\n10 2 1 1\n"));
     const ImportOffer offer = file.offer({});
-    EXPECT_EQ(keys_of(offer), "fps unit trim origin id! radius dt ");
+    EXPECT_EQ(keys_of(offer), "fps unit trim origin id! radius dt motion ");
     EXPECT_EQ(offer.find("dt")->taken, "0.04");
     EXPECT_NE(offer.find("dt")->why.find("2.5 points a second are assumed"), std::string::npos);
     EXPECT_EQ(offer.find("radius")->taken, "0.2");

@@ -259,7 +259,7 @@ TEST(SceneErrors, ATracksNumberIsItsDigits) {
 
 TEST(SceneErrors, WhatIsForOtherFormatsIsRefusedInTheSceneAndPassedOverFromOutside) {
     const TempFolder folder;
-    folder.write("a.csv", "t,x,y,r\n0,0,0,0\n1,1,0,0\n");
+    folder.write("a.csv", "t,x,y,r\n0,0,0,0\n1,0.5,0,0\n");
     const auto file = folder.write("s.json", R"({"clips": {"c": {"source": "a.csv"}}})");
     ImportOptions overrides;
     overrides.up = "z";

@@ -30,6 +30,34 @@ int clip_to_import(const Session& session) {
     return at == clips.end() ? -1 : static_cast<int>(at - clips.begin());
 }
 
+/// The clip of the dialog, the selected one, that of the selected agent, or the only one; -1: none.
+int clip_to_move(const Session& session) {
+    if (session.dialog == Dialog::import_clip) return session.importing.clip;
+    const Selection& selected = session.selection;
+    if (selected.kind == Selection::Kind::clip) return selected.index;
+    const auto who = selected.on_path() ? placed_agent_of(session.fitted(), selected.path) : std::nullopt;
+    if (who) return who->clip;
+    return session.scene().clips.size() == 1 ? 0 : -1;
+}
+
+bool can_move(const Session& session) { return has_scene(session) && !session.crowd() && !session.scene().graph; }
+
+std::string_view why_not_move(const Session& session) {
+    return session.crowd() ? "a run is not edited" : "the motion graph was cut out of these clips";
+}
+
+/// held or linear, and behind it whose.
+void set_motion(Session& session, const std::string& text) {
+    const std::string_view both = trimmed(text);
+    const std::size_t end = std::min(both.find(' '), both.size());
+    const auto motion = mobb::motion_from_name(both.substr(0, end));
+    if (!motion) throw std::invalid_argument("motion is held or linear, not " + in_quotes(both.substr(0, end)));
+    const std::string_view named = trimmed(both.substr(end));
+    const int clip = named.empty() ? clip_to_move(session) : index_of_name(clip_names(session), named, "clip");
+    if (clip < 0) throw std::invalid_argument("select the clip, or an agent that plays it");
+    session.set_motion(clip, session.dialog == Dialog::import_clip && session.importing.whole_file, *motion);
+}
+
 bool can_import(const Session& session) {
     return !session.crowd() && !session.scene().graph && clip_to_import(session) >= 0;
 }
@@ -83,6 +111,20 @@ std::vector<Command> clip_commands() {
                 "Reads the selected clip from its file with another value of an import option; without a value as the "
                 "file says.",
                 set, {.menu = kNoMenu, .argument = "OPTION [VALUE]", .enabled = {can_import, why_no_import}}),
+        Command("clip.motion", "Motion between samples",
+                "Lets the selected clip's disks stay until the next sample (held), or run straight to it (linear).",
+                set_motion,
+                {.argument = "MOTION [CLIP]",
+                 .enabled = {can_move, why_not_move},
+                 .choices =
+                     [](const Session&) {
+                         return std::vector<std::string>(mobb::motion_names().begin(), mobb::motion_names().end());
+                     },
+                 .chosen =
+                     [](const Session& session, const std::string& motion) {
+                         const int clip = clip_to_move(session);
+                         return clip >= 0 && name(session.fitted().tree(clip).clip().motion()) == motion;
+                     }}),
     };
     return in_menu("Edit", rows);
 }

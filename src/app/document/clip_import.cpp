@@ -73,6 +73,16 @@ void Session::set_import(int clip, bool whole_file, const std::string& option, c
     import_next();
 }
 
+void Session::set_motion(int clip, bool whole_file, mobb::Motion motion) {
+    const std::string to(name(motion));
+    const SceneClip& was = scene().clips.at(static_cast<std::size_t>(clip));
+    if (was.source) return set_import(clip, whole_file, "motion", to);
+    if (was.clip->motion() == motion) return;
+    edit_with_fits(
+        {.name = {"changing the motion of " + was.name + ": " + to, ""},
+         .change = [made = with_motion(scene(), clip, motion)](Scene& next) { replace_clips(next, {made}); }});
+}
+
 void Session::import_next() {
     if (imports() || import_changes_.empty()) return;
     const ImportChange change = import_changes_.front();
@@ -166,7 +176,7 @@ void Session::tell_of_warnings(std::size_t from) {
         const SceneClip& clip = scene().clips[i];
         bool warned = false;
         for (const ImportWarning& warning : clip.facts.warnings) {
-            if (!clip.source || warning.option.empty()) continue;
+            if (warning.option.empty()) continue;
             warned = true;
             // A wrong unit makes all else look wrong.
             if (worst && (worst->option == "unit" || warning.option != "unit")) continue;
@@ -177,8 +187,11 @@ void Session::tell_of_warnings(std::size_t from) {
     }
     if (!worst) return;
     const std::string others = clips > 1 ? " (" + counted(clips - 1, "more clip", "more clips") + ")" : "";
-    tell(MessageLevel::warning, of->name + ": " + worst->text + others,
-         MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."});
+    const MessageOffer offer =
+        of->source
+            ? MessageOffer{"clip.import", of->name + ' ' + worst->option, "Import options..."}
+            : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + of->name, "Make it linear"};
+    tell(MessageLevel::warning, of->name + ": " + worst->text + others, offer);
 }
 
 }  // namespace mobbscope::app

@@ -73,6 +73,8 @@ void describe_clip(Described& out, const SceneClip& clip) {
     out.facts = {{"source", clip.source.value_or("samples in the scene")},
                  {"samples", std::to_string(clip.clip->count())},
                  {"lasts", formatted("%.3f s at %.5g a second", clip.clip->duration(), 1 / clip.clip->dt())},
+                 {"motion", clip.clip->motion() == mobb::Motion::held ? "held: stays until the next sample"
+                                                                      : "linear: runs to the next sample"},
                  {"path", formatted("%.2f m, %.2f m/s", figures.length, figures.mean_speed)}};
     if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
     for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", warning.text);

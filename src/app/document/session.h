@@ -268,6 +268,8 @@ class Session {
     /// the dialog is open, else in a message. Throws std::invalid_argument for a value out of range where there is no
     /// dialog.
     void set_import(int clip, bool whole_file, const std::string& option, const std::string& text);
+    /// How a clip moves between its samples, from a file (set_import) or in the scene.
+    void set_motion(int clip, bool whole_file, mobb::Motion motion);
 
     // What is pointed at.
     Selection selection;  ///< always of something that exists

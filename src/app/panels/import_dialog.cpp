@@ -255,7 +255,8 @@ void whole_file(Ui& ui, int index) {
                     &ui.session.importing.whole_file);
     ui.mark("import.whole_file");
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("Root, unit, up axis, rate, origin, radius and frame time change for all of them at once");
+        ImGui::SetTooltip(
+            "Root, unit, up axis, rate, origin, radius, frame time and motion change for all of them at once");
     }
 }
 

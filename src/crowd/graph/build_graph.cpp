@@ -180,7 +180,8 @@ class Builder {
         if (leads_to_root(*whole.skeleton, whole.facts.root)) clip.options.root = whole.facts.root;
         const auto samples = whole.clip->samples().subspan(
             static_cast<std::size_t>(piece.begin.frame), static_cast<std::size_t>(piece.end.frame - piece.begin.frame));
-        clip.clip = std::make_shared<mobb::Clip>(dt, std::vector<mobb::Disk>(samples.begin(), samples.end()));
+        clip.clip = std::make_shared<mobb::Clip>(dt, std::vector<mobb::Disk>(samples.begin(), samples.end()),
+                                                 whole.clip->motion());
         clip.facts = whole.facts;
         clip.facts.warnings.clear();
         auto skeleton = std::make_shared<Skeleton>();

@@ -33,12 +33,16 @@ const mobb::ChainPartPtr& part_of(const Scene& run, const std::vector<mobb::Chai
     return parts[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(play.move)].clip)];
 }
 
-/// How many of the plays, from the first, have its dt.
-std::size_t plays_of_one_dt(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts,
-                            std::span<const Play> plays) {
-    const double dt = part_of(run, parts, plays.front())->clip().dt();
-    const auto other =
-        std::ranges::find_if(plays, [&](const Play& play) { return part_of(run, parts, play)->clip().dt() != dt; });
+/// How many of the plays, from the first, one clip can hold: those of one dt whose disks are held. The last disk of a
+/// linear play stays until the next play begins, as no disk within a linear clip does: it is a clip by itself.
+std::size_t plays_of_one_clip(const Scene& run, const std::vector<mobb::ChainPartPtr>& parts,
+                              std::span<const Play> plays) {
+    const mobb::Clip& first = part_of(run, parts, plays.front())->clip();
+    if (first.motion() == mobb::Motion::linear) return 1;
+    const auto other = std::ranges::find_if(plays, [&](const Play& play) {
+        const mobb::Clip& clip = part_of(run, parts, play)->clip();
+        return clip.dt() != first.dt() || clip.motion() != first.motion();
+    });
     return static_cast<std::size_t>(std::distance(plays.begin(), other));
 }
 
@@ -66,13 +70,17 @@ Scene scene_of_people(const Scene& run) {
     for (const CrowdAgent& agent : run.crowd->agents) {
         if (agent.plays.empty()) continue;
         for (std::span<const Play> rest = agent.plays; !rest.empty();) {
-            const std::span<const Play> plays = rest.first(plays_of_one_dt(run, parts, rest));
+            const std::span<const Play> plays = rest.first(plays_of_one_clip(run, parts, rest));
             const double begin = plays.front().placement.start;
             std::string name = agent.name;
             if (rest.size() < agent.plays.size()) name += " from " + brief(begin) + " s";
             const int clip = static_cast<int>(out.clips.size());
-            out.clips.push_back({name, std::nullopt, {}, whole_motion(run, parts, plays, agent.name)});
-            out.agents.push_back({std::move(name), clip, {{0, 0}, 0, begin}, std::nullopt, run_agent});
+            const mobb::ClipPtr& first = part_of(run, parts, plays.front())->tree().shared_clip();
+            const bool is_linear = first->motion() == mobb::Motion::linear;
+            out.clips.push_back(
+                {name, std::nullopt, {}, is_linear ? first : whole_motion(run, parts, plays, agent.name)});
+            const mobb::Placement at = is_linear ? plays.front().placement : mobb::Placement{{0, 0}, 0, begin};
+            out.agents.push_back({std::move(name), clip, at, std::nullopt, run_agent});
             rest = rest.subspan(plays.size());
         }
         ++run_agent;

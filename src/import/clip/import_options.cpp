@@ -13,6 +13,7 @@ namespace {
 std::string text_of(const std::string& value) { return value; }
 std::string text_of(double value) { return short_double(value); }
 std::string text_of(Origin value) { return std::string(name(value)); }
+std::string text_of(mobb::Motion value) { return std::string(name(value)); }
 std::string text_of(const std::pair<double, double>& value) {
     return short_double(value.first) + ' ' + short_double(value.second);
 }
@@ -37,6 +38,11 @@ void read_text(const ImportOption&, std::string_view text, std::optional<std::pa
 void read_text(const ImportOption&, std::string_view text, std::optional<Origin>& to) {
     to = origin_from_name(text);
     if (!to) throw std::invalid_argument("origin is keep, start or start_heading, not " + in_quotes(text));
+}
+
+void read_text(const ImportOption&, std::string_view text, std::optional<mobb::Motion>& to) {
+    to = mobb::motion_from_name(text);
+    if (!to) throw std::invalid_argument("motion is held or linear, not " + in_quotes(text));
 }
 
 }  // namespace
@@ -79,6 +85,15 @@ OptionOffer origin_offer() {
             {{"keep", "keep: where the file has it"},
              {"start", "start: begins at the origin"},
              {"start_heading", "start_heading: begins at the origin, along +x"}}};
+}
+
+OptionOffer motion_option_offer(mobb::Motion taken, const std::string& why) {
+    return {"motion",
+            std::string(name(taken)),
+            why,
+            false,
+            {{"held", "held until the next"},
+             {"linear", "linear to the next"}}};
 }
 
 const OptionOffer* ImportOffer::find(std::string_view key) const {

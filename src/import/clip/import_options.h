@@ -28,7 +28,8 @@ struct ImportOption {
     const char* help;   ///< one sentence
     const char* unit;   ///< of a number: "m"
     std::variant<std::optional<std::string> ImportOptions::*, std::optional<double> ImportOptions::*,
-                 std::optional<std::pair<double, double>> ImportOptions::*, std::optional<Origin> ImportOptions::*>
+                 std::optional<std::pair<double, double>> ImportOptions::*, std::optional<Origin> ImportOptions::*,
+                 std::optional<mobb::Motion> ImportOptions::*>
         member;
     bool for_skeletons, for_tracks;  ///< of both kinds: tables and trajectories
     bool of_file;                    ///< what holds for one clip of a file usually holds for all of them
@@ -61,6 +62,8 @@ inline constexpr ImportOption kImportOptions[] = {
      true},
     {"dt", "Frame time", "Seconds between rows without times, or from one frame number to the next", "s",
      &ImportOptions::dt, false, true, true},
+    {"motion", "Motion", "What a disk does until the next sample: it stays, or runs straight to it", "",
+     &ImportOptions::motion, true, true, true},
 };
 
 /// Null if there is none.
@@ -101,6 +104,9 @@ std::string unit_word(double metres);
 
 /// That of the origin, which is every file's.
 OptionOffer origin_offer();
+
+/// Likewise that of the motion between samples, with the one that is taken and why.
+OptionOffer motion_option_offer(mobb::Motion taken, const std::string& why);
 
 /// What a file has for the options that mean something for it, in the order of the table; options that it gives no
 /// choice are left out.

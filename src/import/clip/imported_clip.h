@@ -32,6 +32,8 @@ struct ImportOptions {
     std::optional<double> radius;                   ///< metres, 0 to kMaxLength; overrides r of every sample
     /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a trajectory file.
     std::optional<double> dt;
+    /// What a disk does until the next sample; default linear for trajectories, plans and CSV with ids, else held.
+    std::optional<mobb::Motion> motion{};
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };

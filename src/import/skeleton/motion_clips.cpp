@@ -16,6 +16,7 @@ namespace mobbscope {
 
 namespace {
 
+constexpr mobb::Motion kMotionOfSkeletons = mobb::Motion::held;
 constexpr double kBodyHeight = 1.7;  // metres: the contract's, for the unit "auto"
 // The units that motion capture comes in; the last is that of CMU's ASF/AMC files.
 constexpr std::array<double, 5> kBodyUnits{1, 0.01, 0.001, 0.0254, 0.0564444};
@@ -83,7 +84,8 @@ class MotionImport {
             const glm::dvec2 turned = turn({p.x, p.y});
             p = {turned.x, turned.y, p.z};
         }
-        out.clip = std::make_shared<mobb::Clip>(grid.step, std::move(samples));
+        out.clip =
+            std::make_shared<mobb::Clip>(grid.step, std::move(samples), options_.motion.value_or(kMotionOfSkeletons));
         if (!skeleton->positions.empty()) out.skeleton = std::move(skeleton);
         const auto cut_at = options_.trim ? std::optional(options_.trim->first) : std::nullopt;
         add_motion_warnings(*out.clip, cut_at, out.skeleton.get(), facts);
@@ -109,7 +111,8 @@ class MotionImport {
                  {"up", "y", "as in most files", false, {{"y", "y"}, {"z", "z"}}},
                  {"trim", "", "all of it"},
                  origin_offer(),
-                 {"radius", "", "up to the joint that is farthest from the root"}}};
+                 {"radius", "", "up to the joint that is farthest from the root"},
+                 motion_option_offer(kMotionOfSkeletons, "as usual of motion files: samples are close")}};
     }
 
   private:

@@ -181,6 +181,9 @@ double unit_scale(const ImportOptions& options) {
     return *scale;
 }
 
+/// Tables with ids are tracks of people, whose rows are far apart; those without are mostly sampled motions.
+mobb::Motion usual_motion(const CsvTable& table) { return table.has_id ? mobb::Motion::linear : mobb::Motion::held; }
+
 /// Makes clips of tracks; messages are for import of one file.
 class ClipMaker {
   public:
@@ -217,7 +220,9 @@ class ClipMaker {
             disk = {disk.x * scale_, disk.y * scale_, options_.radius.value_or(disk.r * scale_)};
         }
         put_at_origin(samples, options_.origin.value_or(Origin::keep));
-        ImportedClip out{"", track.id, std::make_shared<mobb::Clip>(step, std::move(samples)), std::move(facts)};
+        const mobb::Motion motion = options_.motion.value_or(usual_motion(table_));
+        ImportedClip out{"", track.id, std::make_shared<mobb::Clip>(step, std::move(samples), motion),
+                         std::move(facts)};
         out.start = track.rows.front().t - first_;
         return out;
     }
@@ -308,6 +313,8 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const
         out.options.push_back(
             {"dt", "", table.has_time ? "one row does not tell how long it lasts" : "the file has no column t", true});
     }
+    out.options.push_back(motion_option_offer(
+        usual_motion(table), table.has_id ? "as usual of tables with ids" : "as usual of tables without ids"));
     return out;
 }
 

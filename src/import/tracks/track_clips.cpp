@@ -13,6 +13,7 @@ namespace mobbscope {
 
 namespace {
 
+constexpr mobb::Motion kMotionOfTracks = mobb::Motion::linear;
 // A damaged frame number leaves a gap of any length: what fills gaps may be so many times what the file holds.
 constexpr std::size_t kMaxFill = 100;
 constexpr std::size_t kAlwaysFilled = 10'000;
@@ -140,7 +141,8 @@ class TrackClipMaker {
         ImportedClip out;
         out.id = track.id;
         out.start = clock_.time(points.front()) - (options_.trim ? options_.trim->first : 0);
-        out.clip = std::make_shared<mobb::Clip>(sample_dt, samples(points, sample_dt, facts.dt == sample_dt));
+        out.clip = std::make_shared<mobb::Clip>(sample_dt, samples(points, sample_dt, facts.dt == sample_dt),
+                                                options_.motion.value_or(kMotionOfTracks));
         out.facts = std::move(facts);
         return out;
     }
@@ -231,6 +233,7 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
     out.options.push_back({"radius", short_double(kDefaultTrackRadius), assumed_radius()});
     out.options.push_back({"dt", short_double(maker.frame_time()),
                            tracks.rate_assumption.empty() ? "as the file or its format says" : tracks.rate_assumption});
+    out.options.push_back(motion_option_offer(kMotionOfTracks, "as usual of trajectories: points are far apart"));
     return out;
 }
 
