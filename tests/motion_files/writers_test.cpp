@@ -2,6 +2,7 @@
 #include "exported.h"
 
 #include <import/bvh/bvh.h>
+#include <import/gltf_bytes.h>
 #include <motion_files/bvh_writer.h>
 #include <motion_files/glb_writer.h>
 #include <motion_files/read_back.h>
@@ -122,6 +123,29 @@ TEST_F(MotionFiles, JointsKeepTheirOwnAxesAndRest) {
             }
         }
     }
+}
+
+TEST_F(MotionFiles, TheRestOfAGltfIsThePoseOfZeroAngles) {
+    // An arm along its own x, whose shoulder is turned up by 90 degrees about z where nothing is animated, and scaled.
+    testing::GltfBytes bytes;
+    const int times = bytes.add_floats("SCALAR", {0, 1.0F / 30});
+    const auto half = static_cast<float>(std::sqrt(0.5));
+    bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 1, 0, 1, 1, 0}));
+    bytes.channel("0", "rotation", times, bytes.add_floats("VEC4", {0, 0, 0, 1, 0, half, 0, half})).animation();
+    folder.write("arm.glb", bytes.glb(R"([{"name": "shoulder", "rotation": [0, 0, 0.7071067811865476,
+        0.7071067811865476], "scale": [0.5, 0.5, 0.5], "children": [1, 2]},
+        {"name": "hand", "translation": [1, 0, 0]}, {"name": "thumb", "translation": [0, 0.5, 0]}])"));
+    const PlayedMotion motion(scene(R"({"clips": {"w": {"source": "arm.glb"}}})"), {});
+    const std::string text = to_bvh(motion);
+    EXPECT_NE(text.find("JOINT hand\n\t{\n\t\tOFFSET 0.000000 0.500000 0.000000\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("JOINT thumb\n\t{\n\t\tOFFSET -0.250000 0.000000 0.000000\n"), std::string::npos) << text;
+    // The first frame turns the shoulder back by 90 degrees, the second about y as well.
+    EXPECT_NE(text.find("\n0.000000 1.000000 0.000000 -90.000000 0.000000 0.000000 "), std::string::npos) << text;
+    for (const MotionFormat& format : motion_formats()) EXPECT_LT(farthest_off(motion, format), 1e-6);
+    const MotionFile glb = written_and_read(motion, motion_formats()[1]);
+    const glm::dquat rest = glb.motion(0)->rest().front();
+    EXPECT_NEAR(rest.z, std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(rest.w, std::sqrt(0.5), 1e-6);
 }
 
 TEST_F(MotionFiles, OfARootThatIsNotTheTopmostJointTheRestIsLeftOut) {
