@@ -175,6 +175,17 @@ TEST_F(MotionFiles, ZUpAndAHeadingTurnJointsWithTheBody) {
     for (const Bone& bone : motion.bones()) EXPECT_FALSE(bone.varies);
 }
 
+TEST_F(MotionFiles, APathThatWasTurnedTurnsItsJoints) {
+    folder.write("walk.bvh", replaced(kWalker, "10 95 30 0 0 90", "0 95 15 0 0 90"));
+    const std::string clip = R"({"source": "walk.bvh", "fps": 10, "unit": "cm", "origin": "start_heading"})";
+    const PlayedMotion motion(scene(R"({"clips": {"w": )" + clip + "}}"), {});
+    // The hips go along +y, and then along +x: clockwise, as about Y by -90 degrees.
+    const BvhData again = parse_bvh(to_bvh(motion), "again.bvh");
+    EXPECT_NEAR(again.values[5], -90, 1e-4);
+    EXPECT_NEAR(again.values[again.row_length], 0.15, 1e-6);
+    EXPECT_NEAR(again.values[again.row_length + 5], 0, 1e-4);
+}
+
 TEST_F(MotionFiles, BetweenTheFramesOfABvhBonesGetPositionsOfTheirOwn) {
     const std::string clip = R"({"source": "walk.bvh", "fps": 20, "unit": "cm"})";
     const PlayedMotion motion(scene(R"({"clips": {"w": )" + clip + "}}"), {});
