@@ -6,10 +6,15 @@
 #include <cli/program.h>
 #include <import/import.h>
 #include <import/tracks/csv.h>
+#include <motion_files/formats.h>
+#include <motion_files/played_motion.h>
+#include <motion_files/read_back.h>
 
 #include <cstddef>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +24,7 @@ namespace {
 
 struct ConvertCommandArguments {
     std::filesystem::path file;
+    std::optional<std::string> agent;
     std::filesystem::path out;
     ImportOptions import_options;
 };
@@ -87,13 +93,53 @@ void warn_of_lost_motion(const Scene& scene, const std::filesystem::path& out) {
          in_quotes(others.front()) + "; " + give + " with --id when reading one of these, or write a scene (.json)");
 }
 
+void warn_of_other_disks(const std::filesystem::path& out, const DiskDifference& difference) {
+    if (difference.root) {
+        warn(out.string() + ": give --unit m --root " + shell_word(*difference.root) +
+             " when reading it: an import would guess otherwise, as the root stands still or the body is no person's");
+    }
+    if (difference.place > kSameDisk) {
+        warn(out.string() + ": when it is read again, disks are up to " + brief(difference.place) +
+             " m from where they were played: its numbers are too short for such times or places" +
+             (lower_extension(out) == ".glb" ? "; write .bvh" : ""));
+    } else if (difference.radius > kSameDisk) {
+        warn(out.string() + ": when it is read again, radii differ by up to " + brief(difference.radius) +
+             " m: a file's radii reach its joints, whatever radius was given, or was mixed between a BVH's frames");
+    }
+}
+
+/// Writes what an agent plays, with its skeleton.
+void write_motion(const Scene& scene, const MotionFormat& format, const ConvertCommandArguments& arguments) {
+    const PlayedMotion motion(scene, arguments.agent);
+    const std::string bytes = format.write(motion);
+    const DiskDifference difference = read_back(bytes, format, motion);
+    write_file(arguments.out, bytes);
+    warn_of_other_disks(arguments.out, difference);
+    std::cout << in_quotes(motion.name()) << ": " << counted(motion.plays(), "clip", "clips") << ", "
+              << counted(motion.frames(), "frame", "frames") << " of " << brief(motion.dt()) << " s, "
+              << counted(motion.joints().size(), "joint", "joints") << "; begins at " << brief(motion.begin())
+              << " s\n";
+    flush_results();
+}
+
 void run_convert(const ConvertCommandArguments& arguments) {
     check_file_name(arguments.out);
     const std::string extension = lower_extension(arguments.out);
-    if (extension != ".csv" && extension != ".json") {
-        throw InputError(arguments.out.string(), "", "clips can be written as .csv or .json; rename the output");
+    const MotionFormat* const motion = motion_format(arguments.out);
+    if (!motion && extension != ".csv" && extension != ".json") {
+        throw InputError(arguments.out.string(), "",
+                         "clips can be written as .csv or .json, motion with its skeleton as .bvh or .glb; rename the "
+                         "output");
+    }
+    if (!motion && arguments.agent) {
+        throw InputError(arguments.out.string(), "",
+                         "--agent writes what one agent plays, as .bvh or .glb; rename the output");
     }
     const Scene scene = load(arguments.file, arguments.import_options);
+    if (motion) {
+        write_motion(scene, *motion, arguments);
+        return;
+    }
     if (extension == ".json") {
         write_file(arguments.out, to_json(scene, true));
         return;
@@ -107,10 +153,15 @@ void run_convert(const ConvertCommandArguments& arguments) {
 }  // namespace
 
 void add_convert_command(Command& program) {
-    Command& command = program.add_subcommand("convert", "Write clips as CSV, or as a scene with its samples inside");
+    Command& command = program.add_subcommand(
+        "convert", "Write clips as CSV, or as a scene with its samples inside; what an agent plays as BVH or glTF");
     const auto arguments = std::make_shared<ConvertCommandArguments>();
     add_scene_file(command, arguments->file);
-    command.add_option("-o,--output", arguments->out, "Where to: .csv or .json", "OUT").required();
+    command.add_option("-o,--output", arguments->out, "Where to: .csv or .json; with the skeleton .bvh or .glb", "OUT")
+        .required();
+    add_parsed(
+        command, "--agent", arguments->agent, [](const std::string& text) { return text; },
+        "Of a run or scene, for .bvh and .glb: whose motion (not needed where there is one alone)", "NAME");
     add_import_options(command, arguments->import_options);
     command.callback([arguments] { run_convert(*arguments); });
 }

@@ -75,10 +75,10 @@ TEST(Moment, TheFarthestJointTouchesTheWall) {
             ASSERT_TRUE(body->farthest);
             EXPECT_TRUE(sets_radius(*body));
             EXPECT_NEAR(body->farthest->distance, body->disk.r, 1e-4);
-            const glm::dvec3 place = joint_place(agent, sample, body->farthest->joint);
+            const glm::dvec3 place = joint_place(*agent.skeleton, agent.clip(), sample, body->farthest->joint);
             EXPECT_NEAR(std::hypot(place.x - body->disk.x, place.y - body->disk.y), body->disk.r, 1e-4);
             for (int joint = 0; joint < static_cast<int>(agent.skeleton->joints.size()); ++joint) {
-                const glm::dvec3 p = joint_place(agent, sample, joint);
+                const glm::dvec3 p = joint_place(*agent.skeleton, agent.clip(), sample, joint);
                 EXPECT_LE(std::hypot(p.x - body->disk.x, p.y - body->disk.y), body->disk.r + 1e-4);
                 EXPECT_LT(p.z, body->height);
             }

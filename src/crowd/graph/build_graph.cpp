@@ -187,9 +187,12 @@ class Builder {
         auto skeleton = std::make_shared<Skeleton>();
         skeleton->joints = whole.skeleton->joints;
         skeleton->root = whole.skeleton->root;
+        skeleton->rest = whole.skeleton->rest;
         for (int f = piece.begin.frame; f < piece.end.frame; ++f) {
             const auto pose = whole.skeleton->at(f);
             skeleton->positions.insert(skeleton->positions.end(), pose.begin(), pose.end());
+            const auto rotations = whole.skeleton->rotations_at(f);
+            skeleton->rotations.insert(skeleton->rotations.end(), rotations.begin(), rotations.end());
         }
         clip.skeleton = std::move(skeleton);
         return clip;

@@ -3,6 +3,7 @@
 #include <import/bvh/bvh.h>
 
 #include <glm/ext/scalar_constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -396,7 +397,7 @@ class BvhMotion : public Motion {
     int topmost() const override { return 0; }
     const MotionTimes& times() const override { return times_; }
 
-    void pose(double seconds, std::span<glm::dvec3> positions) const override {
+    void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations) const override {
         const double nearest = std::clamp(std::round(seconds / data_.frame_time), 0.0, times_.frames - 1.0);
         const double* row = data_.values.data() + static_cast<std::size_t>(nearest) * data_.row_length;
         std::vector<glm::dmat3> frames(data_.joints.size());
@@ -417,6 +418,7 @@ class BvhMotion : public Motion {
                 }
             }
             positions[i] = below ? positions[parent] + frames[parent] * offset : offset;
+            if (!rotations.empty()) rotations[i] = glm::quat_cast(frame);
         }
     }
 

@@ -3,6 +3,8 @@
 #include <import/clip/sampling.h>
 #include <import/nodes/node_scene.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,6 +48,16 @@ void cubic(const double* values, std::size_t width, std::size_t k, double span, 
         out[i] = (2 * s3 - 3 * s2 + 1) * from[width + i] + span * (s3 - 2 * s2 + share) * out_tangent +
                  (3 * s2 - 2 * s3) * to[width + i] + span * (s3 - s2) * in_tangent;
     }
+}
+
+/// The rotation in a matrix that may scale, shear and mirror too; none where it leaves no volume.
+glm::dquat rotation_of(const glm::dmat3& linear) {
+    const glm::dvec3 x = glm::normalize(linear[0]);
+    const glm::dvec3 y = glm::normalize(linear[1] - glm::dot(linear[1], x) * x);
+    const glm::dvec3 z = glm::cross(x, y);
+    const double mirrored = glm::dot(z, linear[2]) < 0 ? -1 : 1;
+    const glm::dquat out = glm::normalize(glm::quat_cast(glm::dmat3(mirrored * x, mirrored * y, z)));
+    return std::isfinite(out.w + out.x + out.y + out.z) ? out : glm::dquat{1, 0, 0, 0};
 }
 
 /// A node that has to be posed, as a joint lies in it or below it.
@@ -108,14 +120,19 @@ class NodeMotion : public Motion {
     bool is_pivot(int joint) const override { return is_pivot_[as_index(joint)]; }
     const MotionTimes& times() const override { return animation_->times; }
 
-    void pose(double seconds, std::span<glm::dvec3> positions) const override {
-        std::vector<Affine> global(posed_.size());
-        for (std::size_t i = 0; i < posed_.size(); ++i) {
-            const PosedNode& node = posed_[i];
-            const Affine local = node.moves ? local_at(node, seconds) : node.matrix;
-            global[i] = node.parent < 0 ? local : global[as_index(node.parent)] * local;
-            if (node.joint >= 0) positions[as_index(node.joint)] = global[i].offset;
-        }
+    void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations) const override {
+        const auto local = [&](const PosedNode& node) { return node.moves ? local_at(node, seconds) : node.matrix; };
+        each_joint(local, [&](std::size_t joint, const Affine& global) {
+            positions[joint] = global.offset;
+            if (!rotations.empty()) rotations[joint] = rotation_of(global.linear);
+        });
+    }
+
+    std::vector<glm::dquat> rest() const override {
+        std::vector<glm::dquat> out(joints_.size());
+        const auto local = [](const PosedNode& node) { return node.moves ? node.rest.affine() : node.matrix; };
+        each_joint(local, [&](std::size_t joint, const Affine& global) { out[joint] = rotation_of(global.linear); });
+        return out;
     }
 
     std::vector<std::string> warnings() const override {
@@ -130,6 +147,18 @@ class NodeMotion : public Motion {
     }
 
   private:
+    /// Calls `visit` with each joint and what leads from its own axes to those of the file; `local` gives what leads
+    /// from a posed node to the one above it.
+    template <class Local, class Visit>
+    void each_joint(const Local& local, const Visit& visit) const {
+        std::vector<Affine> global(posed_.size());
+        for (std::size_t i = 0; i < posed_.size(); ++i) {
+            const PosedNode& node = posed_[i];
+            global[i] = node.parent < 0 ? local(node) : global[as_index(node.parent)] * local(node);
+            if (node.joint >= 0) visit(as_index(node.joint), global[i]);
+        }
+    }
+
     static Affine local_at(const PosedNode& node, double seconds) {
         TranslationRotationScale local = node.rest;
         std::array<double, 4> v{};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -59,10 +60,14 @@ void DiskSampler::sample(double t, PosedDisk& out) {
     for (std::size_t i = 0; i < out.positions.size(); ++i) {
         out.positions[i] = a.positions[i] + share * (b.positions[i] - a.positions[i]);
     }
+    out.rotations.resize(a.rotations.size());
+    for (std::size_t i = 0; i < out.rotations.size(); ++i) {
+        out.rotations[i] = glm::slerp(a.rotations[i], b.rotations[i], share);
+    }
 }
 
 void DiskSampler::take(double t, PosedDisk& out) const {
-    motion_.pose(t, out.positions);
+    motion_.pose(t, out.positions, &out.rotations);
     const glm::dvec3 centre = out.positions[root_];
     double radius = 0;
     for (std::size_t i = 0; i < out.positions.size(); ++i) {
@@ -152,9 +157,12 @@ double median_height(const GroundedMotion& motion, int root) {
     return (*std::max_element(heights.begin(), middle) + *middle) / 2;
 }
 
-void GroundedMotion::pose(double seconds, std::vector<glm::dvec3>& positions) const {
+void GroundedMotion::pose(double seconds, std::vector<glm::dvec3>& positions,
+                          std::vector<glm::dquat>* rotations) const {
     positions.resize(joints().size());
-    motion_.pose(seconds, positions);
+    if (rotations) rotations->resize(joints().size());
+    motion_.pose(seconds, positions, rotations ? std::span(*rotations) : std::span<glm::dquat>{});
+    if (rotations) ground(*rotations);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         glm::dvec3& p = positions[i];
         if (!std::isfinite(p.x + p.y + p.z)) {
@@ -164,6 +172,18 @@ void GroundedMotion::pose(double seconds, std::vector<glm::dvec3>& positions) co
         // 0 - z, as -z makes a negative zero of a path along an axis.
         if (up_ == UpAxis::y) p = {p.x, 0 - p.z, p.y};
     }
+}
+
+std::vector<glm::dquat> GroundedMotion::rest() const {
+    std::vector<glm::dquat> out = motion_.rest();
+    ground(out);
+    return out;
+}
+
+void GroundedMotion::ground(std::vector<glm::dquat>& rotations) const {
+    if (up_ != UpAxis::y) return;
+    const glm::dquat stand_up = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(1, 0, 0));  // (x, y, z) -> (x, -z, y)
+    for (glm::dquat& rotation : rotations) rotation = stand_up * rotation;
 }
 
 std::vector<double> GroundedMotion::survey() const {

@@ -24,15 +24,20 @@ class GroundedMotion {
     std::span<const Joint> joints() const { return motion_.joints(); }
     const MotionTimes& times() const { return motion_.times(); }
 
-    /// Where all joints are at a time in file seconds. Throws std::invalid_argument, naming time and joint, if one is
-    /// at no finite place.
-    void pose(double seconds, std::vector<glm::dvec3>& positions) const;
+    /// Where all joints are at a time in file seconds, and if asked for how they are turned. Throws
+    /// std::invalid_argument, naming time and joint, if one is at no finite place.
+    void pose(double seconds, std::vector<glm::dvec3>& positions, std::vector<glm::dquat>* rotations = nullptr) const;
+
+    /// Motion::rest, on the ground plane.
+    std::vector<glm::dquat> rest() const;
 
     /// Times at which to look when all of the motion counts: the stored frames, or 30 a second where any time has its
     /// pose; then 10,000 at most.
     std::vector<double> survey() const;
 
   private:
+    void ground(std::vector<glm::dquat>& rotations) const;
+
     const Motion& motion_;
     UpAxis up_;
 };
@@ -41,6 +46,7 @@ class GroundedMotion {
 struct PosedDisk {
     mobb::Disk disk;
     std::vector<glm::dvec3> positions;  ///< of all joints, on the ground plane; z up
+    std::vector<glm::dquat> rotations;  ///< of all joints: from their own axes to those of the ground plane
 };
 
 /// Disks of one motion about one root: the radius reaches the farthest joint of the root's subtree. Refers to the
@@ -50,7 +56,7 @@ class DiskSampler {
     DiskSampler(const GroundedMotion& motion, int root);
 
     /// At a time in file seconds. A time within kFrameTolerance of a stored frame takes that frame; between stored
-    /// frames x, y, r and the positions are interpolated where the motion is frames_only, else the pose is evaluated.
+    /// frames x, y, r and the pose are interpolated where the motion is frames_only, else the pose is evaluated.
     /// Throws std::invalid_argument as GroundedMotion::pose.
     void sample(double t, PosedDisk& out);
 

@@ -1,6 +1,9 @@
 /// Joints that move in time, as files hold them: what readers of skeletons give, and motion_clips.h samples.
 #pragma once
 
+#include <mobb/clip.h>
+
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -45,8 +48,11 @@ class Motion {
     virtual const MotionTimes& times() const = 0;
     /// Where all joints are at a time in file seconds, in file units and axes, with everything above them applied.
     /// Times outside the keys are clamped; with frames_only the nearest stored frame is taken. `positions` has room for
-    /// all joints. What comes out may be absurd or not finite: the caller checks.
-    virtual void pose(double seconds, std::span<glm::dvec3> positions) const = 0;
+    /// all joints. What comes out may be absurd or not finite: the caller checks. `rotations`, where it has room for
+    /// all joints too, takes what turns each joint's own axes to those of the file: always unit quaternions.
+    virtual void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations = {}) const = 0;
+    /// The same rotations where nothing is animated, for all joints: BVH, all angles 0; else the nodes as they stand.
+    virtual std::vector<glm::dquat> rest() const { return std::vector<glm::dquat>(joints().size(), {1, 0, 0, 0}); }
     /// What was passed over, one sentence each.
     virtual std::vector<std::string> warnings() const { return {}; }
 };
@@ -62,17 +68,29 @@ struct MotionFile {
     std::function<std::shared_ptr<const Motion>(std::size_t)> motion;
 };
 
-/// Joint positions at every sample of a clip.
+/// Joint positions and rotations at every sample of a clip.
 struct Skeleton {
     std::vector<Joint> joints;  ///< parents before children; those outside the root's subtree too
     int root = 0;               ///< the joint in the centre of the disks
     /// Sample after sample, one for each joint, metres: x and y from the centre of the sample's disk, in the clip's
     /// axes; z the height as in the file. So a placement that turns the disks turns these too.
     std::vector<glm::vec3> positions;
+    /// Beside the positions: what turns each joint's own axes to those of the clip (x and y on the floor, z up).
+    std::vector<glm::quat> rotations;
+    std::vector<glm::quat> rest;  ///< the same of each joint where nothing is animated
 
     std::span<const glm::vec3> at(int sample) const {
         return std::span(positions).subspan(static_cast<std::size_t>(sample) * joints.size(), joints.size());
     }
+    std::span<const glm::quat> rotations_at(int sample) const {
+        return std::span(rotations).subspan(static_cast<std::size_t>(sample) * joints.size(), joints.size());
+    }
 };
+
+/// A joint of a sample in the world: x, y and the height in metres. The skeleton is the clip's.
+glm::dvec3 joint_place(const Skeleton& skeleton, const mobb::PlacedClip& clip, int sample, int joint);
+
+/// A rotation of the floor as one of space: about z.
+glm::dquat about_up(const mobb::Rotation& rotation);
 
 }  // namespace mobbscope

@@ -25,7 +25,7 @@ constexpr std::size_t kMaxMotionSamples = 1'000'000;
 // Joints times frames or samples. A file of real captures has no room for more; one of names and zeros would take
 // hours.
 constexpr std::size_t kMaxJointPoses = 100'000'000;
-constexpr std::size_t kMaxSkeletonPositions = 8'000'000;  // 96 MB; longer clips go without a skeleton
+constexpr std::size_t kMaxSkeletonPositions = 8'000'000;  // 224 MB; longer clips go without a skeleton
 
 /// Units as options, and what they are called.
 constexpr std::pair<const char*, const char*> kUnitChoices[] = {
@@ -83,6 +83,10 @@ class MotionImport {
         for (glm::vec3& p : skeleton->positions) {
             const glm::dvec2 turned = turn({p.x, p.y});
             p = {turned.x, turned.y, p.z};
+        }
+        if (turn.s != 0 || turn.c != 1) {
+            const glm::quat about(about_up(turn));
+            for (glm::quat& rotation : skeleton->rotations) rotation = about * rotation;
         }
         out.clip =
             std::make_shared<mobb::Clip>(grid.step, std::move(samples), options_.motion.value_or(kMotionOfSkeletons));
@@ -168,6 +172,8 @@ class MotionImport {
             skeleton.joints.assign(joints.begin(), joints.end());
             skeleton.root = root;
             skeleton.positions.reserve(grid.count * joints.size());
+            skeleton.rotations.reserve(grid.count * joints.size());
+            for (const glm::dquat& rotation : grounded_.rest()) skeleton.rest.emplace_back(rotation);
         }
         DiskSampler sampler(grounded_, root);
         PosedDisk posed;
@@ -179,6 +185,7 @@ class MotionImport {
             if (!keep_skeleton) continue;
             const glm::dvec3 centre{posed.disk.x, posed.disk.y, 0};
             for (const glm::dvec3& p : posed.positions) skeleton.positions.emplace_back((p - centre) * unit);
+            for (const glm::dquat& rotation : posed.rotations) skeleton.rotations.emplace_back(rotation);
         }
         return samples;
     }

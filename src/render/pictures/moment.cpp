@@ -100,13 +100,6 @@ bool sets_radius(const Body& body) {
     return body.farthest && std::abs(body.farthest->distance - body.disk.r) <= kOnWall;
 }
 
-glm::dvec3 joint_place(const DrawnAgent& agent, int sample, int joint) {
-    const glm::dvec3 p(agent.skeleton->at(sample)[static_cast<std::size_t>(joint)]);
-    const mobb::Disk disk = agent.clip().disk(sample);
-    const glm::dvec2 turned = agent.clip().rotation()({p.x, p.y});
-    return {disk.x + turned.x, disk.y + turned.y, p.z};
-}
-
 std::vector<double> cylinder_heights(std::span<const DrawnAgent> agents) {
     // Agents of a crowd share their clips.
     std::map<const Skeleton*, double> known{{nullptr, kUsualHeight}};

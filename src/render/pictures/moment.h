@@ -50,9 +50,6 @@ Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> hei
 /// keep their height while people walk.
 std::vector<double> cylinder_heights(std::span<const DrawnAgent> agents);
 
-/// A joint of a sample in the world: x, y and the height in metres. Requires a skeleton.
-glm::dvec3 joint_place(const DrawnAgent& agent, int sample, int joint);
-
 /// Who is there, of so many people, and who overlaps whom, or how near they come.
 Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agents, const Moment& moment,
                        std::size_t people);

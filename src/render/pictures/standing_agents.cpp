@@ -162,7 +162,7 @@ void add_skeleton(const DrawList& list, Pen& pen, const Figure& f, float scale) 
     const std::vector<bool> in_body = subtree(skeleton.joints, skeleton.root);
     std::vector<glm::vec3> places;
     for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-        const glm::dvec3 p = joint_place(f.agent, f.body.sample, static_cast<int>(i));
+        const glm::dvec3 p = joint_place(*f.agent.skeleton, f.agent.clip(), f.body.sample, static_cast<int>(i));
         places.push_back(list.space.point(p.x, p.y, p.z));
     }
     struct Bone {
@@ -302,7 +302,7 @@ std::vector<LabelRequest> add_radius(DrawList& list, const DrawnAgent& agent, co
                                      const Metrics& metrics) {
     const Figure f = figure_of(list, agent, body);
     if (!body.farthest || f.pixels <= 0 || are_plain(std::span(&f, 1), metrics.scale)) return {};
-    const glm::dvec3 joint = joint_place(agent, body.sample, body.farthest->joint);
+    const glm::dvec3 joint = joint_place(*agent.skeleton, agent.clip(), body.sample, body.farthest->joint);
     const float floor = disk_height(list.projection);
     const glm::vec3 middle = f.foot + glm::vec3(0, 0, floor);
     const glm::vec3 tip = list.space.point(joint.x, joint.y, joint.z);

@@ -1,0 +1,111 @@
+// What agents of a run played, written and imported again: the same disks and joints within 1 mm.
+#include "exported.h"
+
+#include <crowd/graph/build_graph.h>
+#include <crowd/simulation/simulate.h>
+#include <import/skeleton/disk_sampler.h>
+#include <motion_files/read_back.h>
+#include <scene/crowd_run.h>
+#include <scene/motion_graph.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+using testing::farthest_off;
+
+const std::filesystem::path kOwnClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR) / "assets/clips";
+const std::filesystem::path kShared = MOBBSCOPE_SHARED_DATA;
+
+enum class Moves { whole_clips, graph };
+
+/// Some agents play the clips for a while, and all of it is written and read again.
+void expect_same_again(const std::vector<std::filesystem::path>& places, Moves moves, const ImportOptions& options = {},
+                       const GraphOptions& graph_options = {}) {
+    for (const std::filesystem::path& place : places) {
+        if (!std::filesystem::exists(place)) GTEST_SKIP() << "no test data at " << place;
+    }
+    Scene scene = load_recordings(clip_files(places), "graph.json", options);
+    if (moves == Moves::graph) {
+        scene = build_graph(scene, graph_options, "recordings").scene;
+    } else {
+        scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
+    }
+    SimulateOptions run;
+    run.agents = 6;
+    run.area = {40, 40};
+    run.seconds = 30;
+    const FittedScene fitted(scene, {});
+    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), run).run);
+    for (const CrowdAgent& agent : scene.crowd->agents) {
+        const PlayedMotion motion(scene, agent.name);
+        EXPECT_EQ(motion.plays(), agent.plays.size());
+        EXPECT_GE(motion.begin() + motion.frames() * motion.dt(), run.seconds);
+        for (const MotionFormat& format : motion_formats()) {
+            EXPECT_LE(farthest_off(motion, format), 1e-4) << format.extension << " of agent " << agent.name;
+        }
+    }
+}
+
+TEST(ExportedRuns, OfWholeClips) { expect_same_again({kOwnClips}, Moves::whole_clips); }
+TEST(ExportedRuns, OfAGraph) { expect_same_again({kOwnClips}, Moves::graph); }
+
+TEST(ExportedRuns, OfManySamplesASecond) {
+    ImportOptions options;
+    options.fps = 60;
+    expect_same_again({kOwnClips / "walk.glb", kOwnClips / "turn.glb"}, Moves::whole_clips, options);
+}
+
+TEST(ExportedRuns, OfBvhRecordings) {
+    const auto folder = kShared / "bvh/short";
+    expect_same_again(
+        {folder / "cmu_07_01_walk_120hz.bvh", folder / "cmu_07_02_walk_120hz.bvh", folder / "cmu_09_01_run_120hz.bvh"},
+        Moves::whole_clips);
+}
+TEST(ExportedRuns, OfAGraphOfBvhRecordings) { expect_same_again({kShared / "bvh/short"}, Moves::graph); }
+
+TEST(ExportedRuns, OfGltfWithABodyThatIsScaledAndTurnedByNodesAbove) {
+    expect_same_again({kShared / "gltf/CesiumMan.glb"}, Moves::whole_clips);
+    expect_same_again({kShared / "gltf/derived_cmu_07_05_cm.glb"}, Moves::whole_clips);
+}
+
+TEST(ExportedRuns, OfFbx) { expect_same_again({kShared / "fbx/cmu_85_04_breakdance.fbx"}, Moves::whole_clips); }
+
+TEST(ExportedRuns, OfAGraphOfFbx) {
+    GraphOptions dance;
+    dance.bounds = {0.5, 3};
+    expect_same_again({kShared / "fbx/cmu_85_14_breakdance.fbx"}, Moves::graph, {}, dance);
+}
+
+TEST(ExportedRuns, EveryMotionFileOfTheDataSetAlone) {
+    if (!std::filesystem::exists(kShared / "bvh")) GTEST_SKIP() << "no test data at " << kShared;
+    int checked = 0;
+    for (const char* folder : {"bvh/short", "bvh/quirks", "gltf", "fbx"}) {
+        for (const std::filesystem::path& file : clip_files({kShared / folder})) {
+            Scene scene;
+            try {
+                scene = load_recordings({file}, "one.json", {});
+            } catch (const InputError&) {
+                continue;  // morph targets alone
+            }
+            const PlayedMotion motion(scene, scene.clips.front().name);
+            for (const MotionFormat& format : motion_formats()) {
+                const std::string bytes = format.write(motion);
+                const DiskDifference off = read_back(bytes, format, motion);
+                EXPECT_LE(off.place, kSameDisk) << file << format.extension;
+                EXPECT_LE(off.radius, kSameDisk) << file << format.extension;
+                ++checked;
+            }
+        }
+    }
+    EXPECT_GT(checked, 60);
+}
+
+}  // namespace
+}  // namespace mobbscope
