@@ -21,7 +21,12 @@ xdotool key Return
 reached refused.txt
 again undone.txt ctrl+z
 again redone.txt ctrl+y
-to redone.txt import.trim.begin 0 0
+# How its disks move between samples.
+click redone.txt import.motion 0 0
+reached motions.txt
+click motions.txt import.motion.linear 0 0
+reached linear.txt
+to linear.txt import.trim.begin 0 0
 pull trimmed.txt 6 0
 reached released.txt
 xdotool key Escape
