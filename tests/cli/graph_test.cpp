@@ -82,6 +82,32 @@ TEST_F(GraphTest, TheSameInputAndSeedGiveTheSameFile) {
     EXPECT_FALSE(slurp(path("other.json")) == slurp(graph()));
 }
 
+/// A body of 202 joints that stands still but for a hand, which moves by 10 nm a frame.
+std::string statue() {
+    const auto joint = [](const std::string& name, const std::string& offset, const std::string& channels) {
+        return "JOINT " + name + "\n{\nOFFSET " + offset + "\nCHANNELS " + channels + "\n";
+    };
+    std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n";
+    for (int i = 0; i < 100; ++i) {
+        const std::string number = std::to_string(i);
+        text += joint("spine" + number, "0.3 1 0.2", "0") + joint("rib" + number, "0.5 0.1 0.25", "0") + "}\n}\n";
+    }
+    text += joint("arm", "0 0 1", "3 Xposition Yposition Zposition") + joint("hand", "0 0 1", "0") + "}\n}\n}\n";
+    text += "MOTION\nFrames: 150\nFrame Time: 0.0333333333\n";
+    for (int i = 0; i < 150; ++i) text += "0 1 0 0 0 1." + std::to_string(100000000 + i).substr(1) + '\n';
+    return text;
+}
+
+TEST_F(GraphTest, NothingIsWrittenIfNoMoveKeepsItsBoundsInTheFiles) {
+    // Of a body of a kilometre the search, made to be fast, takes poses for the same that differ a little.
+    folder_->write("statue.bvh", statue());
+    const std::string out = path("statue.json");
+    expect_refused({"graph", "build", path("statue.bvh"), "--unit", "1000", "--pose-distance", "1e-6", "-o", out},
+                   "measured again from the files no move keeps the bounds (", 1);
+    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_EQ(run_program({"graph", "build", path("statue.bvh"), "--unit", "1", "-o", out}).status, 0);
+}
+
 TEST_F(GraphTest, TheOrderAndSpellingOfPathsDoNotMatter) {
     const auto built_from = [&](std::vector<std::string> places) {
         std::vector<std::string> arguments{"graph", "build", "--moves", "3", "-o", path("ordered.json")};
@@ -140,6 +166,11 @@ TEST_F(GraphTest, TheJointsThatCountStandInTheFile) {
     nlohmann::json changed = json();
     changed["graph"]["rigs"][0]["joints"] = {graph["rigs"][0]["joints"][0]};
     EXPECT_NE(largest(changed), as_built);
+    EXPECT_NE(run_program({"graph", "info", path("changed.json")}).out.find("poses compared by 1 joint: Hips\n"),
+              std::string::npos);
+    const auto info = nlohmann::json::parse(run_program({"graph", "info", path("changed.json"), "--json"}).out);
+    EXPECT_EQ(info["rigs"][0]["joints"], nlohmann::json({"Hips"}));
+    EXPECT_EQ(info["rigs"][0]["moves"], graph["moves"].size());
     // A file of before they stood there is measured by the joints of its own clips.
     changed = json();
     changed["graph"].erase("rigs");
