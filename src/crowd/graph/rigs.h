@@ -4,6 +4,7 @@
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace mobbscope {
@@ -26,8 +27,8 @@ SceneRigs rigs_of(const Scene& scene);
 /// is of are left out.
 void set_rigs(MotionGraph& graph, const SceneRigs& of_scene);
 
-/// Where the joints are in a skeleton that have the names, in the order of the names; End Sites and joints that are not
-/// below the root are none. Throws std::invalid_argument, naming it, if there is none of a name.
+/// Indices of the skeleton's joints that have the names, in the order of the names, of the root and what is below it;
+/// End Sites are no joints. Throws std::invalid_argument, naming it, if there is none of a name.
 std::vector<std::size_t> joints_of(const GraphRig& rig, const Skeleton& skeleton);
 
 }  // namespace mobbscope
