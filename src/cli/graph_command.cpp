@@ -34,6 +34,7 @@ struct BuildArguments {
     std::filesystem::path out;
     GraphOptions options;
     bool whole = false;
+    bool strict = false;
     bool inline_samples = false;
     ImportOptions import_options;
 };
@@ -75,7 +76,9 @@ void print_report(const BuildReport& report) {
               << " between the hubs\n"
               << "left out: " << report.alike << " that go like others or are more than --moves; "
               << moves_text(report.dead_ends) << " and " << hubs_text(report.dropped_hubs)
-              << " at dead ends or in parts of fewer than --least-moves\n";
+              << " at dead ends or in parts of fewer than --least-moves\n"
+              << "measured again from the files: " << counted(report.joints_checked, "joint", "joints") << "; "
+              << moves_text(report.broken) << " dropped that broke a bound\n";
     if (report.rigs_left_out > 0) {
         warn(counted(report.rigs_left_out, "rig has", "rigs have") +
              " no pose that comes again often enough, and no part in the graph");
@@ -95,21 +98,38 @@ std::string place_of(const std::vector<std::filesystem::path>& places) {
     return places.size() == 1 ? places.front().string() : counted(places.size(), "place", "places");
 }
 
-void build(const BuildArguments& arguments) {
+void warn_of_left_out(const std::vector<std::string>& left_out, std::size_t files) {
+    for (const std::string& why : left_out) warn("left out: " + why);
+    if (left_out.empty()) return;
+    warn("left out " + std::to_string(left_out.size()) + " of " + counted(files, "file", "files") +
+         "; with --strict a bad file ends the build");
+}
+
+int build(const BuildArguments& arguments) {
     check_file_name(arguments.out);
     check_extension(arguments.out, ".json", "a graph is written as .json; rename the output");
     check_writable(arguments.out);
     const auto files = clip_files(arguments.places);
-    Scene recordings = load_recordings(files, arguments.out, arguments.import_options, tell("read", "files"));
-    const BuiltGraph built = arguments.whole ? whole_graph(std::move(recordings))
-                                             : build_graph(recordings, arguments.options, place_of(arguments.places),
-                                                           tell("compared", "moments"));
+    Recordings recordings =
+        load_recordings(files, arguments.out, arguments.import_options, arguments.strict, tell("read", "files"));
+    warn_of_left_out(recordings.left_out, files.size());
+    const std::string place = place_of(arguments.places);
+    BuiltGraph built = arguments.whole
+                           ? whole_graph(std::move(recordings.scene))
+                           : build_graph(recordings.scene, arguments.options, place, tell("compared", "moments"));
+    if (!arguments.whole) check_graph(built, arguments.options.least_moves, tell("measured", "clips"));
+    if (built.scene.graph->moves.empty()) {
+        complain(place + ": measured again from the files no move keeps the bounds (" +
+                 moves_text(built.report.broken) + " dropped that broke one), so no graph is written");
+        return kFailed;
+    }
     write_file(arguments.out, to_json(built.scene, arguments.inline_samples));
     const MotionGraph& graph = *built.scene.graph;
     std::cout << cleaned(arguments.out.string()) << ": " << hubs_text(graph.hubs.size()) << ", "
               << moves_text(graph.moves.size()) << '\n';
     if (!arguments.whole) print_report(built.report);
     flush_results();
+    return kDone;
 }
 
 /// A scene with a graph. Throws InputError.
@@ -152,8 +172,11 @@ std::pair<double, double> parse_seconds(const std::string& text) {
     return *range;
 }
 
-void add_build(Command& graph) {
-    Command& command = graph.add_subcommand("build", "Cut a motion graph out of recordings, at poses that come again");
+void add_build(Command& graph, int& status) {
+    Command& command =
+        graph.add_subcommand("build",
+                             "Cut a motion graph out of recordings, at poses that come again; exit status 1 if "
+                             "nothing keeps its bounds");
     const auto arguments = std::make_shared<BuildArguments>();
     GraphOptions& options = arguments->options;
     command.add_option("PLACE", arguments->places, "Clip files, and folders of them with their subfolders", "")
@@ -176,10 +199,11 @@ void add_build(Command& graph) {
                "Moments of each rig that are looked at as hubs (400)", "N");
     add_parsed(command, "--seed", options.seed, parse_seed, "Decides which moments those are (1)", "S");
     command.add_flag("--whole", arguments->whole, "Takes clips whole, from one hub to itself, and bounds nothing");
+    command.add_flag("--strict", arguments->strict, "A bad file in a folder ends the build; without it it is left out");
     command.add_flag("--inline", arguments->inline_samples,
                      "Writes samples, so that the file stands alone; without it clips lead to their files");
     add_import_options(command, arguments->import_options);
-    command.callback([arguments] { build(*arguments); });
+    command.callback([arguments, &status] { status = build(*arguments); });
 }
 
 void add_info(Command& graph, int& status) {
@@ -210,7 +234,7 @@ void add_draw(Command& graph) {
 void add_graph_command(Command& program, int& status) {
     Command& command = program.add_subcommand("graph", "Motion graphs: build, info, draw");
     command.require_subcommand();
-    add_build(command);
+    add_build(command, status);
     add_info(command, status);
     add_draw(command);
 }

@@ -13,7 +13,8 @@ namespace {
 
 using Layout = JsonWriter::Layout;
 
-constexpr std::size_t kMostRows = 40;  // of a list for people; JSON has all
+constexpr std::size_t kMostRows = 40;      // of a list for people; JSON has all
+constexpr std::size_t kLongestNames = 80;  // characters of a list of joints
 
 const std::string& clip_of_move(const Scene& scene, int move) {
     const GraphMove& of = scene.graph->moves[static_cast<std::size_t>(move)];
@@ -38,6 +39,19 @@ void print_spread(std::ostream& out, const Scene& scene, const char* what, const
 
 void print_more(std::ostream& out, std::size_t all) {
     if (all > kMostRows) out << "  and " << all - kMostRows << " more\n";
+}
+
+std::size_t moves_of_rig(const MotionGraph& graph, std::size_t rig) {
+    return static_cast<std::size_t>(std::count_if(graph.moves.begin(), graph.moves.end(), [&](const GraphMove& move) {
+        return move.rig == static_cast<int>(rig);
+    }));
+}
+
+/// The names of the joints that count, as many as fit a line.
+std::string joint_names(const GraphRig& rig) {
+    std::string out;
+    for (const std::string& joint : rig.joints) out += (out.empty() ? "" : ", ") + cleaned(joint);
+    return shortened(out, kLongestNames);
 }
 
 void write_spread(JsonWriter& out, const char* key, const Scene& scene, const TransitionSpread& spread) {
@@ -85,6 +99,11 @@ void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures&
             << counted(part.moves, "move", "moves") << ", " << brief(part.seconds) << " s\n";
     }
     if (figures.components.size() > 1) print_more(out, figures.components.size());
+    for (std::size_t r = 0; r < std::min(graph.rigs.size(), kMostRows); ++r) {
+        out << "  rig " << r << ": " << counted(moves_of_rig(graph, r), "move", "moves") << ", poses compared by "
+            << counted(graph.rigs[r].joints.size(), "joint", "joints") << ": " << joint_names(graph.rigs[r]) << '\n';
+    }
+    print_more(out, graph.rigs.size());
     for (std::size_t s = 0; s < std::min(figures.sources.size(), kMostRows); ++s) {
         const SourceFigures& source = figures.sources[s];
         out << "  " << counted(source.moves, "move", "moves") << ", " << brief(source.seconds) << " s, from "
@@ -124,6 +143,13 @@ void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& 
         out.end_object();
     });
     out.values("dead_ends", figures.dead_ends);
+    std::size_t rig = 0;
+    out.list("rigs", scene.graph->rigs, [&](const GraphRig& of) {
+        out.begin_object(Layout::row);
+        out.member("moves", moves_of_rig(*scene.graph, rig++));
+        out.values("joints", of.joints);
+        out.end_object();
+    });
     out.list("sources", figures.sources, [&](const SourceFigures& source) {
         out.begin_object(Layout::row);
         out.key("file");

@@ -17,8 +17,8 @@ void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures&
 /// {"file", "hubs":[{"name","begin","end","speed"}], "moves", "seconds", "bounds":{"pose_distance","root_speed"},
 /// "joints":{"count","pose_distance":{"count","median","largest","before","after"},"root_speed":{...}},
 /// "choices", "seconds_between_choices", "components":[{"hubs","moves","seconds"}], "dead_ends":[...],
-/// "sources":[{"file","moves","seconds"}], "holds"}. `before` and `after` are clips, null where nothing was measured;
-/// hubs are indices.
+/// "rigs":[{"moves","joints"}], "sources":[{"file","moves","seconds"}], "holds"}. `before` and `after` are clips, null
+/// where nothing was measured; hubs are indices; joints are the names of those that count.
 void write_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures,
                       const TransitionMeasures& transitions);
 

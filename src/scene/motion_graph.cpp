@@ -67,6 +67,21 @@ std::vector<GraphHub> read_hubs(const JsonPlace& place) {
     return hubs;
 }
 
+GraphRig read_rig(const JsonPlace& place) {
+    place.allow_only({"joints"});
+    const JsonPlace joints = place.require("joints");
+    if (joints.size() == 0) joints.fail("there is no joint; name those that count");
+    GraphRig rig;
+    std::unordered_set<std::string> names;
+    for (int i = 0; i < joints.size(); ++i) {
+        const JsonPlace name = joints[i];
+        if (!names.insert(name.string()).second)
+            name.fail("the joint " + in_quotes(name.string()) + " stands there twice");
+        rig.joints.push_back(name.string());
+    }
+    return rig;
+}
+
 Stance read_stance(const JsonPlace& place) {
     place.require_size(3, "[x, y, heading in degrees]");
     return {{place[0].number(-kMostStance, kMostStance), place[1].number(-kMostStance, kMostStance)},
@@ -139,21 +154,27 @@ std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph) {
 }
 
 MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at) {
-    place.allow_only({"hubs", "bounds", "moves"});
+    place.allow_only({"hubs", "bounds", "rigs", "moves"});
     MotionGraph graph;
     graph.hubs = read_hubs(place.require("hubs"));
     const auto bounds = place.find("bounds");
     constexpr double kNone = std::numeric_limits<double>::infinity();
     graph.bounds = bounds ? read_bounds(*bounds) : GraphBounds{kNone, kNone};
+    if (const auto rigs = place.find("rigs")) {
+        for (int i = 0; i < rigs->size(); ++i) graph.rigs.push_back(read_rig((*rigs)[i]));
+    }
     const JsonPlace moves = place.require("moves");
     if (moves.size() == 0) moves.fail("there is no move; add one");
     const int last_hub = static_cast<int>(graph.hubs.size()) - 1;
+    const int last_rig = static_cast<int>(graph.rigs.size()) - 1;
     for (int i = 0; i < moves.size(); ++i) {
         const JsonPlace move = moves[i];
-        move.allow_only({"clip", "from", "to", "entry", "exit"});
+        move.allow_only({"clip", "from", "to", "entry", "exit", "rig"});
+        const auto rig = move.find("rig");
+        if (rig && graph.rigs.empty()) rig->fail("the graph lists no rigs; add \"rigs\", or leave this out");
         graph.moves.push_back({clip_at(move.require("clip")), move.require("from").integer(0, last_hub),
                                move.require("to").integer(0, last_hub), read_stance(move.require("entry")),
-                               read_stance(move.require("exit"))});
+                               read_stance(move.require("exit")), rig ? rig->integer(0, last_rig) : -1});
     }
     return graph;
 }
@@ -174,6 +195,13 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
         out.end_object();
     });
     write_bounds(out, graph.bounds);
+    if (!graph.rigs.empty()) {
+        out.list("rigs", graph.rigs, [&](const GraphRig& rig) {
+            out.begin_object(Layout::row);
+            out.values("joints", rig.joints);
+            out.end_object();
+        });
+    }
     out.list("moves", graph.moves, [&](const GraphMove& move) {
         out.begin_object(Layout::row);
         out.member("clip", clip_name(move.clip));
@@ -181,6 +209,7 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
         out.member("to", move.to);
         write_stance(out, "entry", move.entry);
         write_stance(out, "exit", move.exit);
+        if (move.rig >= 0) out.member("rig", move.rig);
         out.end_object();
     });
     out.end_object();

@@ -36,7 +36,16 @@ struct GraphMove {
     int to = 0;
     Stance entry;  ///< at the clip's first sample
     Stance exit;   ///< where the next clip's first sample comes: one dt after the last sample
+    int rig = -1;  ///< index into MotionGraph::rigs; -1: the clip has no skeleton, or the file does not say
     friend bool operator==(const GraphMove&, const GraphMove&) = default;
+};
+
+/// What the poses of moves are compared by. Moves of different rigs have no pose distance.
+struct GraphRig {
+    /// Names of the joints that count, each once; all joints below the root that have the name. A name that is not
+    /// UTF-8 is written as '#' and the joint's index.
+    std::vector<std::string> joints;
+    friend bool operator==(const GraphRig&, const GraphRig&) = default;
 };
 
 /// How far a joint between two moves may be from continuous. Infinite where nothing was asked.
@@ -53,6 +62,7 @@ struct MotionGraph {
     std::vector<GraphHub> hubs;
     std::vector<GraphMove> moves;
     GraphBounds bounds;
+    std::vector<GraphRig> rigs;  ///< empty in a file that does not say, as older ones, and where no clip has a skeleton
     friend bool operator==(const MotionGraph&, const MotionGraph&) = default;
 };
 
@@ -75,7 +85,8 @@ std::vector<int> hub_components(const MotionGraph& graph);
 std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph);
 
 /// `clip_at` gives the index of the clip that a place names, or throws InputError. Checks that there is a hub and a
-/// move, that hubs have names of their own, that moves join hubs that exist, and that stances and bounds are in range.
+/// move, that hubs have names of their own, that rigs have joints, each once, that moves join hubs and are of rigs that
+/// exist, and that stances and bounds are in range.
 /// A hub that no move leaves is allowed. Throws InputError.
 MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at);
 

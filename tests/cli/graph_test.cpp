@@ -82,6 +82,107 @@ TEST_F(GraphTest, TheSameInputAndSeedGiveTheSameFile) {
     EXPECT_FALSE(slurp(path("other.json")) == slurp(graph()));
 }
 
+/// A body of 202 joints that stands still but for a hand, which moves by 10 nm a frame.
+std::string statue() {
+    const auto joint = [](const std::string& name, const std::string& offset, const std::string& channels) {
+        return "JOINT " + name + "\n{\nOFFSET " + offset + "\nCHANNELS " + channels + "\n";
+    };
+    std::string text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n";
+    for (int i = 0; i < 100; ++i) {
+        const std::string number = std::to_string(i);
+        text += joint("spine" + number, "0.3 1 0.2", "0") + joint("rib" + number, "0.5 0.1 0.25", "0") + "}\n}\n";
+    }
+    text += joint("arm", "0 0 1", "3 Xposition Yposition Zposition") + joint("hand", "0 0 1", "0") + "}\n}\n}\n";
+    text += "MOTION\nFrames: 150\nFrame Time: 0.0333333333\n";
+    for (int i = 0; i < 150; ++i) text += "0 1 0 0 0 1." + std::to_string(100000000 + i).substr(1) + '\n';
+    return text;
+}
+
+TEST_F(GraphTest, NothingIsWrittenIfNoMoveKeepsItsBoundsInTheFiles) {
+    // Of a body of a kilometre the search, made to be fast, takes poses for the same that differ a little.
+    folder_->write("statue.bvh", statue());
+    const std::string out = path("statue.json");
+    expect_refused({"graph", "build", path("statue.bvh"), "--unit", "1000", "--pose-distance", "1e-6", "-o", out},
+                   "measured again from the files no move keeps the bounds (", 1);
+    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_EQ(run_program({"graph", "build", path("statue.bvh"), "--unit", "1", "-o", out}).status, 0);
+}
+
+TEST_F(GraphTest, TheOrderAndSpellingOfPathsDoNotMatter) {
+    const auto built_from = [&](std::vector<std::string> places) {
+        std::vector<std::string> arguments{"graph", "build", "--moves", "3", "-o", path("ordered.json")};
+        arguments.insert(arguments.end(), places.begin(), places.end());
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return slurp(path("ordered.json"));
+    };
+    const std::string first = built_from({kClips + "/wander.glb", kClips + "/run.glb", kClips + "/turn.glb"});
+    EXPECT_NE(first, "");
+    const std::string relative = std::filesystem::relative(kClips).string();
+    EXPECT_TRUE(built_from({kClips + "/turn.glb", relative + "/./run.glb", kClips + "/../clips/wander.glb",
+                            kClips + "/run.glb"}) == first);
+    const auto rigs = nlohmann::json::parse(first)["graph"]["rigs"];
+    ASSERT_EQ(rigs.size(), 1u);
+    EXPECT_GT(rigs[0]["joints"].size(), 5u);
+}
+
+TEST_F(GraphTest, ABadFileInAFolderIsLeftOutNamedAndCounted) {
+    std::filesystem::create_directory(path("mixed"));
+    std::filesystem::copy_file(kClips + "/wander.glb", path("mixed/wander.glb"));
+    folder_->write("mixed/broken.bvh", "HIERARCHY");
+    folder_->write("mixed/empty.glb", "");
+    const std::vector<std::string> build{"graph", "build", path("mixed"), "-o", path("mixed.json")};
+    const Result run = run_program(build);
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (const char* part : {"warning: left out: ", "mixed/broken.bvh: ", "mixed/empty.glb: ",
+                             "left out 2 of 3 files; with --strict a bad file ends the build"}) {
+        EXPECT_NE(run.err.find(part), std::string::npos) << part << " in " << run.err;
+    }
+    EXPECT_EQ(run_program({"graph", "info", path("mixed.json")}).status, 0);
+    std::filesystem::remove(path("mixed.json"));
+    expect_refused({"graph", "build", path("mixed"), "-o", path("mixed.json"), "--strict"}, "mixed/broken.bvh: ");
+    expect_refused({"graph", "build", path("mixed"), path("mixed/empty.glb"), "-o", path("mixed.json")},
+                   "mixed/empty.glb: ");
+    std::filesystem::remove(path("mixed/wander.glb"));
+    expect_refused(build, "mixed/broken.bvh: ");
+    EXPECT_FALSE(std::filesystem::exists(path("mixed.json")));
+    EXPECT_EQ(run_program({"graph", "build", kClips, path("mixed"), "--whole", "-o", path("mixed.json")}).status, 0);
+}
+
+TEST_F(GraphTest, TheJointsThatCountStandInTheFile) {
+    const nlohmann::json graph = json()["graph"];
+    ASSERT_EQ(graph["rigs"].size(), 1u);
+    for (const auto& move : graph["moves"]) EXPECT_EQ(move["rig"], 0);
+    EXPECT_NE(built_.out.find("measured again from the files: "), std::string::npos) << built_.out;
+    EXPECT_NE(built_.out.find("; 0 moves dropped"), std::string::npos) << built_.out;
+
+    const auto largest = [&](const nlohmann::json& of) {
+        folder_->write("changed.json", of.dump());
+        const Result run = run_program({"graph", "info", path("changed.json"), "--json"});
+        EXPECT_EQ(run.status, 0) << run.err;
+        return nlohmann::json::parse(run.out)["joints"]["pose_distance"]["largest"].get<double>();
+    };
+    const double as_built = largest(json());
+    nlohmann::json changed = json();
+    changed["graph"]["rigs"][0]["joints"] = {graph["rigs"][0]["joints"][0]};
+    EXPECT_NE(largest(changed), as_built);
+    EXPECT_NE(run_program({"graph", "info", path("changed.json")}).out.find("poses compared by 1 joint: Hips\n"),
+              std::string::npos);
+    const auto info = nlohmann::json::parse(run_program({"graph", "info", path("changed.json"), "--json"}).out);
+    EXPECT_EQ(info["rigs"][0]["joints"], nlohmann::json({"Hips"}));
+    EXPECT_EQ(info["rigs"][0]["moves"], graph["moves"].size());
+    // A file of before they stood there is measured by the joints of its own clips.
+    changed = json();
+    changed["graph"].erase("rigs");
+    for (auto& move : changed["graph"]["moves"]) move.erase("rig");
+    EXPECT_EQ(largest(changed), as_built);
+
+    changed = json();
+    changed["graph"]["rigs"][0]["joints"][1] = "wing";
+    folder_->write("changed.json", changed.dump());
+    expect_refused({"graph", "info", path("changed.json")}, "there is no joint 'wing' below its root");
+}
+
 TEST_F(GraphTest, ABrokenBoundIsExitStatus1) {
     nlohmann::json broken = json();
     broken["graph"]["bounds"]["pose_distance"] = 0.01;

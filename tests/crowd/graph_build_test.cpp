@@ -4,6 +4,7 @@
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
+#include <crowd/graph/rigs.h>
 #include <scene/motion_graph.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
@@ -15,9 +16,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -26,7 +30,7 @@ const std::filesystem::path kClips = std::filesystem::path(MOBBSCOPE_SOURCE_DIR)
 
 /// The project's own walkers, to be cut into a graph in `folder`.
 const Scene& own_recordings(const std::filesystem::path& folder) {
-    static const Scene scene = load_recordings(clip_files({kClips}), folder / "graph.json", {});
+    static const Scene scene = load_recordings(clip_files({kClips}), folder / "graph.json", {}, true).scene;
     return scene;
 }
 
@@ -136,7 +140,7 @@ TEST_F(OwnGraph, JointsOfBodiesStayWhereTheyAre) {
         return *std::find_if(recordings.clips.begin(), recordings.clips.end(),
                              [&](const SceneClip& whole) { return whole.source == part.source; });
     };
-    Rigs rigs;
+    const auto joints = joints_of(graph().rigs.front(), *recordings.clips.front().skeleton);
     const auto by_hub = moves_by_hub(graph());
     std::mt19937 random(4);
     for (int i = 0; i < 300; ++i) {
@@ -145,8 +149,8 @@ TEST_F(OwnGraph, JointsOfBodiesStayWhereTheyAre) {
         const GraphMove& b = graph().moves[static_cast<std::size_t>(choices[random() % choices.size()])];
         const SceneClip& clip_a = scene().clips[static_cast<std::size_t>(a.clip)];
         const SceneClip& clip_b = scene().clips[static_cast<std::size_t>(b.clip)];
-        const PoseTrack track_a = rigs.track(*whole_of(clip_a).clip, *whole_of(clip_a).skeleton);
-        const PoseTrack track_b = rigs.track(*clip_b.clip, *clip_b.skeleton);
+        const PoseTrack track_a = pose_track(*whole_of(clip_a).clip, *whole_of(clip_a).skeleton, 0, joints);
+        const PoseTrack track_b = pose_track(*clip_b.clip, *clip_b.skeleton, 0, joints);
         const mobb::Placement next = following({}, a.exit, clip_a.clip->duration(), b.entry);
         const mobb::Rotation turn = mobb::Rotation::from_degrees(next.rotate_deg);
         const auto exit = static_cast<int>(std::lround((clip_a.options.trim->second + track_a.dt / 2) / track_a.dt));
@@ -214,6 +218,77 @@ TEST_F(OwnGraph, ABodyMovedInItsFileBreaksABound) {
     EXPECT_TRUE(exceeds(measure_transitions(broken).root_speed, graph().bounds.root_speed)) << "a leap at each begin";
 }
 
+TEST_F(OwnGraph, ListsTheJointsThatCount) {
+    ASSERT_EQ(graph().rigs.size(), 1u);
+    const std::vector<std::string>& joints = graph().rigs.front().joints;
+    EXPECT_GT(joints.size(), 5u);
+    for (const GraphMove& move : graph().moves) EXPECT_EQ(move.rig, 0);
+    // Moves are measured by these alone: with the root alone bodies are much alike.
+    Scene by_root = scene();
+    auto changed = std::make_shared<MotionGraph>(graph());
+    changed->rigs.front().joints = {joints.front()};
+    by_root.graph = changed;
+    EXPECT_LT(measure_transitions(by_root).pose_distance.median, measure_transitions(scene()).pose_distance.median / 2);
+    changed->rigs.front().joints = {"wing"};
+    EXPECT_NE(testing::input_error([&] { measure_transitions(by_root); }).find("there is no joint 'wing'"),
+              std::string::npos);
+    // An older file lists none: they are found anew.
+    auto older = std::make_shared<MotionGraph>(graph());
+    older->rigs.clear();
+    for (GraphMove& move : older->moves) move.rig = -1;
+    by_root.graph = older;
+    EXPECT_EQ(measure_transitions(by_root).pose_distance.largest, measure_transitions(scene()).pose_distance.largest);
+}
+
+TEST_F(OwnGraph, TheCheckFindsNothingToDrop) {
+    BuiltGraph built = *built_;
+    check_graph(built, 3);
+    EXPECT_EQ(built.report.broken, 0u);
+    EXPECT_EQ(built.report.joints_checked, measure_transitions(scene()).count);
+    EXPECT_EQ(*built.scene.graph, graph());
+}
+
+TEST_F(OwnGraph, TheCheckDropsMovesThatBreakABoundInTheirFiles) {
+    // What is in memory is as it was; the file that two of the moves lead to holds another motion.
+    BuiltGraph built = *built_;
+    const std::string other = "elsewhere.glb";
+    std::filesystem::copy_file(kClips / "wander.glb", folder_->path() / other,
+                               std::filesystem::copy_options::overwrite_existing);
+    std::vector<std::string> wrong;
+    for (SceneClip& clip : built.scene.clips) {
+        if (wrong.size() == 2 || clip.source->find("wander.glb") == std::string::npos) continue;
+        const auto [begin, end] = *clip.options.trim;
+        clip.source = other;
+        clip.options.trim = {begin + 0.4, end + 0.4};
+        wrong.push_back(clip.name);
+    }
+    ASSERT_EQ(wrong.size(), 2u);
+    check_graph(built, 3);
+    EXPECT_EQ(built.report.broken, 2u);
+    EXPECT_EQ(built.scene.graph->moves.size(), graph().moves.size() - 2);
+    EXPECT_EQ(built.scene.clips.size(), built.scene.graph->moves.size());
+    for (const SceneClip& clip : built.scene.clips) EXPECT_NE(clip.source, other);
+    for (std::size_t m = 0; m < built.scene.graph->moves.size(); ++m) {
+        EXPECT_EQ(built.scene.graph->moves[m].clip, static_cast<int>(m));
+    }
+    const TransitionMeasures measured = measure_transitions(built.scene);
+    EXPECT_EQ(measured.pose_distance.count, measured.count);
+    EXPECT_FALSE(exceeds(measured.pose_distance, graph().bounds.pose_distance));
+    EXPECT_FALSE(exceeds(measured.root_speed, graph().bounds.root_speed));
+}
+
+TEST_F(OwnGraph, OfAGraphWhoseFilesChangedNothingMayStay) {
+    BuiltGraph built = *built_;
+    auto changed = std::make_shared<MotionGraph>(graph());
+    changed->bounds.pose_distance = 1e-9;
+    built.scene.graph = changed;
+    check_graph(built, 3);
+    EXPECT_GT(built.report.broken, 0u);
+    EXPECT_TRUE(built.scene.graph->moves.empty());
+    EXPECT_TRUE(built.scene.graph->hubs.empty());
+    EXPECT_TRUE(built.scene.clips.empty());
+}
+
 TEST_F(OwnGraph, OptionsAreKept) {
     GraphOptions options;
     options.bounds = {0.1, 0.3};
@@ -238,10 +313,10 @@ TEST_F(OwnGraph, OptionsAreKept) {
 TEST(GraphBuild, RefusesWhatCannotBeCut) {
     const testing::TempFolder folder;
     const auto csv = folder.write("a.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n");
-    const Scene flat = load_recordings({csv}, folder.path() / "g.json", {});
+    const Scene flat = load_recordings(clip_files({csv}), folder.path() / "g.json", {}, true).scene;
     EXPECT_NE(testing::input_error([&] { build_graph(flat, {}, "a.csv"); }).find("a.csv: no clip has joints"),
               std::string::npos);
-    const Scene shortest = load_recordings({kClips / "run.glb"}, folder.path() / "g.json", {});
+    const Scene shortest = load_recordings(clip_files({kClips / "run.glb"}), folder.path() / "g.json", {}, true).scene;
     GraphOptions strict;
     strict.bounds.pose_distance = 0;
     EXPECT_NE(testing::input_error([&] { build_graph(shortest, strict, "run"); }).find("no pose comes again"),
@@ -260,13 +335,84 @@ TEST(GraphBuild, MovesKeepTheMotionOfTheirRecordings) {
     const testing::TempFolder folder;
     ImportOptions linear;
     linear.motion = mobb::Motion::linear;
-    const Scene recordings = load_recordings(clip_files({kClips}), folder.path() / "graph.json", linear);
+    const Scene recordings = load_recordings(clip_files({kClips}), folder.path() / "graph.json", linear, true).scene;
     const BuiltGraph built = build_graph(recordings, {}, "clips");
     ASSERT_FALSE(built.scene.clips.empty());
     for (const SceneClip& clip : built.scene.clips) {
         EXPECT_EQ(clip.clip->motion(), mobb::Motion::linear) << clip.name;
         EXPECT_EQ(clip.options.motion, mobb::Motion::linear) << "and when it is read from its file";
     }
+}
+
+/// Two folders of clips in one: "a" has walks and a file that is none, "b" a run.
+class ClipFolders : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        for (const char* folder : {"a", "b"}) std::filesystem::create_directory(path(folder));
+        std::filesystem::copy_file(kClips / "run.glb", path("b/run.glb"));
+        folder_.write("a/bad.bvh", "HIERARCHY");
+        folder_.write("a/straight.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n");
+        folder_.write("a/bend.csv", "t,x,y,r\n0,0,0,1\n1,1,0,1\n2,1,1,1\n");
+    }
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+    std::vector<std::string> sources(const std::vector<std::filesystem::path>& places) const {
+        std::vector<std::string> out;
+        const Scene scene = load_recordings(clip_files(places), path("graph.json"), {}, false).scene;
+        for (const SceneClip& clip : scene.clips) out.push_back(clip.name + " from " + *clip.source);
+        return out;
+    }
+
+    const testing::TempFolder folder_;
+};
+
+TEST_F(ClipFolders, WhatTheyHoldDecidesTheOrder) {
+    const auto by_folders = sources({path("a"), path("b")});
+    EXPECT_EQ(by_folders.size(), 3u);
+    EXPECT_EQ(sources({path("b"), path("a")}), by_folders);
+    EXPECT_EQ(sources({path("b/../b/./run.glb"), path("a/"), path("a/bend.csv"), path("b")}), by_folders);
+    EXPECT_EQ(sources({path("a/bend.csv"), path("b/run.glb"), path("a/straight.csv")}), by_folders);
+    EXPECT_EQ(sources({std::filesystem::relative(path("a")), std::filesystem::relative(path("b"))}), by_folders);
+    // A link to a file is the file.
+    std::filesystem::create_symlink(path("b/run.glb"), path("b/sprint.glb"));
+    EXPECT_EQ(sources({path("b"), path("a")}), by_folders);
+    // Other names, the same order.
+    std::filesystem::rename(path("a/straight.csv"), path("a/z.csv"));
+    std::filesystem::rename(path("a/bend.csv"), path("a/y.csv"));
+    std::vector<std::string> renamed = by_folders;
+    for (std::string& text : renamed) {
+        if (text == "straight from a/straight.csv") text = "z from a/z.csv";
+        if (text == "bend from a/bend.csv") text = "y from a/y.csv";
+    }
+    EXPECT_NE(renamed, by_folders);
+    EXPECT_EQ(sources({path("a"), path("b")}), renamed);
+    std::filesystem::rename(path("a/z.csv"), path("a/0.csv"));
+    for (std::string& text : renamed) {
+        if (text == "z from a/z.csv") text = "0 from a/0.csv";
+    }
+    EXPECT_EQ(sources({path("a"), path("b")}), renamed);
+}
+
+TEST_F(ClipFolders, ABadFileIsLeftOutUnlessItWasNamed) {
+    const auto load = [&](const std::vector<std::filesystem::path>& places, bool strict) {
+        return load_recordings(clip_files(places), path("graph.json"), {}, strict);
+    };
+    const Recordings recordings = load({path("a"), path("b")}, false);
+    EXPECT_EQ(recordings.scene.clips.size(), 3u);
+    ASSERT_EQ(recordings.left_out.size(), 1u);
+    EXPECT_NE(recordings.left_out.front().find("a/bad.bvh: "), std::string::npos) << recordings.left_out.front();
+    const std::string why = testing::input_error([&] { load({path("a"), path("b")}, true); });
+    EXPECT_EQ(why, recordings.left_out.front());
+    EXPECT_EQ(testing::input_error([&] { load({path("a/bad.bvh"), path("b")}, false); }), why);
+    EXPECT_EQ(testing::input_error([&] { load({path("a"), path("a/bad.bvh")}, false); }), why);
+    EXPECT_NE(testing::input_error([&] {
+                  load({path("a"), path("none.bvh")}, false);
+              }).find("none.bvh: no such file"),
+              std::string::npos);
+    for (const char* name : {"a/straight.csv", "a/bend.csv"}) std::filesystem::remove(path(name));
+    EXPECT_EQ(testing::input_error([&] { load({path("a")}, false); }), why);
+    folder_.write("a/also_bad.bvh", "HIERARCHY");
+    EXPECT_NE(testing::input_error([&] { load({path("a")}, false); }).find("; nor can 1 other file be read"),
+              std::string::npos);
 }
 
 TEST(GraphBuild, OnlyPiecesThatDifferAreKept) {
@@ -287,22 +433,24 @@ TEST(GraphBuild, OnlyPiecesThatDifferAreKept) {
     EXPECT_EQ(different_pieces(recordings, {}, 2), (std::vector<std::size_t>{}));
 }
 
-/// The real recordings below a folder of the shared data; the test is skipped where there are none.
+/// The real recordings of the shared data; the test is skipped where there are none.
 class RealRecordings : public ::testing::Test {
   protected:
     void SetUp() override {
         if (!std::filesystem::exists(kData)) GTEST_SKIP() << "no data at " << kData;
     }
-    Scene load(const std::filesystem::path& place) const {
-        return load_recordings(clip_files({kData / place}), folder_.path() / "graph.json", {});
+    Scene load(const std::vector<std::filesystem::path>& places) const {
+        std::vector<std::filesystem::path> whole;
+        for (const std::filesystem::path& place : places) whole.push_back(kData / place);
+        return load_recordings(clip_files(whole), folder_.path() / "graph.json", {}, false).scene;
     }
 
-    const std::filesystem::path kData = std::filesystem::path(MOBBSCOPE_SHARED_DATA) / "bvh";
+    const std::filesystem::path kData = std::filesystem::path(MOBBSCOPE_SHARED_DATA);
     const testing::TempFolder folder_;
 };
 
 TEST_F(RealRecordings, ALongWalkBecomesAGraphWhoseBoundsHold) {
-    const BuiltGraph built = build_graph(load("long/lafan1_walk4_subject1.bvh"), {}, "walk");
+    const BuiltGraph built = build_graph(load({"bvh/long/lafan1_walk4_subject1.bvh"}), {}, "walk");
     const GraphFigures figures = graph_figures(built.scene);
     EXPECT_GT(figures.moves, 50u);
     EXPECT_GT(figures.choices, 10);
@@ -314,11 +462,44 @@ TEST_F(RealRecordings, ALongWalkBecomesAGraphWhoseBoundsHold) {
     EXPECT_FALSE(exceeds(measured.root_speed, read.graph->bounds.root_speed));
 }
 
+TEST_F(RealRecordings, GiveOneGraphInAnyOrder) {
+    using Places = std::vector<std::filesystem::path>;
+    const std::vector<Places> orders[] = {
+        {{"bvh/short", "bvh/long"}, {"bvh/long", "bvh/short"}},
+        {{"bvh/short", "bvh/long", "gltf"}, {"gltf", "bvh/long", "bvh/short"}, {"bvh/long", "gltf", "bvh/short"}}};
+    for (const auto& of_same : orders) {
+        std::string first;
+        for (const Places& places : of_same) {
+            BuiltGraph built = build_graph(load(places), {}, "recordings");
+            check_graph(built, 3);
+            EXPECT_EQ(built.report.broken, 0u) << "half of each bound towards a hub is a whole one between two moves";
+            const std::string text = to_json(built.scene);
+            EXPECT_TRUE(first.empty() || text == first) << "places from " << places.front();
+            first = text;
+        }
+        const Scene read = load_scene(folder_.write("graph.json", first));
+        const TransitionMeasures measured = measure_transitions(read);
+        EXPECT_GT(measured.count, 1000u);
+        EXPECT_EQ(measured.pose_distance.count, measured.count);
+        EXPECT_FALSE(exceeds(measured.pose_distance, read.graph->bounds.pose_distance));
+        EXPECT_FALSE(exceeds(measured.root_speed, read.graph->bounds.root_speed));
+        // Rigs stay apart: no hub has moves of two.
+        std::map<int, int> rig_of_hub;
+        for (const GraphMove& move : read.graph->moves) {
+            EXPECT_EQ(rig_of_hub.try_emplace(move.from, move.rig).first->second, move.rig);
+            EXPECT_EQ(rig_of_hub.try_emplace(move.to, move.rig).first->second, move.rig);
+        }
+        EXPECT_GT(read.graph->rigs.size(), 2u);
+        // Of every body legs, spine and arms count; the other models of glTF may have one joint.
+        const auto is_body = [](const GraphRig& rig) { return rig.joints.size() >= 15; };
+        EXPECT_GE(std::count_if(read.graph->rigs.begin(), read.graph->rigs.end(), is_body), 4);
+    }
+}
+
 TEST_F(RealRecordings, TPosesBeforeAMotionAreNoCuts) {
-    const Scene recordings = load("short");
-    Rigs rigs;
+    const Scene recordings = load({"bvh/short"});
     int with_t_pose = 0;
-    for (const Recording& recording : recordings_of(recordings, rigs)) {
+    for (const Recording& recording : recordings_of(recordings, rigs_of(recordings))) {
         const std::string& source = *recordings.clips[static_cast<std::size_t>(recording.clip)].source;
         if (source.find("cmu_0") == std::string::npos || source.find("120hz") == std::string::npos) continue;
         ++with_t_pose;
@@ -328,7 +509,7 @@ TEST_F(RealRecordings, TPosesBeforeAMotionAreNoCuts) {
 }
 
 TEST_F(RealRecordings, WholeClipsMakeAGraphOfOneHub) {
-    Scene scene = load("short");
+    Scene scene = load({"bvh/short"});
     scene.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(scene));
     const TransitionMeasures measured = measure_transitions(scene);
     EXPECT_EQ(measured.count, 51u * 51);

@@ -109,23 +109,5 @@ TEST(PoseDistance, WhatATrackLacksIsLeftOut) {
     EXPECT_NEAR(joined_distance(still, kFrames, 0, still, 0, 0), 0, 1e-12);
 }
 
-TEST(Rigs, AreToldApartByTheirJoints) {
-    const auto skeleton = [](const std::string& hand) {
-        Skeleton out;
-        out.joints = {
-            {"hips", -1, false}, {"knee", 0, false}, {hand, 0, false}, {"finger", 2, false}, {"tip", 3, true}};
-        out.positions = {{0, 0, 1}, {0, 0, 0.5F}, {0, 0.4F, 1}, {0, 0.43F, 1}, {0, 1, 1}};
-        return out;
-    };
-    const mobb::Clip clip(1.0 / 30, {{1, 2, 0.3}});
-    Rigs rigs;
-    const PoseTrack first = rigs.track(clip, skeleton("hand"));
-    EXPECT_EQ(first.joints, 3u);  // no finger, which is short, and no tip of it
-    EXPECT_EQ(first.root.front(), glm::dvec2(1, 2));
-    EXPECT_EQ(rigs.track(clip, skeleton("paw")).rig, 1);
-    EXPECT_EQ(rigs.track(clip, skeleton("hand")).rig, 0);
-    EXPECT_EQ(rigs.count(), 2);
-}
-
 }  // namespace
 }  // namespace mobbscope

@@ -91,7 +91,10 @@ TEST(SceneErrors, GraphsAreChecked) {
         return with("\"graph\": {\"hubs\": " + hubs + ",\n\"moves\": [" + moves + "]" + rest + "}");
     };
     const std::string hubs = R"([{"name": "h"}, {"name": "g"}])";
+    const std::string of_rig = R"({"clip": "c", "from": 0, "to": 1, "entry": [0, 0, 0], "exit": [1, 0, 0], "rig": 1})";
     EXPECT_NO_THROW(parse_scene(graph(hubs, move), "s.json", ""));
+    EXPECT_NO_THROW(
+        parse_scene(graph(hubs, of_rig, R"(, "rigs": [{"joints": ["a"]}, {"joints": ["a", "b"]}])"), "s.json", ""));
     EXPECT_NO_THROW(parse_scene(graph(hubs, move, ", \"bounds\": {\"pose_distance\": null}"), "s.json", ""));
     const std::pair<std::string, const char*> cases[] = {
         {graph("[]", move), "line 3, /graph/hubs: there is no hub; add one"},
@@ -113,6 +116,12 @@ TEST(SceneErrors, GraphsAreChecked) {
         {graph(hubs, move, R"(, "bounds": {"pose_distance": -1})"), "/graph/bounds/pose_distance: -1 is out of range"},
         {graph(hubs, move, R"(, "bounds": {"root_speed": "x"})"), "/graph/bounds/root_speed: expected a number"},
         {graph(hubs, move, R"(, "hub": 1)"), "unknown key 'hub'; the nearest known key is 'hubs'"},
+        {graph(hubs, move, R"(, "rigs": [{"joints": []}])"), "/graph/rigs/0/joints: there is no joint; name those"},
+        {graph(hubs, move, R"(, "rigs": [{"joints": ["a", "a"]}])"), "joints/1: the joint 'a' stands there twice"},
+        {graph(hubs, move, R"(, "rigs": [{"joints": [1]}])"), "/graph/rigs/0/joints/0: expected a string"},
+        {graph(hubs, move, R"(, "rigs": [{}])"), "/graph/rigs/0: the key 'joints' is missing"},
+        {graph(hubs, of_rig, R"(, "rigs": [{"joints": ["a"]}])"), "/graph/moves/0/rig: 1 is out of range"},
+        {graph(hubs, of_rig), "/graph/moves/0/rig: the graph lists no rigs; add \"rigs\", or leave this out"},
         {with("\"graph\": []"), "/graph: expected an object, found an array"},
     };
     for (const auto& [scene, message] : cases) {

@@ -36,13 +36,14 @@ Scene random_scene(std::mt19937_64& random) {
                                 i == 1 ? std::optional<Color>({1, 200, 30}) : std::nullopt});
     }
     constexpr double kNone = std::numeric_limits<double>::infinity();
-    MotionGraph graph{{{"h"}, {"\"g\""}}, {}, {positive(random), kNone}};
+    MotionGraph graph{{{"h"}, {"\"g\""}}, {}, {positive(random), kNone}, {{{"hips", "\"k\"nee"}}, {{"a"}}}};
     for (int i = 0; i < 5; ++i) {
         graph.moves.push_back({i % 3,
                                i % 2,
                                i % 3 % 2,
                                {{length(random), length(random)}, length(random)},
-                               {{length(random), length(random)}, length(random)}});
+                               {{length(random), length(random)}, length(random)},
+                               i % 3 - 1});
     }
     scene.graph = std::make_shared<MotionGraph>(std::move(graph));
     scene.fit = {static_cast<mobb::TreeKind>(random() % mobb::tree_kind_names().size()), 4, 3, mobb::Axes::covariance,

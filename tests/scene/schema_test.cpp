@@ -35,8 +35,10 @@ std::string scene_with(const std::string& definition, const nlohmann::json& obje
     if (definition == "graph") scene["graph"] = object;
     if (definition == "hub") graph["hubs"] = {object};
     if (definition == "bounds") graph["bounds"] = object;
+    if (definition == "rig") graph["rigs"] = {object};
     if (definition == "move") graph["moves"] = {object};
-    if (definition == "hub" || definition == "bounds" || definition == "move") scene["graph"] = graph;
+    const std::set<std::string> of_graph{"hub", "bounds", "rig", "move"};
+    if (of_graph.contains(definition)) scene["graph"] = graph;
     const std::set<std::string> of_crowd{"crowd", "crowd_agent", "play"};
     if (of_crowd.contains(definition)) {
         scene["graph"] = graph;
@@ -70,8 +72,8 @@ nlohmann::json properties(const std::string& definition) {
 
 TEST(Schema, EveryKeyOfTheSchemaIsKnownToTheReader) {
     for (const std::string definition :
-         {"", "imported", "inline", "agent", "fit", "query", "participant", "expect", "contact", "event", "view",
-          "camera", "graph", "hub", "bounds", "move", "crowd", "crowd_agent", "play"}) {
+         {"",     "imported", "inline", "agent", "fit",    "query", "participant", "expect", "contact",     "event",
+          "view", "camera",   "graph",  "hub",   "bounds", "rig",   "move",        "crowd",  "crowd_agent", "play"}) {
         const nlohmann::json known = properties(definition);
         ASSERT_FALSE(known.empty()) << definition;
         for (const auto& [key, unused] : known.items()) {
@@ -187,7 +189,8 @@ TEST(Schema, EveryKeyThatIsWrittenIsInTheSchema) {
     Scene scene = parse_scene(R"({"clips": {"root": {"dt": 1, "samples": [[0, 0, 1]]},
         "source": {"source": "a.csv", "id": 1, "fps": 9, "unit": "m", "trim": [0, 3], "origin": "start", "radius": 1, "dt": 1}},
         "graph": {"hubs": [{"name": "h"}], "bounds": {"pose_distance": 0.1, "root_speed": null},
-          "moves": [{"clip": "root", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [1, 0, 0]}]},
+          "rigs": [{"joints": ["root"]}],
+          "moves": [{"clip": "root", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [1, 0, 0], "rig": 0}]},
         "agents": [{"name": "A", "clip": "root", "color": "#000000"}],
         "queries": [{"a": "A", "b": {"clip": "root"}, "expect": {"collides": true, "contact":
           {"time": 0, "a_sample": 0, "b_sample": 0, "distance": 0, "radii": 2}}, "trace":

@@ -4,7 +4,10 @@
 #include <base/text.h>
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/cut_search.h>
+#include <crowd/graph/graph_figures.h>
 #include <crowd/graph/hub_choice.h>
+#include <crowd/graph/rigs.h>
+#include <scene/arrangement.h>
 #include <scene/load_files.h>
 #include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
@@ -15,12 +18,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace mobbscope {
@@ -62,6 +67,55 @@ std::vector<HubMoment> draw_moments(const std::vector<Recording>& recordings, in
     return out;
 }
 
+/// Of moves that lead from hub to hub, which stay: those within a part, all of whose hubs lead to each other, of at
+/// least so many moves.
+std::vector<bool> moves_that_go_on(std::size_t hubs, const std::vector<std::pair<int, int>>& moves, int least_moves) {
+    const std::vector<int> component = strong_components(static_cast<int>(hubs), moves);
+    std::map<int, int> moves_in;
+    const auto within = [&](const std::pair<int, int>& move) {
+        const int from = component[static_cast<std::size_t>(move.first)];
+        return from == component[static_cast<std::size_t>(move.second)] ? from : -1;
+    };
+    for (const auto& move : moves) ++moves_in[within(move)];
+    std::vector<bool> out;
+    for (const auto& move : moves) out.push_back(within(move) >= 0 && moves_in[within(move)] >= least_moves);
+    return out;
+}
+
+/// Leaves the moves that `keep` says, and the hubs that these join, numbered anew.
+template <class Move, class JoinedHub>
+void keep_moves(std::vector<Move>& moves, std::vector<JoinedHub>& hubs, const std::vector<bool>& keep) {
+    std::vector<Move> kept;
+    std::vector<bool> joined(hubs.size(), false);
+    for (std::size_t m = 0; m < moves.size(); ++m) {
+        if (!keep[m]) continue;
+        joined[static_cast<std::size_t>(moves[m].from)] = true;
+        joined[static_cast<std::size_t>(moves[m].to)] = true;
+        kept.push_back(moves[m]);
+    }
+    std::vector<int> number(hubs.size(), -1);
+    std::vector<JoinedHub> left;
+    for (std::size_t h = 0; h < hubs.size(); ++h) {
+        if (!joined[h]) continue;
+        number[h] = static_cast<int>(left.size());
+        left.push_back(std::move(hubs[h]));
+    }
+    for (Move& move : kept) {
+        move.from = number[static_cast<std::size_t>(move.from)];
+        move.to = number[static_cast<std::size_t>(move.to)];
+    }
+    moves = std::move(kept);
+    hubs = std::move(left);
+}
+
+/// From hub to hub.
+template <class Move>
+std::vector<std::pair<int, int>> edges_of(const std::vector<Move>& moves) {
+    std::vector<std::pair<int, int>> out;
+    for (const Move& move : moves) out.emplace_back(move.from, move.to);
+    return out;
+}
+
 std::string letters(std::size_t index) {
     std::string out(1, static_cast<char>('A' + index % 26));
     return index < 26 ? out : letters(index / 26 - 1) + out;
@@ -72,13 +126,17 @@ std::string two_decimals(double value) { return formatted("%.2f", value); }
 class Builder {
   public:
     Builder(const Scene& scene, const GraphOptions& options, const Progress& progress)
-        : scene_(scene), options_(options), progress_(progress), recordings_(recordings_of(scene, rigs_)) {}
+        : scene_(scene),
+          options_(options),
+          progress_(progress),
+          rigs_(rigs_of(scene)),
+          recordings_(recordings_of(scene, rigs_)) {}
 
     BuiltGraph build() {
         BuiltGraph out;
         report_.recordings = scene_.clips.size();
         report_.without_joints = scene_.clips.size() - recordings_.size();
-        report_.rigs = static_cast<std::size_t>(rigs_.count());
+        report_.rigs = rigs_.rigs.size();
         for (const Recording& recording : recordings_) report_.seconds += recording.track.frames() * recording.track.dt;
         find_hubs();
         choose_moves();
@@ -92,7 +150,7 @@ class Builder {
     void find_hubs() {
         std::vector<std::vector<HubMoment>> moments;
         std::size_t all = 0;
-        for (int rig = 0; rig < rigs_.count(); ++rig) {
+        for (int rig = 0; rig < static_cast<int>(rigs_.rigs.size()); ++rig) {
             moments.push_back(draw_moments(recordings_, rig, options_));
             all += moments.back().size();
         }
@@ -126,33 +184,11 @@ class Builder {
     }
 
     void drop_dead_ends() {
-        std::vector<std::pair<int, int>> edges;
-        for (const Piece& move : moves_) edges.emplace_back(move.from, move.to);
-        const std::vector<int> component = strong_components(static_cast<int>(hubs_.size()), edges);
-        std::map<int, int> moves_in;
-        const auto within = [&](const Piece& move) {
-            const int from = component[static_cast<std::size_t>(move.from)];
-            return from == component[static_cast<std::size_t>(move.to)] ? from : -1;
-        };
-        for (const Piece& move : moves_) ++moves_in[within(move)];
-        std::vector<int> number(hubs_.size(), -1);
-        std::vector<Hub> hubs;
-        for (std::size_t h = 0; h < hubs_.size(); ++h) {
-            if (moves_in[component[h]] < options_.least_moves) continue;
-            number[h] = static_cast<int>(hubs.size());
-            hubs.push_back(std::move(hubs_[h]));
-        }
-        std::vector<Piece> moves;
-        for (Piece move : moves_) {
-            if (within(move) < 0 || number[static_cast<std::size_t>(move.from)] < 0) continue;
-            move.from = number[static_cast<std::size_t>(move.from)];
-            move.to = number[static_cast<std::size_t>(move.to)];
-            moves.push_back(move);
-        }
-        report_.dead_ends = moves_.size() - moves.size();
-        report_.dropped_hubs = hubs_.size() - hubs.size();
-        hubs_ = std::move(hubs);
-        moves_ = std::move(moves);
+        const std::size_t moves = moves_.size();
+        const std::size_t hubs = hubs_.size();
+        keep_moves(moves_, hubs_, moves_that_go_on(hubs, edges_of(moves_), options_.least_moves));
+        report_.dead_ends = moves - moves_.size();
+        report_.dropped_hubs = hubs - hubs_.size();
     }
 
     Stance stance(const Cut& cut) const {
@@ -177,7 +213,8 @@ class Builder {
         clip.options.trim = {begin, end - dt / 2};
         // What was found out from all of the recording must not be sought in a part.
         clip.options.unit = short_or_exact(whole.facts.unit);
-        if (leads_to_root(*whole.skeleton, whole.facts.root)) clip.options.root = whole.facts.root;
+        if (is_utf8(whole.facts.root) && leads_to_root(*whole.skeleton, whole.facts.root))
+            clip.options.root = whole.facts.root;
         const auto samples = whole.clip->samples().subspan(
             static_cast<std::size_t>(piece.begin.frame), static_cast<std::size_t>(piece.end.frame - piece.begin.frame));
         clip.clip = std::make_shared<mobb::Clip>(dt, std::vector<mobb::Disk>(samples.begin(), samples.end()),
@@ -217,12 +254,17 @@ class Builder {
         auto graph = std::make_shared<MotionGraph>();
         graph->bounds = options_.bounds;
         for (std::size_t h = 0; h < hubs_.size(); ++h) graph->hubs.push_back({letters(h)});
+        SceneRigs of_scene{rigs_.rigs, {}};
         UnusedNames names;
         for (const Piece& move : moves_) {
+            const Recording& recording = recordings_[static_cast<std::size_t>(move.begin.recording)];
+            // The rig's number is of the scene that is read; set_rigs numbers those that are used.
+            of_scene.of_clip.push_back(recording.track.rig);
             graph->moves.push_back(
                 {static_cast<int>(out.clips.size()), move.from, move.to, stance(move.begin), stance(move.end)});
             out.clips.push_back(part(move, names));
         }
+        set_rigs(*graph, of_scene);
         out.graph = std::move(graph);
         return out;
     }
@@ -230,12 +272,66 @@ class Builder {
     const Scene& scene_;
     const GraphOptions& options_;
     const Progress& progress_;
-    Rigs rigs_;
+    SceneRigs rigs_;
     std::vector<Recording> recordings_;
     std::vector<Hub> hubs_;
     std::vector<Piece> moves_;
     BuildReport report_;
 };
+
+/// Of the graph's moves, which stay so that no transition breaks a bound.
+std::vector<bool> moves_without_breaks(const MotionGraph& graph, const Transitions& measured) {
+    std::vector<std::vector<std::size_t>> breaks_with(graph.moves.size());  // of each move, the moves on the other side
+    for (std::size_t i = 0; i < measured.moves.size(); ++i) {
+        if (!exceeds(measured.pose_distance[i], graph.bounds.pose_distance) &&
+            !exceeds(measured.root_speed[i], graph.bounds.root_speed)) {
+            continue;
+        }
+        const auto before = static_cast<std::size_t>(measured.moves[i].first);
+        const auto after = static_cast<std::size_t>(measured.moves[i].second);
+        breaks_with[before].push_back(after);
+        if (before != after) breaks_with[after].push_back(before);
+    }
+    std::vector<std::size_t> breaks;
+    for (const auto& others : breaks_with) breaks.push_back(others.size());
+    std::vector<bool> keep(graph.moves.size(), true);
+    while (true) {
+        const auto worst = std::max_element(breaks.begin(), breaks.end());
+        if (worst == breaks.end() || *worst == 0) return keep;
+        const auto move = static_cast<std::size_t>(worst - breaks.begin());
+        keep[move] = false;
+        for (const std::size_t other : breaks_with[move]) {
+            if (keep[other]) --breaks[other];
+        }
+        breaks[move] = 0;
+    }
+}
+
+/// By what clips hold, not by their names: the same motion has the same place whatever its file is called.
+std::partial_ordering content_order(const SceneClip& a, const SceneClip& b) {
+    if (const auto order = a.clip->dt() <=> b.clip->dt(); order != 0) return order;
+    const auto in_turn = [](const auto& x, const auto& y, const auto& order) {
+        return std::lexicographical_compare_three_way(x.begin(), x.end(), y.begin(), y.end(), order);
+    };
+    const auto disks = in_turn(a.clip->samples(), b.clip->samples(), [](const mobb::Disk& p, const mobb::Disk& q) {
+        return std::tuple(p.x, p.y, p.r) <=> std::tuple(q.x, q.y, q.r);
+    });
+    if (disks != 0 || !a.skeleton || !b.skeleton)
+        return disks != 0 ? disks : (a.skeleton != nullptr) <=> (b.skeleton != nullptr);
+    const auto poses = in_turn(
+        a.skeleton->positions, b.skeleton->positions,
+        [](const glm::vec3& p, const glm::vec3& q) { return std::tuple(p.x, p.y, p.z) <=> std::tuple(q.x, q.y, q.z); });
+    if (poses != 0) return poses;
+    return in_turn(a.skeleton->joints, b.skeleton->joints, [](const Joint& p, const Joint& q) {
+        return std::tie(p.name, p.parent, p.end_site) <=> std::tie(q.name, q.parent, q.end_site);
+    });
+}
+
+std::partial_ordering content_order(const std::vector<SceneClip>& a, const std::vector<SceneClip>& b) {
+    return std::lexicographical_compare_three_way(
+        a.begin(), a.end(), b.begin(), b.end(),
+        [](const SceneClip& p, const SceneClip& q) { return content_order(p, q); });
+}
 
 constexpr double kAlikePath = 0.15;      // metres
 constexpr double kAlikeHeading = 10;     // degrees
@@ -311,26 +407,62 @@ void check_move(const Scene& scene, const GraphMove& move) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> clip_files(const std::vector<std::filesystem::path>& places) {
-    std::vector<std::filesystem::path> out;
+std::vector<ClipFile> clip_files(const std::vector<std::filesystem::path>& places) {
+    std::vector<ClipFile> all;
     for (const std::filesystem::path& place : places) {
         std::error_code ignored;
         if (std::filesystem::is_directory(place, ignored)) {
-            for (std::filesystem::path& file : clips_in(place, true)) out.push_back(std::move(file));
+            for (std::filesystem::path& file : clips_in(place, true)) all.push_back({std::move(file), true});
         } else if (lower_extension(place) == ".json") {
             throw InputError(place.string(), "", "a graph is built from clip files; name those of the scene");
         } else {
-            out.push_back(place);
+            all.push_back({place, false});
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const ClipFile& a, const ClipFile& b) {
+        return std::pair(whole_path(a.path), a.path) < std::pair(whole_path(b.path), b.path);
+    });
+    std::vector<ClipFile> out;
+    std::map<std::filesystem::path, std::size_t> known;  // by the file that is meant
+    for (ClipFile& file : all) {
+        std::error_code unknown;
+        std::filesystem::path meant = std::filesystem::canonical(file.path, unknown);
+        if (unknown) meant = whole_path(file.path);
+        const auto [same, is_new] = known.try_emplace(std::move(meant), out.size());
+        if (is_new) {
+            out.push_back(std::move(file));
+        } else if (!file.in_folder) {
+            out[same->second].in_folder = false;
         }
     }
     return out;
 }
 
-Scene load_recordings(const std::vector<std::filesystem::path>& files, const std::filesystem::path& scene_file,
-                      const ImportOptions& options, const Progress& progress) {
-    Scene scene = load_files(files, options, progress);
-    move_to_file(scene, scene_file);
-    return scene;
+Recordings load_recordings(const std::vector<ClipFile>& files, const std::filesystem::path& scene_file,
+                           const ImportOptions& options, bool strict, const Progress& progress) {
+    std::vector<Scene> loaded;
+    Recordings out;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (progress) progress(i, files.size());
+        try {
+            loaded.push_back(load_scene(files[i].path, options));
+        } catch (const InputError& error) {
+            if (strict || !files[i].in_folder) throw;
+            out.left_out.emplace_back(error.what());
+        }
+    }
+    if (loaded.empty()) {
+        const std::size_t others = out.left_out.size() - 1;
+        throw InputError(out.left_out.front() +
+                         (others > 0 ? "; nor can " + counted(others, "other file", "other files") + " be read" : ""));
+    }
+    // Paths decide where the content does not: files are in their order.
+    std::stable_sort(loaded.begin(), loaded.end(),
+                     [](const Scene& a, const Scene& b) { return content_order(a.clips, b.clips) < 0; });
+    for (Scene& of_file : loaded) merge(out.scene, std::move(of_file));
+    lay_out_clips(out.scene);
+    move_to_file(out.scene, scene_file);
+    return out;
 }
 
 BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, const std::string& place,
@@ -346,6 +478,36 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
                          "clips as they are with --whole");
     }
     return out;
+}
+
+void check_graph(BuiltGraph& built, int least_moves, const Progress& progress) {
+    Scene& scene = built.scene;
+    Scene read = parse_scene(to_json(scene), scene.file.string(), scene.file.parent_path());
+    read.file = scene.file;
+    const Transitions measured = each_transition(read, progress);
+    built.report.joints_checked = measured.moves.size();
+    MotionGraph graph = *scene.graph;
+    std::vector<bool> keep = moves_without_breaks(graph, measured);
+    built.report.broken = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));
+    if (built.report.broken == 0) return;
+
+    const std::size_t moves = graph.moves.size() - built.report.broken;
+    const std::size_t hubs = graph.hubs.size();
+    keep_moves(graph.moves, graph.hubs, keep);
+    keep_moves(graph.moves, graph.hubs, moves_that_go_on(graph.hubs.size(), edges_of(graph.moves), least_moves));
+    built.report.dead_ends += moves - graph.moves.size();
+    built.report.dropped_hubs += hubs - graph.hubs.size();
+
+    SceneRigs of_scene{std::move(graph.rigs), {}};
+    std::vector<SceneClip> clips;
+    for (GraphMove& move : graph.moves) {
+        of_scene.of_clip.push_back(move.rig);
+        clips.push_back(std::move(scene.clips[static_cast<std::size_t>(move.clip)]));
+        move.clip = static_cast<int>(clips.size()) - 1;
+    }
+    set_rigs(graph, of_scene);
+    scene.clips = std::move(clips);
+    scene.graph = std::make_shared<MotionGraph>(std::move(graph));
 }
 
 std::vector<std::size_t> different_pieces(const std::vector<Recording>& recordings, const std::vector<Piece>& pieces,
@@ -381,6 +543,7 @@ MotionGraph graph_of_whole_clips(const Scene& scene) {
         check_move(scene, move);
         graph.moves.push_back(move);
     }
+    set_rigs(graph, rigs_of(scene));
     return graph;
 }
 

@@ -66,12 +66,14 @@ void keep_most_alike(std::vector<Cut>& cuts, std::size_t first, int apart) {
 
 }  // namespace
 
-std::vector<Recording> recordings_of(const Scene& scene, Rigs& rigs) {
+std::vector<Recording> recordings_of(const Scene& scene, const SceneRigs& rigs) {
     std::vector<Recording> out;
     for (std::size_t i = 0; i < scene.clips.size(); ++i) {
         const SceneClip& clip = scene.clips[i];
         if (!clip.skeleton) continue;
-        PoseTrack track = rigs.track(*clip.clip, *clip.skeleton);
+        const int rig = rigs.of_clip[i];
+        const auto joints = joints_of(rigs.rigs[static_cast<std::size_t>(rig)], *clip.skeleton);
+        PoseTrack track = pose_track(*clip.clip, *clip.skeleton, rig, joints);
         PoseWindows windows(track);
         const int settled = begins_in_other_pose(*clip.clip) ? frames_in(kSettling, track.dt) : 0;
         // A frame more on either side, as velocities need it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crowd/graph/pose_distance.h>
+#include <crowd/graph/rigs.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 
@@ -20,8 +21,8 @@ struct Recording {
     int end = 0;
 };
 
-/// The scene's clips that have a skeleton, in their order.
-std::vector<Recording> recordings_of(const Scene& scene, Rigs& rigs);
+/// The scene's clips that have a skeleton, in their order. `rigs`: rigs_of(scene).
+std::vector<Recording> recordings_of(const Scene& scene, const SceneRigs& rigs);
 
 /// A frame at which clips may begin and end.
 struct HubMoment {

@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
+#include <crowd/graph/rigs.h>
 #include <import/import.h>
 #include <scene/motion_graph.h>
 
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -42,13 +45,26 @@ struct MovePoses {
     int exit = 0;
 };
 
+/// The track of a move's clip, or of a longer part of its recording.
+PoseTrack track_of(const Scene& scene, const SceneClip& of, const mobb::Clip& clip, const Skeleton& skeleton,
+                   const std::vector<GraphRig>& rigs, int rig) {
+    try {
+        return pose_track(clip, skeleton, rig, joints_of(rigs[static_cast<std::size_t>(rig)], skeleton));
+    } catch (const std::invalid_argument& error) {
+        throw InputError(scene.file.string(), "clip " + in_quotes(of.name),
+                         std::string(error.what()) + ", which rig " + std::to_string(rig) +
+                             " of the graph counts; build the graph again");
+    }
+}
+
 /// The poses of the clip and those around it that a window at either end needs.
-MovePoses poses_of(const Scene& scene, const SceneClip& clip, Importer& importer, Rigs& rigs) {
-    if (!clip.skeleton) return {};
+MovePoses poses_of(const Scene& scene, const GraphMove& move, const std::vector<GraphRig>& rigs, Importer& importer) {
+    const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
+    if (!clip.skeleton || move.rig < 0) return {};
     const int count = clip.clip->count();
     // A path that was put at the origin cannot be lengthened in front.
     if (!clip.source || !clip.options.trim || clip.options.origin.value_or(Origin::keep) != Origin::keep) {
-        return {rigs.track(*clip.clip, *clip.skeleton), 0, count};
+        return {track_of(scene, clip, *clip.clip, *clip.skeleton, rigs, move.rig), 0, count};
     }
     const double dt = clip.clip->dt();
     const int reach = window_offsets(dt).back();
@@ -58,7 +74,7 @@ MovePoses poses_of(const Scene& scene, const SceneClip& clip, Importer& importer
     options.trim = {std::max(0.0, begin - in_front * dt), end + (reach + 1) * dt};
     const ImportedClip longer = importer.clips(scene.file.parent_path() / *clip.source, options).front();
     if (!longer.skeleton) return {};
-    return {rigs.track(*longer.clip, *longer.skeleton), in_front, in_front + count};
+    return {track_of(scene, clip, *longer.clip, *longer.skeleton, rigs, move.rig), in_front, in_front + count};
 }
 
 /// The root's velocity at both ends of a move, metres per second, with the heading of the stance along +x.
@@ -78,6 +94,22 @@ EndVelocities velocities_of(const mobb::Clip& clip, const GraphMove& move) {
     const int last = clip.count() - 1;
     return {mobb::Rotation::from_degrees(-move.entry.heading_deg)((at(1) - at(0)) / clip.dt()),
             mobb::Rotation::from_degrees(-move.exit.heading_deg)((at(last + 1) - at(last)) / clip.dt())};
+}
+
+/// The joints that a rig names may be more in one skeleton than in another, where several have one name.
+void check_comparable(const Scene& scene, const std::vector<GraphMove>& moves, const std::vector<MovePoses>& poses) {
+    std::unordered_map<int, std::size_t> first;  // of each rig
+    for (std::size_t m = 0; m < moves.size(); ++m) {
+        if (!poses[m].track) continue;
+        const std::size_t other = first.try_emplace(poses[m].track->rig, m).first->second;
+        if (poses[m].track->joints == poses[other].track->joints) continue;
+        const auto name = [&](std::size_t move) {
+            return in_quotes(scene.clips[static_cast<std::size_t>(moves[move].clip)].name);
+        };
+        throw InputError(scene.file.string(), "clip " + name(m),
+                         "has another number of joints that count than clip " + name(other) +
+                             ", of the same rig; build the graph again");
+    }
 }
 
 TransitionSpread spread_of(const std::vector<std::pair<int, int>>& transitions, const std::vector<double>& values) {
@@ -170,37 +202,45 @@ GraphFigures graph_figures(const Scene& scene) {
     return out;
 }
 
-TransitionMeasures measure_transitions(const Scene& scene, const Progress& progress) {
-    const MotionGraph& graph = *scene.graph;
+Transitions each_transition(const Scene& scene, const Progress& progress) {
+    MotionGraph graph = *scene.graph;
+    if (graph.rigs.empty()) set_rigs(graph, rigs_of(scene));
     Importer importer;
-    Rigs rigs;
     std::vector<MovePoses> poses;
     std::vector<EndVelocities> velocities;
     for (std::size_t m = 0; m < graph.moves.size(); ++m) {
         if (progress) progress(m, graph.moves.size());
+        poses.push_back(poses_of(scene, graph.moves[m], graph.rigs, importer));
         const SceneClip& clip = scene.clips[static_cast<std::size_t>(graph.moves[m].clip)];
-        poses.push_back(poses_of(scene, clip, importer, rigs));
         velocities.push_back(velocities_of(*clip.clip, graph.moves[m]));
     }
+    check_comparable(scene, graph.moves, poses);
 
-    const std::vector<std::pair<int, int>> transitions = transitions_of(graph);
-    std::vector<double> distances(transitions.size(), -1);  // negative: not measured
-    std::vector<double> speeds(transitions.size());
-    tbb::parallel_for(std::size_t{0}, transitions.size(), [&](std::size_t i) {
-        const auto a = static_cast<std::size_t>(transitions[i].first);
-        const auto b = static_cast<std::size_t>(transitions[i].second);
-        speeds[i] = glm::distance(velocities[a].exit, velocities[b].entry);
+    Transitions out{transitions_of(graph), {}, {}};
+    out.pose_distance.assign(out.moves.size(), -1);
+    out.root_speed.resize(out.moves.size());
+    tbb::parallel_for(std::size_t{0}, out.moves.size(), [&](std::size_t i) {
+        const auto a = static_cast<std::size_t>(out.moves[i].first);
+        const auto b = static_cast<std::size_t>(out.moves[i].second);
+        out.root_speed[i] = glm::distance(velocities[a].exit, velocities[b].entry);
         const std::optional<PoseTrack>& before = poses[a].track;
         const std::optional<PoseTrack>& after = poses[b].track;
         if (!before || !after || before->rig != after->rig || before->dt != after->dt) return;
-        distances[i] = joined_distance(*before, poses[a].exit, graph.moves[a].exit.heading_deg, *after, poses[b].entry,
-                                       graph.moves[b].entry.heading_deg);
+        out.pose_distance[i] = joined_distance(*before, poses[a].exit, graph.moves[a].exit.heading_deg, *after,
+                                               poses[b].entry, graph.moves[b].entry.heading_deg);
     });
-    return {transitions.size(), spread_of(transitions, distances), spread_of(transitions, speeds)};
+    return out;
 }
 
+TransitionMeasures measure_transitions(const Scene& scene, const Progress& progress) {
+    const Transitions all = each_transition(scene, progress);
+    return {all.moves.size(), spread_of(all.moves, all.pose_distance), spread_of(all.moves, all.root_speed)};
+}
+
+bool exceeds(double measured, double bound) { return measured > bound * (1 + kRounding) + kRounding; }
+
 bool exceeds(const TransitionSpread& measured, double bound) {
-    return measured.count > 0 && measured.largest > bound * (1 + kRounding) + kRounding;
+    return measured.count > 0 && exceeds(measured.largest, bound);
 }
 
 }  // namespace mobbscope

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -65,12 +66,24 @@ struct TransitionMeasures {
                                      ///< and the first one after
 };
 
-/// Measures every transition. Poses come from the clips' sources, a few frames beyond each clip included; between clips
-/// without a skeleton, or of different ones, there is no pose distance. The scene has a graph. `progress` is told
-/// before each clip's poses are read. Throws InputError.
+/// Every transition of a graph, measured; one entry each.
+struct Transitions {
+    std::vector<std::pair<int, int>> moves;  ///< before and after: indices into the graph's moves
+    std::vector<double> pose_distance;       ///< metres; negative: not measured
+    std::vector<double> root_speed;          ///< metres per second
+};
+
+/// Poses come from the clips' sources, a few frames beyond each clip included; between clips without a skeleton, or of
+/// different rigs, there is no pose distance. The joints that count are those that the graph lists; where it lists no
+/// rigs, those of rigs_of(scene). The scene has a graph. `progress` is told before each clip's poses are read. Throws
+/// InputError.
+Transitions each_transition(const Scene& scene, const Progress& progress = {});
+
+/// The same in figures.
 TransitionMeasures measure_transitions(const Scene& scene, const Progress& progress = {});
 
 /// Whether what was measured exceeds a bound by more than rounding does.
+bool exceeds(double measured, double bound);
 bool exceeds(const TransitionSpread& measured, double bound);
 
 }  // namespace mobbscope

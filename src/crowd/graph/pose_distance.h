@@ -16,7 +16,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace mobbscope {
@@ -24,7 +23,7 @@ namespace mobbscope {
 /// Where a body's joints are in every frame of a recording.
 struct PoseTrack {
     double dt = 1;                  ///< seconds from frame to frame
-    int rig = 0;                    ///< recordings of one rig have the same joints
+    int rig = 0;                    ///< tracks of one rig have the same joints
     std::size_t joints = 0;         ///< that count, at least 1
     std::vector<glm::dvec2> root;   ///< on the floor, frame after frame, metres
     std::vector<glm::vec3> points;  ///< frame after frame: x and y from the frame's root, z the height; metres
@@ -40,21 +39,8 @@ struct PoseTrack {
     }
 };
 
-/// Tells rigs apart, by the names of their joints and what hangs on what, and makes their tracks. Joints count whose
-/// bone is at least a tenth of the rig's longest, in the first frame of its first track: fingers and eyes would outvote
-/// the legs. Those of a rig are the same for all its tracks.
-class Rigs {
-  public:
-    PoseTrack track(const mobb::Clip& clip, const Skeleton& skeleton);
-    int count() const { return static_cast<int>(rigs_.size()); }
-
-  private:
-    struct Rig {
-        std::string key;
-        std::vector<std::size_t> joints;
-    };
-    std::vector<Rig> rigs_;
-};
+/// The track of a clip with its skeleton. `joints`: those that count, at least one (joints_of, crowd/graph/rigs.h).
+PoseTrack pose_track(const mobb::Clip& clip, const Skeleton& skeleton, int rig, std::span<const std::size_t> joints);
 
 inline constexpr std::size_t kWindowFrames = 5;
 
