@@ -65,7 +65,7 @@ std::string conflict_words(const Session& session, const SceneConflict& conflict
     std::string text =
         formatted("%.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
     if (const std::size_t others = conflict.facts.intervals.size() - 1; others > 0)
-        text += "; they meet " + counted(others, "time", "times") + " more";
+        text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
     return text + ".\nDouble-click goes to " + (session.crowd() ? "the forced choice that made it" : "just before it");
 }
 
