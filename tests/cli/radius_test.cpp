@@ -28,7 +28,8 @@ std::vector<double> radii_of(const std::vector<std::string>& arguments) {
     const Result run = run_program(all);
     EXPECT_EQ(run.status, 0) << run.err;
     std::vector<double> out;
-    for (const json& clip : json::parse(run.out)["clips"]) out.push_back(clip["max_radius"].get<double>());
+    const json parsed = json::parse(run.out);
+    for (const json& clip : parsed["clips"]) out.push_back(clip["max_radius"].get<double>());
     return out;
 }
 
