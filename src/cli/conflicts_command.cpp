@@ -15,9 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,49 +59,56 @@ std::optional<double> common_radius(const Scene& scene) {
     return radius;
 }
 
-/// Whether two agents are one person, whose paths join: a hair of overlap in time is no meeting.
-bool same_person(const Scene& scene, const Conflict& conflict) {
-    const auto run_agent = [&scene](int agent) { return scene.agents[static_cast<std::size_t>(agent)].run_agent; };
-    return run_agent(conflict.a) >= 0 && run_agent(conflict.a) == run_agent(conflict.b);
-}
+/// Who is who: a person of a run whose clips differ in dt is several agents of the scene.
+class People {
+  public:
+    explicit People(const Scene& scene) {
+        for (const Agent& agent : scene.agents) {
+            const bool goes_on = agent.run_agent >= 0 && !of_.empty() && agent.run_agent == of_.back();
+            if (!goes_on) {
+                names_.push_back(agent.name);
+                samples_ = 0;
+            }
+            of_.push_back(static_cast<int>(names_.size()) - 1);
+            before_.push_back(samples_);
+            samples_ += scene.clips[static_cast<std::size_t>(agent.clip)].clip->count();
+        }
+    }
+
+    std::span<const int> of_agents() const { return of_; }  ///< by agent of the scene
+    std::size_t count() const { return names_.size(); }
+    const std::string& name(int person) const { return names_[static_cast<std::size_t>(person)]; }
+    /// A sample of an agent, counted from the first of all that the person walks.
+    int sample(int agent, int sample) const { return before_[static_cast<std::size_t>(agent)] + sample; }
+
+  private:
+    std::vector<std::string> names_;
+    std::vector<int> of_;
+    std::vector<int> before_;  ///< by agent: samples of the same person's earlier ones
+    int samples_ = 0;
+};
 
 /// What is said of a crowd's conflicts.
 struct Findings {
-    const FittedScene& fitted;
+    const Scene& scene;
+    const People& people;
     const std::vector<mobb::PlacedTree>& crowd;
-    const Conflicts& conflicts;
-
-    const std::string& name(int agent) const { return fitted.scene().agents[static_cast<std::size_t>(agent)].name; }
-    /// Of paths of different people.
-    std::size_t pairs() const {
-        std::size_t count = crowd.size() * (crowd.size() - 1) / 2;
-        std::map<int, std::size_t> paths;
-        for (const Agent& agent : fitted.scene().agents) {
-            if (agent.run_agent >= 0) count -= paths[agent.run_agent]++;
-        }
-        return count;
-    }
-
-    /// People: one may have several paths.
-    std::size_t agents() const {
-        const std::vector<Agent>& all = fitted.scene().agents;
-        return all.empty() || all.back().run_agent < 0 ? all.size()
-                                                       : static_cast<std::size_t>(all.back().run_agent) + 1;
-    }
+    const PeopleConflicts& conflicts;
 
     /// Halfway between the two where they are closest.
     glm::dvec2 position(const Conflict& conflict) const {
-        const auto disk = [this](int agent, int sample) {
-            return crowd[static_cast<std::size_t>(agent)].placed_clip().disk(sample);
+        const auto disk = [&](int agent, int sample) {
+            return mobb::swept(crowd[static_cast<std::size_t>(agent)].placed_clip(), sample).at(conflict.time);
         };
         const mobb::Disk a = disk(conflict.a, conflict.a_sample);
         const mobb::Disk b = disk(conflict.b, conflict.b_sample);
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
+    int a_sample(const Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
+    int b_sample(const Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
 
     bool of_plan(const Conflict& conflict) const {
-        const Scene& scene = fitted.scene();
-        const auto from_plan = [&scene](int agent) {
+        const auto from_plan = [this](int agent) {
             return is_plan(scene.clips[static_cast<std::size_t>(scene.agents[static_cast<std::size_t>(agent)].clip)]);
         };
         return from_plan(conflict.a) && from_plan(conflict.b);
@@ -117,13 +124,7 @@ struct Findings {
 
     double seconds() const {
         double sum = 0;
-        for (const Conflict& conflict : conflicts.found) sum += duration(conflict);
-        return sum;
-    }
-
-    static double duration(const Conflict& conflict) {
-        double sum = 0;
-        for (const mobb::Interval& interval : conflict.intervals) sum += interval.t1 - interval.t0;
+        for (const PeopleConflict& conflict : conflicts.found) sum += conflict.seconds();
         return sum;
     }
 };
@@ -141,29 +142,29 @@ void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& foun
 }
 
 void write_json(const Findings& findings) {
-    const Scene& scene = findings.fitted.scene();
     JsonWriter out(std::cout);
     out.begin_object();
-    out.member("file", scene.file.string());
-    out.member("agents", findings.agents());
-    out.member("radius", common_radius(scene));
-    out.member("pairs", findings.pairs());
+    out.member("file", findings.scene.file.string());
+    out.member("agents", findings.people.count());
+    out.member("radius", common_radius(findings.scene));
+    out.member("pairs", findings.conflicts.pairs);
     out.member("pairs_tested", findings.conflicts.pairs_tested);
     out.member("seconds", findings.seconds());
-    out.list("conflicts", findings.conflicts.found, [&](const Conflict& conflict) {
-        const glm::dvec2 position = findings.position(conflict);
+    out.list("conflicts", findings.conflicts.found, [&](const PeopleConflict& conflict) {
+        const Conflict& deepest = conflict.deepest;
+        const glm::dvec2 position = findings.position(deepest);
         out.begin_object(Layout::row);
-        out.member("a", findings.name(conflict.a));
-        out.member("b", findings.name(conflict.b));
+        out.member("a", findings.people.name(conflict.a));
+        out.member("b", findings.people.name(conflict.b));
         out.list("intervals", conflict.intervals, [&](const mobb::Interval& interval) {
             out.numbers({interval.t0, interval.t1});
         });
-        out.member("least_clearance", conflict.least_clearance);
-        out.member("time", conflict.time);
-        out.member("a_sample", conflict.a_sample);
-        out.member("b_sample", conflict.b_sample);
+        out.member("least_clearance", deepest.least_clearance);
+        out.member("time", deepest.time);
+        out.member("a_sample", findings.a_sample(deepest));
+        out.member("b_sample", findings.b_sample(deepest));
         out.member("position", {position.x, position.y});
-        if (findings.of_plan(conflict)) write_plan_conflicts(out, findings.in_plan(conflict));
+        if (findings.of_plan(deepest)) write_plan_conflicts(out, findings.in_plan(deepest));
         out.end_object();
     });
     out.end_object();
@@ -193,32 +194,34 @@ std::string plan_conflicts_in_words(const std::vector<PlanConflict>& found) {
 }
 
 void print_text(const Findings& findings) {
-    for (const Conflict& conflict : findings.conflicts.found) {
-        const glm::dvec2 position = findings.position(conflict);
-        std::cout << cleaned(findings.name(conflict.a)) << " and " << cleaned(findings.name(conflict.b)) << ": "
-                  << brief(Findings::duration(conflict)) << " s, ";
+    for (const PeopleConflict& conflict : findings.conflicts.found) {
+        const Conflict& deepest = conflict.deepest;
+        const glm::dvec2 position = findings.position(deepest);
+        std::cout << cleaned(findings.people.name(conflict.a)) << " and " << cleaned(findings.people.name(conflict.b))
+                  << ": " << brief(conflict.seconds()) << " s, ";
         const char* separator = "";
         for (const mobb::Interval& interval : conflict.intervals) {
             std::cout << separator << brief(interval.t0) << " to " << brief(interval.t1);
             separator = ", ";
         }
-        std::cout << " s; least clearance " << to_millimetres(conflict.least_clearance) << " m at "
-                  << brief(conflict.time) << " s near " << place_in_words(position) << ", samples " << conflict.a_sample
-                  << " and " << conflict.b_sample
-                  << (findings.of_plan(conflict) ? plan_conflicts_in_words(findings.in_plan(conflict)) : "") << '\n';
+        std::cout << " s; least clearance " << to_millimetres(deepest.least_clearance) << " m at "
+                  << brief(deepest.time) << " s near " << place_in_words(position) << ", samples "
+                  << findings.a_sample(deepest) << " and " << findings.b_sample(deepest)
+                  << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';
     }
-    std::cout << counted(findings.conflicts.found.size(), "conflict", "conflicts") << " among "
-              << counted(findings.agents(), "agent", "agents") << ", " << brief(findings.seconds()) << " s in all; "
-              << findings.conflicts.pairs_tested << " of " << counted(findings.pairs(), "pair", "pairs") << " tested\n";
+    const PeopleConflicts& conflicts = findings.conflicts;
+    std::cout << conflict_count(conflicts.found.size(), findings.people.count(), findings.seconds()) << "; "
+              << conflicts.pairs_tested << " of " << counted(conflicts.pairs, "pair", "pairs") << " tested\n";
 }
 
 void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
     const FittedScene scene = fitted(load_crowd(arguments), arguments.fit);
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
-    Conflicts conflicts = find_conflicts(crowd, arguments.fit.brute ? Search::direct : Search::trees);
-    std::erase_if(conflicts.found, [&scene](const Conflict& conflict) { return same_person(scene.scene(), conflict); });
-    const Findings findings{scene, crowd, conflicts};
+    const People people(scene.scene());
+    const PeopleConflicts conflicts =
+        find_people_conflicts(crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees);
+    const Findings findings{scene.scene(), people, crowd, conflicts};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
     if (arguments.check && !conflicts.found.empty()) status = kFailed;
@@ -229,7 +232,8 @@ void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
 void add_conflicts_command(Command& program, int& status) {
     Command& command = program.add_subcommand(
         "conflicts",
-        "Every pair of agents whose disks overlap: when, how deep and where; --tree brute searches directly");
+        "Every pair of agents whose disks overlap, the deepest overlap first: when, how deep and where; --tree brute "
+        "searches directly");
     const auto arguments = std::make_shared<ConflictsCommandArguments>();
     add_fitted_options(command, *arguments, "The same as JSON", Brute::allowed);
     command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");

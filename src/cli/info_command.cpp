@@ -56,6 +56,8 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("name", clip.name);
     out.member("format", facts.format);
     write_skeleton(out, facts);
+    out.key("class");
+    facts.label.empty() ? out.null() : out.value(facts.label);
     out.member("unit", facts.unit);
     out.member("guessed_from_height", facts.guessed_from_height);
     out.member("file_frames", facts.frames);
@@ -111,6 +113,7 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& said)
                   << (facts.root_why.empty() ? "" : " (" + facts.root_why + ")")
                   << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
     }
+    if (!facts.label.empty()) std::cout << "  class        " << in_quotes(facts.label) << '\n';
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
               << brief(facts.unit) << " m per unit" << guess_of(facts) << '\n'

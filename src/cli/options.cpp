@@ -1,3 +1,4 @@
+#include <base/error.h>
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
@@ -135,7 +136,10 @@ void add_import_options(Command& command, ImportOptions& options) {
     add("--trim", &ImportOptions::trim, parse_trim, "Only this part, in seconds from the first key", "A:B");
     add("--dt", &ImportOptions::dt, parse_number,
         "Seconds between the rows of a CSV without times, or frames of trajectories", "S");
-    add("--radius", &ImportOptions::radius, parse_number, "Radius of every sample, in metres", "R");
+    add("--radius", &ImportOptions::radius, radius_from_text,
+        "Radius in metres of every sample, the column of a CSV that holds it, or a file (.csv) of ids or classes and "
+        "radii",
+        "R");
     add("--motion", &ImportOptions::motion, one_of(mobb::motion_from_name, "held, linear"),
         "What a disk does until the next sample: held, linear (tracks of people: linear; else held); inline samples "
         "too",
@@ -195,7 +199,9 @@ Scene load(const std::filesystem::path& file, const ImportOptions& options, Radi
     if (radius == RadiusOf::every_clip && options.radius) {
         for (SceneClip& clip : scene.clips) {
             if (has_source(clip)) continue;
-            clip.clip = with_radius(*clip.clip, *options.radius);
+            const double metres = at_place(file.string(), "clip " + in_quotes(clip.name),
+                                           [&] { return metres_of(*options.radius, clip.name, ""); });
+            clip.clip = with_radius(*clip.clip, metres);
             clip.facts.warnings.clear();
             warn_of_long_held_step(*clip.clip, clip.facts.warnings);
         }

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <conflicts/conflicts.h>
 #include <mobb/predicate.h>
 #include <mobb/traversal.h>
@@ -10,6 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -139,42 +143,107 @@ class Grid {
     double size_ = 1;
 };
 
-/// Everything that is walked in it.
-std::vector<PlacedAgent> paths_of(const FittedScene& fitted) {
+/// Calls test(a, b), a < b, for every pair of the crowd, or for a search through trees for those near each other.
+template <class Test>
+void for_each_pair(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress, const Test& test) {
+    std::size_t done = 0;
+    const auto visit = [&](int a, int b, std::size_t pairs) {
+        if (progress) progress(done, pairs);
+        ++done;
+        test(a, b);
+    };
+    if (search == Search::trees) {
+        const std::vector<std::pair<int, int>> pairs = near_pairs(crowd);
+        for (const auto& [a, b] : pairs) visit(a, b, pairs.size());
+        return;
+    }
+    const auto count = static_cast<int>(crowd.size());
+    for (int a = 0; a < count; ++a) {
+        for (int b = a + 1; b < count; ++b) visit(a, b, crowd.size() * (crowd.size() - 1) / 2);
+    }
+}
+
+std::optional<Conflict> conflict_between(std::span<const mobb::PlacedTree> crowd, int a, int b, Search search) {
+    Conflict conflict = conflict_of(crowd[static_cast<std::size_t>(a)], crowd[static_cast<std::size_t>(b)], search);
+    if (conflict.intervals.empty()) return std::nullopt;
+    conflict.a = a;
+    conflict.b = b;
+    return conflict;
+}
+
+/// Something that is walked, and by whom.
+struct Walked {
+    PlacedAgent path;
+    int person = 0;  ///< from 0: the agent of the scene or the run, or the clip that stands for one
+    int play = -1;   ///< of a run: index into CrowdAgent::plays
+};
+
+std::vector<Walked> walked_in(const FittedScene& fitted) {
     const Scene& scene = fitted.scene();
-    if (!is_run(scene)) return fitted.placed_agents();
-    std::vector<PlacedAgent> out;
-    for (std::size_t run_agent = 0; run_agent < scene.crowd->agents.size(); ++run_agent) {
-        const CrowdAgent& agent = scene.crowd->agents[run_agent];
+    std::vector<Walked> out;
+    if (!is_run(scene)) {
+        for (const PlacedAgent& path : fitted.placed_agents()) out.push_back({path, static_cast<int>(out.size())});
+        return out;
+    }
+    int person = 0;
+    for (const CrowdAgent& agent : scene.crowd->agents) {
+        int number = 0;
         for (const Play& play : agent.plays) {
             const int clip = scene.graph->moves[static_cast<std::size_t>(play.move)].clip;
-            out.push_back({agent.name, clip, play.placement, static_cast<int>(run_agent)});
+            out.push_back({{agent.name, clip, play.placement, person}, person, number++});
+        }
+        ++person;
+    }
+    return out;
+}
+
+/// Sorted, with those that touch or overlap put together: a path ends where the next one begins.
+std::vector<mobb::Interval> joined(std::vector<mobb::Interval> intervals) {
+    std::sort(intervals.begin(), intervals.end(),
+              [](const mobb::Interval& a, const mobb::Interval& b) { return a.t0 < b.t0; });
+    std::vector<mobb::Interval> out;
+    for (const mobb::Interval& interval : intervals) {
+        if (!out.empty() && interval.t0 <= out.back().t1 + mobb::kMinOverlap) {
+            out.back().t1 = std::max(out.back().t1, interval.t1);
+        } else {
+            out.push_back(interval);
         }
     }
     return out;
+}
+
+/// One conflict of all those between the paths of two people.
+PeopleConflict put_together(int a, int b, std::span<const Conflict> of_paths) {
+    std::vector<mobb::Interval> intervals;
+    for (const Conflict& conflict : of_paths)
+        intervals.insert(intervals.end(), conflict.intervals.begin(), conflict.intervals.end());
+    const auto deepest = std::min_element(of_paths.begin(), of_paths.end(), [](const Conflict& x, const Conflict& y) {
+        return std::tuple(x.least_clearance, x.time) < std::tuple(y.least_clearance, y.time);
+    });
+    PeopleConflict out{a, b, joined(std::move(intervals)), *deepest, {}};
+    const double begin = out.worst().t0;
+    out.begins = *std::find_if(of_paths.begin(), of_paths.end(), [begin](const Conflict& conflict) {
+        return std::any_of(conflict.intervals.begin(), conflict.intervals.end(),
+                           [begin](const mobb::Interval& interval) { return interval.t0 == begin; });
+    });
+    return out;
+}
+
+bool is_worse(const PeopleConflict& x, const PeopleConflict& y) {
+    const auto rank = [](const PeopleConflict& c) {
+        return std::tuple(c.deepest.least_clearance, -c.seconds(), c.worst().t0, c.a, c.b);
+    };
+    return rank(x) < rank(y);
 }
 
 }  // namespace
 
 Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress) {
     Conflicts out;
-    const auto test = [&](std::size_t a, std::size_t b, std::size_t pairs) {
-        if (progress) progress(static_cast<std::size_t>(out.pairs_tested), pairs);
+    for_each_pair(crowd, search, progress, [&](int a, int b) {
         ++out.pairs_tested;
-        Conflict conflict = conflict_of(crowd[a], crowd[b], search);
-        if (conflict.intervals.empty()) return;
-        conflict.a = static_cast<int>(a);
-        conflict.b = static_cast<int>(b);
-        out.found.push_back(std::move(conflict));
-    };
-    if (search == Search::trees) {
-        const std::vector<std::pair<int, int>> pairs = near_pairs(crowd);
-        for (const auto& [a, b] : pairs) test(static_cast<std::size_t>(a), static_cast<std::size_t>(b), pairs.size());
-        return out;
-    }
-    for (std::size_t a = 0; a < crowd.size(); ++a) {
-        for (std::size_t b = a + 1; b < crowd.size(); ++b) test(a, b, crowd.size() * (crowd.size() - 1) / 2);
-    }
+        if (auto conflict = conflict_between(crowd, a, b, search)) out.found.push_back(std::move(*conflict));
+    });
     return out;
 }
 
@@ -201,22 +270,73 @@ std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> cr
     return pairs;
 }
 
-std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progress& progress) {
-    const std::vector<PlacedAgent> paths = paths_of(fitted);
-    std::vector<mobb::PlacedTree> trees;
-    trees.reserve(paths.size());
-    for (const PlacedAgent& path : paths) trees.push_back(fitted.placed(path));
-    std::vector<SceneConflict> out;
-    for (const Conflict& found : find_conflicts(trees, Search::trees, progress).found) {
-        const PlacedAgent& a = paths[static_cast<std::size_t>(found.a)];
-        const PlacedAgent& b = paths[static_cast<std::size_t>(found.b)];
+const mobb::Interval& PeopleConflict::worst() const {
+    // The deepest pair's overlap begins within an interval, or where two were put together.
+    const auto after = std::find_if(intervals.begin(), intervals.end(),
+                                    [this](const mobb::Interval& interval) { return interval.t0 > deepest.time; });
+    return after == intervals.begin() ? *after : *(after - 1);
+}
+
+double PeopleConflict::seconds() const {
+    double sum = 0;
+    for (const mobb::Interval& interval : intervals) sum += interval.t1 - interval.t0;
+    return sum;
+}
+
+PeopleConflicts find_people_conflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of,
+                                      Search search, const Progress& progress) {
+    std::map<std::pair<int, int>, std::vector<Conflict>> met;  // by people: the conflicts of their paths
+    std::vector<std::pair<int, int>> asked;                    // of a search through trees; a direct one asks all
+    for_each_pair(crowd, search, progress, [&](int a, int b) {
+        const std::pair who{person_of[static_cast<std::size_t>(a)], person_of[static_cast<std::size_t>(b)]};
         // A person's plays join; a hair of overlap in time is no meeting.
-        if (is_run(fitted.scene()) && a.agent == b.agent) continue;
-        out.push_back({a, b, found});
-    }
-    std::stable_sort(out.begin(), out.end(),
-                     [](const SceneConflict& a, const SceneConflict& b) { return a.begin() < b.begin(); });
+        if (who.first == who.second) return;
+        if (search == Search::trees) asked.push_back(who);
+        if (auto conflict = conflict_between(crowd, a, b, search)) met[who].push_back(std::move(*conflict));
+    });
+    PeopleConflicts out;
+    const std::size_t people = person_of.empty() ? 0 : static_cast<std::size_t>(person_of.back()) + 1;
+    out.pairs = people < 2 ? 0 : people * (people - 1) / 2;
+    std::sort(asked.begin(), asked.end());
+    const auto distinct = std::unique(asked.begin(), asked.end()) - asked.begin();
+    out.pairs_tested = search == Search::trees ? static_cast<std::size_t>(distinct) : out.pairs;
+    for (const auto& [who, conflicts] : met) out.found.push_back(put_together(who.first, who.second, conflicts));
+    std::sort(out.found.begin(), out.found.end(), is_worse);
     return out;
+}
+
+std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds) {
+    return counted(conflicts, "conflict", "conflicts") + " among " + counted(people, "agent", "agents") + ", " +
+           brief(seconds) + " s in all";
+}
+
+std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progress& progress) {
+    const std::vector<Walked> walked = walked_in(fitted);
+    std::vector<mobb::PlacedTree> trees;
+    std::vector<int> person_of;
+    for (const Walked& one : walked) {
+        trees.push_back(fitted.placed(one.path));
+        person_of.push_back(one.person);
+    }
+    std::vector<SceneConflict> out;
+    for (PeopleConflict& found : find_people_conflicts(trees, person_of, Search::trees, progress).found) {
+        const Walked& a = walked[static_cast<std::size_t>(found.begins.a)];
+        const Walked& b = walked[static_cast<std::size_t>(found.begins.b)];
+        out.push_back({a.path, b.path, a.play, b.play, std::move(found)});
+    }
+    return out;
+}
+
+bool made_by_a(const CrowdRun& run, const SceneConflict& conflict) {
+    const auto play_of = [&run](const PlacedAgent& who, int play) -> const Play& {
+        return run.agents[static_cast<std::size_t>(who.agent)].plays[static_cast<std::size_t>(play)];
+    };
+    // Choices of one time are made in the order of agents.
+    const auto blame = [](const Play& play, int agent) {
+        return std::tuple(play.kind == PlayKind::forced, play.chosen_at, agent);
+    };
+    const auto a = blame(play_of(conflict.a, conflict.a_play), conflict.a.agent);
+    return a > blame(play_of(conflict.b, conflict.b_play), conflict.b.agent);
 }
 
 }  // namespace mobbscope

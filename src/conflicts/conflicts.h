@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,16 +42,49 @@ Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search,
 /// each other, not with the square of the crowd.
 std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> crowd);
 
-/// Two paths that collide: of a run two plays of different people.
-struct SceneConflict {
-    PlacedAgent a, b;  ///< PlacedAgent::agent is the agent's index, of a run in CrowdRun::agents
-    Conflict facts;
+/// Two people who collide, over all the paths that they walk.
+struct PeopleConflict {
+    int a = 0;  ///< index of the person; less than b
+    int b = 0;
+    std::vector<mobb::Interval> intervals;  ///< all that they collide over, earliest first; at least one
+    Conflict deepest;                       ///< of the two paths, a's and b's, that overlap deepest
+    Conflict begins;                        ///< of the two paths with which the interval of the deepest overlap begins
 
-    double begin() const { return facts.intervals.front().t0; }  ///< of the contact, global seconds
+    /// The interval in which they overlap deepest.
+    const mobb::Interval& worst() const;
+    double seconds() const;  ///< of all intervals
 };
 
-/// All of them, by when they begin: of a scene between its agents, of a run between all that those play.
-/// `progress` is told of pairs.
+struct PeopleConflicts {
+    std::vector<PeopleConflict> found;  ///< worst first: the deepest overlap, of equals the longest, then the earliest
+    std::size_t pairs = 0;              ///< of people
+    std::size_t pairs_tested = 0;       ///< of people: whose paths were asked of the trees, or searched directly
+};
+
+/// Every pair of people who collide, each once however often they meet. `person_of` says, for each path of the crowd,
+/// whose it is: a person's paths stand together, and people count from 0 in their order. A person's own paths, which
+/// join, are no conflict. `progress` is told of pairs of paths.
+PeopleConflicts find_people_conflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of,
+                                      Search search, const Progress& progress = {});
+
+/// "2 conflicts among 22 agents, 1.3 s in all": a conflict is a pair of people.
+std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds);
+
+/// A conflict of a scene or a run, with the paths on which its worst contact begins.
+struct SceneConflict {
+    PlacedAgent a, b;              ///< PlacedAgent::agent is the agent's index, of a run in CrowdRun::agents
+    int a_play = -1, b_play = -1;  ///< of a run: indices into CrowdAgent::plays
+    PeopleConflict facts;
+
+    double begin() const { return facts.worst().t0; }  ///< of that contact, global seconds
+};
+
+/// All of them, worst first: of a scene between its agents, of a run between its people, over all that they play.
+/// `progress` is told of pairs of paths.
 std::vector<SceneConflict> conflicts_in(const FittedScene& fitted, const Progress& progress = {});
+
+/// Whether `a` made the conflict of a run, or else `b`: whose play was forced, of two such plays the one that was
+/// chosen last, when the other was committed to its own.
+bool made_by_a(const CrowdRun& run, const SceneConflict& conflict);
 
 }  // namespace mobbscope

@@ -42,6 +42,12 @@ std::shared_ptr<const SourceFile> source_file(const std::filesystem::path& path,
     return std::make_shared<const SourceFile>(SourceFile{path, written, size, parse_clip_file(path)});
 }
 
+void name_own_radius(SceneClip& clip) {
+    std::optional<Radius>& radius = clip.options.radius;
+    if (radius && std::holds_alternative<std::shared_ptr<const RadiusTable>>(*radius))
+        radius = metres_of(*radius, clip.options.id.value_or(""), clip.facts.label);
+}
+
 std::filesystem::path source_path(const Scene& scene, const SceneClip& clip) {
     return scene.file.parent_path() / *clip.source;
 }
@@ -71,6 +77,7 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
         const SceneClip& was = scene.clips.at(static_cast<std::size_t>(index));
         out.push_back(
             {index, {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start}});
+        name_own_radius(out.back().is);
     }
     return out;
 }

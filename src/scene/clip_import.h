@@ -26,6 +26,9 @@ struct SourceFile {
 std::shared_ptr<const SourceFile> source_file(const std::filesystem::path& path,
                                               const std::shared_ptr<const SourceFile>& known);
 
+/// A file of radii among the clip's options becomes the clip's own radius, so that a scene needs no such file.
+void name_own_radius(SceneClip& clip);
+
 /// Where a clip's source is. Requires one.
 std::filesystem::path source_path(const Scene& scene, const SceneClip& clip);
 

@@ -142,11 +142,13 @@ void write_play(JsonWriter& out, const Play& play) {
     out.member("rotate_deg", play.placement.rotate_deg);
     out.member("start", play.placement.start);
     if (play.chosen_at != play.placement.start) out.member("chosen_at", play.chosen_at);
-    if (play.kind != PlayKind::chosen) out.member("kind", kKinds[static_cast<std::size_t>(play.kind)]);
+    if (play.kind != PlayKind::chosen) out.member("kind", name(play.kind));
     out.end_object();
 }
 
 }  // namespace
+
+std::string_view name(PlayKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
 std::shared_ptr<const CrowdRun> read_crowd(const JsonPlace& place, const Scene& scene) {
     return std::make_shared<CrowdRun>(CrowdReader(place, scene).read());

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mobbscope {
@@ -23,6 +24,9 @@ enum class PlayKind : std::uint8_t {
     pivoted,  ///< none was left: the agent turned on the spot before one that was
     forced,   ///< none was free at any heading: the one whose first contact is latest, or shortest. It may collide
 };
+
+/// As files name it: "chosen", "pivoted", "forced".
+std::string_view name(PlayKind kind);
 
 /// A move as an agent plays it.
 struct Play {

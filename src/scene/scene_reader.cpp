@@ -5,6 +5,7 @@
 #include <import/clip/held_steps.h>
 #include <import/import.h>
 #include <scene/arrangement.h>
+#include <scene/clip_import.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
@@ -53,6 +54,15 @@ void read_option(const JsonPlace& place, std::string_view, double& to) { to = pl
 void read_option(const JsonPlace& place, std::string_view, std::pair<double, double>& to) {
     place.require_size(2, "[A, B] in seconds");
     to = {place[0].number(), place[1].number()};
+}
+
+/// Metres, or the column of a CSV. A file of radii is no part of a scene: each clip has its own radius.
+void read_option(const JsonPlace& place, std::string_view, Radius& to) {
+    if (place.is_string()) {
+        to = RadiusColumn{place.string()};
+    } else {
+        to = place.number();
+    }
 }
 
 void read_option(const JsonPlace& place, std::string_view, Origin& to) {
@@ -372,6 +382,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         append(clip.facts.warnings, warnings);
         if (!imported.id.empty()) clip.options.id = imported.id;
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
+        name_own_radius(clip);
         if (is_crowd) {
             const auto index = static_cast<int>(scene.clips.size());
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});

@@ -17,6 +17,10 @@ namespace {
 using Layout = JsonWriter::Layout;
 
 void write_option(JsonWriter& out, const char* key, const auto& value) { out.member(key, value); }
+void write_option(JsonWriter& out, const char* key, const Radius& radius) {
+    if (const double* metres = std::get_if<double>(&radius)) return out.member(key, *metres);
+    out.member(key, radius_text(radius));
+}
 void write_option(JsonWriter& out, const char* key, Origin origin) { out.member(key, name(origin)); }
 void write_option(JsonWriter& out, const char* key, mobb::Motion motion) { out.member(key, mobb::name(motion)); }
 void write_option(JsonWriter& out, const char* key, const std::pair<double, double>& trim) {

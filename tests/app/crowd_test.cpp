@@ -3,6 +3,8 @@
 #include <app/document/agents.h>
 #include <base/error.h>
 #include <base/file.h>
+#include <conflicts/conflicts.h>
+#include <crowd/simulation/simulate.h>
 #include <mobb/predicate.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
@@ -13,8 +15,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
@@ -180,26 +185,63 @@ TEST_F(CrowdTest, AnExcerptIsSavedBesideTheRunAndNeverOverIt) {
     EXPECT_TRUE(session.in_excerpt());
 }
 
-TEST_F(CrowdTest, AConflictIsSeenJustBeforeItHappens) {
+TEST_F(CrowdTest, AConflictIsSeenWhereItWasForced) {
     EXPECT_EQ(session.conflicts(), nullptr);
     run("conflicts.find");
     ASSERT_TRUE(session.conflicts());
     ASSERT_FALSE(session.conflicts()->empty()) << "nobody was forced: take a smaller floor";
-    for (const SceneConflict& found : *session.conflicts()) {
-        EXPECT_NE(found.a.agent, found.b.agent);
-        EXPECT_LT(found.facts.least_clearance, 0);
+    const std::vector<SceneConflict> all = *session.conflicts();
+    double before = -1e9;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const SceneConflict& found = all[i];
+        SCOPED_TRACE(found.a.name + " and " + found.b.name);
+        EXPECT_LT(found.a.agent, found.b.agent);
+        EXPECT_LT(found.facts.deepest.least_clearance, 0);
+        EXPECT_GE(found.facts.deepest.least_clearance, before) << "the deepest first";
+        before = found.facts.deepest.least_clearance;
+        run("conflicts.go", std::to_string(i));
+        ASSERT_TRUE(session.choice());
+        EXPECT_EQ(session.choice()->choice.kind, PlayKind::forced);
+        const bool of_a = session.choice()->agent == found.a.agent;
+        EXPECT_EQ(session.choice()->play, of_a ? found.a_play : found.b_play) << "that of the contact";
+        EXPECT_EQ(session.view().follow, of_a ? found.a.name : found.b.name);
+        EXPECT_LE(*session.view().time, found.begin());
     }
     run("conflicts.go", "0");
-    const SceneConflict first = session.conflicts()->front();
-    EXPECT_NEAR(*session.view().time, std::max(0.0, first.begin() - 0.5), 1e-12);
-    EXPECT_EQ(session.view().follow, first.a.name);
-    EXPECT_EQ(current_agent(session), first.a.name);
+    EXPECT_EQ(current_agent(session), session.view().follow);
     run("conflicts.open");
     ASSERT_TRUE(session.in_excerpt());
     ASSERT_TRUE(session.recorded()->contact);
-    EXPECT_EQ(session.recorded()->contact->time, first.begin());
+    EXPECT_EQ(session.recorded()->contact->time, all.front().begin());
     run("crowd.back");
     EXPECT_TRUE(session.conflicts()) << "they are still those of the run";
+}
+
+/// The walkers' clips differ in dt, so people are several agents of scene_of_people.
+TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
+    run("conflicts.find");
+    ASSERT_TRUE(session.conflicts());
+    const FittedScene people(scene_of_people(session.scene()), {});
+    ASSERT_GT(people.placed_agents().size(), session.crowd()->agents.size());
+    std::vector<mobb::PlacedTree> crowd;
+    std::vector<int> person_of;
+    for (const PlacedAgent& who : people.placed_agents()) {
+        crowd.push_back(people.placed(who));
+        person_of.push_back(people.scene().agents[static_cast<std::size_t>(who.agent)].run_agent);
+    }
+    const PeopleConflicts other = find_people_conflicts(crowd, person_of, Search::direct);
+    ASSERT_EQ(session.conflicts()->size(), other.found.size());
+    std::set<std::pair<int, int>> pairs;
+    for (std::size_t i = 0; i < other.found.size(); ++i) {
+        const PeopleConflict& here = (*session.conflicts())[i].facts;
+        EXPECT_EQ(std::pair(here.a, here.b), std::pair(other.found[i].a, other.found[i].b));
+        EXPECT_NEAR(here.deepest.least_clearance, other.found[i].deepest.least_clearance, 1e-9);
+        EXPECT_NEAR(here.seconds(), other.found[i].seconds(), 1e-6);
+        EXPECT_TRUE(pairs.emplace(here.a, here.b).second) << "each pair once";
+    }
+    double seconds = 0;
+    for (const PeopleConflict& conflict : other.found) seconds += conflict.seconds();
+    EXPECT_EQ(conflict_summary(session), conflict_count(other.found.size(), session.crowd()->agents.size(), seconds));
 }
 
 }  // namespace

@@ -295,6 +295,47 @@ TEST(CrowdWindow, ASampleIsFramedWhileSomebodyElseIsFollowed) {
     EXPECT_LT(glm::length(*pixel - middle), 0.2f * middle.x);
 }
 
+TEST(CrowdWindow, ADoubleClickOnAConflictShowsTheForcedChoice) {
+    CrowdWindow w;
+    w.click("conflicts.find");
+    ASSERT_TRUE(w.session.conflicts());
+    const std::size_t shown = std::min<std::size_t>(w.session.conflicts()->size(), 5);
+    ASSERT_GT(shown, 0u);
+    for (std::size_t i = 0; i < shown; ++i) {
+        w.double_click("conflict." + std::to_string(i));
+        ASSERT_EQ(w.session.conflict, static_cast<int>(i));
+        ASSERT_TRUE(w.session.choice());
+        EXPECT_EQ(w.session.choice()->choice.kind, PlayKind::forced);
+        EXPECT_TRUE(w.session.choice()->comes_out);
+        EXPECT_FALSE(w.window.shell().marks().all().contains("choice.edited"));
+    }
+    w.change_view("forced");
+}
+
+TEST(CrowdWindow, AChoiceOfAnEditedRunSaysSo) {
+    std::string text = testing::crowded_run();
+    const std::size_t seed = text.find("\"seed\": 1");
+    ASSERT_NE(seed, std::string::npos);
+    text.replace(seed, 9, "\"seed\": 2");
+    CrowdWindow w;
+    w.session.open({w.folder.write("edited.json", text)});
+    while (w.session.job()) w.session.poll();
+    w.window.settle();
+    w.click("agent.1");
+    w.key("W");
+    // With another seed some choice soon comes out otherwise.
+    for (int i = 0; i < 40 && (!w.session.choice() || w.session.choice()->comes_out); ++i) {
+        w.key(i < 8 ? "N" : "Shift+N");
+    }
+    ASSERT_TRUE(w.session.choice());
+    ASSERT_FALSE(w.session.choice()->comes_out);
+    EXPECT_TRUE(w.window.shell().marks().all().contains("choice.edited")) << "the panel says it";
+    std::string said;
+    for (const TextRun& run : w.window.shell().shown()->texts) said += run.text + ' ';
+    EXPECT_NE(said.find("made again the choice is"), std::string::npos) << "and the picture: " << said;
+    w.change_view("edited");
+}
+
 TEST(CrowdWindow, AConflictOpensByItsButtonWhileSomebodyIsFollowed) {
     CrowdWindow w;
     w.click("conflicts.find");

@@ -38,6 +38,7 @@ class ChoiceTest : public ::testing::Test {
                 const Candidate& taken = choice.candidates.at(choice.taken);
                 ASSERT_EQ(choice.kind, play.kind) << agent << " " << i;
                 EXPECT_EQ(choice.time, play.chosen_at);
+                EXPECT_TRUE(comes_out_as(play, choice));
                 EXPECT_EQ(taken.move, play.move);
                 EXPECT_EQ(taken.placement, play.placement);
                 EXPECT_EQ(taken.is_free(), play.kind != PlayKind::forced);
@@ -65,6 +66,40 @@ class ChoiceTest : public ::testing::Test {
 TEST_F(ChoiceTest, EveryChoiceOfARunIsMadeAgain) { expect_same(run(1, 0)); }
 
 TEST_F(ChoiceTest, EveryChoiceOfARunWithAHorizonIsMadeAgain) { expect_same(run(2, 3)); }
+
+/// How many choices of a run do not come out as it says.
+std::size_t others(const MoveSet& moves, const CrowdRun& run) {
+    std::size_t count = 0;
+    for (int agent = 0; agent < static_cast<int>(run.agents.size()); ++agent) {
+        const std::vector<Play>& plays = run.agents[static_cast<std::size_t>(agent)].plays;
+        for (std::size_t i = 1; i < plays.size(); ++i)
+            count += !comes_out_as(plays[i], choice_of(moves, run, agent, static_cast<int>(i)));
+    }
+    return count;
+}
+
+TEST_F(ChoiceTest, ChoicesOfAnEditedRunDoNotComeOut) {
+    const CrowdRun simulated = run(1, 0).run;
+    EXPECT_EQ(others(moves, simulated), 0u);
+    CrowdRun edited = simulated;
+    edited.seed = 2;
+    EXPECT_GT(others(moves, edited), 10u) << "another seed";
+    edited = simulated;
+    edited.grace = 0;
+    EXPECT_GT(others(moves, edited), 0u) << "another grace";
+    edited = simulated;
+    edited.agents[3].plays[1].kind = PlayKind::forced;
+    EXPECT_EQ(others(moves, edited), 1u) << "another kind";
+    // Other disks in the same places: what a changed source is.
+    Scene wider = testing::walker_scene();
+    for (SceneClip& clip : wider.clips) {
+        std::vector<mobb::Disk> disks(clip.clip->samples().begin(), clip.clip->samples().end());
+        for (mobb::Disk& disk : disks) disk.r *= 1.5;
+        clip.clip = std::make_shared<mobb::Clip>(clip.clip->dt(), std::move(disks));
+    }
+    const FittedScene fitted_wider(wider, {});
+    EXPECT_GT(others(MoveSet(fitted_wider), simulated), 0u) << "other sources";
+}
 
 TEST_F(ChoiceTest, AFirstPlayWasPlaced) {
     const Simulation simulation = run(1, 0);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -171,6 +173,41 @@ TEST(Conflicts, ProgressMayEndTheSearch) {
     };
     EXPECT_THROW(find_conflicts(crowd.placed(), Search::trees, stop), std::runtime_error);
     EXPECT_EQ(told, 3u);
+}
+
+TEST(PeopleConflicts, AreOneForAPairThatMeetsOftenAndTheDeepestComesFirst) {
+    Crowd crowd;
+    std::vector<int> person_of;
+    const auto add = [&](int person, double x, double y, double start) {
+        crowd.add(walking(x, y, 20), {.start = start});
+        person_of.push_back(person);
+    };
+    add(0, 0, 0, 0);
+    add(0, 2, 0, 2);  // goes on
+    add(0, 4, 0, 3);  // a second before that has ended: no conflict with oneself
+    add(1, 0, 0.9, 0.5);
+    add(1, 2, 0.8, 2.5);
+    add(2, 4, -0.3, 3);
+    add(3, 90, 0, 0);
+    for (const Search search : {Search::trees, Search::direct}) {
+        const PeopleConflicts conflicts = find_people_conflicts(crowd.placed(), person_of, search);
+        EXPECT_EQ(conflicts.pairs, 6u) << "of four people";
+        EXPECT_EQ(conflicts.pairs_tested, search == Search::direct ? 6u : 2u);
+        ASSERT_EQ(conflicts.found.size(), 2u);
+        const PeopleConflict& worst = conflicts.found[0];
+        EXPECT_EQ(std::pair(worst.a, worst.b), std::pair(0, 2));
+        EXPECT_EQ(worst.deepest.a, 2);
+        EXPECT_NEAR(worst.deepest.least_clearance, -0.7, 1e-12);
+        const PeopleConflict& often = conflicts.found[1];
+        EXPECT_EQ(std::pair(often.a, often.b), std::pair(0, 1));
+        for (std::size_t i = 1; i < often.intervals.size(); ++i)
+            EXPECT_GT(often.intervals[i].t0, often.intervals[i - 1].t1 + 1e-9) << "what touches is one";
+        EXPECT_LE(often.worst().t0, often.deepest.time);
+        EXPECT_GE(often.worst().t1, often.deepest.time);
+        EXPECT_EQ(often.begins.intervals.front().t0, often.worst().t0);
+    }
+    EXPECT_EQ(conflict_count(1, 4, 0.25), "1 conflict among 4 agents, 0.25 s in all");
+    EXPECT_EQ(find_people_conflicts({}, {}, Search::trees).pairs, 0u);
 }
 
 }  // namespace

@@ -162,7 +162,7 @@ TEST(Csv, OptionsOutOfRangeOrForOtherFormatsAreRefused) {
     EXPECT_NE(with([](auto& o) { o.fps = 0; }).find("fps"), std::string::npos);
     EXPECT_NE(with([&](auto& o) { o.fps = nan; }).find("fps"), std::string::npos);
     EXPECT_NE(with([&](auto& o) { o.dt = nan; }).find("dt"), std::string::npos);
-    EXPECT_NE(with([](auto& o) { o.radius = -1; }).find("radius"), std::string::npos);
+    EXPECT_NE(with([](auto& o) { o.radius = -1.0; }).find("radius"), std::string::npos);
     EXPECT_NE(with([](auto& o) { o.trim = {3, 2}; }).find("trim"), std::string::npos);
     EXPECT_NE(with([](auto& o) { o.unit = "furlong"; }).find("unit"), std::string::npos);
     EXPECT_NE(with([](auto& o) { o.up = "z"; }).find("up does not apply"), std::string::npos);
@@ -186,6 +186,51 @@ TEST(Csv, MessagesNameLineColumnAndRemedy) {
     EXPECT_NE(csv_refusal("id,t,x,y,r\n,0,0,0,0\n").find("name the track"), std::string::npos);
     EXPECT_NE(csv_refusal("id,t,x,y,r\ncaf\xe9,0,0,0,0\n").find("no UTF-8 text"), std::string::npos);
     EXPECT_NE(csv_refusal("t,x,y,r\r0,0,0,0\r").find("carriage returns"), std::string::npos);
+}
+
+TEST(Csv, AColumnThatTheRadiusNamesHoldsTheRadii) {
+    const std::string text = "id,t,x,y,width,r\na,0,0,0,30,1\na,1,5,0,40,1\nb,0,9,9,50,1\nb,1,9,9,60,1\n";
+    ImportOptions options;
+    options.radius = radius_from_text("width");
+    options.unit = "cm";
+    const auto read = clips(text, options);
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_DOUBLE_EQ(read[0].clip->samples()[1].r, 0.4) << "in the file's unit, as r is";
+    EXPECT_DOUBLE_EQ(read[1].clip->samples()[0].r, 0.5);
+    options.radius = radius_from_text("r");
+    EXPECT_EQ(csv_refusal(text, options),
+              "f.csv: line 1, column 5: the column 'width' is unknown; the header may name id, t, x, y and r");
+    EXPECT_EQ(clips("t,x,y,r\n0,0,0,7\n1,0,0,7\n", options)[0].clip->samples()[0].r, 0.07);
+    options.radius = radius_from_text("widht");
+    EXPECT_NE(csv_refusal(text, options).find("names no column 'widht' of radii (did you mean 'width'?)"),
+              std::string::npos);
+    options.radius = radius_from_text("width");
+    EXPECT_EQ(csv_refusal("t,x,y,width\n0,0,0,1\n1,0,0,-2\n", options),
+              "f.csv: line 3, column 4 (width): '-2' is no radius; give a number from 0 to 1e+09");
+    EXPECT_NE(csv_refusal("t,x,y,width,width\n0,0,0,1,1\n", options).find("stands twice"), std::string::npos);
+    const ImportOffer offer = csv_offer(parse_csv(text, "f.csv"), "f.csv", options);
+    ASSERT_EQ(offer.find("radius")->choices.size(), 1u);
+    EXPECT_EQ(offer.find("radius")->choices[0].value, "width");
+}
+
+TEST(Csv, RadiiByIdAreMetres) {
+    const TempFolder folder;
+    ImportOptions options;
+    options.unit = "cm";
+    options.radius = radius_from_text(folder.write("radii.csv", "id,radius\n\"a, left\",0.3\nb,0.4\n").string());
+    const auto read = clips("id,t,x,y\n\"a, left\",0,0,0\n\"a, left\",1,0,0\nb,0,1,1\nb,1,1,1\n", options);
+    EXPECT_EQ(read[0].clip->samples()[0].r, 0.3);
+    EXPECT_EQ(read[1].clip->samples()[1].r, 0.4);
+    EXPECT_NE(csv_refusal("t,x,y\n0,0,0\n1,0,0\n", options).find("has no ids; give metres"), std::string::npos);
+}
+
+TEST(Csv, WhatLooksLikeAMistypedNumberIsNoColumn) {
+    for (const char* bad : {"", " 5", "5m", "0x10", "1,5", "nan", "inf", "-", "#r", "width "}) {
+        EXPECT_THROW(radius_from_text(bad), std::invalid_argument) << bad;
+    }
+    EXPECT_EQ(radius_from_text("0.5"), Radius(0.5));
+    EXPECT_EQ(radius_from_text("_w"), Radius(RadiusColumn{"_w"}));
+    EXPECT_NE(input_error([] { radius_from_text("no_such.csv"); }).find("no_such.csv"), std::string::npos);
 }
 
 TEST(Csv, AbsurdCountsAreRefusedBeforeTheyAreMade) {

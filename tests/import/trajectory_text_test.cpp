@@ -1,8 +1,14 @@
 // Trajectories in columns: formats are told apart by content, and nothing is assumed in silence.
 #include <import/tracks/tracks.h>
 #include <support/input_error.h>
+#include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
+
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -126,6 +132,71 @@ TEST(TrajectoryText, DroneBoxesAreTakenByTheirCentresWhileInView) {
     EXPECT_EQ(read[1].name, "7");
     EXPECT_TRUE(track_warns(read[0], "1 row is marked as lost"));
     EXPECT_TRUE(track_warns(read[0], "pixels"));
+    EXPECT_EQ(read[0].facts.label, "Pedestrian");
+    EXPECT_EQ(read[1].facts.label, "Golf Cart");
+}
+
+TEST(TrajectoryText, ClassesHaveRadiiOfTheirOwnAndAreNamed) {
+    std::string text;
+    int id = 0;
+    for (const ClassRadius& each : kClassRadii) {
+        const std::string row = std::to_string(id++) + " 0 0 10 10 5 0 0 0 \"" + std::string(each.name) + "\"\n";
+        text += row;
+    }
+    const auto read = text_clips(text + "6 0 0 10 10 5 0 0 0 \"Dog\"\n7 0 0 9 9 5 0 0 0 \"Car\"\n");
+    ASSERT_EQ(read.size(), std::size(kClassRadii) + 2);
+    for (std::size_t i = 0; i < std::size(kClassRadii); ++i)
+        EXPECT_EQ(read[i].clip->samples()[0].r, kClassRadii[i].radius) << kClassRadii[i].name;
+    EXPECT_EQ(read[6].clip->samples()[0].r, kDefaultTrackRadius);
+    EXPECT_EQ(read[7].clip->samples()[0].r, 2.25);
+    for (const ImportedClip& clip : read) {
+        EXPECT_TRUE(track_warns(clip, "by class 'Biker' 0.9 m (1 track)"));
+        EXPECT_TRUE(track_warns(clip, "'Car' 2.25 m (2 tracks)"));
+        EXPECT_TRUE(track_warns(clip, "'Dog' 0.2 m (1 track, a class without a usual radius)"));
+    }
+    ImportOptions given;
+    given.radius = 0.5;
+    for (const ImportedClip& clip : text_clips(text, given)) {
+        EXPECT_EQ(clip.clip->samples()[0].r, 0.5);
+        EXPECT_FALSE(track_warns(clip, "no radii"));
+    }
+}
+
+TEST(TrajectoryText, RadiiComeFromAFileOfIdsOrClasses) {
+    const testing::TempFolder folder;
+    const auto with = [&](const std::string& radii) {
+        ImportOptions options;
+        options.radius = radius_from_text(folder.write("radii.csv", radii).string());
+        return options;
+    };
+    auto read = text_clips(kSdd, with("id,radius\n7,1.5\n0,0.25\n"));
+    EXPECT_EQ(read[0].clip->samples()[0].r, 0.25);
+    EXPECT_EQ(read[1].clip->samples()[0].r, 1.5);
+    EXPECT_FALSE(track_warns(read[0], "radi")) << "nothing was assumed";
+    read = text_clips(kSdd, with("class,r\n\"Golf Cart\",1.1\n*,0.3\nBus,5\n"));
+    EXPECT_EQ(read[0].clip->samples()[0].r, 0.3);
+    EXPECT_EQ(read[1].clip->samples()[0].r, 1.1);
+    EXPECT_TRUE(track_warns(read[0], "has radii of 'Bus', which is not in the file"));
+    EXPECT_NE(tracks_refusal(kSdd, with("id,radius\n7,1.5\n")).find("has no radius for id '0'; add a row"),
+              std::string::npos);
+    EXPECT_NE(tracks_refusal(kObsmat, with("class,radius\nBus,1.5\n")).find("has no classes"), std::string::npos);
+    ImportOptions column;
+    column.radius = RadiusColumn{"width"};
+    EXPECT_NE(tracks_refusal(kSdd, column).find("names a column, as a CSV has"), std::string::npos);
+    for (const auto& [text, complaint] :
+         std::vector<std::pair<std::string, std::string>>{{"", "line 1: a file of radii begins with"},
+                                                          {"x,y\n1,2\n", "line 1: a file of radii begins with"},
+                                                          {"id,radius\n", "there is no row"},
+                                                          {"id,radius\n1\n", "line 2: has no comma"},
+                                                          {"id,radius\n1,2\n1,3\n", "line 3: '1' stands twice"},
+                                                          {"id,radius\n*,2\n*,3\n", "line 3: '*' stands twice"},
+                                                          {"id,radius\n1,-2\n", "line 2: '-2' is no radius"},
+                                                          {"id,radius\n1,nan\n", "line 2: 'nan' is no radius"},
+                                                          {"id,radius\n,2\n", "line 2: has no id"}}) {
+        const std::string said = input_error([&] { with(text); });
+        EXPECT_NE(said.find(complaint), std::string::npos) << said;
+        EXPECT_NE(said.find("radii.csv"), std::string::npos) << said;
+    }
 }
 
 TEST(TrajectoryText, MissingFramesAreInterpolated) {

@@ -78,7 +78,7 @@ TEST(Scene, SourcesAreRelativeToTheSceneAndOverridesWin) {
     EXPECT_EQ(changed.clips[0].clip->samples()[0].r, 0.7);
     EXPECT_EQ(changed.clips[1].clip->samples()[0].r, 0.7);
     EXPECT_EQ(changed.clips[2].clip->samples()[0].r, 0.1);
-    EXPECT_EQ(changed.clips[1].options.radius, 0.2) << "the file's own option stays what it is";
+    EXPECT_EQ(changed.clips[1].options.radius, Radius(0.2)) << "the file's own option stays what it is";
 }
 
 TEST(Scene, AClipFileIsASceneWithItsClips) {

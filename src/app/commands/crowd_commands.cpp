@@ -18,8 +18,7 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr double kNear = 2.5;    // metres around two that meet
-constexpr double kBefore = 0.5;  // seconds before a conflict
+constexpr double kNear = 2.5;  // metres around two that meet
 
 // --- following
 
@@ -151,15 +150,14 @@ bool can_find(const Session& session) { return !session.empty() && !session.job(
 bool has_conflicts(const Session& session) { return session.conflicts() && !session.conflicts()->empty(); }
 
 void to_conflict(Session& session, int index) {
-    const SceneConflict& found = (*session.conflicts())[static_cast<std::size_t>(index)];
+    const ConflictPlace place = conflict_place(session, (*session.conflicts())[static_cast<std::size_t>(index)]);
     session.stop();
     session.conflict = index;
-    const double time = std::max(found.begin() - kBefore, session.time_span().t0);
     session.change_view([&](ViewState& view) {
         view.query.reset();
-        view.time = time;
+        view.time = place.time;
     });
-    follow_agent(session, found.a.name, kNear);
+    follow_agent(session, place.followed.name, kNear);
 }
 
 void go_conflict(Session& session, const std::string& text) {
@@ -248,14 +246,17 @@ std::vector<Command> crowd_commands() {
                 {.argument = "AGENT",
                  .enabled =
                      [](const Session& session) { return session.is_crowd() && current_path(session).has_value(); }}),
-        Command("conflicts.find", "Find conflicts", "Looks for all that collide, through the trees.",
+        Command("conflicts.find", "Find conflicts",
+                "Looks for all pairs of people who collide, through the trees, and lists the deepest overlap first.",
                 &Session::find_conflicts, {.enabled = can_find}),
-        Command("conflicts.next", "Next conflict", "Goes to just before the next two collide, and follows one of them.",
+        Command("conflicts.next", "Next conflict",
+                "Goes to just before the next two of the list collide; in a run to the choice that was forced.",
                 next_conflict<1>, {.shortcut = "Shift+PageDown", .repeats = true, .enabled = has_next_conflict<1>}),
         Command("conflicts.previous", "Previous conflict", "Goes to just before the two of the conflict before.",
                 next_conflict<-1>, {.shortcut = "Shift+PageUp", .repeats = true, .enabled = has_next_conflict<-1>}),
-        Command("conflicts.go", "To a conflict", "Goes to just before a conflict, by its number from 0.", go_conflict,
-                {.menu = kNoMenu, .argument = "N", .enabled = has_conflicts}),
+        Command("conflicts.go", "To a conflict",
+                "Goes to just before a conflict, by its number from 0; in a run to the choice that was forced.",
+                go_conflict, {.menu = kNoMenu, .argument = "N", .enabled = has_conflicts}),
         Command("conflicts.open", "Open the conflict as a scene",
                 "Opens the two of a conflict as a scene with the query between them.", open_conflict,
                 {.argument = "[N]", .enabled = has_conflicts}),

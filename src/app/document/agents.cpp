@@ -1,5 +1,7 @@
 #include <app/document/agents.h>
 #include <base/text.h>
+#include <conflicts/conflicts.h>
+#include <crowd/simulation/choice.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/scene_edits.h>
@@ -10,6 +12,8 @@
 namespace mobbscope::app {
 
 namespace {
+
+constexpr double kBefore = 0.5;  // seconds before a conflict
 
 /// The first placed agents of a run are its agents.
 std::optional<int> participant_named(const Session& session, const std::string& name) {
@@ -120,8 +124,30 @@ double shown_time(const Session& session) {
     return session.view().time.value_or(session.time_span().t0);
 }
 
-bool can_conflict(const Session& session) {
-    return (session.crowd() ? session.crowd()->agents.size() : session.fitted().placed_agents().size()) > 1;
+std::size_t people_in(const Session& session) {
+    return session.crowd() ? session.crowd()->agents.size() : session.fitted().placed_agents().size();
+}
+
+bool can_conflict(const Session& session) { return people_in(session) > 1; }
+
+std::string conflict_summary(const Session& session) {
+    double seconds = 0;
+    for (const SceneConflict& conflict : *session.conflicts()) seconds += conflict.facts.seconds();
+    return conflict_count(session.conflicts()->size(), people_in(session), seconds);
+}
+
+ConflictPlace conflict_place(const Session& session, const SceneConflict& conflict) {
+    const double before = std::max(conflict.begin() - kBefore, session.time_span().t0);
+    if (!session.crowd()) return {conflict.a, conflict.b, before};
+    const bool by_a = made_by_a(*session.crowd(), conflict);
+    ConflictPlace out{by_a ? conflict.a : conflict.b, by_a ? conflict.b : conflict.a, before};
+    const int play = by_a ? conflict.a_play : conflict.b_play;
+    const CrowdAgent& agent = session.crowd()->agents[static_cast<std::size_t>(out.followed.agent)];
+    // A first play was placed, not chosen.
+    if (play > 0 && last_chosen(agent, before) != play) {
+        out.time = agent.plays[static_cast<std::size_t>(play)].chosen_at;
+    }
+    return out;
 }
 
 }  // namespace mobbscope::app

@@ -3,6 +3,7 @@
 
 #include <app/document/session.h>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -65,7 +66,23 @@ void select_agent_named(Session& session, const std::string& name);
 /// The time that the picture shows, seconds; without a time cursor the begin of the first path.
 double shown_time(const Session& session);
 
+/// How many there are: of a run its people.
+std::size_t people_in(const Session& session);
+
 /// Whether there are two agents that could collide.
 bool can_conflict(const Session& session);
+
+/// "2 conflicts among 22 agents, 1.3 s in all", as `mobbscope conflicts` says it. Requires Session::conflicts.
+std::string conflict_summary(const Session& session);
+
+/// How a conflict is looked at.
+struct ConflictPlace {
+    PlacedAgent followed, other;
+    double time = 0;  ///< global seconds
+};
+
+/// Half a second before the two touch, along with one of them. Of a run it is who made the conflict; where that play is
+/// not yet chosen then, or the next one is already, the time is that of its choice, so that it is the last choice.
+ConflictPlace conflict_place(const Session& session, const SceneConflict& conflict);
 
 }  // namespace mobbscope::app

@@ -171,6 +171,10 @@ void last_choice(Ui& ui) {
     }
     const Choice& choice = followed->choice;
     if (!section(ui, "LAST CHOICE", formatted("%.2f s", choice.time))) return;
+    if (!followed->comes_out) {
+        words(ui.style.warning, "! " + edited_run_warning(session.scene(), *followed));
+        ui.mark_only("choice.edited");
+    }
     words(ui.style.text, choice_sentence(session.scene(), *followed));
     list_head(ui);
     const std::vector<ListedCandidate> all = listed(session, choice);

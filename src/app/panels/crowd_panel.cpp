@@ -59,6 +59,16 @@ void plays(Ui& ui) {
     });
 }
 
+/// When and how deep two overlap, and what a double click does.
+std::string conflict_words(const Session& session, const SceneConflict& conflict) {
+    const auto& worst = conflict.facts.worst();
+    std::string text =
+        formatted("%.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
+    if (const std::size_t others = conflict.facts.intervals.size() - 1; others > 0)
+        text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
+    return text + ".\nDouble-click goes to " + (session.crowd() ? "the forced choice that made it" : "just before it");
+}
+
 void conflicts(Ui& ui) {
     Session& session = ui.session;
     const std::vector<SceneConflict>* found = session.conflicts();
@@ -71,16 +81,17 @@ void conflicts(Ui& ui) {
         words(to_im(readable(ui.style.palette.separated, ui.style.palette)), "Nobody collides with anybody.");
         return;
     }
+    words(ui.style.quiet, conflict_summary(session) + ", the deepest first");
     rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, [&](int i) {
         const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
         if (row(ui, {"conflict." + std::to_string(i), conflict.a.name + " and " + conflict.b.name,
-                     formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.least_clearance),
+                     formatted("%.2f s  %.2f m", conflict.begin(), -conflict.facts.deepest.least_clearance),
                      session.conflict == i, false, 0, to_im(readable(ui.style.palette.hit, ui.style.palette))})) {
             session.conflict = i;
         }
         context_menu(ui, [&] { return conflict_menu(i); });
         if (!ImGui::IsItemHovered()) return;
-        ImGui::SetTooltip("When they first touch, and how deep they overlap. Double-click goes to just before it");
+        ImGui::SetTooltip("%s", conflict_words(session, conflict).c_str());
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) invoke(session, "conflicts.go", std::to_string(i));
     });
     ImGui::BeginDisabled(session.conflict < 0);
@@ -94,9 +105,7 @@ void conflicts(Ui& ui) {
 
 void crowd_panel(Ui& ui) {
     const Session& session = ui.session;
-    const std::size_t people =
-        session.crowd() ? session.crowd()->agents.size() : session.fitted().placed_agents().size();
-    if (section(ui, "CROWD", std::to_string(people) + " agents")) {
+    if (section(ui, "CROWD", std::to_string(people_in(session)) + " agents")) {
         if (session.crowd()) {
             words(ui.style.quiet,
                   formatted("%.2f of %.4g s on %.4g x %.4g m", run_time(session.scene(), session.view()),

@@ -43,7 +43,8 @@ std::string label_of(const ImportField& field, const std::string& value) {
     if (!field.offer) return value;
     const auto at = std::ranges::find(field.offer->choices, value, &OfferedChoice::value);
     if (at != field.offer->choices.end()) return at->label;
-    return parse_double(value) && *field.option.unit != '\0' ? value + ' ' + field.option.unit + " a unit" : value;
+    if (!parse_double(value) || *field.option.unit == '\0') return value;
+    return value + ' ' + field.option.unit + (field.option.is_number() ? "" : " a unit");
 }
 
 /// What is taken without the option: "auto: cm".
@@ -63,20 +64,22 @@ bool choice_row(Ui& ui, const ImportField& field, const std::string& label, cons
     return clicked;
 }
 
-/// What the file has to choose from, searched by a few letters where it is much; a unit may be any number too.
+/// What the file has to choose from, searched by a few letters where it is much; a unit or a radius may be any number
+/// too.
 void offered_choices(Ui& ui, const ImportField& field) {
     std::string& search = ui.session.importing.search;
     if (ImGui::IsWindowAppearing()) search.clear();
     const std::vector<OfferedChoice>& all = field.offer->choices;
     const bool is_unit = field.option.key == std::string_view("unit");
+    const bool takes_numbers = is_unit || field.option.is_number();
     const bool searched = all.size() > kFewChoices;
-    if (searched || is_unit) {
+    if (searched || takes_numbers) {
         if (ImGui::IsWindowAppearing() && searched) ImGui::SetKeyboardFocusHere();
         ImGui::SetNextItemWidth(-1);
-        const bool entered = ImGui::InputTextWithHint("##search", is_unit ? "another: metres a unit" : "search",
-                                                      &search, ImGuiInputTextFlags_EnterReturnsTrue);
+        const char* const hint = is_unit ? "another: metres a unit" : takes_numbers ? "a number of metres" : "search";
+        const bool entered = ImGui::InputTextWithHint("##search", hint, &search, ImGuiInputTextFlags_EnterReturnsTrue);
         ui.mark(field.mark() + ".search");
-        if (entered && is_unit) {
+        if (entered && takes_numbers) {
             set_option(ui, field, search);
             ImGui::CloseCurrentPopup();
         }
@@ -202,7 +205,7 @@ void import_field(Ui& ui, const ImportField& field) {
     ImGui::SetNextItemWidth(-reset);
     if (field.option.key == std::string_view("trim")) {
         trim_field(ui, field);
-    } else if (field.option.is_number()) {
+    } else if (field.option.is_number() && (!field.offer || field.offer->choices.empty())) {
         number_option(ui, field);
     } else {
         choice_field(ui, field);

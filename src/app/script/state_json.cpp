@@ -112,6 +112,7 @@ Json crowd_json(const Session& session) {
                           {"time", choice.time},
                           {"candidates", choice.candidates.size()},
                           {"taken", choice.taken},
+                          {"comes_out", followed->comes_out},
                           {"pointed_out", session.candidate()},
                           {"sentence", choice_sentence(session.scene(), *followed)}};
     }

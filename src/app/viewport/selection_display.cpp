@@ -1,16 +1,17 @@
+#include <app/document/agents.h>
 #include <app/document/described.h>
 #include <app/document/shown_agents.h>
 #include <app/viewport/selection_display.h>
 #include <render/parts/highlights.h>
 #include <scene/arrangement.h>
 
-#include <cmath>
-
 namespace mobbscope::app {
 
 namespace {
 
 using Role = HighlightLine::Role;
+
+constexpr double kNearConflict = 2;  // seconds around a conflict in which its other one is pointed out
 
 bool is_hidden(const Session& session, const PlacedAgent& who) {
     if (who.agent < 0 && !session.scene().agents.empty()) return false;
@@ -40,9 +41,11 @@ void add_other_of_conflict(DrawList& list, const Session& session, float scale) 
     const std::vector<SceneConflict>* found = session.conflicts();
     if (!found || session.conflict < 0 || session.view().follow.empty() || !session.view().time) return;
     const SceneConflict& conflict = (*found)[static_cast<std::size_t>(session.conflict)];
-    const bool near = std::abs(*session.view().time - conflict.begin()) < 2;
-    if (!near || conflict.a.name != session.view().follow) return;
-    const Selection other{Selection::Kind::path, {conflict.b.agent, -1, 0}, -1};
+    const ConflictPlace place = conflict_place(session, conflict);
+    const double time = *session.view().time;
+    if (time < place.time - kNearConflict || time > conflict.begin() + kNearConflict) return;
+    if (place.followed.name != session.view().follow) return;
+    const Selection other{Selection::Kind::path, {place.other.agent, -1, 0}, -1};
     add_highlight_of(list, session, other, Role::conflict, scale);
 }
 

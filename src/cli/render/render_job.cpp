@@ -24,6 +24,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -117,6 +118,14 @@ void see_from(std::vector<RenderPicture>& pictures, const Camera& camera, bool t
     }
 }
 
+/// Says once if a choice that pictures show does not come out as the run says.
+void warn_of_edited_run(const RenderJob& job) {
+    std::vector<ViewState> views;
+    for (const RenderPicture& picture : job.pictures) views.push_back(picture.view);
+    const std::string text = edited_run_warning(*job.paths->fitted(), views);
+    if (!text.empty()) warn(job.arguments.file.string() + ": " + text);
+}
+
 void refuse_other_options(const Command& command) {
     for (const GivenOption& given : command.given()) {
         if (given.name == "FILE" || given.name == "--output" || given.name == "--backend") continue;
@@ -161,6 +170,7 @@ void RenderPlan::add(RenderArguments arguments) {
         job.pictures = pictures_of(fitted, view, job.arguments);
         check_and_frame(job);
         check_selection(job);
+        warn_of_edited_run(job);
     } catch (const ViewMismatch& mismatch) {
         refuse_view(job.arguments, mismatch);
     } catch (const std::invalid_argument& error) {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kTurnStep = 15;  // degrees
 constexpr double kHalfTurn = 180;
+constexpr double kSamePlace = 1e-6;  // metres, degrees: as precisely as plays must join
 
 class Chooser {
   public:
@@ -203,6 +204,14 @@ Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play)
     return choose(moves, reservations, run, point);
 }
 
+bool comes_out_as(const Play& play, const Choice& choice) {
+    const Candidate& taken = choice.candidates[choice.taken];
+    const glm::dvec2 aside = taken.placement.translate - play.placement.translate;
+    const double turn = std::remainder(taken.placement.rotate_deg - play.placement.rotate_deg, 360.0);
+    return taken.move == play.move && choice.kind == play.kind && std::hypot(aside.x, aside.y) <= kSamePlace &&
+           std::abs(turn) <= kSamePlace;
+}
+
 std::optional<int> last_chosen(const CrowdAgent& agent, double time) {
     // Plays are chosen in their order; the first was placed.
     const auto later = [](double t, const Play& play) { return t < play.chosen_at; };
@@ -215,7 +224,10 @@ std::optional<FollowedChoice> last_choice(const MoveSet& moves, int agent, doubl
     const CrowdRun& run = *moves.fitted().scene().crowd;
     const auto play = last_chosen(run.agents.at(static_cast<std::size_t>(agent)), time);
     if (!play) return std::nullopt;
-    return FollowedChoice{agent, *play, choice_of(moves, run, agent, *play)};
+    Choice choice = choice_of(moves, run, agent, *play);
+    const bool comes_out =
+        comes_out_as(run.agents[static_cast<std::size_t>(agent)].plays[static_cast<std::size_t>(*play)], choice);
+    return FollowedChoice{agent, *play, std::move(choice), comes_out};
 }
 
 }  // namespace mobbscope

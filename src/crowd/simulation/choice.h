@@ -58,7 +58,12 @@ struct FollowedChoice {
     int agent = 0;  ///< index into CrowdRun::agents
     int play = 0;   ///< the play that was chosen
     Choice choice;
+    bool comes_out = true;  ///< as the run says, see comes_out_as
 };
+
+/// Whether a choice made again takes what the run plays: the same move, as chosen, pivoted or forced, at the same place
+/// to a millionth of a metre and degree. It does not where the run or its clips were edited after it was simulated.
+bool comes_out_as(const Play& play, const Choice& choice);
 
 /// The agent's play that was chosen last before or at a time; none before its first choice.
 std::optional<int> last_chosen(const CrowdAgent& agent, double time);

@@ -12,6 +12,7 @@ namespace {
 
 std::string text_of(const std::string& value) { return value; }
 std::string text_of(double value) { return short_double(value); }
+std::string text_of(const Radius& value) { return radius_text(value); }
 std::string text_of(Origin value) { return std::string(name(value)); }
 std::string text_of(mobb::Motion value) { return std::string(name(value)); }
 std::string text_of(const std::pair<double, double>& value) {
@@ -34,6 +35,8 @@ void read_text(const ImportOption&, std::string_view text, std::optional<std::pa
     }
     to = {*begin, *end};
 }
+
+void read_text(const ImportOption&, std::string_view text, std::optional<Radius>& to) { to = radius_from_text(text); }
 
 void read_text(const ImportOption&, std::string_view text, std::optional<Origin>& to) {
     to = origin_from_name(text);

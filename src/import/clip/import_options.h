@@ -29,7 +29,7 @@ struct ImportOption {
     const char* unit;   ///< of a number: "m"
     std::variant<std::optional<std::string> ImportOptions::*, std::optional<double> ImportOptions::*,
                  std::optional<std::pair<double, double>> ImportOptions::*, std::optional<Origin> ImportOptions::*,
-                 std::optional<mobb::Motion> ImportOptions::*>
+                 std::optional<mobb::Motion> ImportOptions::*, std::optional<Radius> ImportOptions::*>
         member;
     bool for_skeletons, for_tracks;  ///< of both kinds: tables and trajectories
     bool of_file;                    ///< what holds for one clip of a file usually holds for all of them
@@ -37,7 +37,10 @@ struct ImportOption {
     bool means_something_for(Contents contents) const {
         return contents == Contents::skeletons ? for_skeletons : for_tracks;
     }
-    bool is_number() const { return std::holds_alternative<std::optional<double> ImportOptions::*>(member); }
+    bool is_number() const {
+        return std::holds_alternative<std::optional<double> ImportOptions::*>(member) ||
+               std::holds_alternative<std::optional<Radius> ImportOptions::*>(member);
+    }
     bool is_given(const ImportOptions& options) const {
         return std::visit([&](auto of) { return (options.*of).has_value(); }, member);
     }
@@ -58,8 +61,8 @@ inline constexpr ImportOption kImportOptions[] = {
      false},
     {"origin", "Origin", "Where the path is put", "", &ImportOptions::origin, true, true, true},
     {"id", "Track", "Which of the file's tracks is taken", "", &ImportOptions::id, false, true, false},
-    {"radius", "Radius", "Of every sample, in place of what the file says", "m", &ImportOptions::radius, true, true,
-     true},
+    {"radius", "Radius", "Of every sample, or the column of a CSV that holds it, in place of what the file says", "m",
+     &ImportOptions::radius, true, true, true},
     {"dt", "Frame time", "Seconds between rows without times, or from one frame number to the next", "s",
      &ImportOptions::dt, false, true, true},
     {"motion", "Motion", "What a disk does until the next sample: it stays, or runs straight to it", "",

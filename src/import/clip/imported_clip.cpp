@@ -32,7 +32,8 @@ void check(const ImportOptions& options) {
     require(!options.trim || (options.trim->first >= 0 && options.trim->first < options.trim->second &&
                               options.trim->second <= mobb::kMaxTime),
             "trim must be two times A and B in seconds, 0 <= A < B <= " + short_double(mobb::kMaxTime));
-    require(!options.radius || (*options.radius >= 0 && *options.radius <= mobb::kMaxLength),
+    const double* const metres = options.radius ? std::get_if<double>(&*options.radius) : nullptr;
+    require(!metres || (*metres >= 0 && *metres <= mobb::kMaxLength),
             "radius must be from 0 to " + short_double(mobb::kMaxLength) + " metres");
     require(!options.dt || (*options.dt >= mobb::kLeastDt && *options.dt <= mobb::kMaxTime),
             "dt must be from " + short_double(mobb::kLeastDt) + " to " + short_double(mobb::kMaxTime) + " seconds");

@@ -1,6 +1,7 @@
 /// What an import takes and gives: options, facts about the source, clips.
 #pragma once
 
+#include <import/clip/radii.h>
 #include <mobb/clip.h>
 
 #include <cstddef>
@@ -29,7 +30,7 @@ struct ImportOptions {
     std::optional<std::pair<double, double>> trim;  ///< 0 <= A < B <= kMaxTime: file seconds from the first key
     std::optional<Origin> origin;                   ///< default keep
     std::optional<std::string> id;                  ///< of a file of tracks: the one to take
-    std::optional<double> radius;                   ///< metres, 0 to kMaxLength; overrides r of every sample
+    std::optional<Radius> radius;                   ///< metres from 0 to kMaxLength; overrides r of every sample
     /// Seconds, over 0 to kMaxTime, between rows of a CSV without a time column, or frame numbers of a trajectory file.
     std::optional<double> dt;
     /// What a disk does until the next sample; default linear for trajectories, plans and CSV with ids, else held.
@@ -72,6 +73,8 @@ struct SourceFacts {
     int joints = 0;                               ///< in the root's subtree, itself included, End Sites not
     std::size_t rig = 0;                          ///< the same for the same names of root and joints; 0: no skeleton
     std::optional<double> guessed_from_height{};  ///< metres: the body's height, where it decided the unit
+
+    std::string label{};  ///< of a track: its class, "Biker"; empty where the file has none
 };
 
 struct Skeleton;

@@ -77,7 +77,8 @@ class MotionImport {
         auto skeleton = std::make_shared<Skeleton>();
         std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, *skeleton);
         if (options_.radius) {
-            for (mobb::Disk& disk : samples) disk.r = *options_.radius;
+            const double radius = metres_of(*options_.radius, "", "");
+            for (mobb::Disk& disk : samples) disk.r = radius;
         }
         const mobb::Rotation turn = put_at_origin(samples, options_.origin.value_or(Origin::keep));
         for (glm::vec3& p : skeleton->positions) {

@@ -34,14 +34,19 @@ class CsvParser {
             }
             const std::string id = table.has_id ? identifier() : "";
             const auto [track, is_new] = track_of.try_emplace(id, table.tracks.size());
-            if (is_new) table.tracks.push_back({id, {}, {}});
+            if (is_new) table.tracks.push_back({id, {}, {}, {}});
             std::vector<TimedDisk>& rows = table.tracks[track->second].rows;
             rows.push_back(row());
             table.tracks[track->second].lines.push_back(lines_.number());
+            if (!others_.empty()) {
+                std::vector<std::string>& others = table.tracks[track->second].others.emplace_back();
+                for (const auto& [name, column] : others_) others.push_back(fields_[column]);
+            }
             if (table.has_time && rows.size() > 1) check_order(rows, id);
         }
         if (table.tracks.empty())
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
+        table.others = std::move(others_);
         return table;
     }
 
@@ -113,9 +118,11 @@ class CsvParser {
         for (std::size_t i = 0; i < names_.size(); ++i) {
             const auto known = std::find(kColumns.begin(), kColumns.end(), names_[i]);
             if (known == kColumns.end()) {
-                throw InputError(
-                    file_, at_line(lines_.number()) + ", column " + std::to_string(i + 1),
-                    "the column " + in_quotes(names_[i]) + " is unknown; the header may name id, t, x, y and r");
+                const bool twice = std::find(names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(i),
+                                             names_[i]) != names_.begin() + static_cast<std::ptrdiff_t>(i);
+                if (twice) fail(i, "the column stands twice; remove one");
+                others_.emplace_back(names_[i], i);
+                continue;
             }
             int& position = position_[static_cast<std::size_t>(known - kColumns.begin())];
             if (position >= 0) fail(i, "the column stands twice; remove one");
@@ -168,7 +175,8 @@ class CsvParser {
     const std::string& file_;
     std::vector<std::string> fields_;
     std::vector<std::string> names_;
-    std::array<int, kColumns.size()> position_{};  ///< of each known column in a row, or -1
+    std::array<int, kColumns.size()> position_{};              ///< of each known column in a row, or -1
+    std::vector<std::pair<std::string, std::size_t>> others_;  ///< see CsvTable::others
 };
 
 /// Metres per file unit. A CSV has no skeleton whose height would tell, so "auto" says nothing.
@@ -184,16 +192,44 @@ double unit_scale(const ImportOptions& options) {
 /// Tables with ids are tracks of people, whose rows are far apart; those without are mostly sampled motions.
 mobb::Motion usual_motion(const CsvTable& table) { return table.has_id ? mobb::Motion::linear : mobb::Motion::held; }
 
+/// Which of CsvTable::others has the radii; none: r, or metres. Every other such column is an error.
+std::optional<std::size_t> radius_column(const CsvTable& table, const ImportOptions& options) {
+    const RadiusColumn* const wanted = options.radius ? std::get_if<RadiusColumn>(&*options.radius) : nullptr;
+    std::optional<std::size_t> found;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < table.others.size(); ++i) {
+        names.push_back(table.others[i].first);
+        if (wanted && names.back() == wanted->name) found = i;
+    }
+    if (table.has_radius) names.emplace_back("r");
+    if (wanted && !found && !(table.has_radius && wanted->name == "r")) {
+        throw std::invalid_argument("line 1: the header names no column " + in_quotes(wanted->name) + " of radii" +
+                                    did_you_mean(wanted->name, names) + "; give metres, or a column that it names");
+    }
+    for (std::size_t i = 0; i < table.others.size(); ++i) {
+        if (i == found) continue;
+        throw std::invalid_argument("line 1, column " + std::to_string(table.others[i].second + 1) + ": the column " +
+                                    in_quotes(names[i]) + " is unknown; the header may name id, t, x, y and r");
+    }
+    return found;
+}
+
 /// Makes clips of tracks; messages are for import of one file.
 class ClipMaker {
   public:
-    ClipMaker(const CsvTable& table, const ImportOptions& options)
-        : table_(table), options_(options), scale_(unit_scale(options)), first_(table.tracks.front().rows.front().t) {
+    ClipMaker(const CsvTable& table, const std::string& file, const ImportOptions& options)
+        : table_(table),
+          file_(file),
+          options_(options),
+          scale_(unit_scale(options)),
+          radius_column_(radius_column(table, options)),
+          first_(table.tracks.front().rows.front().t) {
         for (const CsvTrack& track : table.tracks) first_ = std::min(first_, track.rows.front().t);
     }
 
     ImportedClip make(const CsvTrack& track) {
         std::vector<TimedDisk> rows = track.rows;
+        if (radius_column_) take_radii(track, rows);
         SourceFacts facts{"csv", scale_, static_cast<int>(rows.size()), std::nullopt, 0, {}};
         const std::optional<double> stored_dt = spacing(rows, facts);
         facts.dt = stored_dt;
@@ -216,8 +252,10 @@ class ClipMaker {
             samples = sampled(rows, step);
         }
         count_ += samples.size();
+        const bool in_column = !options_.radius || std::holds_alternative<RadiusColumn>(*options_.radius);
+        const double radius = in_column ? 0 : metres_of(*options_.radius, track.id, "");
         for (mobb::Disk& disk : samples) {
-            disk = {disk.x * scale_, disk.y * scale_, options_.radius.value_or(disk.r * scale_)};
+            disk = {disk.x * scale_, disk.y * scale_, in_column ? disk.r * scale_ : radius};
         }
         put_at_origin(samples, options_.origin.value_or(Origin::keep));
         const mobb::Motion motion = options_.motion.value_or(usual_motion(table_));
@@ -228,6 +266,23 @@ class ClipMaker {
     }
 
   private:
+    /// Into r, from the column that the options name.
+    void take_radii(const CsvTrack& track, std::vector<TimedDisk>& rows) const {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::string& field = track.others[i][*radius_column_];
+            const std::optional<double> value = parse_double(field);
+            if (value && *value >= 0 && *value <= mobb::kMaxLength) {
+                rows[i].disk.r = *value;
+                continue;
+            }
+            throw InputError(
+                file_,
+                at_line(track.lines[i]) + ", column " + std::to_string(table_.others[*radius_column_].second + 1) +
+                    " (" + table_.others[*radius_column_].first + ")",
+                in_quotes(field) + " is no radius; give a number from 0 to " + short_double(mobb::kMaxLength));
+        }
+    }
+
     static std::string resampled(const CsvTrack& track, double fps) {
         const std::vector<TimedDisk>& rows = track.rows;
         const std::size_t row = *first_out_of_step(rows);
@@ -264,10 +319,12 @@ class ClipMaker {
     }
 
     const CsvTable& table_;
+    const std::string& file_;
     const ImportOptions& options_;
     double scale_;
-    double first_;           ///< the earliest time of all tracks, seconds
-    std::size_t count_ = 0;  ///< samples made so far, of all tracks
+    std::optional<std::size_t> radius_column_;  ///< index into CsvTable::others
+    double first_;                              ///< the earliest time of all tracks, seconds
+    std::size_t count_ = 0;                     ///< samples made so far, of all tracks
 };
 
 }  // namespace
@@ -278,12 +335,12 @@ std::vector<ImportedClip> csv_clips(const CsvTable& table, const std::filesystem
                                     const ImportOptions& options) {
     refuse_skeleton_options(options, file, "CSV");
     const std::string name = file.string();
+    if (options.id && !table.has_id) throw InputError(name, "line 1", "the header names no column id; leave id out");
+
+    ClipMaker maker = at_place(name, "", [&] { return ClipMaker(table, name, options); });
     if (!table.has_radius && !options.radius) {
         throw InputError(name, "line 1", "the header names no column r; add one or give radius (metres)");
     }
-    if (options.id && !table.has_id) throw InputError(name, "line 1", "the header names no column id; leave id out");
-
-    ClipMaker maker = at_place(name, "", [&] { return ClipMaker(table, options); });
     return clips_by_track(table.tracks, file, options,
                           [&](const CsvTrack& track) { return std::optional(maker.make(track)); });
 }
@@ -309,6 +366,7 @@ ImportOffer csv_offer(const CsvTable& table, const std::filesystem::path&, const
     if (table.tracks.size() > 1) out.options.push_back(id_offer(table.tracks));
     out.options.push_back(
         {"radius", "", table.has_radius ? "the column r" : "the file has no column r", !table.has_radius});
+    for (const auto& [name, column] : table.others) out.options.back().choices.push_back({name, "the column " + name});
     if (!timed) {
         out.options.push_back(
             {"dt", "", table.has_time ? "one row does not tell how long it lasts" : "the file has no column t", true});

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -16,7 +17,8 @@ namespace mobbscope {
 struct CsvTrack {
     std::string id;  ///< empty without an id column
     std::vector<TimedDisk> rows;
-    std::vector<int> lines;  ///< of each row in the file, from 1
+    std::vector<int> lines;                        ///< of each row in the file, from 1
+    std::vector<std::vector<std::string>> others;  ///< of each row: what stands in CsvTable::others
 
     int first_line() const { return lines.front(); }
 };
@@ -24,8 +26,10 @@ struct CsvTrack {
 /// A file as it stands: nothing scaled, nothing sampled.
 struct CsvTable {
     bool has_id = false;
-    bool has_time = false;         ///< else t of every row is 0
-    bool has_radius = false;       ///< else r of every row is 0
+    bool has_time = false;    ///< else t of every row is 0
+    bool has_radius = false;  ///< else r of every row is 0
+    /// Columns that mean nothing unless the radius is in one of them: name, and number from 0.
+    std::vector<std::pair<std::string, std::size_t>> others;
     std::vector<CsvTrack> tracks;  ///< at least one, each with at least one row; in order of first appearance
 };
 

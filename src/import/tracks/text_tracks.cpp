@@ -32,7 +32,7 @@ struct Columns {
 };
 
 /// The corners of a box in the image, and whether the annotators had lost it.
-enum SddColumn { kXMin = 1, kYMin, kXMax, kYMax, kSddFrame, kLost };
+enum SddColumn { kXMin = 1, kYMin, kXMax, kYMax, kSddFrame, kLost, kLabel = 9 };
 
 const Columns kObsmat{"obsmat", 8, 1, 0, 2, 4};
 const Columns kTrajnet{"trajnet", 4, 1, 0, 2, 3};
@@ -192,10 +192,10 @@ class TextTracksParser {
         lines_.fail("column " + std::to_string(column + 1) + ": " + message);
     }
 
-    void add(double x, double y) {
+    void add(double x, double y, std::string_view label = {}) {
         const double frame = whole_number(columns_.frame);
         const double id = whole_number(columns_.id);
-        tracks_.add(std::to_string(static_cast<long long>(id)), {frame, x, y, lines_.number()});
+        tracks_.add(std::to_string(static_cast<long long>(id)), {frame, x, y, lines_.number()}, label);
     }
 
     void read_point() {
@@ -211,7 +211,15 @@ class TextTracksParser {
         const auto centre = [this](int low, int high) {
             return (number(low, mobb::kMaxLength) + number(high, mobb::kMaxLength)) / 2;
         };
-        add(centre(kXMin, kXMax), centre(kYMin, kYMax));
+        add(centre(kXMin, kXMax), centre(kYMin, kYMax), label());
+    }
+
+    /// The class, without its quotes.
+    std::string_view label() const {
+        std::string_view word = words_[kLabel];
+        if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
+        if (!is_utf8(word)) fail(kLabel, "the label is no UTF-8 text; save the file as UTF-8");
+        return word;
     }
 
     void tell_rate(TrackFile& out) const {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -20,8 +22,43 @@ constexpr std::size_t kAlwaysFilled = 10'000;
 // Frames of a plan may be fractions: they are in step to so many of a step.
 constexpr double kStepTolerance = 1e-6;
 
-std::string assumed_radius() {
-    return "the file has no radii: " + brief(kDefaultTrackRadius) + " m are taken; give radius if that is wrong";
+/// The radius where no option says one.
+double default_radius(const Track& track) { return class_radius(track.label).value_or(kDefaultTrackRadius); }
+
+/// What default_radius takes: by class where the file has classes.
+std::string assumed_radius(const TrackFile& file) {
+    std::map<std::string, int> tracks;  // by class
+    for (const Track& track : file.tracks) ++tracks[track.label];
+    std::string taken = brief(kDefaultTrackRadius) + " m";
+    if (tracks.size() > 1 || !tracks.contains("")) {
+        taken = "by class";
+        const char* separator = " ";
+        for (const auto& [label, count] : tracks) {
+            const std::optional<double> known = class_radius(label);
+            taken += separator + (label.empty() ? "none" : in_quotes(label)) + ' ' +
+                     brief(known.value_or(kDefaultTrackRadius)) + " m (" + counted(count, "track", "tracks") +
+                     (known || label.empty() ? ")" : ", a class without a usual radius)");
+            separator = ", ";
+        }
+    }
+    return "the file has no radii: " + taken + " are taken; give radius if that is wrong";
+}
+
+/// Of a file of radii, which of its keys the tracks lack; empty: none, or another kind of radius.
+std::string unused_radii(const TrackFile& file, const Radius& radius) {
+    const auto* const table = std::get_if<std::shared_ptr<const RadiusTable>>(&radius);
+    if (!table) return "";
+    std::set<std::string> keys;
+    for (const Track& track : file.tracks) keys.insert((*table)->by_class ? track.label : track.id);
+    std::vector<std::string> unused;
+    for (const auto& [key, metres] : (*table)->radii) {
+        if (!keys.contains(key)) unused.push_back(key);
+    }
+    if (unused.empty()) return "";
+    return (*table)->file + " has radii of " +
+           (unused.size() == 1 ? in_quotes(unused.front()) + ", which is"
+                               : std::to_string(unused.size()) + " that are") +
+           " not in the file" + (unused.size() == 1 ? "" : ", such as " + in_quotes(unused.front()));
 }
 
 /// Frames from each point to the next.
@@ -96,11 +133,8 @@ class TrackClipMaker {
             common_.warnings.push_back({file.unit_assumption, "unit"});
             common_.guessed_from_height = file.guessed_height;
         }
-        if (!options.radius) {
-            common_.warnings.push_back(
-                {"the file has no radii: " + brief(kDefaultTrackRadius) + " m are taken; give radius if that is wrong",
-                 "radius"});
-        }
+        const std::string remark = options.radius ? unused_radii(file, *options.radius) : assumed_radius(file);
+        if (!remark.empty()) common_.warnings.push_back({remark, "radius"});
         if (options.trim && options.trim->second > clock_.duration() + clock_.seconds(clock_.usual_step())) {
             common_.warnings.push_back({"trim ends at " + brief(options.trim->second) + " s, but the file lasts " +
                                             brief(clock_.duration()) + " s; all to the end is taken",
@@ -122,6 +156,7 @@ class TrackClipMaker {
         const double dt = clock_.seconds(step);
 
         SourceFacts facts = common_;
+        facts.label = track.label;
         facts.frames = static_cast<int>(track.points.size());
         facts.duration = clock_.seconds(track.points.back().frame - track.points.front().frame);
         if (!in_step(steps, step)) {
@@ -141,7 +176,9 @@ class TrackClipMaker {
         ImportedClip out;
         out.id = track.id;
         out.start = clock_.time(points.front()) - (options_.trim ? options_.trim->first : 0);
-        out.clip = std::make_shared<mobb::Clip>(sample_dt, samples(points, sample_dt, facts.dt == sample_dt),
+        const double radius =
+            options_.radius ? metres_of(*options_.radius, track.id, track.label) : default_radius(track);
+        out.clip = std::make_shared<mobb::Clip>(sample_dt, samples(points, radius, sample_dt, facts.dt == sample_dt),
                                                 options_.motion.value_or(kMotionOfTracks));
         out.facts = std::move(facts);
         return out;
@@ -174,10 +211,9 @@ class TrackClipMaker {
         });
     }
 
-    std::vector<mobb::Disk> samples(std::span<const TrackPoint> points, double dt, bool as_stored) {
+    std::vector<mobb::Disk> samples(std::span<const TrackPoint> points, double radius, double dt, bool as_stored) {
         std::vector<TimedDisk> stored;
         stored.reserve(points.size());
-        const double radius = options_.radius.value_or(kDefaultTrackRadius);
         for (const TrackPoint& point : points) {
             stored.push_back({clock_.seconds(point.frame - points.front().frame),
                               {point.x * common_.unit, point.y * common_.unit, radius}});
@@ -230,7 +266,9 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
                      {"trim", "", "all of it, from the file's first frame"},
                      origin_offer()}};
     if (tracks.tracks.size() > 1) out.options.push_back(id_offer(tracks.tracks));
-    out.options.push_back({"radius", short_double(kDefaultTrackRadius), assumed_radius()});
+    const auto has_class = [](const Track& track) { return !track.label.empty(); };
+    const bool by_class = std::any_of(tracks.tracks.begin(), tracks.tracks.end(), has_class);
+    out.options.push_back({"radius", by_class ? "" : short_double(kDefaultTrackRadius), assumed_radius(tracks)});
     out.options.push_back({"dt", short_double(maker.frame_time()),
                            tracks.rate_assumption.empty() ? "as the file or its format says" : tracks.rate_assumption});
     out.options.push_back(motion_option_offer(kMotionOfTracks, "as usual of trajectories: points are far apart"));

@@ -5,9 +5,9 @@
 
 namespace mobbscope {
 
-void TrackCollector::add(const std::string& id, const TrackPoint& point) {
+void TrackCollector::add(const std::string& id, const TrackPoint& point, std::string_view label) {
     const auto [at, is_new] = index_.try_emplace(id, tracks_.size());
-    if (is_new) tracks_.push_back({id, {}});
+    if (is_new) tracks_.push_back({id, {}, std::string(label)});
     tracks_[at->second].points.push_back(point);
 }
 

@@ -31,6 +31,7 @@ struct TrackPoint {
 struct Track {
     std::string id;
     std::vector<TrackPoint> points;  ///< at least one
+    std::string label{};             ///< its class, as the file names it; empty where it does not
 
     int first_line() const { return points.front().line; }
 };
@@ -59,7 +60,8 @@ inline constexpr double kMaxFrame = 9007199254740992.0;
 /// Puts points into tracks, in any order.
 class TrackCollector {
   public:
-    void add(const std::string& id, const TrackPoint& point);
+    /// `label`: the track's class; of several the first one stays.
+    void add(const std::string& id, const TrackPoint& point, std::string_view label = {});
     bool empty() const { return tracks_.empty(); }
 
     /// The tracks, each in order of its frames. Throws InputError, naming `file` and the line, if a track is at two
@@ -81,9 +83,6 @@ TrackFile parse_trajnetpp(std::string_view text, const std::string& file);
 
 /// A plan of multi-agent path finding in YAML: `schedule:` with a list of t, x, y for each agent. Throws InputError.
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
-
-/// Metres: the radius of people whose file has none, about half a shoulder width.
-inline constexpr double kDefaultTrackRadius = 0.2;
 
 /// The clips of a file's tracks, or of the one that options.id names, each with the time at which it starts on the
 /// crowd's common clock. Stored points are the samples; options.fps resamples them. Missing frames of a track are

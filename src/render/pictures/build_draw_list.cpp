@@ -1,6 +1,7 @@
 #include <base/text.h>
 #include <crowd/simulation/choice.h>
 #include <render/pictures/build_draw_list.h>
+#include <render/pictures/candidates.h>
 #include <render/pictures/disk_projection.h>
 #include <render/pictures/kept_paths.h>
 #include <render/pictures/picture.h>
@@ -8,7 +9,9 @@
 #include <scene/crowd_scene.h>
 
 #include <memory>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope {
 
@@ -56,6 +59,22 @@ std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewSta
     const Scene& run = moves.fitted().scene();
     const auto run_agent = run_agent_by_name(*run.crowd, view.follow);
     return run_agent ? last_choice(moves, *run_agent, run_time(run, view)) : std::nullopt;
+}
+
+std::string edited_run_warning(const FittedScene& fitted, std::span<const ViewState> views) {
+    const Scene& run = fitted.scene();
+    if (!is_run(run)) return "";
+    const MoveSet moves(fitted);
+    std::set<std::pair<int, int>> seen;  // agents and plays: most pictures show the choice of the one before
+    for (const ViewState& view : views) {
+        const auto agent = run_agent_by_name(*run.crowd, view.follow);
+        if (!agent || !view.candidates) continue;
+        const auto play = last_chosen(run.crowd->agents[static_cast<std::size_t>(*agent)], run_time(run, view));
+        if (!play || !seen.emplace(*agent, *play).second) continue;
+        std::string text = edited_run_warning(run, *choice_in_view(moves, view));
+        if (!text.empty()) return text;
+    }
+    return "";
 }
 
 DrawList build_draw_list(const FittedScene& fitted, const ViewState& view, PictureSize size, double scale) {

@@ -7,6 +7,8 @@
 #include <scene/view_state.h>
 
 #include <optional>
+#include <span>
+#include <string>
 
 namespace mobbscope {
 
@@ -40,5 +42,9 @@ Camera turning_camera(KeptPaths& kept, const ViewState& view, PictureSize size);
 
 /// The last choice that a view of a run shows; none if it shows none. `moves`: of the run.
 std::optional<FollowedChoice> choice_in_view(const MoveSet& moves, const ViewState& view);
+
+/// What is said of the first choice shown in one of these views that does not come out as the run says
+/// (render/pictures/candidates.h); empty: all do, or the scene is no run.
+std::string edited_run_warning(const FittedScene& fitted, std::span<const ViewState> views);
 
 }  // namespace mobbscope

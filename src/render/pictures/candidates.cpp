@@ -263,6 +263,22 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
     return text;
 }
 
+std::string edited_run_warning(const Scene& run, const FollowedChoice& followed) {
+    if (followed.comes_out) return "";
+    const Choice& choice = followed.choice;
+    const Play& play =
+        run.crowd->agents[static_cast<std::size_t>(followed.agent)].plays[static_cast<std::size_t>(followed.play)];
+    const auto named = [&](int move, PlayKind kind) {
+        const std::string name = clip_of_move(run, move).name;
+        return kind == PlayKind::chosen ? name : name + " (" + std::string(mobbscope::name(kind)) + ')';
+    };
+    const Candidate& taken = choice.candidates[choice.taken];
+    std::string text = agent_name(run, followed.agent) + " plays " + named(play.move, play.kind) +
+                       at_time(choice.time) + ", but made again the choice is " + named(taken.move, choice.kind);
+    if (taken.move == play.move && choice.kind == play.kind) text += ", elsewhere";
+    return text + ": seed, grace, plays or clips were edited since the simulation";
+}
+
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
                                          const Metrics& metrics) {
     return Drawer(list, fitted, followed, metrics).draw();

@@ -35,6 +35,10 @@ std::string candidate_sentence(const Scene& run, const Choice& choice, std::size
 /// forced at 12.87 s, as none of its 24 moves was free: 21 ruled out by 42; 3 leave the floor".
 std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
 
+/// Of a choice that does not come out as the run says "17 plays walk (forced) at 12.87 s, but made again the choice is
+/// run: seed, grace, plays or clips were edited since the simulation"; of others nothing.
+std::string edited_run_warning(const Scene& run, const FollowedChoice& followed);
+
 /// Adds the ways: at a moment on the floor, in space-time upwards. Where one is ruled out, the two disks that meet are
 /// outlined, with a cross between them; the returned labels name the agents that rule out, each once.
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,

@@ -95,6 +95,7 @@ class CrowdPicture final : public Picture {
         OverlayContents out;
         out.caption.headlines = {headline_of(outside_ ? people_at(agents_, time_) : crowd_.agents.size(), time_)};
         out.caption.detail = choice_ ? choice_sentence(fitted_.scene(), *choice_) : window_text(seconds_);
+        if (choice_ && !choice_->comes_out) mention(out.caption, edited_run_warning(fitted_.scene(), *choice_));
         if (outside_) mention_cursor_outside(out.caption, time_, 0, crowd_.seconds);
         if (names_fit(crowd_.agents.size())) {
             out.legend = agent_entries(list_, std::span(agents_).first(crowd_.agents.size()), agents_);

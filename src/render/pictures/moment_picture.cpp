@@ -147,6 +147,7 @@ class MomentPicture final : public Picture {
         if (outside_) mention_cursor_outside(out.caption, moment_.time, bounds_.min.z, bounds_.max.z);
         if (choice_) {
             out.caption.detail = choice_sentence(fitted_.scene(), *choice_);
+            if (!choice_->comes_out) mention(out.caption, edited_run_warning(fitted_.scene(), *choice_));
             out.legend = candidate_legend(list_.palette, choice_->choice);
         }
         const std::vector<LegendEntry> who = moment_legend(list_, persons(), agents_, view_);
