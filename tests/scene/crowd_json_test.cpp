@@ -104,7 +104,7 @@ TEST(CrowdJson, ValuesAreChecked) {
         {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [[2, 0]]})"), "plan/0/0: 2 is"},
         {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [[1, 181]]})"),
          "plan/0/1: 181 is"},
-        {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [1]})"),
+        {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [[1]]})"),
          "give [move, turn in degrees]"},
         {plays(R"({"move": 0, "translate": [999999999, 0], "rotate_deg": 0, "start": 0, "plan": [[1, 0]]})"),
          "plan/0: leads beyond what can be placed"},
