@@ -178,7 +178,7 @@ LineStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette) {
         case CandidateOutcome::in_the_way:
             return {palette.overlap, 1.5f, {10, 3, 2, 3}};
         case CandidateOutcome::no_way_on:
-            return {palette.accent, 1.5f, {10, 3, 2, 3}};
+            return {palette.accent, 1.5f, {14, 4, 14, 4}};
         case CandidateOutcome::leaves_floor:
             return {palette.apart_in_time, 1.4f, {1.5f, 4, 1.5f, 4}};
         case CandidateOutcome::ruled_out:
