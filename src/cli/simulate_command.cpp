@@ -135,6 +135,7 @@ void print_run_json(const Summary& summary) {
     out.member("candidates", c.candidates);
     out.member("off_floor", c.off_floor);
     out.member("colliding", c.colliding);
+    out.member("no_way_on", c.no_way_on);
     out.member("in_the_way", c.in_the_way);
     out.member("pivots", c.pivots);
     out.member("forced", c.forced);
@@ -154,7 +155,8 @@ void print_run_text(const Summary& summary) {
     std::cout << counted(c.agents, "agent", "agents") << " for " << brief(c.simulated)
               << " s: " << counted(c.plays, "play", "plays") << ", " << counted(c.choices, "choice", "choices") << '\n'
               << counted(c.candidates, "candidate", "candidates") << ": " << c.off_floor << " leave the floor, "
-              << c.colliding << " collide, " << c.in_the_way << " end in somebody's way\n"
+              << c.colliding << " collide, " << c.no_way_on << " have no way on, " << c.in_the_way
+              << " end in somebody's way\n"
               << counted(c.pivots, "pivot", "pivots") << ", " << c.forced << " forced\n"
               << counted(c.queries, "query", "queries") << " in " << brief(summary.seconds)
               << " s: " << brief(std::round(queries_per_second(summary))) << " a second\n";
@@ -195,8 +197,8 @@ void run_simulate(const SimulateCommandArguments& arguments) {
 }  // namespace
 
 void add_simulate_command(Command& program) {
-    Command& command =
-        program.add_subcommand("simulate", "Let a crowd play the moves of a motion graph, and nobody collide");
+    Command& command = program.add_subcommand(
+        "simulate", "Let a crowd play the moves of a motion graph; nobody collides but who is forced to");
     const auto arguments = std::make_shared<SimulateCommandArguments>();
     SimulateOptions& options = arguments->options;
     add_parsed(command, "GRAPH", arguments->graph, parse_file_name,
@@ -212,6 +214,8 @@ void add_simulate_command(Command& program) {
                "Seconds before its begin at which a move is chosen (0)", "S");
     add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
                "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
+    add_parsed(command, "--plan", options.plan, number_within(0, kMaxSimulated),
+               "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (4)", "S");
     add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
     const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
                                      "Queries that the trees were asked, as a scene", "FILE.json");

@@ -68,6 +68,7 @@ Workload crowd_queries(Scene scene, SimulateOptions options, int queries, const 
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
     options.ahead = kChosenAhead;
+    options.plan = 0;
     QuerySample sample(Recorded::all, static_cast<std::size_t>(queries), options.seed, kAskedWithin);
     simulate(MoveSet(fitted), options, &sample, progress);
     return workload_of_scene(sample.workload(fitted.scene()));

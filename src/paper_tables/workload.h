@@ -54,7 +54,8 @@ inline constexpr double kChosenAhead = 2.5;  ///< seconds before its begin at wh
 
 /// Lets a crowd play the scene's graph, or without one its clips whole and back to back, and takes a sample of
 /// `queries` of the pairs of a candidate and another agent's reserved motion within kAskedWithin (0: all of them).
-/// `options.ahead` becomes kChosenAhead. Throws InputError as simulate does.
+/// `options.ahead` becomes kChosenAhead, `options.plan` 0: the paper's agents
+/// plan nothing. Throws InputError as simulate does.
 Workload crowd_queries(Scene scene, SimulateOptions options, int queries, const SimulationProgress& progress = {});
 
 /// Made-up walks for those who have no motion capture at hand, about as fast, as wide and as winding as people's:

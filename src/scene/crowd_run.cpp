@@ -33,7 +33,7 @@ class CrowdReader {
         if (!scene_.agents.empty() || !scene_.queries.empty()) {
             place_.fail("a scene has a crowd, or agents and queries, not both; remove one");
         }
-        place_.allow_only({"area", "seconds", "seed", "ahead", "grace", "agents"});
+        place_.allow_only({"area", "seconds", "seed", "ahead", "grace", "plan", "agents"});
         CrowdRun run;
         const JsonPlace area = place_.require("area");
         area.require_size(2, "[width, depth] in metres");
@@ -42,6 +42,7 @@ class CrowdReader {
         run.seed = read_seed(place_.require("seed"));
         if (const auto ahead = place_.find("ahead")) run.ahead = ahead->number(0, mobb::kMaxTime);
         if (const auto grace = place_.find("grace")) run.grace = grace->number(0, mobb::kMaxTime);
+        if (const auto plan = place_.find("plan")) run.plan = plan->number(0, mobb::kMaxTime);
         const JsonPlace agents = place_.require("agents");
         if (agents.size() == 0) agents.fail("there is no agent; add one");
         for (int i = 0; i < agents.size(); ++i) run.agents.push_back(read_agent(agents[i]));
@@ -83,7 +84,7 @@ class CrowdReader {
     }
 
     Play read_play(const JsonPlace& place) const {
-        place.allow_only({"move", "translate", "rotate_deg", "start", "chosen_at", "kind"});
+        place.allow_only({"move", "translate", "rotate_deg", "start", "chosen_at", "kind", "plan"});
         Play play;
         const JsonPlace move = place.require("move");
         play.move = move.integer(0, static_cast<int>(scene_.graph->moves.size()) - 1);
@@ -93,7 +94,33 @@ class CrowdReader {
         const auto chosen_at = place.find("chosen_at");
         play.chosen_at = chosen_at ? chosen_at->number(-mobb::kMaxTime, play.placement.start) : play.placement.start;
         if (const auto kind = place.find("kind")) play.kind = read_kind(*kind);
+        if (const auto plan = place.find("plan")) play.plan = read_plan(*plan, play);
         return play;
+    }
+
+    std::vector<PlannedMove> read_plan(const JsonPlace& place, const Play& play) const {
+        std::vector<PlannedMove> out;
+        int last = play.move;
+        mobb::Placement at = play.placement;
+        for (int i = 0; i < place.size(); ++i) {
+            const JsonPlace pair = place[i];
+            pair.require_size(2, "[move, turn in degrees]");
+            const JsonPlace move = pair[0], turn = pair[1];
+            const PlannedMove next{move.integer(0, static_cast<int>(scene_.graph->moves.size()) - 1),
+                                   turn.number(-180, 180)};
+            const GraphMove& from = scene_.graph->moves[static_cast<std::size_t>(last)];
+            const GraphMove& to = scene_.graph->moves[static_cast<std::size_t>(next.move)];
+            if (from.to != to.from) {
+                pair.fail("begins in hub " + hub(to.from) + ", but the move before ends in " + hub(from.to));
+            }
+            Stance exit = from.exit;
+            exit.heading_deg += next.turn_deg;
+            at = following(at, exit, scene_.clips[static_cast<std::size_t>(from.clip)].clip->duration(), to.entry);
+            if (!mobb::is_valid(at)) pair.fail("leads beyond what can be placed; leave it out");
+            last = next.move;
+            out.push_back(next);
+        }
+        return out;
     }
 
     void check_joint(const JsonPlace& place, const Play& before, const Play& play) const {
@@ -143,6 +170,14 @@ void write_play(JsonWriter& out, const Play& play) {
     out.member("start", play.placement.start);
     if (play.chosen_at != play.placement.start) out.member("chosen_at", play.chosen_at);
     if (play.kind != PlayKind::chosen) out.member("kind", name(play.kind));
+    if (!play.plan.empty()) {
+        out.list("plan", play.plan, [&](const PlannedMove& next) {
+            out.begin_array();
+            out.value(next.move);
+            out.value(next.turn_deg);
+            out.end_array();
+        });
+    }
     out.end_object();
 }
 
@@ -161,6 +196,7 @@ void write_crowd(JsonWriter& out, const CrowdRun& crowd) {
     out.member("seed", crowd.seed);
     out.member("ahead", crowd.ahead);
     out.member("grace", crowd.grace);
+    if (crowd.plan != 0) out.member("plan", crowd.plan);
     out.list("agents", crowd.agents, [&](const CrowdAgent& agent) {
         out.begin_object();
         out.member("name", agent.name);

@@ -19,14 +19,21 @@ namespace mobbscope {
 
 /// Why an agent plays a move.
 enum class PlayKind : std::uint8_t {
-    chosen,   ///< taken at random from the candidates that collide with nobody, stay on the floor and end in nobody's
-              ///< way
+    chosen,   ///< taken at random from the candidates that collide with nobody, stay on the floor, end in nobody's way
+              ///< and have a way on; or straight on, of those that are best
     pivoted,  ///< none was left: the agent turned on the spot before one that was
     forced,   ///< none was free at any heading: the one whose first contact is latest, or shortest. It may collide
 };
 
 /// As files name it: "chosen", "pivoted", "forced".
 std::string_view name(PlayKind kind);
+
+/// A move that may follow another, and how far the agent turns on the spot before it.
+struct PlannedMove {
+    int move = 0;         ///< index into MotionGraph::moves
+    double turn_deg = 0;  ///< counter-clockwise
+    friend bool operator==(const PlannedMove&, const PlannedMove&) = default;
+};
 
 /// A move as an agent plays it.
 struct Play {
@@ -36,6 +43,8 @@ struct Play {
     /// choices of one time are made in the order of agents, and of one agent in the order of plays.
     double chosen_at = 0;
     PlayKind kind = PlayKind::chosen;
+    /// Moves that can follow, back to back: their room is the agent's until it chooses again.
+    std::vector<PlannedMove> plan{};
     friend bool operator==(const Play&, const Play&) = default;
 };
 
@@ -54,6 +63,7 @@ struct CrowdRun {
     std::uint64_t seed = 1;   ///< at most kMaxSeed
     double ahead = 0;         ///< seconds before its begin at which a move is chosen; 0: at the end of the one before
     double grace = 1;         ///< seconds for which agents keep out of each other's way where moves end; 0: not at all
+    double plan = 0;          ///< seconds for which each choice plans how to go on; 0: not at all, as earlier versions
     std::vector<CrowdAgent> agents;
     friend bool operator==(const CrowdRun&, const CrowdRun&) = default;
 };

@@ -98,7 +98,7 @@ TEST_F(Simulate, TheSummaryAsJson) {
     const json summary = json::parse(result.out);
     EXPECT_EQ(testing::keys(summary),
               (std::set<std::string>{"agents", "simulated_seconds", "plays", "choices", "candidates", "off_floor",
-                                     "colliding", "in_the_way", "pivots", "forced", "queries", "most_held",
+                                     "colliding", "no_way_on", "in_the_way", "pivots", "forced", "queries", "most_held",
                                      "wall_seconds", "queries_per_second"}));
     const Scene scene = load_scene(run);
     std::size_t plays = 0;
@@ -142,11 +142,13 @@ TEST_F(Simulate, WholeClipsOfAFolder) {
 
 TEST_F(Simulate, BadUsageIsRefusedAndNothingWritten) {
     const std::vector<std::vector<std::string>> cases = {
-        {"--agents", "0"},     {"--agents", "x"},         {"--area", "30"},       {"--area", "30x"},
-        {"--area", "-3x4"},    {"--seconds", "0"},        {"--seed", "1.5"},      {"--seed", "-1"},
-        {"--ahead", "-1"},     {"--grace", "-1"},         {"--threads", "0"},     {"--record", ""},
-        {"--record", "q.csv"}, {"--record-queries", "5"}, {"--record-all-pairs"}, {"--record", run},
-        {"--area", "2x2"},     {"-o", run + ".png"},      {"--area", "1e9x1"},    {"--seed", "9007199254740993"},
+        {"--agents", "0"},      {"--agents", "x"},     {"--area", "30"},
+        {"--area", "30x"},      {"--area", "-3x4"},    {"--seconds", "0"},
+        {"--seed", "1.5"},      {"--seed", "-1"},      {"--plan", "-1"},
+        {"--ahead", "-1"},      {"--grace", "-1"},     {"--threads", "0"},
+        {"--record", ""},       {"--record", "q.csv"}, {"--record-queries", "5"},
+        {"--record-all-pairs"}, {"--record", run},     {"--area", "2x2"},
+        {"-o", run + ".png"},   {"--area", "1e9x1"},   {"--seed", "9007199254740993"},
     };
     for (const std::vector<std::string>& more : cases) {
         std::vector<std::string> arguments{"simulate", graph.string()};

@@ -2,6 +2,7 @@
 #include "walker_moves.h"
 
 #include <crowd/simulation/choice.h>
+#include <crowd/simulation/plan_search.h>
 #include <crowd/simulation/simulate.h>
 
 #include <gtest/gtest.h>
@@ -17,13 +18,14 @@ class ChoiceTest : public ::testing::Test {
     const FittedScene fitted{testing::walker_scene(), {}};
     const MoveSet moves{fitted};
 
-    Simulation run(std::uint64_t seed, double ahead) const {
+    Simulation run(std::uint64_t seed, double ahead, double plan = 4) const {
         SimulateOptions options;
         options.agents = 30;
         options.area = {13, 13};
         options.seconds = 20;
         options.seed = seed;
         options.ahead = ahead;
+        options.plan = plan;
         return simulate(moves, options);
     }
 
@@ -41,7 +43,8 @@ class ChoiceTest : public ::testing::Test {
                 EXPECT_TRUE(comes_out_as(play, choice));
                 EXPECT_EQ(taken.move, play.move);
                 EXPECT_EQ(taken.placement, play.placement);
-                EXPECT_EQ(taken.is_free(), play.kind != PlayKind::forced);
+                EXPECT_EQ(choice.plan, play.plan);
+                EXPECT_EQ(taken.is_free() || taken.blocker->planned > 0, play.kind != PlayKind::forced);
                 if (play.kind != PlayKind::forced) {
                     EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
                 }
@@ -50,6 +53,7 @@ class ChoiceTest : public ::testing::Test {
                 for (const Candidate& candidate : choice.candidates) {
                     counts.off_floor += candidate.leaves_floor;
                     counts.colliding += !candidate.leaves_floor && candidate.blocker;
+                    counts.no_way_on += candidate.is_free() && candidate.no_way_on;
                     if (candidate.blocker) {
                         EXPECT_NE(candidate.blocker->agent, agent);
                     }
@@ -60,12 +64,9 @@ class ChoiceTest : public ::testing::Test {
         EXPECT_EQ(counts.queries, simulation.counts.queries);
         EXPECT_EQ(counts.off_floor, simulation.counts.off_floor);
         EXPECT_EQ(counts.colliding, simulation.counts.colliding);
+        EXPECT_EQ(counts.no_way_on, simulation.counts.no_way_on);
     }
 };
-
-TEST_F(ChoiceTest, EveryChoiceOfARunIsMadeAgain) { expect_same(run(1, 0)); }
-
-TEST_F(ChoiceTest, EveryChoiceOfARunWithAHorizonIsMadeAgain) { expect_same(run(2, 3)); }
 
 /// How many choices of a run do not come out as it says.
 std::size_t others(const MoveSet& moves, const CrowdRun& run) {
@@ -101,17 +102,6 @@ TEST_F(ChoiceTest, ChoicesOfAnEditedRunDoNotComeOut) {
     EXPECT_GT(others(MoveSet(fitted_wider), simulated), 0u) << "other sources";
 }
 
-TEST_F(ChoiceTest, AFirstPlayWasPlaced) {
-    const Simulation simulation = run(1, 0);
-    const Choice choice = choice_of(moves, simulation.run, 4, 0);
-    ASSERT_EQ(choice.candidates.size(), 1u);
-    EXPECT_EQ(choice.candidates[0].placement, simulation.run.agents[4].plays[0].placement);
-    EXPECT_TRUE(choice.candidates[0].is_free());
-    EXPECT_THROW(choice_of(moves, simulation.run, 30, 0), std::out_of_range);
-    EXPECT_THROW(choice_of(moves, simulation.run, -1, 0), std::out_of_range);
-    EXPECT_THROW(choice_of(moves, simulation.run, 0, 1000), std::out_of_range);
-}
-
 /// An agent at the left wall that walks into it.
 ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area) {
     ChoicePoint point;
@@ -123,6 +113,99 @@ ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area) {
     point.before.placement.translate = {-area.x / 2 + 0.7 + exit, 0};
     point.time = moves.duration(0);
     return point;
+}
+
+TEST_F(ChoiceTest, EveryChoiceOfARunIsMadeAgain) { expect_same(run(1, 0)); }
+
+TEST_F(ChoiceTest, EveryChoiceOfARunWithAHorizonIsMadeAgain) { expect_same(run(2, 3)); }
+
+TEST_F(ChoiceTest, EveryChoiceOfARunWithoutPlansIsMadeAgain) {
+    const Simulation simulation = run(1, 0, 0);
+    expect_same(simulation);
+    EXPECT_EQ(simulation.counts.no_way_on, 0);
+}
+
+TEST_F(ChoiceTest, WhatWasPlannedStaysFreeUntilTheNextChoice) {
+    for (const double ahead : {0.0, 3.0}) {
+        const Simulation simulation = run(3, ahead);
+        ASSERT_EQ(simulation.counts.forced, 0);
+        EXPECT_GT(simulation.counts.no_way_on, 0);
+        int asked = 0;
+        for (int agent = 0; agent < 30; ++agent) {
+            const std::vector<Play>& plays = simulation.run.agents[static_cast<std::size_t>(agent)].plays;
+            for (int i = 1; i < static_cast<int>(plays.size()); ++i) {
+                const Play& before = plays[static_cast<std::size_t>(i) - 1];
+                if (before.plan.empty()) continue;
+                for (const Candidate& candidate : choice_of(moves, simulation.run, agent, i).candidates) {
+                    if (candidate.move != before.plan[0].move || candidate.turn_deg != before.plan[0].turn_deg)
+                        continue;
+                    EXPECT_TRUE(candidate.is_free()) << agent << " " << i;
+                    ++asked;
+                }
+            }
+        }
+        EXPECT_GT(asked, 100);
+    }
+}
+
+TEST_F(ChoiceTest, APlanIsRoomThatIsKept) {
+    CrowdRun crowd;
+    crowd.area = {30, 30};
+    crowd.plan = 1;
+    ReservationTable reservations(moves, crowd.area, 0);
+    ChoicePoint point;
+    point.play = 1;
+    point.time = moves.duration(0);
+    // Agent 1 ends 3.5 m before agent 0 just then, and plans to go on towards it.
+    const double exit = moves.move(0).exit.position.x;
+    const Play other{0, {{2 * exit + 3.5, 0}, 180, 0}, 0, PlayKind::chosen, {{0, 0}, {2, 15}}};
+    reservations.reserve(1, 0, other);
+    const auto met = [&] {
+        int planned = 0;
+        for (const Candidate& candidate : choose(moves, reservations, crowd, point).candidates) {
+            if (!candidate.blocker) continue;
+            EXPECT_EQ(candidate.blocker->play, 0);
+            EXPECT_GE(candidate.blocker->planned, 1);
+            ++planned;
+        }
+        return planned;
+    };
+    EXPECT_GT(met(), 0);
+    // Once it has chosen another way the room is free.
+    reservations.reserve(1, 1, {0, {{2 * exit + 3.5, 20}, 180, point.time}, point.time, PlayKind::chosen, {}});
+    EXPECT_EQ(met(), 0);
+}
+
+TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
+    CrowdRun crowd;
+    crowd.area = {20, 20};
+    crowd.plan = 4;
+    ReservationTable reservations(moves, crowd.area, crowd.grace);
+    const ChoicePoint point = at_wall(moves, crowd.area);
+    const Choice choice = choose(moves, reservations, crowd, point);
+    EXPECT_FALSE(choice.candidates[choice.taken].no_way_on);
+    double seconds = 0;
+    for (const PlannedMove& next : choice.plan) seconds += moves.duration(next.move);
+    EXPECT_GE(seconds, 4);
+    EXPECT_LT(seconds - moves.duration(choice.plan.back().move), 4);
+    // Where the floor leaves no second step the first is taken that there is.
+    crowd.area = {2.1, 2.1};
+    crowd.grace = 0;
+    ReservationTable alone(moves, crowd.area, 0);
+    PlanSearch search(moves, alone, crowd, 0, 1);
+    EXPECT_FALSE(search.look(0, {{50, 50}, 0, 0}));
+    EXPECT_TRUE(search.plan().empty());
+}
+
+TEST_F(ChoiceTest, AFirstPlayWasPlaced) {
+    const Simulation simulation = run(1, 0);
+    const Choice choice = choice_of(moves, simulation.run, 4, 0);
+    ASSERT_EQ(choice.candidates.size(), 1u);
+    EXPECT_EQ(choice.candidates[0].placement, simulation.run.agents[4].plays[0].placement);
+    EXPECT_TRUE(choice.candidates[0].is_free());
+    EXPECT_THROW(choice_of(moves, simulation.run, 30, 0), std::out_of_range);
+    EXPECT_THROW(choice_of(moves, simulation.run, -1, 0), std::out_of_range);
+    EXPECT_THROW(choice_of(moves, simulation.run, 0, 1000), std::out_of_range);
 }
 
 TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {

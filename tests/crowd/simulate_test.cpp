@@ -75,6 +75,20 @@ TEST_F(Simulate, NobodyCollidesButWhoIsForcedTo) {
     EXPECT_GT(free_pairs, 1000);
 }
 
+TEST_F(Simulate, AWayOnThatIsPlannedLeavesHardlyAnyForced) {
+    std::int64_t without = 0, with = 0;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        SimulateOptions options = small_crowd(seed);
+        options.agents = 34;
+        options.plan = 0;
+        without += simulate(moves, options).counts.forced;
+        options.plan = 4;
+        with += simulate(moves, options).counts.forced;
+    }
+    EXPECT_GT(without, 20);
+    EXPECT_LE(20 * with, without);
+}
+
 TEST_F(Simulate, NobodyLeavesTheFloor) {
     const Simulation simulation = simulate(moves, small_crowd(4));
     for (const CrowdAgent& agent : simulation.run.agents) {
@@ -197,6 +211,7 @@ TEST_F(Simulate, OptionsOutOfRangeAreRefused) {
     refused([](SimulateOptions& o) { o.area.y = std::nan(""); });
     refused([](SimulateOptions& o) { o.seconds = -1; });
     refused([](SimulateOptions& o) { o.ahead = -1; });
+    refused([](SimulateOptions& o) { o.plan = -1; });
     refused([](SimulateOptions& o) { o.seed = kMaxSeed + 2; });
     refused([](SimulateOptions& o) { o.threads = -1; });
 }

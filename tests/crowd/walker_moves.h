@@ -45,12 +45,14 @@ inline mobb::Placement following(const Scene& scene, int before, const mobb::Pla
     return mobbscope::following(placed, from.exit, duration, to.entry);
 }
 
-/// What `agents` do with the scene's graph in 20 s on a floor of `area` metres, as its crowd.
-inline Scene with_run(Scene scene, int agents, glm::dvec2 area) {
+/// What `agents` do with the scene's graph in 20 s on a floor of `area` metres, as its crowd. Without a plan some are
+/// forced where it is narrow.
+inline Scene with_run(Scene scene, int agents, glm::dvec2 area, double plan = 0) {
     SimulateOptions options;
     options.agents = agents;
     options.area = area;
     options.seconds = 20;
+    options.plan = plan;
     const FittedScene fitted(scene, {});
     scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
     return scene;

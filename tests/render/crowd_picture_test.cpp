@@ -275,6 +275,18 @@ TEST_F(CrowdPicture, TheSentenceKeepsFatesApart) {
     EXPECT_EQ(choice_sentence(run.scene(), followed),
               named(4) + " chose among 6 moves at 2.50 s: 1 free; 2 ruled out by " + named(5) + ", " + named(7) +
                   "; 2 in the way of others; 1 leaves the floor");
+    Candidate no_way_on;
+    no_way_on.no_way_on = true;
+    Candidate against_plan = met(5);
+    against_plan.blocker->planned = 2;
+    followed.choice.candidates = {free, no_way_on, against_plan};
+    EXPECT_EQ(choice_sentence(run.scene(), followed),
+              named(4) + " chose among 3 moves at 2.50 s: 1 free; 1 ruled out by " + named(5) + "; 1 has no way on");
+    EXPECT_EQ(outcome_of(followed.choice, 1), CandidateOutcome::no_way_on);
+    const std::string clip = run.scene().clips[0].name;
+    EXPECT_EQ(candidate_sentence(run.scene(), followed.choice, 1), clip + ": no way on");
+    EXPECT_EQ(candidate_sentence(run.scene(), followed.choice, 2),
+              clip + ": meets what " + named(5) + " plans at 0.00 s");
     followed.choice.kind = PlayKind::forced;
     followed.choice.candidates = {met(5), off, off};
     EXPECT_EQ(choice_sentence(run.scene(), followed),
@@ -287,7 +299,8 @@ TEST_F(CrowdPicture, TheSentenceKeepsFatesApart) {
 
 TEST(Candidates, EveryFateHasAColourAndALineOfItsOwn) {
     const Palette& colors = palette(Theme::dark);
-    const CandidateOutcome all[] = {CandidateOutcome::taken, CandidateOutcome::free, CandidateOutcome::in_the_way,
+    const CandidateOutcome all[] = {CandidateOutcome::taken,        CandidateOutcome::free,
+                                    CandidateOutcome::in_the_way,   CandidateOutcome::no_way_on,
                                     CandidateOutcome::leaves_floor, CandidateOutcome::ruled_out};
     for (const CandidateOutcome a : all) {
         for (const CandidateOutcome b : all) {

@@ -34,10 +34,11 @@ std::string crowd_refusal(const std::string& text) {
 
 TEST(CrowdJson, ARunIsReadWrittenAndReadAgain) {
     const Scene scene = parse_scene(
-        kHead + R"("crowd": {"area": [30.5, 40], "seconds": 5, "seed": 9007199254740992, "ahead": 0.25, "grace": 2,
+        kHead +
+            R"("crowd": {"area": [30.5, 40], "seconds": 5, "seed": 9007199254740992, "ahead": 0.25, "grace": 2, "plan": 4,
         "agents": [{"name": "1", "plays": [)" +
             kFirst + R"(,
-          {"move": 1, "translate": [3, 6], "rotate_deg": 90, "start": 1.5, "chosen_at": 1.25},
+          {"move": 1, "translate": [3, 6], "rotate_deg": 90, "start": 1.5, "chosen_at": 1.25, "plan": [[0, 0], [1, -15]]},
           {"move": 0, "translate": [1, 7], "rotate_deg": 195, "start": 2.5, "chosen_at": 2.25, "kind": "pivoted"},
           {"move": 1, "translate": [-0.93185165257813651, 6.4823619097949585], "rotate_deg": 15, "start": 4.5,
            "kind": "forced"}]},
@@ -48,11 +49,12 @@ TEST(CrowdJson, ARunIsReadWrittenAndReadAgain) {
     EXPECT_EQ(run.seed, kMaxSeed);
     EXPECT_EQ(run.ahead, 0.25);
     EXPECT_EQ(run.grace, 2);
+    EXPECT_EQ(run.plan, 4);
     ASSERT_EQ(run.agents.size(), 2u);
     EXPECT_EQ(run.agents[1].name, "two");
     const std::vector<Play> expected{
         {0, {{3, 4}, 90, -0.5}, -0.5, PlayKind::chosen},
-        {1, {{3, 6}, 90, 1.5}, 1.25, PlayKind::chosen},
+        {1, {{3, 6}, 90, 1.5}, 1.25, PlayKind::chosen, {{0, 0}, {1, -15}}},
         {0, {{1, 7}, 195, 2.5}, 2.25, PlayKind::pivoted},
         {1, {{-0.93185165257813651, 6.4823619097949585}, 15, 4.5}, 4.5, PlayKind::forced},
     };
@@ -97,6 +99,16 @@ TEST(CrowdJson, ValuesAreChecked) {
         {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "kind": "forsed"})"),
          "plays/0/kind: 'forsed' is no kind of play; give chosen, pivoted, forced"},
         {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "clip": "a"})"), "unknown key 'clip'"},
+        {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [[1, 0], [1, 0]]})"),
+         "plays/0/plan/1: begins in hub 'right', but the move before ends in 'left'"},
+        {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [[2, 0]]})"), "plan/0/0: 2 is"},
+        {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [[1, 181]]})"),
+         "plan/0/1: 181 is"},
+        {plays(R"({"move": 0, "translate": [0, 0], "rotate_deg": 0, "start": 0, "plan": [[1]]})"),
+         "give [move, turn in degrees]"},
+        {plays(R"({"move": 0, "translate": [999999999, 0], "rotate_deg": 0, "start": 0, "plan": [[1, 0]]})"),
+         "plan/0: leads beyond what can be placed"},
+        {kHead + R"("crowd": {"area": [1, 1], "seconds": 1, "seed": 1, "plan": -1, "agents": []}})", "/plan: -1 is"},
         {plays(""), "/crowd/agents/0/plays: an agent plays one move at least; add one"},
         {crowd("[]"), "/crowd/agents: there is no agent; add one"},
         {crowd(R"([{"name": "", "plays": []}])"), "an agent needs a name"},

@@ -139,7 +139,7 @@ void open_candidate(Session& session, const std::string& text) {
     const CrowdRun& run = *session.crowd();
     const auto clip_of = [&](int move) { return session.scene().graph->moves[static_cast<std::size_t>(move)].clip; };
     const CrowdAgent& other = run.agents[static_cast<std::size_t>(candidate->blocker->agent)];
-    const Play& play = other.plays[static_cast<std::size_t>(candidate->blocker->play)];
+    const Play play = blocking_play(session.scene(), *candidate->blocker);
     session.open_excerpt({session.view().follow, clip_of(candidate->move), candidate->placement, -1},
                          {other.name, clip_of(play.move), play.placement, -1});
 }

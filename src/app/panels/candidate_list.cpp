@@ -55,7 +55,8 @@ std::string remark_of(const Session& session, const Choice& choice, std::size_t 
     if (outcome == CandidateOutcome::leaves_floor) return "off floor";
     if (outcome != CandidateOutcome::ruled_out) return std::string(outcome_words(outcome));
     const std::string& other = session.crowd()->agents[static_cast<std::size_t>(candidate.blocker->agent)].name;
-    return shortened(cleaned(other), 16) + formatted(" at %.2f s", candidate.blocker->contact.time);
+    return shortened(cleaned(other), 16) + (candidate.blocker->planned > 0 ? "'s plan" : "") +
+           formatted(" at %.2f s", candidate.blocker->contact.time);
 }
 
 /// What a row says and is ordered by.
@@ -77,7 +78,7 @@ bool has_text(const ListedCandidate& candidate, const std::string& text) {
 
 /// What was taken first, then why the others were not.
 int rank_of(CandidateOutcome outcome) {
-    constexpr std::array<int, 5> kRanks{0, 2, 3, 4, 1};
+    constexpr std::array<int, 6> kRanks{0, 2, 3, 4, 5, 1};
     return kRanks[static_cast<std::size_t>(outcome)];
 }
 
@@ -87,7 +88,8 @@ std::vector<ListedCandidate> listed(const Session& session, const Choice& choice
     std::vector<ListedCandidate> out;
     for (const std::size_t index : shown_candidates(choice)) {
         const Candidate& candidate = choice.candidates[index];
-        if (list.which != Which::all && candidate.is_free() != (list.which == Which::free)) continue;
+        const bool is_free = candidate.is_free() && outcome_of(choice, index) != CandidateOutcome::no_way_on;
+        if (list.which != Which::all && is_free != (list.which == Which::free)) continue;
         ListedCandidate row{index, move_name(session, candidate), remark_of(session, choice, index),
                             outcome_of(choice, index)};
         if (candidate.blocker) row.contact = candidate.blocker->contact.time;

@@ -1,12 +1,14 @@
 #include <base/error.h>
 #include <base/random.h>
 #include <crowd/simulation/choice.h>
+#include <crowd/simulation/plan_search.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -14,40 +16,42 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kTurnStep = 15;  // degrees
-constexpr double kHalfTurn = 180;
 constexpr double kSamePlace = 1e-6;  // metres, degrees: as precisely as plays must join
 
 class Chooser {
   public:
     Chooser(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
             std::vector<AskedPair>* asked)
-        : moves_(moves), reservations_(reservations), run_(run), point_(point), asked_(asked) {
+        : moves_(moves),
+          reservations_(reservations),
+          run_(run),
+          point_(point),
+          asked_(asked),
+          search_(moves, reservations, run, point.agent, point.play, asked) {
         choice_.time = point.time;
     }
 
     Choice choose() {
-        std::size_t straight = 0;
-        for (int step = 0; step * kTurnStep <= kHalfTurn; ++step) {
-            const double turn = step * kTurnStep;
+        for (std::size_t turn = 0; turn < kTurns.size();) {
             const std::size_t first = choice_.candidates.size();
-            add_candidates(turn);
-            if (turn > 0 && turn < kHalfTurn) add_candidates(-turn);
-            if (turn == 0) straight = choice_.candidates.size();
+            // Both ways by one angle belong together.
+            const double angle = std::abs(kTurns[turn]);
+            for (; turn < kTurns.size() && std::abs(kTurns[turn]) == angle; ++turn) add_candidates(kTurns[turn]);
             check_candidates(first);
-            if (take_clear()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
+            if (take_clear(first)) return done();
         }
-        if (take_free()) return done(choice_.taken < straight ? PlayKind::chosen : PlayKind::pivoted);
+        if (take_in_the_way() || take_longest_plan() || take_against_plans()) return done();
         take_latest();
-        return done(PlayKind::forced);
+        choice_.kind = PlayKind::forced;
+        return std::move(choice_);
     }
 
   private:
     void add_candidates(double turn) {
         const Play& before = point_.before;
         for (const int move : moves_.after(before.move)) {
-            Candidate candidate{move,  turn, moves_.following(before.move, before.placement, move, turn),
-                                false, {},   false};
+            Candidate candidate{move,  turn, moves_.following(before.move, before.placement, move, turn), false, {},
+                                false, false};
             // A graph whose moves lead far away would in the end leave what can be placed.
             if (!mobb::is_valid(candidate.placement)) continue;
             const mobb::PlacedClip placed(moves_.tree(move).clip(), candidate.placement);
@@ -70,8 +74,8 @@ class Chooser {
         return out;
     }
 
-    Choice done(PlayKind kind) {
-        choice_.kind = kind;
+    Choice done() {
+        choice_.kind = choice_.candidates[choice_.taken].turn_deg == 0 ? PlayKind::chosen : PlayKind::pivoted;
         return std::move(choice_);
     }
 
@@ -90,30 +94,91 @@ class Chooser {
 
     /// Of the candidates from `first` on that leave the floor, or of those that do not.
     void find_blockers(std::size_t first, bool off_floor) {
-        const std::vector<std::size_t> of =
-            those(first, [&](const Candidate& candidate) { return candidate.leaves_floor == off_floor; });
-        std::vector<PlayedMove> motions;
-        for (const std::size_t i : of) motions.push_back(motion_of(choice_.candidates[i]));
-        const std::vector<CandidateCheck> checks = reservations_.motions().check_all(motions, asked_);
-        for (std::size_t i = 0; i < of.size(); ++i) {
-            choice_.candidates[of[i]].blocker = checks[i].blocker;
-            choice_.queries += checks[i].asked;
+        const auto against = [&](const ReservationGrid& grid, const auto& condition) {
+            const std::vector<std::size_t> of = those(first, condition);
+            std::vector<PlayedMove> motions;
+            for (const std::size_t i : of) motions.push_back(motion_of(choice_.candidates[i]));
+            const std::vector<CandidateCheck> checks = grid.check_all(motions, asked_);
+            for (std::size_t i = 0; i < of.size(); ++i) {
+                choice_.candidates[of[i]].blocker = checks[i].blocker;
+                choice_.queries += checks[i].asked;
+            }
+        };
+        const auto asked = [&](const Candidate& candidate) { return candidate.leaves_floor == off_floor; };
+        against(reservations_.motions(), asked);
+        against(reservations_.plans(),
+                [&](const Candidate& candidate) { return asked(candidate) && !candidate.blocker; });
+    }
+
+    /// One of the free candidates that are in nobody's way and have a way on. At most one heading either way has any:
+    /// the last.
+    bool take_clear(std::size_t first) {
+        return take_with_way_on(
+            first, [](const Candidate& candidate) { return candidate.is_free() && !candidate.in_the_way; });
+    }
+
+    bool take_in_the_way() {
+        return take_at_least_turn(
+            [](const Candidate& candidate) { return candidate.is_free() && candidate.in_the_way; });
+    }
+
+    /// Of the free candidates, none of which has a way on.
+    bool take_longest_plan() {
+        if (!longest_) return false;
+        choice_.taken = *longest_;
+        choice_.plan = longest_plan_;
+        return true;
+    }
+
+    /// Whoever planned to go there may have to choose something else.
+    bool take_against_plans() {
+        return take_at_least_turn([](const Candidate& candidate) {
+                   return !candidate.leaves_floor && candidate.blocker && candidate.blocker->planned > 0;
+               }) ||
+               take_longest_plan();
+    }
+
+    template <class Allowed>
+    bool take_at_least_turn(const Allowed& allowed) {
+        return std::ranges::any_of(kTurns, [&](double turn) {
+            return turn >= 0 && take_with_way_on(0, [&](const Candidate& candidate) {
+                       return std::abs(candidate.turn_deg) == turn && allowed(candidate);
+                   });
+        });
+    }
+
+    /// Draws from the candidates from `first` on that meet a condition until one has a way on, and takes it.
+    template <class Allowed>
+    bool take_with_way_on(std::size_t first, const Allowed& allowed) {
+        std::vector<std::size_t> indices = those(first, allowed);
+        CounterRandom random = draws();
+        while (!indices.empty()) {
+            const auto drawn = indices.begin() + random.below(static_cast<std::uint32_t>(indices.size()));
+            if (has_way_on(*drawn)) {
+                choice_.taken = *drawn;
+                choice_.plan = search_.plan();
+                return true;
+            }
+            indices.erase(drawn);
         }
+        return false;
     }
 
-    /// One of the free candidates that are in nobody's way. At most one heading either way has any: the last.
-    bool take_clear() {
-        return take_one_of([](const Candidate& candidate) { return candidate.is_free() && !candidate.in_the_way; });
-    }
-
-    /// One of the free candidates at the least turn that has any.
-    bool take_free() {
-        const auto first = std::find_if(choice_.candidates.begin(), choice_.candidates.end(),
-                                        [](const Candidate& candidate) { return candidate.is_free(); });
-        if (first == choice_.candidates.end()) return false;
-        const double turn = std::abs(first->turn_deg);
-        return take_one_of(
-            [turn](const Candidate& candidate) { return candidate.is_free() && std::abs(candidate.turn_deg) == turn; });
+    bool has_way_on(std::size_t index) {
+        Candidate& candidate = choice_.candidates[index];
+        std::span<const PlannedMove> kept = point_.before.plan;
+        const bool was_planned =
+            !kept.empty() && kept[0].move == candidate.move && kept[0].turn_deg == candidate.turn_deg;
+        kept = was_planned ? kept.subspan(1) : kept.first(0);
+        const std::int64_t before = search_.queries();
+        candidate.no_way_on = !search_.look(candidate.move, candidate.placement, kept);
+        choice_.queries += search_.queries() - before;
+        if (candidate.no_way_on && (!longest_ || search_.seconds() > longest_seconds_)) {
+            longest_ = index;
+            longest_plan_ = search_.plan();
+            longest_seconds_ = search_.seconds();
+        }
+        return !candidate.no_way_on;
     }
 
     void take_latest() {
@@ -139,25 +204,20 @@ class Chooser {
         for (const Candidate& candidate : choice_.candidates) {
             if (is_latest(candidate)) shortest = std::min(shortest, seconds_of_contact(candidate));
         }
-        take_one_of([&](const Candidate& candidate) {
+        const std::vector<std::size_t> best = those(0, [&](const Candidate& candidate) {
             return is_latest(candidate) && seconds_of_contact(candidate) == shortest;
         });
+        choice_.taken = best[draws().below(static_cast<std::uint32_t>(best.size()))];
     }
 
     /// With the motion that rules it out.
     double seconds_of_contact(const Candidate& candidate) const {
-        if (!candidate.blocker) return 0;
+        if (!candidate.blocker || candidate.blocker->planned > 0) return 0;
         return reservations_.motions().seconds_of_contact(motion_of(candidate), *candidate.blocker);
     }
 
-    template <class Allowed>
-    bool take_one_of(const Allowed& allowed) {
-        const std::vector<std::size_t> indices = those(0, allowed);
-        if (indices.empty()) return false;
-        CounterRandom random(run_.seed, static_cast<std::uint64_t>(point_.agent),
-                             static_cast<std::uint64_t>(point_.play));
-        choice_.taken = indices[random.below(static_cast<std::uint32_t>(indices.size()))];
-        return true;
+    CounterRandom draws() const {
+        return {run_.seed, static_cast<std::uint64_t>(point_.agent), static_cast<std::uint64_t>(point_.play)};
     }
 
     const MoveSet& moves_;
@@ -165,7 +225,11 @@ class Chooser {
     const CrowdRun& run_;
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
+    PlanSearch search_;
     Choice choice_;
+    std::optional<std::size_t> longest_;  ///< of the candidates without a way on, the one whose plan is longest
+    std::vector<PlannedMove> longest_plan_;
+    double longest_seconds_ = 0;
 };
 
 /// Commits what `agent` was reservations to at a choice: what has not ended, and its last play before the choice, which
@@ -195,7 +259,8 @@ Choice choose(const MoveSet& moves, const ReservationTable& reservations, const 
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
     const std::vector<Play>& plays = run.agents.at(static_cast<std::size_t>(agent)).plays;
     const Play& made = plays.at(static_cast<std::size_t>(play));
-    if (play == 0) return {made.chosen_at, made.kind, {{made.move, 0, made.placement, false, {}, false}}, 0, 0};
+    if (play == 0)
+        return {made.chosen_at, made.kind, {{made.move, 0, made.placement, false, {}, false, false}}, 0, made.plan, 0};
     const ChoicePoint point{agent, play, plays[static_cast<std::size_t>(play) - 1], made.chosen_at};
     ReservationTable reservations(moves, run.area, run.grace);
     for (int other = 0; other < static_cast<int>(run.agents.size()); ++other) {
@@ -208,8 +273,24 @@ bool comes_out_as(const Play& play, const Choice& choice) {
     const Candidate& taken = choice.candidates[choice.taken];
     const glm::dvec2 aside = taken.placement.translate - play.placement.translate;
     const double turn = std::remainder(taken.placement.rotate_deg - play.placement.rotate_deg, 360.0);
-    return taken.move == play.move && choice.kind == play.kind && std::hypot(aside.x, aside.y) <= kSamePlace &&
-           std::abs(turn) <= kSamePlace;
+    return taken.move == play.move && choice.kind == play.kind && choice.plan == play.plan &&
+           std::hypot(aside.x, aside.y) <= kSamePlace && std::abs(turn) <= kSamePlace;
+}
+
+Play blocking_play(const Scene& run, const Blocker& blocker) {
+    Play play =
+        run.crowd->agents[static_cast<std::size_t>(blocker.agent)].plays[static_cast<std::size_t>(blocker.play)];
+    for (int i = 0; i < blocker.planned; ++i) {
+        const PlannedMove& next = play.plan[static_cast<std::size_t>(i)];
+        const GraphMove& from = run.graph->moves[static_cast<std::size_t>(play.move)];
+        const GraphMove& to = run.graph->moves[static_cast<std::size_t>(next.move)];
+        Stance exit = from.exit;
+        exit.heading_deg += next.turn_deg;
+        const double duration = run.clips[static_cast<std::size_t>(from.clip)].clip->duration();
+        play.placement = following(play.placement, exit, duration, to.entry);
+        play.move = next.move;
+    }
+    return play;
 }
 
 std::optional<int> last_chosen(const CrowdAgent& agent, double time) {

@@ -19,6 +19,7 @@ struct Candidate {
     std::optional<Blocker>
         blocker;  ///< who it collides with; candidates that leave the floor are checked only by a forced choice
     bool in_the_way = false;  ///< free, but see ReservationTable::in_the_way
+    bool no_way_on = false;   ///< free and drawn, but no plan was found that could follow it
 
     bool is_free() const { return !leaves_floor && !blocker; }
 };
@@ -28,6 +29,7 @@ struct Choice {
     PlayKind kind = PlayKind::chosen;
     std::vector<Candidate> candidates;  ///< straight on first, then by turn
     std::size_t taken = 0;              ///< index into candidates
+    std::vector<PlannedMove> plan;      ///< to follow what is taken
     std::int64_t queries = 0;           ///< tree queries made to check the candidates
 };
 
@@ -39,12 +41,14 @@ struct ChoicePoint {
     double time = 0;
 };
 
-/// Makes a choice. The candidates are the moves that may follow, straight on; one that stays on the floor, has no
-/// blocker and is not in the way is taken at random (`chosen`). If there is none, the agent turns on the spot by 15
-/// degrees either way, by 30, and so on, until there is one (`pivoted`). If no heading has one, a free candidate that
-/// is in the way is taken, at the least turn that has any. If there is no free candidate at all (`forced`), the one
-/// whose first contact is latest is taken, and of several the one whose contact is shortest; candidates that stay on
-/// the floor go first. The random number depends on (seed, agent, play) alone.
+/// Makes a choice. The candidates are the moves that may follow, straight on. One is drawn that stays on the floor, has
+/// no blocker and is not in the way, until one has a way on: a plan that lasts CrowdRun::plan seconds and collides with
+/// nothing that others play or plan. It is taken (`chosen`). If there is none, the agent turns on the spot by 15
+/// degrees either way, by 30, and so on, until there is one (`pivoted`). If no heading has one, of the candidates that
+/// are in the way one at the least turn that has a way on; of those without the one whose plan is longest; of those
+/// that collide only with what others plan one at the least turn. If there is none of these either (`forced`), the
+/// candidate whose first contact is latest is taken, and of several the one whose contact is shortest; candidates that
+/// stay on the floor go first. The random number depends on (seed, agent, play) alone.
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked = nullptr);
 
@@ -52,6 +56,9 @@ Choice choose(const MoveSet& moves, const ReservationTable& reservations, const 
 /// simulated. An agent's first play was placed, not chosen: its choice has that play as the only candidate. Throws
 /// std::out_of_range if there is no such agent or play.
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play);
+
+/// What a blocker's agent plays there, or plans to. Of a run whose scene has a graph.
+Play blocking_play(const Scene& run, const Blocker& blocker);
 
 /// A choice, and the agent and play that it belongs to.
 struct FollowedChoice {

@@ -155,7 +155,7 @@ CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<A
         if (!contact) continue;
         if (!check.blocker || std::tuple(contact->time, other.motion.agent) <
                                   std::tuple(check.blocker->contact.time, check.blocker->agent)) {
-            check.blocker = {other.motion.agent, other.motion.play, *contact};
+            check.blocker = {other.motion.agent, other.motion.play, *contact, other.motion.planned};
         }
     }
     return check;
@@ -172,6 +172,19 @@ std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMov
     });
     for (const std::vector<AskedPair>& of_one : pairs) asked->insert(asked->end(), of_one.begin(), of_one.end());
     return out;
+}
+
+bool ReservationGrid::is_clear(const PlayedMove& candidate, std::int64_t& queries,
+                               std::vector<AskedPair>* asked) const {
+    std::vector<std::uint32_t> slots;
+    find_near(held(candidate), slots);
+    const mobb::PlacedTree placed(*candidate.tree, candidate.placement);
+    return std::ranges::none_of(slots, [&](std::uint32_t slot) {
+        const PlayedMove& other = motions_[slot].motion;
+        ++queries;
+        if (asked) asked->push_back({candidate, other});
+        return mobb::query(placed, mobb::PlacedTree(*other.tree, other.placement)).has_value();
+    });
 }
 
 double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, const Blocker& blocker) const {

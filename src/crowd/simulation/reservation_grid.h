@@ -51,6 +51,7 @@ struct PlayedMove {
     const mobb::Tree* tree = nullptr;
     const ClipBounds* clip_bounds = nullptr;
     mobb::Placement placement;
+    int planned = 0;  ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
 };
 
 /// The reserved motion that a candidate collides with first; of those met at the same time, that of the agent with the
@@ -59,6 +60,7 @@ struct Blocker {
     int agent = 0;
     int play = 0;
     mobb::Contact contact;  ///< a: the candidate; b: the reserved motion
+    int planned = 0;        ///< see PlayedMove
 
     friend bool operator==(const Blocker&, const Blocker&) = default;
 };
@@ -94,6 +96,10 @@ class ReservationGrid {
     /// to `asked`, in the order of the candidates. The results do not depend on the number of threads.
     std::vector<CandidateCheck> check_all(std::span<const PlayedMove> candidates,
                                           std::vector<AskedPair>* asked = nullptr) const;
+
+    /// Whether the candidate collides with nobody. Adds the number of tree queries to `queries`, and the pairs to
+    /// `asked`.
+    bool is_clear(const PlayedMove& candidate, std::int64_t& queries, std::vector<AskedPair>* asked = nullptr) const;
 
     /// How long the candidate collides with its blocker (seconds), which must not have been forgotten.
     double seconds_of_contact(const PlayedMove& candidate, const Blocker& blocker) const;

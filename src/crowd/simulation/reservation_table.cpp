@@ -2,6 +2,7 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -14,7 +15,7 @@ constexpr double kHeadroom = 1;  // metres before the wall that the next move ne
 }  // namespace
 
 ReservationTable::ReservationTable(const MoveSet& moves, glm::dvec2 area, double grace)
-    : moves_(moves), area_(area), motions_(area), stands_(area) {
+    : moves_(moves), area_(area), motions_(area), plans_(area), stands_(area) {
     if (grace == 0) return;
     for (const SceneClip& clip : moves.fitted().scene().clips) {
         const std::vector<mobb::Disk> disk{{0, 0, clip.clip->samples().back().r}};
@@ -33,8 +34,14 @@ PlayedMove ReservationTable::stand(int agent, int index, const Play& play) const
 
 void ReservationTable::reserve(int agent, int index, const Play& play) {
     motions_.reserve(moves_.motion(agent, index, play.move, play.placement));
-    if (stand_of_clip_.empty()) return;
     const auto place = static_cast<std::size_t>(agent);
+    if (place >= plan_of_agent_.size()) plan_of_agent_.resize(place + 1);
+    // A plan begins with the play that takes its place, and is not yet forgotten.
+    for (const std::size_t planned : plan_of_agent_[place]) plans_.withdraw(planned);
+    plan_of_agent_[place].clear();
+    for (PlayedMove& planned : moves_.planned(agent, index, play))
+        plan_of_agent_[place].push_back(plans_.reserve(planned));
+    if (stand_of_clip_.empty()) return;
     if (place >= stand_of_agent_.size()) stand_of_agent_.resize(place + 1);
     // The stand after the play before begins with this play, and is not yet forgotten.
     if (stand_of_agent_[place]) stands_.withdraw(*stand_of_agent_[place]);
@@ -43,6 +50,7 @@ void ReservationTable::reserve(int agent, int index, const Play& play) {
 
 void ReservationTable::forget_before(double now) {
     motions_.forget_before(now);
+    plans_.forget_before(now);
     stands_.forget_before(now);
 }
 
@@ -75,6 +83,25 @@ std::vector<bool> ReservationTable::in_the_way(int agent, int index, std::span<c
 MoveSet::MoveSet(const FittedScene& fitted) : fitted_(&fitted), by_hub_(moves_by_hub(graph())) {
     bounds_.reserve(fitted.scene().clips.size());
     for (const SceneClip& clip : fitted.scene().clips) bounds_.emplace_back(*clip.clip);
+    const auto room = [this](int move) {
+        const FloorRect rect = bounds(move).bounds({});
+        return (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y) * duration(move);
+    };
+    by_room_ = by_hub_;
+    for (std::vector<int>& moves : by_room_) std::ranges::stable_sort(moves, {}, room);
+}
+
+std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play) const {
+    std::vector<PlayedMove> out;
+    int last = play.move;
+    mobb::Placement at = play.placement;
+    for (const PlannedMove& next : play.plan) {
+        at = following(last, at, next.move, next.turn_deg);
+        last = next.move;
+        out.push_back(motion(agent, index, last, at));
+        out.back().planned = static_cast<int>(out.size());
+    }
+    return out;
 }
 
 mobb::Placement MoveSet::following(int before, const mobb::Placement& placed, int next, double turn_deg) const {

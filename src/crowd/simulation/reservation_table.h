@@ -27,17 +27,24 @@ class MoveSet {
     double duration(int move) const { return tree(move).clip().duration(); }
     /// The moves that begin in the hub where `move` ends.
     const std::vector<int>& after(int move) const { return by_hub_[static_cast<std::size_t>(this->move(move).to)]; }
+    /// The same, those first that take least room: floor times seconds.
+    const std::vector<int>& after_by_room(int move) const {
+        return by_room_[static_cast<std::size_t>(this->move(move).to)];
+    }
     /// Where `next` is placed after `before`, turned by `turn_deg` on the spot between them.
     mobb::Placement following(int before, const mobb::Placement& placed, int next, double turn_deg) const;
     /// A move as an agent's play.
     PlayedMove motion(int agent, int play, int move, const mobb::Placement& placement) const {
         return {agent, play, &tree(move), &bounds(move), placement};
     }
+    /// The moves that are planned to follow an agent's play.
+    std::vector<PlayedMove> planned(int agent, int index, const Play& play) const;
 
   private:
     const FittedScene* fitted_;
     std::vector<ClipBounds> bounds_;  ///< by clip
     std::vector<std::vector<int>> by_hub_;
+    std::vector<std::vector<int>> by_room_;
 };
 
 /// Every agent's reserved moves. Refers to the moves, which must outlive it.
@@ -46,12 +53,14 @@ class ReservationTable {
     /// The floor of `area` metres; room is kept for `grace` seconds, 0: none.
     ReservationTable(const MoveSet& moves, glm::dvec2 area, double grace);
 
-    /// Reserves an agent's play, which must begin after all that the agent has reserved.
+    /// Reserves an agent's play, which must begin after all that the agent has reserved, and in place of what the agent
+    /// had planned before what is planned to follow the play.
     void reserve(int agent, int index, const Play& play);
     /// Drops what ends at `now` or before.
     void forget_before(double now);
 
-    const ReservationGrid& motions() const { return motions_; }
+    const ReservationGrid& motions() const { return motions_; }  ///< that are played
+    const ReservationGrid& plans() const { return plans_; }      ///< that are planned to follow
 
     /// For each play that might follow, whether it would leave some agent, perhaps this one, without a free choice: it
     /// runs through the place where another agent's moves end, within the grace after that; or it ends where another
@@ -72,7 +81,9 @@ class ReservationTable {
     glm::dvec2 area_;
     std::vector<Stand> stand_of_clip_;  ///< as large as the clip's last disk; empty without a grace
     ReservationGrid motions_;
+    ReservationGrid plans_;
     ReservationGrid stands_;
+    std::vector<std::vector<std::size_t>> plan_of_agent_;     ///< what plans_ gave for the agent's last plan
     std::vector<std::optional<std::size_t>> stand_of_agent_;  ///< what stands_ gave for the agent's last play
 };
 

@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/random.h>
 #include <base/text.h>
+#include <crowd/simulation/plan_search.h>
 #include <crowd/simulation/simulate.h>
 
 #include <tbb/task_arena.h>
@@ -37,7 +38,7 @@ class Simulator {
           sample_(sample),
           progress_(progress),
           reservations_(moves, options.area, options.grace) {
-        simulation_.run = {options.area, options.seconds, options.seed, options.ahead, options.grace, {}};
+        simulation_.run = {options.area, options.seconds, options.seed, options.ahead, options.grace, options.plan, {}};
     }
 
     Simulation run() {
@@ -98,9 +99,13 @@ class Simulator {
             const PlayedMove motion = moves_.motion(agent, 0, move, placement);
             if (leaves_floor({motion.tree->clip(), placement}, *motion.clip_bounds, options_.area)) continue;
             if (reservations_.motions().check_all({&motion, 1}).front().blocker) continue;
-            const Play play{move, placement, placement.start, PlayKind::chosen};
+            if (reservations_.plans().check_all({&motion, 1}).front().blocker) continue;
+            Play play{move, placement, placement.start, PlayKind::chosen};
+            PlanSearch search(moves_, reservations_, simulation_.run, agent, 0);
+            const bool has_way_on = search.look(move, placement);
+            play.plan = search.plan();
             // Where the floor is nearly full, any place will do.
-            if (i < kTries / 2 && reservations_.in_the_way(agent, 0, {&play, 1}).front()) continue;
+            if (i < kTries / 2 && (!has_way_on || reservations_.in_the_way(agent, 0, {&play, 1}).front())) continue;
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
             ++counts().agents;
             commit(agent, play);
@@ -120,15 +125,15 @@ class Simulator {
         const Candidate& taken = choice.candidates[choice.taken];
         if (sample_) record(choice, point);
         count(choice);
-        commit(turn.agent, {taken.move, taken.placement, turn.time, choice.kind});
+        commit(turn.agent, {taken.move, taken.placement, turn.time, choice.kind, choice.plan});
     }
 
     void record(const Choice& choice, const ChoicePoint& point) {
         if (sample_->recorded() == Recorded::all) {
             for (const Candidate& candidate : choice.candidates) {
-                reservations_.motions().all_pairs(
-                    moves_.motion(point.agent, point.play, candidate.move, candidate.placement), sample_->range(),
-                    asked_);
+                const PlayedMove motion = moves_.motion(point.agent, point.play, candidate.move, candidate.placement);
+                reservations_.motions().all_pairs(motion, sample_->range(), asked_);
+                reservations_.plans().all_pairs(motion, sample_->range(), asked_);
             }
         }
         sample_->offer(asked_);
@@ -143,6 +148,8 @@ class Simulator {
                 ++c.off_floor;
             } else if (candidate.blocker) {
                 ++c.colliding;
+            } else if (candidate.no_way_on) {
+                ++c.no_way_on;
             } else if (candidate.in_the_way) {
                 ++c.in_the_way;
             }
@@ -188,6 +195,7 @@ void check(const SimulateOptions& options) {
     check_range("seed", static_cast<double>(options.seed), 0, static_cast<double>(kMaxSeed));
     check_range("ahead", options.ahead, 0, kMaxSimulated);
     check_range("grace", options.grace, 0, kMaxSimulated);
+    check_range("plan", options.plan, 0, kMaxSimulated);
     check_range("threads", options.threads, 0, kMaxThreads);
 }
 

@@ -61,13 +61,14 @@ struct SimulateOptions {
     std::uint64_t seed = 1;   ///< at most kMaxSeed
     double ahead = 0;         ///< seconds, >= 0: each move is chosen so long before it begins; the paper's is 0
     double grace = 1;         ///< seconds, >= 0: room kept where moves end, see choose; the paper's is 0
+    double plan = 4;          ///< seconds, >= 0, for which each choice plans how to go on, see choose; the paper's is 0
     int threads = 0;          ///< at most kMaxThreads; 0: as many as the machine has. The run does not depend on it
 };
 
 inline constexpr int kMaxAgents = 1'000'000;
 inline constexpr int kMaxThreads = 1024;
 inline constexpr double kMinSimulated = 1e-3;  ///< seconds
-inline constexpr double kMaxSimulated = 1e6;   ///< seconds, also of `ahead` and `grace`
+inline constexpr double kMaxSimulated = 1e6;   ///< seconds, also of `ahead`, `grace` and `plan`
 inline constexpr double kMinArea = 1e-3;       ///< metres along a wall
 inline constexpr double kMaxArea = 1e6;
 
@@ -83,6 +84,7 @@ struct SimulationCounts {
     std::int64_t candidates = 0;  ///< at choice points
     std::int64_t off_floor = 0;   ///< candidates discarded because they leave the floor
     std::int64_t colliding = 0;   ///< candidates discarded because they collide with a reserved motion
+    std::int64_t no_way_on = 0;   ///< candidates passed over because no plan was found to follow them
     std::int64_t in_the_way = 0;  ///< candidates passed over because they end in somebody's way
     std::int64_t queries = 0;     ///< pairs that the trees were asked to discard candidates
     std::int64_t pivots = 0;

@@ -115,8 +115,7 @@ class Drawer {
         const Blocker& blocker = *candidate.blocker;
         const mobb::Contact& contact = blocker.contact;
         const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
-        const Play& play =
-            scene_.crowd->agents[static_cast<std::size_t>(blocker.agent)].plays[static_cast<std::size_t>(blocker.play)];
+        const Play play = blocking_play(scene_, blocker);
         const mobb::PlacedClip other(*clip_of_move(scene_, play.move).clip, play.placement);
         const mobb::Disk a = way.disk(contact.a_sample);
         const mobb::Disk b = other.disk(contact.b_sample);
@@ -166,6 +165,7 @@ CandidateOutcome outcome_of(const Choice& choice, std::size_t candidate) {
     const Candidate& asked = choice.candidates[candidate];
     if (asked.leaves_floor) return CandidateOutcome::leaves_floor;
     if (asked.blocker) return CandidateOutcome::ruled_out;
+    if (asked.no_way_on) return CandidateOutcome::no_way_on;
     return asked.in_the_way ? CandidateOutcome::in_the_way : CandidateOutcome::free;
 }
 
@@ -177,6 +177,8 @@ LineStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette) {
             return {palette.separated, 1.6f};
         case CandidateOutcome::in_the_way:
             return {palette.overlap, 1.5f, {10, 3, 2, 3}};
+        case CandidateOutcome::no_way_on:
+            return {palette.accent, 1.5f, {14, 4, 14, 4}};
         case CandidateOutcome::leaves_floor:
             return {palette.apart_in_time, 1.4f, {1.5f, 4, 1.5f, 4}};
         case CandidateOutcome::ruled_out:
@@ -186,7 +188,8 @@ LineStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette) {
 }
 
 std::string_view outcome_words(CandidateOutcome outcome) {
-    constexpr std::array<std::string_view, 5> kWords{"taken", "free", "in the way", "leaves the floor", "ruled out"};
+    constexpr std::array<std::string_view, 6> kWords{"taken",    "free", "in the way", "no way on", "leaves the floor",
+                                                     "ruled out"};
     return kWords[static_cast<std::size_t>(outcome)];
 }
 
@@ -206,7 +209,9 @@ std::string candidate_sentence(const Scene& run, const Choice& choice, std::size
     if (asked.turn_deg != 0) text += formatted(", turned by %.0f\u00B0", asked.turn_deg);
     text += ": ";
     const auto meets = [&] {
-        return "meets " + agent_name(run, asked.blocker->agent) + at_time(asked.blocker->contact.time);
+        const std::string who = agent_name(run, asked.blocker->agent);
+        return "meets " + (asked.blocker->planned > 0 ? "what " + who + " plans" : who) +
+               at_time(asked.blocker->contact.time);
     };
     const CandidateOutcome outcome = outcome_of(choice, candidate);
     if (outcome == CandidateOutcome::ruled_out) return text + meets();
@@ -219,6 +224,7 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
     const Choice& choice = followed.choice;
     int free = 0;
     int in_the_way = 0;
+    int no_way_on = 0;
     int off_floor = 0;
     int ruled_out = 0;
     std::set<int> rulers;
@@ -226,6 +232,8 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
         const Candidate& candidate = choice.candidates[i];
         if (candidate.leaves_floor) {
             ++off_floor;
+        } else if (candidate.no_way_on && i != choice.taken) {
+            ++no_way_on;
         } else if (!candidate.blocker) {
             ++(candidate.in_the_way ? in_the_way : free);
         } else {
@@ -259,6 +267,7 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed) {
         add(ruled_out, "ruled out by " + names);
     }
     if (in_the_way > 0) add(in_the_way, "in the way of others");
+    if (no_way_on > 0) add(no_way_on, no_way_on == 1 ? "has no way on" : "have no way on");
     if (off_floor > 0) add(off_floor, off_floor == 1 ? "leaves the floor" : "leave the floor");
     return text;
 }
@@ -328,8 +337,8 @@ std::vector<LabelRequest> add_followed(DrawList& list, std::span<const DrawnAgen
 std::vector<LegendEntry> candidate_legend(const Palette& palette, const Choice& choice) {
     std::vector<LegendEntry> out;
     for (const CandidateOutcome outcome :
-         {CandidateOutcome::taken, CandidateOutcome::free, CandidateOutcome::in_the_way, CandidateOutcome::ruled_out,
-          CandidateOutcome::leaves_floor}) {
+         {CandidateOutcome::taken, CandidateOutcome::free, CandidateOutcome::in_the_way, CandidateOutcome::no_way_on,
+          CandidateOutcome::ruled_out, CandidateOutcome::leaves_floor}) {
         bool any = false;
         for (const std::size_t i : shown_candidates(choice)) any = any || outcome_of(choice, i) == outcome;
         if (!any) continue;

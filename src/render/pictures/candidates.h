@@ -16,13 +16,13 @@
 namespace mobbscope {
 
 /// What became of a candidate.
-enum class CandidateOutcome { taken, free, in_the_way, leaves_floor, ruled_out };
+enum class CandidateOutcome { taken, free, in_the_way, no_way_on, leaves_floor, ruled_out };
 CandidateOutcome outcome_of(const Choice& choice, std::size_t candidate);
 
 /// How its way is drawn, at scale 1: each outcome has a colour and a line of its own.
 LineStyle outcome_style_of(CandidateOutcome outcome, const Palette& palette);
 
-/// "taken", "free", "in the way", "leaves the floor", "ruled out".
+/// "taken", "free", "in the way", "no way on", "leaves the floor", "ruled out".
 std::string_view outcome_words(CandidateOutcome outcome);
 
 /// Those that are drawn: straight on, and turned as the one that was taken.

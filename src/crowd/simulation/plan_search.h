@@ -1,0 +1,53 @@
+/// Looks for moves with which an agent can go on behind a move, so that it never runs out of free ones.
+#pragma once
+
+#include <crowd/simulation/reservation_table.h>
+#include <scene/crowd_run.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// Degrees that an agent may turn on the spot before a move, the least first.
+inline constexpr std::array<double, 24> kTurns{0,   15,  -15,  30,  -30,  45,  -45,  60,  -60,  75,  -75,  90,
+                                               -90, 105, -105, 120, -120, 135, -135, 150, -150, 165, -165, 180};
+
+class PlanSearch {
+  public:
+    /// For a play of an agent that it has not reserved yet. `asked` gets the pairs whose trees were queried. All must
+    /// outlive the search.
+    PlanSearch(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, int agent, int play,
+               std::vector<AskedPair>* asked = nullptr)
+        : moves_(moves), reservations_(reservations), run_(run), agent_(agent), play_(play), asked_(asked) {}
+
+    /// Looks for moves that can follow `move`, back to back, that stay on the floor, collide with nothing that another
+    /// agent has reserved, and last CrowdRun::plan seconds. It first goes on from `kept`, which is known to be free.
+    /// True if there are; else plan() is the longest found. It looks at so many moves and no more.
+    bool look(int move, const mobb::Placement& placement, std::span<const PlannedMove> kept = {});
+
+    const std::vector<PlannedMove>& plan() const { return longest_; }  ///< what look() found
+    double seconds() const { return reach_; }                          ///< that it lasts
+    std::int64_t queries() const { return queries_; }                  ///< tree queries made so far
+
+  private:
+    bool extend(int before, const mobb::Placement& placed, double seconds);
+    bool is_free(int move, const mobb::Placement& placement);
+    void add(const PlannedMove& next, double seconds);
+
+    const MoveSet& moves_;
+    const ReservationTable& reservations_;
+    const CrowdRun& run_;
+    int agent_;
+    int play_;
+    std::vector<AskedPair>* asked_;
+    std::vector<PlannedMove> plan_;  ///< at present
+    std::vector<PlannedMove> longest_;
+    double reach_ = 0;
+    int left_ = 0;  ///< moves that may still be looked at
+    std::int64_t queries_ = 0;
+};
+
+}  // namespace mobbscope
