@@ -15,7 +15,7 @@ namespace mobbscope::app::testing {
 
 /// Two who walk, the second shifted by so many metres.
 inline std::string walkers(const std::string& shift) {
-    return R"({"clips": {"walk": {"dt": 0.5, "samples": [[0, 0, 0.4], [0.6, 0.1, 0.4], [1.2, 0, 0.4]]}},
+    return R"({"clips": {"walk": {"dt": 0.5, "motion": "linear", "samples": [[0, 0, 0.4], [0.6, 0.1, 0.4], [1.2, 0, 0.4]]}},
                "agents": [{"name": "A", "clip": "walk"},
                           {"name": "B", "clip": "walk", "translate": [)" +
            shift + R"(, -1], "rotate_deg": 90}], "fit": {"leaf": 1}})";

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+
+#include <cmath>
 #include <set>
 
 namespace mobbscope {
@@ -18,7 +20,8 @@ using testing::Result;
 using testing::run_program;
 using testing::TempFolder;
 
-// 1 goes along x, 2 comes towards it a second later; they pass 0.3 m apart. 3 is elsewhere.
+// 1 goes along x, 2 comes towards it a second later; they pass 0.3 m apart at 4 m/s. 3 is elsewhere.
+const double kHalfOfContact = std::sqrt(0.4 * 0.4 - 0.3 * 0.3) / 4;  // seconds
 const std::string kTrajectories =
     "#framerate: 2\n# id frame x/m y/m\n1 10 0 0\n1 11 1 0\n1 12 2 0\n1 13 3 0\n1 14 4 0\n2 12 4 0.3\n2 13 3 0.3\n"
     "2 14 2 0.3\n3 10 20 20\n3 11 21 20\n";
@@ -43,18 +46,22 @@ TEST(Conflicts, JsonHasThePairs) {
     EXPECT_EQ(found["radius"], 0.2);
     EXPECT_EQ(found["pairs"], 3);
     EXPECT_EQ(found["pairs_tested"], 1);
-    EXPECT_EQ(found["seconds"], 0.5);
+    EXPECT_NEAR(found["seconds"].get<double>(), 2 * kHalfOfContact, 1e-12);
     ASSERT_EQ(found["conflicts"].size(), 1u);
     const json& conflict = found["conflicts"][0];
     EXPECT_EQ(keys(conflict), (std::set<std::string>{"a", "b", "intervals", "least_clearance", "time", "a_sample",
                                                      "b_sample", "position"}));
     EXPECT_EQ(conflict["a"], "1");
     EXPECT_EQ(conflict["b"], "2");
-    EXPECT_EQ(conflict["intervals"], json::parse("[[1.5, 2.0]]")) << "the crowd's clock begins with its first frame";
+    ASSERT_EQ(conflict["intervals"].size(), 1u);
+    const json& interval = conflict["intervals"][0];
+    EXPECT_NEAR(interval[0].get<double>(), 1.5 - kHalfOfContact, 1e-12)
+        << "the crowd's clock begins with its first frame";
+    EXPECT_NEAR(interval[1].get<double>(), 1.5 + kHalfOfContact, 1e-12);
     EXPECT_NEAR(conflict["least_clearance"].get<double>(), -0.1, 1e-12);
     EXPECT_EQ(conflict["time"], 1.5);
-    EXPECT_EQ(conflict["a_sample"], 3);
-    EXPECT_EQ(conflict["b_sample"], 1);
+    EXPECT_EQ(conflict["a_sample"], 2) << "at the end of what it covers";
+    EXPECT_EQ(conflict["b_sample"], 0);
     EXPECT_EQ(conflict["position"], json::parse("[3, 0.15]"));
 }
 
@@ -63,9 +70,12 @@ TEST(Conflicts, TextIsALineAPairAndASummary) {
     const std::string file = folder.write("crowd.txt", kTrajectories);
     const Result run = run_program({"conflicts", file});
     EXPECT_EQ(run.status, 0);
-    EXPECT_EQ(run.out,
-              "1 and 2: 0.5 s, 1.5 to 2 s; least clearance -0.1 m at 1.5 s near (3, 0.15), samples 3 and 1\n"
-              "1 conflict among 3 agents, 0.5 s in all; 1 of 3 pairs tested\n");
+    EXPECT_EQ(
+        run.out,
+        "1 and 2: 0.132288 s, 1.43386 to 1.56614 s; least clearance -0.1 m at 1.5 s near (3, 0.15), samples 2 and "
+        "0\n1 conflict among 3 agents, 0.132288 s in all; 1 of 3 pairs tested\n");
+    const Result held = run_program({"conflicts", file, "--motion", "held"});
+    EXPECT_EQ(held.out.find("1 and 2: 0.5 s, 1.5 to 2 s; least clearance -0.1 m at 1.5 s"), 0u) << held.out;
     EXPECT_NE(run.err.find("0.2 m are taken"), std::string::npos) << "what was assumed is said";
     const Result none = run_program({"conflicts", file, "--radius", "0.1"});
     EXPECT_EQ(none.out, "0 conflicts among 3 agents, 0 s in all; 0 of 3 pairs tested\n");
@@ -83,7 +93,10 @@ TEST(Conflicts, TracksOfACsvKeepTheirTimes) {
     const TempFolder folder;
     const json found = conflicts({folder.write("tracks.csv", kCsv)});
     ASSERT_EQ(found["conflicts"].size(), 1u);
-    EXPECT_EQ(found["conflicts"][0]["intervals"], json::parse("[[1.0, 1.5]]"));
+    // They meet at 1 s, where 1 ends its walk and stays; 2 goes on at 2 m/s.
+    ASSERT_EQ(found["conflicts"][0]["intervals"].size(), 1u);
+    EXPECT_EQ(found["conflicts"][0]["intervals"][0][0], 1);
+    EXPECT_NEAR(found["conflicts"][0]["intervals"][0][1].get<double>(), 1 + 2 * kHalfOfContact, 1e-12);
     EXPECT_EQ(conflicts({folder.write("one.csv", "t,x,y,r\n0,0,0,1\n1,0,0,1\n")})["pairs"], 0);
 }
 

@@ -101,7 +101,7 @@ TEST_F(RenderTest, WritesAPictureAndSaysNothing) {
 
 TEST(Render, NothingThatItReadsIsReplaced) {
     const TempFolder folder;
-    const std::string clip = folder.write("clip.csv", "t,x,y,r\n0,0,0,0.4\n0.5,1,0,0.4\n");
+    const std::string clip = folder.write("clip.csv", "t,x,y,r\n0,0,0,0.4\n0.5,0.1,0,0.4\n");
     const std::string text = R"({"clips": {"c": {"source": "clip.csv"}}})";
     const std::string scene = folder.write("scene.json", text);
     std::filesystem::create_symlink("scene.json", folder.path() / "to_scene.png");

@@ -24,7 +24,7 @@ TEST_F(RenderViewTest, AViewStateGoesOverTheScenesAndOptionsOverBoth) {
 }
 
 TEST_F(RenderViewTest, TheViewOfAnotherSceneIsTakenWhole) {
-    const std::string clip = R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,1,1],[3,1,1]]}})";
+    const std::string clip = R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[1,0,1],[2,0,1.5],[3,0,1]]}})";
     const std::string scene = folder.write("a.json", clip + R"(, "view": {"theme": "light", "floor": false}})");
     const std::string other = folder.write("b.json", clip + R"(, "view": {"labels": false}})");
     EXPECT_EQ(picture({scene, "--view-state", other}).rgba,
