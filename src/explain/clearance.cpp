@@ -186,6 +186,11 @@ Clearance clearance_over_time(const mobb::PlacedClip& a, const mobb::PlacedClip&
     return std::move(out);
 }
 
+double measured_radii(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j) {
+    const mobb::Approach approach = mobb::approach_of(a, i, b, j);
+    return approach.radii(approach.least());
+}
+
 std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns) {
     std::vector<ClearanceColumn> out(static_cast<std::size_t>(columns));
     const double per_second = columns / (t1 - t0);

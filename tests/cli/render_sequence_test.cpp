@@ -16,7 +16,9 @@ using Names = std::set<std::string>;
 
 /// Two seconds of walking, four samples, and an agent who stands.
 std::string short_scene(const TempFolder& folder) {
-    return folder.write("s.json", R"({"clips": {"c": {"dt": 0.5, "motion": "linear", "samples": [[0,0,0.4],[1,0,0.4],[2,0,0.4],[3,0,0.4]]}},
+    return folder.write(
+        "s.json",
+        R"({"clips": {"c": {"dt": 0.5, "motion": "linear", "samples": [[0,0,0.4],[1,0,0.4],[2,0,0.4],[3,0,0.4]]}},
         "agents": [{"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [0, 3], "start": 1}]})");
 }
 

@@ -3,8 +3,8 @@
 #include <app/ui/widgets.h>
 #include <base/text.h>
 #include <explain/axis_intervals.h>
+#include <explain/clearance.h>
 #include <explain/query_sentence.h>
-#include <mobb/query.h>
 
 #include <algorithm>
 #include <cctype>
@@ -218,10 +218,7 @@ void measured_pairs(Ui& ui, const QueryFindings& findings) {
     if (event.test != mobb::TestKind::samples || event.pairs.empty()) return;
     const mobb::PlacedClip& a = findings.sides[0].clip();
     const mobb::PlacedClip& b = findings.sides[1].clip();
-    const auto radii = [&](const mobb::MeasuredPair& p) {
-        const mobb::Approach approach = mobb::approach_of(a, p.i, b, p.j);
-        return approach.radii(approach.least());
-    };
+    const auto radii = [&](const mobb::MeasuredPair& p) { return measured_radii(a, b, p.i, p.j); };
     const auto clearance = [&](const mobb::MeasuredPair& p) { return p.distance - radii(p); };
     const auto least = std::min_element(event.pairs.begin(), event.pairs.end(),
                                         [&](const auto& p, const auto& q) { return clearance(p) < clearance(q); });

@@ -95,8 +95,7 @@ OptionOffer motion_option_offer(mobb::Motion taken, const std::string& why) {
             std::string(name(taken)),
             why,
             false,
-            {{"held", "held until the next"},
-             {"linear", "linear to the next"}}};
+            {{"held", "held until the next"}, {"linear", "linear to the next"}}};
 }
 
 const OptionOffer* ImportOffer::find(std::string_view key) const {
