@@ -26,17 +26,20 @@ double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 }  // namespace
 
-RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale, Motion motion)
+RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
     : rotation_(a.rotation.inverse() * b.rotation), to_world_(a.rotation) {
     const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
     offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
     const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
     const double times = std::abs(a.start) + std::abs(b.start) + a.duration + b.duration;
     slack2d_ = kLeastSlack + kSlackFactor * lengths;
-    if (motion == Motion::linear) {
-        slack2d_ += kLeastSweptSlack + kSweptSlackFactor * (manhattan(between) + a.reach + b.reach);
-    }
     slack_time_ = kSlackFactor * time_scale * times;
+    slack3d_ = slack2d_ + slack_time_;
+}
+
+void RelativeFrame::cover_swept_disks(const PlacedFrame& a, const PlacedFrame& b) {
+    const double lengths = std::abs(offset_.x) + std::abs(offset_.y) + a.reach + b.reach;
+    slack2d_ += kLeastSweptSlack + kSweptSlackFactor * lengths;
     slack3d_ = slack2d_ + slack_time_;
 }
 

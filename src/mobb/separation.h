@@ -26,9 +26,11 @@ struct Separation {
 /// The placement of B's frame in A's, and the slack that a gap must exceed. One per query.
 class RelativeFrame {
   public:
-    /// `time_scale` w is that of both trees. `motion`: linear if any sample may move; the slack then covers the squares
-    /// that its predicate subtracts.
-    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale, Motion motion = Motion::held);
+    /// `time_scale` w is that of both trees.
+    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale);
+
+    /// Makes the slack cover the squares that the predicate of swept disks subtracts. `a`, `b`: as above.
+    void cover_swept_disks(const PlacedFrame& a, const PlacedFrame& b);
 
     glm::dvec2 direction(glm::dvec2 v) const { return rotation_(v); }
     glm::dvec3 direction(glm::dvec3 v) const {

@@ -135,14 +135,19 @@ class Traversal {
     Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
         : a_(a),
           b_(b),
-          motion_(a.samples().is_linear() || b.samples().is_linear() ? Motion::linear : Motion::held),
-          frame_(a.frame(), b.frame(), a.time_scale(), motion_),
+          frame_(a.frame(), b.frame(), a.time_scale()),
           same_scale_(a.time_scale() == b.time_scale()),
           observer_(observer),
           on_hit_(on_hit) {}
 
     /// Returns true if on_hit stopped it.
-    bool run() { return motion_ == Motion::held ? visit<Motion::held>(0, 0) : visit<Motion::linear>(0, 0); }
+    bool run() {
+        if (a_.samples().is_linear() || b_.samples().is_linear()) [[unlikely]] {
+            frame_.cover_swept_disks(a_.frame(), b_.frame());
+            return visit<Motion::linear>(0, 0);
+        }
+        return visit<Motion::held>(0, 0);
+    }
 
   private:
     enum class Side { a, b };
@@ -223,7 +228,6 @@ class Traversal {
 
     const A& a_;
     const B& b_;
-    Motion motion_;  ///< linear if any sample may move
     RelativeFrame frame_;
     bool same_scale_;
     Observer& observer_;
