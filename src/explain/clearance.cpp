@@ -191,6 +191,11 @@ double measured_radii(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int 
     return approach.radii(approach.least());
 }
 
+double most_overlap(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j) {
+    const mobb::Approach approach = mobb::approach_of(a, i, b, j);
+    return -approach.clearance(approach.nearest());
+}
+
 std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns) {
     std::vector<ClearanceColumn> out(static_cast<std::size_t>(columns));
     const double per_second = columns / (t1 - t0);

@@ -38,6 +38,9 @@ Clearance clearance_over_time(const mobb::PlacedClip& a, const mobb::PlacedClip&
 /// The sum of two samples' radii at the time at which a trace measures their distance, metres (mobb::Approach::least).
 double measured_radii(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j);
 
+/// How deep two samples that collide overlap at the most, metres.
+double most_overlap(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j);
+
 /// What one pixel column of a chart shows: the range of clearances in it.
 struct ClearanceColumn {
     double least = 0;

@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <explain/axis_intervals.h>
+#include <explain/clearance.h>
 #include <explain/query_sentence.h>
 #include <mobb/query.h>
 
@@ -46,7 +47,8 @@ std::string sample_outcome(std::span<const DrawnAgent> sides, const mobb::Trace:
     if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {
         const mobb::Contact contact = mobb::contact_of(a, event.pairs.back().i, b, event.pairs.back().j);
         return "samples " + std::to_string(contact.a_sample) + " and " + std::to_string(contact.b_sample) + " hit at " +
-               with_unit(contact.time, "s") + ", " + with_unit(contact.radii - contact.distance, "m") + " deep";
+               with_unit(contact.time, "s") + ", " +
+               with_unit(most_overlap(a, b, contact.a_sample, contact.b_sample), "m") + " deep";
     }
     if (event.pairs.empty()) return "no pair of samples overlaps in time";
     double clearance = std::numeric_limits<double>::max();

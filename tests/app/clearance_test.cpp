@@ -96,6 +96,19 @@ TEST(Clearance, IsThatOfAllPairsThatShareTime) {
     EXPECT_GT(without_time, 5);
 }
 
+TEST(Clearance, HowDeepTwoOverlapIsThatOfWhereTheyAreDeepest) {
+    // They pass 0.3 m apart; contact begins by touching.
+    const Clip a(1, {{0, 0, 0.4}, {2, 0, 0.4}}, mobb::Motion::linear);
+    const Clip b(1, {{2, 0.3, 0.4}, {0, 0.3, 0.4}}, mobb::Motion::linear);
+    const PlacedClip pa(a, {}), pb(b, {});
+    const auto contact = mobb::direct_search(pa, pb);
+    ASSERT_TRUE(contact);
+    EXPECT_NEAR(contact->distance, contact->radii, 1e-12);
+    EXPECT_NEAR(most_overlap(pa, pb, contact->a_sample, contact->b_sample), 0.5, 1e-12);
+    EXPECT_NEAR(measured_radii(pa, pb, 0, 0), 0.8, 1e-12);
+    EXPECT_EQ(floor_paths(pa, pb).known, false) << "their samples alone do not tell";
+}
+
 TEST(Clearance, ColumnsLoseNoMinimum) {
     Random random(2);
     for (int round = 0; round < 200; ++round) {
