@@ -1,5 +1,6 @@
 // Which recordings are of one rig, and which of its joints poses are compared by.
 #include <crowd/graph/rigs.h>
+#include <import/skeleton/motion.h>
 
 #include <gtest/gtest.h>
 

@@ -193,7 +193,8 @@ TEST(TrajectoryText, RadiiComeFromAFileOfIdsOrClasses) {
                                                           {"id,radius\n1,-2\n", "line 2: '-2' is no radius"},
                                                           {"id,radius\n1,nan\n", "line 2: 'nan' is no radius"},
                                                           {"id,radius\n,2\n", "line 2: has no id"}}) {
-        const std::string said = input_error([&] { with(text); });
+        const std::string& table = text;  // no structured binding in a lambda
+        const std::string said = input_error([&] { with(table); });
         EXPECT_NE(said.find(complaint), std::string::npos) << said;
         EXPECT_NE(said.find("radii.csv"), std::string::npos) << said;
     }

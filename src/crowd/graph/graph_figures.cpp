@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/text.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
 #include <crowd/graph/rigs.h>
