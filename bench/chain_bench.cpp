@@ -1,10 +1,12 @@
-/// Chains composed of their clips' trees beside trees rebuilt over all samples: time to build, tests and time per
-/// query.
+/// Chains composed of their clips' trees beside trees rebuilt over all samples, and beside one query for each two clips
+/// of theirs that overlap in time: time to build, tests and time per query.
 #include <benchmark/benchmark.h>
 #include <mobb/placed_chain.h>
 #include <mobb/query.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 #include <vector>
 
 #include "walks.h"
@@ -102,56 +104,106 @@ void part(benchmark::State& state) {
 
 /// Chains, and queries between them: side by side on the floor, apart in time by up to their length.
 struct Queries {
+    struct Side {
+        std::size_t chain;
+        Placement placement;
+    };
+    std::vector<std::vector<ChainLink>> links;  ///< by chain
     std::vector<Chain> chains;
     std::vector<Tree> rebuilt;
-    std::vector<std::pair<std::size_t, Placement>> sides;
+    std::vector<Side> sides;  ///< two a query
 
-    explicit Queries(int links) {
+    explicit Queries(int count) {
         test::Random random(8);
         for (int i = 0; i < 12; ++i) {
-            chains.emplace_back(workload().links(random, links));
+            links.push_back(workload().links(random, count));
+            chains.emplace_back(links.back());
             rebuilt.emplace_back(std::make_shared<const Clip>(flattened(chains.back())), FitOptions{});
         }
         for (int i = 0; i < 2048; ++i) {
             const auto chain = static_cast<std::size_t>(random.integer(0, 11));
-            sides.emplace_back(chain, bench::somewhere(random, i % 2 ? chains[chain].duration() : 0));
+            sides.push_back({chain, bench::somewhere(random, i % 2 ? chains[chain].duration() : 0)});
         }
+    }
+
+    template <class Placed, class Sources>
+    std::vector<Placed> placed(const Sources& sources) const {
+        std::vector<Placed> out;
+        for (const Side& side : sides) out.emplace_back(sources[side.chain], side.placement);
+        return out;
+    }
+    /// Each clip of a side's chain by itself.
+    std::vector<std::vector<PlacedTree>> placed_segments() const {
+        std::vector<std::vector<PlacedTree>> out;
+        for (const Side& side : sides) {
+            out.emplace_back();
+            const Rotation rotation = Rotation::from_degrees(side.placement.rotate_deg);
+            const Chain& chain = chains[side.chain];
+            for (int k = 0; k < chain.links(); ++k) {
+                const ChainLink& link = links[side.chain][static_cast<std::size_t>(k)];
+                const Placement there{.translate = rotation(link.translate) + side.placement.translate,
+                                      .rotate_deg = side.placement.rotate_deg + link.rotate_deg,
+                                      .start = side.placement.start + chain.first_sample(k) * chain.dt()};
+                out.back().emplace_back(link.part->tree(), there);
+            }
+        }
+        return out;
     }
 };
 
 const Queries& queries(int links) {
-    static const Queries few(8), many(200);
-    return links == 8 ? few : many;
+    static std::map<int, Queries> made;
+    return made.try_emplace(links, links).first->second;
 }
 
-template <class Placed, class Sources>
-void ask(benchmark::State& state, const Sources& sources, const Queries& q) {
-    std::vector<Placed> placed;
-    for (const auto& [chain, placement] : q.sides) placed.emplace_back(sources[chain], placement);
+template <NodeSource Placed, TraversalObserver Observer>
+bool collide_ever(const Placed& a, const Placed& b, Observer& observer) {
+    return query(a, b, observer).has_value();
+}
+
+/// One query for each two segments that overlap in time, in order of time, up to the first hit.
+template <TraversalObserver Observer>
+bool collide_ever(const std::vector<PlacedTree>& a, const std::vector<PlacedTree>& b, Observer& observer) {
+    std::size_t i = 0, j = 0;
+    while (i < a.size() && j < b.size()) {
+        const double end_a = a[i].end(a[i].node(0)), end_b = b[j].end(b[j].node(0));
+        if (overlap_in_time(a[i].begin(a[i].node(0)), end_a, b[j].begin(b[j].node(0)), end_b) &&
+            query(a[i], b[j], observer).has_value()) {
+            return true;
+        }
+        ++(end_a < end_b ? i : j);
+    }
+    return false;
+}
+
+template <class Placed>
+void ask(benchmark::State& state, const std::vector<Placed>& placed) {
     Statistics statistics;
     int hits = 0;
-    for (std::size_t i = 0; i < placed.size(); i += 2) {
-        hits += query(placed[i], placed[i + 1], statistics).has_value();
-    }
+    for (std::size_t i = 0; i < placed.size(); i += 2) hits += collide_ever(placed[i], placed[i + 1], statistics);
     const double count = static_cast<double>(placed.size()) / 2;
     state.counters["2D"] = static_cast<double>(statistics.tests[BoxKind::obb2d]) / count;
     state.counters["time"] = static_cast<double>(statistics.tests[TestKind::time]) / count;
     state.counters["samples"] = static_cast<double>(statistics.tests[TestKind::samples]) / count;
     state.counters["hits"] = hits / count;
+    NoObserver nobody;
     std::size_t i = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(query(placed[i], placed[i + 1]));
+        benchmark::DoNotOptimize(collide_ever(placed[i], placed[i + 1], nobody));
         i = (i + 2) % placed.size();
     }
 }
 
 void query_composed(benchmark::State& state) {
     const Queries& q = queries(static_cast<int>(state.range(0)));
-    ask<PlacedChain>(state, q.chains, q);
+    ask(state, q.placed<PlacedChain>(q.chains));
 }
 void query_rebuilt(benchmark::State& state) {
     const Queries& q = queries(static_cast<int>(state.range(0)));
-    ask<PlacedTree>(state, q.rebuilt, q);
+    ask(state, q.placed<PlacedTree>(q.rebuilt));
+}
+void query_segments(benchmark::State& state) {
+    ask(state, queries(static_cast<int>(state.range(0))).placed_segments());
 }
 
 BENCHMARK(compose)->Arg(10)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
@@ -159,7 +211,9 @@ BENCHMARK(rebuild)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(append_one)->Arg(10)->Arg(1000);
 BENCHMARK(part)->Unit(benchmark::kMicrosecond);
 BENCHMARK(tree)->Unit(benchmark::kMicrosecond);
-BENCHMARK(query_composed)->Arg(8)->Arg(200);
-BENCHMARK(query_rebuilt)->Arg(8)->Arg(200);
+#define FOR_CHAINS(f) BENCHMARK(f)->Arg(2)->Arg(4)->Arg(8)->Arg(32)->Arg(200)
+FOR_CHAINS(query_composed);
+FOR_CHAINS(query_rebuilt);
+FOR_CHAINS(query_segments);
 
 }  // namespace

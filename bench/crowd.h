@@ -43,8 +43,8 @@ inline Scene run(int agents, double seconds) {
     const double side = std::sqrt(12.0 * agents);
     options.area = {side, side};
     options.seconds = seconds;
-    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
-    return scene;
+    const MoveSet moves(fitted);
+    return scene_of_run(moves, simulate(moves, options).run);
 }
 
 /// Two agents whose walks cross for so many seconds, with the query between them in the view.

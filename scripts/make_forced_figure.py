@@ -15,7 +15,7 @@ import tempfile
 
 AGENTS = [25, 50, 100, 200, 300, 400]
 SECONDS = 60
-PLANS = [0, 4]
+PLANS = [0, 8]
 COLORS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7"]
 
 
@@ -63,7 +63,7 @@ def main():
                         default=pathlib.Path(__file__).resolve().parent.parent / "docs" / "pictures" / "forced.svg")
     arguments = parser.parse_args()
     curves = []
-    print("| graph | agents | choices | forced, plan 0 | forced, plan 4 s | queries, plan 0 | plan 4 s | seconds, plan 0 | plan 4 s |")
+    print("| graph | agents | choices | forced, plan 0 | forced, plan 8 s | queries, plan 0 | plan 8 s | seconds, plan 0 | plan 8 s |")
     print("|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for graph, color in zip(arguments.graphs, COLORS):

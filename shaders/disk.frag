@@ -19,7 +19,8 @@ float seam(float to_edge) {
 }
 
 void main() {
-    bool cap = abs(surface_normal.z) > 0.5;
+    // Of a side what lies along the floor is a unit vector, however it leans.
+    bool cap = dot(surface_normal.xy, surface_normal.xy) < 0.25;
     vec3 n = normalize(surface_normal);
     float shade = mix(0.54 + 0.36 * (0.5 + 0.5 * dot(n, light)), face_shade, upper);
     float edge = cap ? seam(1.0 - local.x) : seam(local.y);

@@ -1,11 +1,11 @@
 #version 330 core
-// A unit cylinder, placed and scaled for each sample, or leaning and tapered for a run of them.
+// A unit cylinder, placed and scaled for each sample or run of them, leaning and tapered where it moves on.
 layout(location = 0) in vec4 corner;  // x, y on the unit circle; z 0 below, 1 above; w 0 inside of a face, 1 at its rim
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 base_and_radius;
 layout(location = 3) in vec4 top_and_radius;
 layout(location = 4) in uint source;  // number of the disk that has its colour
-layout(location = 5) in uvec2 id;  // 0 of a run
+layout(location = 5) in uvec2 id;  // x is 0 of a run; then y is 1 where its disks go on where the last ended
 layout(location = 6) in vec3 above;  // of the disk that stands on it: its centre from this one's, and its radius; or 0
 layout(location = 7) in vec3 below;  // likewise of the one that it stands on
 
@@ -15,6 +15,7 @@ uniform vec2 across;  // where x goes on the floor: cylinders are turned about t
 uniform float scale;  // pixels of a metre at distance 1, or anywhere without perspective
 uniform float inner;  // radius of the circle inside the corners, in that of the corners
 uniform float near_depth;  // what is nearer to the eye is not drawn
+uniform float most_lean;  // metres over the floor that a disk goes at most
 
 out vec3 surface_normal;
 out float upper;       // share of the disks' faces, the rest being their sides
@@ -30,7 +31,7 @@ float hidden_until(vec2 at, vec3 by, float radius, vec4 middle) {
     float height = top_and_radius.z - base_and_radius.z;
     if (length(by.xy) >= reach || height * scale / middle.w < 0.02) return 0.0;
     // The other one must be drawn, all of it.
-    if (middle.w - near_depth < length(by.xy) + by.z + height) return 0.0;
+    if (middle.w - near_depth < length(by.xy) + by.z + height + most_lean) return 0.0;
     vec2 way = at / radius;
     float along = dot(way, by.xy);
     return clamp((along + sqrt(along * along + reach * reach - dot(by.xy, by.xy))) / radius, 0.0, 1.0);
@@ -51,15 +52,21 @@ void main() {
     face_shade = 1.0;
     number = source;
     local = vec2(rim, corner.z);
-    if (id.x == 0u && abs(normal.z) < 0.5) {
-        // Of each disk as much of the face is seen as its successor leaves free, beside its side.
+    if (abs(normal.z) < 0.5) {
         vec4 step = top_and_radius - base_and_radius;
-        float face = max(0.0, -(dot(step.xy, surface_normal.xy) + step.w) * back.z);
-        float side = max(0.0, step.z * dot(surface_normal.xy, back.xy));
-        upper = face / max(face + side, 1e-6);
-        local.y += 10.0;  // far from an edge
-        // What is left free is narrow: all of it lies in the line along the rim (see disk.frag).
-        face_shade = 1.0 - 0.38 * (1.0 - smoothstep(0.25, 0.7, gl_Position.w / (scale * end.w)));
+        // How far this line of the side leans inwards, on the way up.
+        float inwards = -(dot(step.xy, surface_normal.xy) + step.w);
+        if (id == uvec2(0u)) {
+            // Of each disk as much of the face is seen as its successor leaves free, beside its side.
+            float face = max(0.0, inwards * back.z);
+            float side = max(0.0, step.z * dot(surface_normal.xy, back.xy));
+            upper = face / max(face + side, 1e-6);
+            // What is left free is narrow: all of it lies in the line along the rim (see disk.frag).
+            face_shade = 1.0 - 0.38 * (1.0 - smoothstep(0.25, 0.7, gl_Position.w / (scale * end.w)));
+        } else {
+            surface_normal.z = inwards / max(step.z, 1e-9);
+        }
+        if (id.x == 0u) local.y += 10.0;  // far from an edge
     }
     object_id = id;
 }

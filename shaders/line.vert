@@ -13,7 +13,8 @@ uniform bool edges;
 uniform mat4 clip_from_world;
 uniform vec2 viewport;
 uniform bool hidden;
-uniform float depth_bias;
+uniform float depth_bias;  // of depths from -1 to 1
+uniform float most_bias;   // of clip space
 
 flat out vec4 line_color;
 flat out vec4 pattern;
@@ -69,5 +70,5 @@ void main() {
     along = end ? span + shape.y : -shape.y;
     vec2 pixel = (end ? pb : pa) + direction * (end ? shape.y : -shape.y) + vec2(-direction.y, direction.x) * across;
     vec4 clip = end ? b : a;
-    gl_Position = vec4(pixel / (0.5 * viewport) * clip.w, clip.z - depth_bias * clip.w, clip.w);
+    gl_Position = vec4(pixel / (0.5 * viewport) * clip.w, clip.z - min(depth_bias * clip.w, most_bias), clip.w);
 }

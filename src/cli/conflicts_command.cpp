@@ -59,7 +59,7 @@ std::optional<double> common_radius(const Scene& scene) {
     return radius;
 }
 
-/// Who is who: a person of a run whose clips differ in dt is several agents of the scene.
+/// Who is who: a person of a run whose clips differ in dt, or are linear, is several agents of the scene.
 class People {
   public:
     explicit People(const Scene& scene) {

@@ -77,7 +77,7 @@ void print_report(const BuildReport& report) {
               << "left out: " << report.alike << " that go like others or are more than --moves; "
               << moves_text(report.dead_ends) << " and " << hubs_text(report.dropped_hubs)
               << " at dead ends or in parts of fewer than --least-moves\n"
-              << "measured again from the files: " << counted(report.joints_checked, "joint", "joints") << "; "
+              << "measured again from the files: " << counted(report.joints_checked, "join", "joins") << "; "
               << moves_text(report.broken) << " dropped that broke a bound\n";
     if (report.rigs_left_out > 0) {
         warn(counted(report.rigs_left_out, "rig has", "rigs have") +
@@ -145,9 +145,10 @@ int info(const InfoArguments& arguments) {
     const Scene scene = load_graph(arguments.file);
     const GraphFigures figures = graph_figures(scene);
     const TransitionMeasures transitions = measure_transitions(scene, tell("measured", "clips"));
-    (arguments.json ? write_graph_info : print_graph_info)(std::cout, scene, figures, transitions);
+    const Continuity continuity = graph_continuity(scene);
+    (arguments.json ? write_graph_info : print_graph_info)(std::cout, scene, figures, transitions, continuity);
     flush_results();
-    const std::vector<std::string> broken = broken_bounds(scene, transitions);
+    const std::vector<std::string> broken = broken_bounds(scene, transitions, continuity);
     for (const std::string& sentence : broken) complain(arguments.file.string() + ": " + sentence);
     return broken.empty() ? kDone : kFailed;
 }
@@ -190,6 +191,9 @@ void add_build(Command& graph, int& status) {
         std::tie(options.least_seconds, options.most_seconds) = parse_seconds(text);
     };
     command.add_option("--seconds", set_seconds, "How long moves last (1:4)", "A:B");
+    add_parsed(command, "--warp", options.warp, number_within(0, kMostSeconds),
+               "Seconds over which a move is warped at either end to its hub's pose and velocity; 0: not at all (0.3)",
+               "S");
     add_parsed(command, "--hubs", options.hubs, whole_number_within(1, kMostCount), "Most hubs for each rig (8)", "N");
     add_parsed(command, "--moves", options.moves, whole_number_within(1, kMostCount),
                "Most moves from one hub to another; those that differ most are taken (16)", "N");

@@ -1,5 +1,6 @@
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <cli/continuity_report.h>
 #include <cli/graph_info.h>
 #include <scene/motion_graph.h>
 
@@ -24,6 +25,9 @@ const std::string& clip_of_move(const Scene& scene, int move) {
 /// Three decimals: millimetres.
 std::string rounded(double value) { return brief(std::round(value * 1000) / 1000); }
 
+/// One decimal.
+std::string seconds_text(double value) { return brief(std::round(value * 10) / 10); }
+
 void print_spread(std::ostream& out, const Scene& scene, const char* what, const char* unit,
                   const TransitionSpread& spread, double bound) {
     out << "  " << std::left << std::setw(16) << what << std::right;
@@ -32,7 +36,7 @@ void print_spread(std::ostream& out, const Scene& scene, const char* what, const
         return;
     }
     out << rounded(spread.median) << ' ' << unit << " median, " << rounded(spread.largest) << " at most (bound "
-        << (std::isfinite(bound) ? brief(bound) : "none") << "), where "
+        << (std::isfinite(bound) ? brief(bound) : "none") << ") as recorded, where "
         << in_quotes(clip_of_move(scene, spread.before)) << " goes on with "
         << in_quotes(clip_of_move(scene, spread.after)) << '\n';
 }
@@ -71,18 +75,19 @@ void write_spread(JsonWriter& out, const char* key, const Scene& scene, const Tr
 }  // namespace
 
 void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures& figures,
-                      const TransitionMeasures& transitions) {
+                      const TransitionMeasures& transitions, const Continuity& continuity) {
     const MotionGraph& graph = *scene.graph;
     out << cleaned(scene.file.string()) << ": " << counted(graph.hubs.size(), "hub", "hubs") << ", "
-        << counted(figures.moves, "move", "moves") << ", " << brief(figures.seconds) << " s of motion\n"
-        << "  a choice        every " << brief(figures.seconds_between_choices) << " s, among "
-        << brief(figures.choices) << " moves on average\n";
+        << counted(figures.moves, "move", "moves") << ", " << seconds_text(figures.seconds) << " s of motion\n"
+        << "  a choice        every " << brief(std::round(figures.seconds_between_choices * 100) / 100) << " s, among "
+        << brief(std::round(figures.choices * 10) / 10) << " moves on average\n";
     print_spread(out, scene, "pose distance", "m", transitions.pose_distance, graph.bounds.pose_distance);
     print_spread(out, scene, "root velocity", "m/s", transitions.root_speed, graph.bounds.root_speed);
     if (transitions.pose_distance.count > 0 && transitions.pose_distance.count < transitions.count) {
         out << "                  " << transitions.count - transitions.pose_distance.count << " of "
-            << transitions.count << " joints have no pose distance: their clips have no skeleton, or another one\n";
+            << transitions.count << " joins have no pose distance: their clips have no skeleton, or another one\n";
     }
+    print_continuity(out, scene, continuity);
     out << "  hub       begin here   end here   m/s\n";
     for (std::size_t h = 0; h < std::min(figures.hubs.size(), kMostRows); ++h) {
         const HubFigures& hub = figures.hubs[h];
@@ -96,7 +101,7 @@ void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures&
         const ComponentFigures& part = figures.components[c];
         out << "  part " << c << ": " << counted(part.hubs.size(), "hub", "hubs") << " from "
             << cleaned(figures.hubs[static_cast<std::size_t>(part.hubs.front())].name) << ", "
-            << counted(part.moves, "move", "moves") << ", " << brief(part.seconds) << " s\n";
+            << counted(part.moves, "move", "moves") << ", " << seconds_text(part.seconds) << " s\n";
     }
     if (figures.components.size() > 1) print_more(out, figures.components.size());
     for (std::size_t r = 0; r < std::min(graph.rigs.size(), kMostRows); ++r) {
@@ -106,14 +111,14 @@ void print_graph_info(std::ostream& out, const Scene& scene, const GraphFigures&
     print_more(out, graph.rigs.size());
     for (std::size_t s = 0; s < std::min(figures.sources.size(), kMostRows); ++s) {
         const SourceFigures& source = figures.sources[s];
-        out << "  " << counted(source.moves, "move", "moves") << ", " << brief(source.seconds) << " s, from "
+        out << "  " << counted(source.moves, "move", "moves") << ", " << seconds_text(source.seconds) << " s, from "
             << (source.file.empty() ? "samples in the file" : cleaned(source.file)) << '\n';
     }
     print_more(out, figures.sources.size());
 }
 
 void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& figures,
-                      const TransitionMeasures& transitions) {
+                      const TransitionMeasures& transitions, const Continuity& continuity) {
     JsonWriter out(to);
     out.begin_object();
     out.member("file", scene.file.string());
@@ -133,6 +138,7 @@ void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& 
     write_spread(out, "pose_distance", scene, transitions.pose_distance);
     write_spread(out, "root_speed", scene, transitions.root_speed);
     out.end_object();
+    write_continuity(out, "continuity", scene, continuity);
     out.member("choices", figures.choices);
     out.member("seconds_between_choices", figures.seconds_between_choices);
     out.list("components", figures.components, [&](const ComponentFigures& part) {
@@ -158,12 +164,13 @@ void write_graph_info(std::ostream& to, const Scene& scene, const GraphFigures& 
         out.member("seconds", source.seconds);
         out.end_object();
     });
-    out.member("holds", broken_bounds(scene, transitions).empty());
+    out.member("holds", broken_bounds(scene, transitions, continuity).empty());
     out.end_object();
 }
 
-std::vector<std::string> broken_bounds(const Scene& scene, const TransitionMeasures& transitions) {
-    std::vector<std::string> out;
+std::vector<std::string> broken_bounds(const Scene& scene, const TransitionMeasures& transitions,
+                                       const Continuity& continuity) {
+    std::vector<std::string> out = broken_continuity(scene, continuity);
     const auto hold = [&](const TransitionSpread& spread, double bound, const char* what, const char* unit) {
         if (!exceeds(spread, bound)) return;
         out.push_back(std::string(what) + " is " + brief(spread.largest) + ' ' + unit + " where " +

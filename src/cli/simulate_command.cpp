@@ -3,9 +3,11 @@
 #include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
+#include <cli/continuity_report.h>
 #include <cli/options.h>
 #include <cli/program.h>
 #include <crowd/graph/build_graph.h>
+#include <crowd/graph/continuity.h>
 #include <crowd/simulation/simulate.h>
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
@@ -41,6 +43,7 @@ struct SimulateCommandArguments {
     bool whole = false;
     bool json = false;
     SimulateOptions options;
+    double turn_rate = kDefaultTurnRate;
     FitArguments fit;
 };
 
@@ -60,14 +63,15 @@ glm::dvec2 parse_area(const std::string& text) {
 /// The scene whose graph is played, and nothing else of it.
 Scene load_moves(const SimulateCommandArguments& arguments) {
     Scene scene = load_files({arguments.graph});
+    scene.agents.clear();
+    scene.queries.clear();
+    if (scene.graph) remove_run(scene);
     if (arguments.whole) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     if (!scene.graph) {
         throw InputError(arguments.graph.string(), "",
                          "there is no motion graph; make one with graph build, or give --whole, and every clip may "
                          "follow every other");
     }
-    scene.agents.clear();
-    scene.queries.clear();
     scene.view = {};
     scene.fit = arguments.fit.over(scene.fit);
     return scene;
@@ -106,7 +110,7 @@ class Report {
         say("simulated " + brief(std::round(counts.simulated * 10) / 10) + " of " + brief(seconds_) +
             " s: " + std::to_string(counts.agents) + " agents, " + std::to_string(counts.choices) + " choices, " +
             std::to_string(counts.off_floor + counts.colliding) + " candidates discarded, " +
-            std::to_string(counts.pivots) + " pivots, " + std::to_string(counts.forced) + " forced");
+            std::to_string(counts.pivots) + " turned on the way, " + std::to_string(counts.forced) + " forced");
     }
 
   private:
@@ -118,13 +122,15 @@ struct Summary {
     SimulationCounts counts;
     double seconds = 0;                                               ///< that the run took
     std::optional<std::pair<std::size_t, std::uint64_t>> recorded{};  ///< queries written, of how many
+    RunContinuity continuity{};
+    double turn_rate = 0;  ///< degrees per second
 };
 
 double queries_per_second(const Summary& summary) {
     return summary.seconds > 0 ? static_cast<double>(summary.counts.queries) / summary.seconds : 0;
 }
 
-void print_run_json(const Summary& summary) {
+void print_run_json(const Scene& scene, const Summary& summary) {
     const SimulationCounts& c = summary.counts;
     JsonWriter out(std::cout);
     out.begin_object();
@@ -138,6 +144,7 @@ void print_run_json(const Summary& summary) {
     out.member("no_way_on", c.no_way_on);
     out.member("in_the_way", c.in_the_way);
     out.member("pivots", c.pivots);
+    out.member("turn_rate", summary.turn_rate);
     out.member("forced", c.forced);
     out.member("queries", c.queries);
     out.member("most_held", c.most_held);
@@ -147,6 +154,8 @@ void print_run_json(const Summary& summary) {
         out.member("recorded", summary.recorded->first);
         out.member("recorded_of", summary.recorded->second);
     }
+    write_continuity(out, "continuity", scene, summary.continuity.free);
+    write_forced_continuity(out, "continuity_forced", summary.continuity.forced);
     out.end_object();
 }
 
@@ -157,20 +166,23 @@ void print_run_text(const Summary& summary) {
               << counted(c.candidates, "candidate", "candidates") << ": " << c.off_floor << " leave the floor, "
               << c.colliding << " collide, " << c.no_way_on << " have no way on, " << c.in_the_way
               << " end in somebody's way\n"
-              << counted(c.pivots, "pivot", "pivots") << ", " << c.forced << " forced\n"
-              << counted(c.queries, "query", "queries") << " in " << brief(summary.seconds)
+              << counted(c.pivots, "play turns", "plays turn") << " on the way, at most " << brief(summary.turn_rate)
+              << " degrees/s; " << counted(c.forced, "play is", "plays are") << " forced\n"
+              << counted(c.queries, "query", "queries") << " in " << brief(std::round(summary.seconds * 100) / 100)
               << " s: " << brief(std::round(queries_per_second(summary))) << " a second\n";
     if (summary.recorded) {
         std::cout << "recorded " << counted(summary.recorded->first, "query", "queries") << " of "
                   << summary.recorded->second << '\n';
     }
+    print_continuity(std::cout, summary.continuity);
 }
 
 void run_simulate(const SimulateCommandArguments& arguments) {
     check_run_outputs(arguments);
     Scene scene = load_moves(arguments);
-    const FittedScene fitted(scene, scene.fit);
-    const MoveSet moves(fitted);
+    const mobb::FitOptions fit = scene.fit;
+    const FittedScene fitted(std::move(scene), fit);
+    const MoveSet moves(fitted, arguments.turn_rate);
     std::optional<QuerySample> sample;
     if (!arguments.record.empty()) {
         const bool all = arguments.record_all_pairs || arguments.record_within;
@@ -184,13 +196,15 @@ void run_simulate(const SimulateCommandArguments& arguments) {
         simulate(moves, arguments.options, sample ? &*sample : nullptr, Report(arguments.options.seconds));
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     summary.counts = simulation.counts;
+    summary.turn_rate = arguments.turn_rate;
     if (sample) {
         summary.recorded.emplace(sample->size(), sample->offered());
-        write_scene(sample->workload(scene), arguments.record, arguments.inline_samples);
+        write_scene(sample->workload(moves), arguments.record, arguments.inline_samples);
     }
-    scene.crowd = std::make_shared<const CrowdRun>(std::move(simulation.run));
-    write_scene(std::move(scene), arguments.out, arguments.inline_samples);
-    arguments.json ? print_run_json(summary) : print_run_text(summary);
+    const Scene played = scene_of_run(moves, std::move(simulation.run));
+    summary.continuity = run_continuity(played);
+    write_scene(played, arguments.out, arguments.inline_samples);
+    arguments.json ? print_run_json(played, summary) : print_run_text(summary);
     flush_results();
 }
 
@@ -215,7 +229,9 @@ void add_simulate_command(Command& program) {
     add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
                "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
     add_parsed(command, "--plan", options.plan, number_within(0, kMaxSimulated),
-               "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (4)", "S");
+               "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (8)", "S");
+    add_parsed(command, "--turn-rate", arguments->turn_rate, number_within(0, kMaxTurnRate),
+               "Largest angular speed at which agents turn on the way of a move; 0: they do not (120)", "DEG_PER_S");
     add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
     const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
                                      "Queries that the trees were asked, as a scene", "FILE.json");

@@ -238,15 +238,6 @@ bool is_worse(const PeopleConflict& x, const PeopleConflict& y) {
 
 }  // namespace
 
-Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress) {
-    Conflicts out;
-    for_each_pair(crowd, search, progress, [&](int a, int b) {
-        ++out.pairs_tested;
-        if (auto conflict = conflict_between(crowd, a, b, search)) out.found.push_back(std::move(*conflict));
-    });
-    return out;
-}
-
 std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> crowd) {
     std::vector<PathPiece> pieces = cut(crowd);
     std::vector<std::pair<int, int>> pairs;

@@ -27,16 +27,6 @@ struct Conflict {
     int b_sample = 0;
 };
 
-struct Conflicts {
-    std::vector<Conflict> found;    ///< by a, then b
-    std::int64_t pairs_tested = 0;  ///< that were asked of the trees, or searched directly
-};
-
-/// Every pair of the crowd that collides. Search::trees asks the trees of those whose paths come near each other
-/// (near_pairs). Search::direct measures every pair of samples of every pair of members. Both find the same. `progress`
-/// is told of pairs. The trees may be of any kind.
-Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress = {});
-
 /// Pairs (a, b) of indices into the crowd, a < b, of those whose disks may meet; it leaves out no pair that collides
 /// (mobb/predicate.h). In order, each once. Time and memory grow with the number of samples and with how many are near
 /// each other, not with the square of the crowd.
@@ -63,7 +53,9 @@ struct PeopleConflicts {
 
 /// Every pair of people who collide, each once however often they meet. `person_of` says, for each path of the crowd,
 /// whose it is: a person's paths stand together, and people count from 0 in their order. A person's own paths, which
-/// join, are no conflict. `progress` is told of pairs of paths.
+/// join, are no conflict. Search::trees asks the trees of those paths that come near each other (near_pairs).
+/// Search::direct measures every pair of samples of every pair of paths. Both find the same. `progress` is told of
+/// pairs of paths. The trees may be of any kind.
 PeopleConflicts find_people_conflicts(std::span<const mobb::PlacedTree> crowd, std::span<const int> person_of,
                                       Search search, const Progress& progress = {});
 

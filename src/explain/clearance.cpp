@@ -45,6 +45,7 @@ struct PieceRecorder : mobb::ObserverBase {
 };
 
 constexpr int kLeaf = 8;
+constexpr int kNarrowings = 45;  // of a range of times: to 1e-9 of it by the golden section, 1e-13 by halves
 
 /// A range of samples and the rectangle that their disks lie in.
 struct Range {
@@ -60,7 +61,8 @@ struct Range {
 /// Halves of halves of a path, depth first. Boxes along the axes of the world: all that is asked is a bound.
 class Ranges {
   public:
-    explicit Ranges(const mobb::PlacedClip& clip) : clip_(clip) {
+    /// `leaf`: the most samples of a range that is not halved.
+    Ranges(const mobb::PlacedClip& clip, int leaf) : clip_(clip), leaf_(leaf) {
         disks_.reserve(static_cast<std::size_t>(clip.count()));
         for (int i = 0; i < clip.count(); ++i) disks_.push_back(clip.disk(i));
         build(0, clip.count());
@@ -70,6 +72,7 @@ class Ranges {
     const mobb::Disk& disk(int i) const { return disks_[static_cast<std::size_t>(i)]; }
     double begin(int i) const { return clip_.time(i); }
     double end(int i) const { return clip_.time(i + 1); }
+    mobb::SweptDisk swept(int i) const { return mobb::swept(clip_, i); }
 
   private:
     int build(int first, int end) {
@@ -78,9 +81,11 @@ class Ranges {
         Range range;
         range.first = first;
         range.end = end;
-        if (end - first <= kLeaf) {
-            for (const mobb::Disk& d :
-                 std::span(disks_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first))) {
+        if (end - first <= leaf_) {
+            // One that runs to the next sample lies between the two.
+            const int stop = clip_.is_linear() ? std::min(end + 1, clip_.count()) : end;
+            const auto at = static_cast<std::size_t>(first);
+            for (const mobb::Disk& d : std::span(disks_).subspan(at, static_cast<std::size_t>(stop) - at)) {
                 range.min = {std::min(range.min.x, d.x - d.r), std::min(range.min.y, d.y - d.r)};
                 range.max = {std::max(range.max.x, d.x + d.r), std::max(range.max.y, d.y + d.r)};
             }
@@ -97,6 +102,7 @@ class Ranges {
     }
 
     const mobb::PlacedClip& clip_;
+    int leaf_;
     std::vector<mobb::Disk> disks_;
     std::vector<Range> ranges_;
 };
@@ -112,8 +118,10 @@ double apart(const Range& a, const Range& b) {
 template <class Bound, class Value>
 class Least {
   public:
-    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, const Bound& bound, const Value& value_of)
-        : a_(a), b_(b), visits_(visits), bound_(bound), value_of_(value_of) {
+    /// `cost`: visits that a value takes.
+    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, std::int64_t cost, const Bound& bound,
+          const Value& value_of)
+        : a_(a), b_(b), visits_(visits), cost_(cost), bound_(bound), value_of_(value_of) {
         visit(0, 0, bound_(a_[0], b_[0]));
     }
 
@@ -127,7 +135,7 @@ class Least {
         const Range& a = a_[ia];
         const Range& b = b_[ib];
         if (a.is_leaf() && b.is_leaf()) {
-            visits_ -= static_cast<std::int64_t>(a.end - a.first) * (b.end - b.first);
+            visits_ -= cost_ * (a.end - a.first) * (b.end - b.first);
             for (int p = a.first; p < a.end; ++p) {
                 for (int q = b.first; q < b.end; ++q) {
                     const double found = value_of_(p, q);
@@ -152,8 +160,58 @@ class Least {
     const Ranges& a_;
     const Ranges& b_;
     std::int64_t& visits_;
+    std::int64_t cost_;
     const Bound& bound_;
     const Value& value_of_;
+};
+
+/// Two samples on the floor, whatever the time: with a lag, B is taken that much later than A.
+class LaggedPair {
+  public:
+    LaggedPair(const mobb::SweptDisk& a, const mobb::SweptDisk& b)
+        : a_(a), b_(b), least_(b.begin - a.end), most_(b.end - a.begin) {
+        // What is least over the times of A is convex in the lag, as the clearance is in both times.
+        constexpr double kGolden = 0.61803398874989485;
+        double low = least_, high = most_;
+        double one = high - kGolden * (high - low), two = low + kGolden * (high - low);
+        double at_one = apart(one), at_two = apart(two);
+        for (int i = 0; i < kNarrowings; ++i) {
+            if (at_one <= at_two) {
+                high = std::exchange(two, one);
+                at_two = std::exchange(at_one, apart(one = high - kGolden * (high - low)));
+            } else {
+                low = std::exchange(one, two);
+                at_one = std::exchange(at_two, apart(two = low + kGolden * (high - low)));
+            }
+        }
+        nearest_ = at_one <= at_two ? one : two;
+        apart_ = std::min(at_one, at_two);
+    }
+
+    /// Metres between the two at the times at which they are nearest on the floor; < 0: how deep they overlap.
+    double apart() const { return apart_; }
+    /// The lag nearest to 0 at which they overlap, of two that do so at some lag and not at 0, seconds.
+    double lag() const {
+        double outside = std::clamp(0.0, least_, most_);
+        if (apart(outside) < 0) return outside;
+        double inside = nearest_;
+        for (int i = 0; i < kNarrowings; ++i) {
+            const double middle = 0.5 * (outside + inside);
+            (apart(middle) < 0 ? inside : outside) = middle;
+        }
+        return inside;
+    }
+
+  private:
+    double apart(double lag) const {
+        const mobb::Approach approach(a_, {b_.from, b_.to, b_.begin - lag, b_.end - lag});
+        return approach.clearance(approach.nearest());
+    }
+
+    mobb::SweptDisk a_, b_;
+    double least_, most_;  ///< lags at which they share time
+    double nearest_ = 0;
+    double apart_ = 0;
 };
 
 /// The least and the most clearance of a piece from one global time to another.
@@ -221,9 +279,10 @@ std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, d
 }
 
 FloorPaths floor_paths(const mobb::PlacedClip& clip_a, const mobb::PlacedClip& clip_b, std::int64_t most_visits) {
-    if (clip_a.is_linear() || clip_b.is_linear()) return {};
-    const Ranges a(clip_a);
-    const Ranges b(clip_b);
+    const bool runs = clip_a.is_linear() || clip_b.is_linear();
+    const std::int64_t cost = runs ? kRunningPair : 1;
+    const Ranges a(clip_a, runs ? 1 : kLeaf);
+    const Ranges b(clip_b, runs ? 1 : kLeaf);
     std::int64_t visits = most_visits;
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const auto gap = [](double begin_a, double end_a, double begin_b, double end_b) {
@@ -236,23 +295,31 @@ FloorPaths floor_paths(const mobb::PlacedClip& clip_a, const mobb::PlacedClip& c
         return between > 0 ? between : -kNever;
     };
     const auto gap_value = [&](int i, int j) {
+        if (runs) {
+            const LaggedPair pair(a.swept(i), b.swept(j));
+            return pair.apart() < 0 ? std::abs(pair.lag()) : kNever;
+        }
         return mobb::collide(a.disk(i), b.disk(j)) ? gap(a.begin(i), a.end(i), b.begin(j), b.end(j)) : kNever;
     };
-    const Least meeting(a, b, visits, gap_bound, gap_value);
+    const Least meeting(a, b, visits, cost, gap_bound, gap_value);
     if (visits < 0) return {};
     FloorPaths out;
     out.known = true;
     if (meeting.i >= 0) {
-        out.meeting = {meeting.i, meeting.j, meeting.value, a.begin(meeting.i) < b.begin(meeting.j)};
+        // Samples that run may share time, and the one that begins later be there first.
+        const double lag = runs ? LaggedPair(a.swept(meeting.i), b.swept(meeting.j)).lag() : 0;
+        const bool a_first = lag != 0 ? lag > 0 : a.begin(meeting.i) < b.begin(meeting.j);
+        out.meeting = {meeting.i, meeting.j, meeting.value, a_first};
         return out;
     }
     const auto distance_bound = [](const Range& ra, const Range& rb) { return apart(ra, rb); };
     const auto distance = [&](int i, int j) {
+        if (runs) return std::max(0.0, LaggedPair(a.swept(i), b.swept(j)).apart());
         const mobb::Disk& da = a.disk(i);
         const mobb::Disk& db = b.disk(j);
         return std::max(0.0, std::sqrt(mobb::squared_distance(da, db)) - (da.r + db.r));
     };
-    const Least nearest(a, b, visits, distance_bound, distance);
+    const Least nearest(a, b, visits, cost, distance_bound, distance);
     if (visits < 0) return {};
     out.apart = nearest.value;
     return out;

@@ -51,22 +51,26 @@ struct ClearanceColumn {
 /// [t0, t1) in so many columns of equal width; no minimum is lost, however narrow. t1 > t0, columns >= 1.
 std::vector<ClearanceColumn> columns_of(const Clearance& clearance, double t0, double t1, int columns);
 
-/// Two samples whose disks overlap on the floor, and are the nearest in time of all that do.
+/// Two samples whose disks are in one place at some times of theirs, as near in time as any two are.
 struct FloorMeeting {
     int a_sample = 0;
     int b_sample = 0;
-    double gap = 0;  ///< seconds from the end of the earlier to the beginning of the later; < 0 if they share time
+    /// Seconds from when the earlier leaves to when the later comes: the least between two such times. Of disks that
+    /// stay, from the end of one to the beginning of the other, < 0 if they share time.
+    double gap = 0;
     bool a_first = false;  ///< the earlier one is A's
 };
 
 struct FloorPaths {
-    /// False: too many samples lie too near each other to tell in the time of a frame, or disks run between samples.
-    bool known = false;
+    bool known = false;  ///< false: too many samples lie too near each other to tell in the time of a frame
     std::optional<FloorMeeting> meeting;  ///< if the paths overlap on the floor
     double apart = 0;                     ///< metres between them if not; else 0
 };
 
-/// Visits at most so many pairs of samples or ranges of samples, a few nanoseconds each.
+/// What a pair of samples of which one runs takes of the visits of floor_paths.
+inline constexpr std::int64_t kRunningPair = 250;
+
+/// Makes at most so many visits of a few nanoseconds each, one for two samples that stay or two ranges of samples.
 FloorPaths floor_paths(const mobb::PlacedClip& a, const mobb::PlacedClip& b, std::int64_t most_visits = 1'000'000);
 
 }  // namespace mobbscope

@@ -60,7 +60,7 @@ std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clea
         const ClearancePiece& piece = clearance.pieces[*clearance.contact];
         out.push_back("Sample " + std::to_string(piece.a_sample) + " of " + sides[0].label + " and sample " +
                       std::to_string(piece.b_sample) + " of " + sides[1].label + " overlap by " +
-                      with_unit(-piece.clearance, "m") + ".");
+                      overlap_words(sides[0].clip(), sides[1].clip(), piece.a_sample, piece.b_sample) + ".");
         const ClearancePiece& deepest = clearance.pieces[*clearance.least];
         if (*clearance.least != *clearance.contact) {
             out.push_back("Deepest at " + with_unit(deepest.least_at, "s") + ": " + with_unit(-deepest.clearance, "m") +

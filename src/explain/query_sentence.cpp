@@ -47,8 +47,7 @@ std::string sample_outcome(std::span<const DrawnAgent> sides, const mobb::Trace:
     if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {
         const mobb::Contact contact = mobb::contact_of(a, event.pairs.back().i, b, event.pairs.back().j);
         return "samples " + std::to_string(contact.a_sample) + " and " + std::to_string(contact.b_sample) + " hit at " +
-               with_unit(contact.time, "s") + ", " +
-               with_unit(most_overlap(a, b, contact.a_sample, contact.b_sample), "m") + " deep";
+               with_unit(contact.time, "s") + ", " + overlap_words(a, b, contact.a_sample, contact.b_sample) + " deep";
     }
     if (event.pairs.empty()) return "no pair of samples overlaps in time";
     double clearance = std::numeric_limits<double>::max();
@@ -68,6 +67,10 @@ std::string with_unit(double value, const char* unit) {
     // Below a millimetre more decimals are needed to say anything, above 10 fewer.
     const int decimals = std::clamp(size >= 10 ? 2 : digits < -3 ? 2 - digits : 3, 0, 12);
     return formatted("%.*f %s", decimals, value, unit);
+}
+
+std::string overlap_words(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j) {
+    return (a.is_linear() || b.is_linear() ? "up to " : "") + with_unit(most_overlap(a, b, i, j), "m");
 }
 
 std::string node_name(const DrawnAgent& agent, int node) {

@@ -31,4 +31,8 @@ std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQue
 /// "0.183 m", "0.42 s": three digits or millimetres, whichever is more.
 std::string with_unit(double value, const char* unit);
 
+/// How deep two samples that collide overlap: "0.120 m", or "up to 0.120 m" where one of them moves, as they only touch
+/// at first.
+std::string overlap_words(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j);
+
 }  // namespace mobbscope

@@ -6,10 +6,10 @@
 
 namespace mobb {
 
-double cylinder_volume(const Clip& clip) {
+double cylinder_volume(const Clip& clip, SampleRange range) {
     double sum = 0;
     const std::span<const Disk> samples = clip.samples();
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t i = static_cast<std::size_t>(range.first); i < static_cast<std::size_t>(range.end()); ++i) {
         const bool runs = clip.motion() == Motion::linear && i + 1 < samples.size();
         const double r0 = samples[i].r;
         const double r1 = samples[runs ? i + 1 : i].r;
@@ -28,7 +28,7 @@ std::vector<LevelFigures> level_figures(const Tree& tree) {
             levels[static_cast<std::size_t>(level)].volume += v;
         }
     }
-    const double cylinders = cylinder_volume(tree.clip());
+    const double cylinders = cylinder_volume(tree.clip(), {0, tree.clip().count()});
     for (std::size_t i = 0; i < levels.size(); ++i) {
         levels[i].level = static_cast<int>(i);
         if (levels[i].volume > 0) levels[i].tightness = cylinders / levels[i].volume;

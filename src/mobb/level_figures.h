@@ -35,8 +35,8 @@ inline constexpr std::array kLevelColumns{
     LevelColumn{"tightness", "%", false, [](const LevelFigures& f) { return f.tightness; }, 100},
 };
 
-/// Sum over the samples of the volume that they sweep, m^2*s: pi*r^2*dt where they stay, pi*(r0^2 + r0*r1 + r1^2)/3*dt
+/// Sum over samples of the volume that they sweep, m^2*s: pi*r^2*dt where they stay, pi*(r0^2 + r0*r1 + r1^2)/3*dt
 /// where they run from a radius to another.
-double cylinder_volume(const Clip& clip);
+double cylinder_volume(const Clip& clip, SampleRange range);
 
 }  // namespace mobb

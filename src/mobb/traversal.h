@@ -127,9 +127,15 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
                : visit_pairs<Motion::held>(a, first_a, end_a, b, first_b, end_b, observer, on_hit);
 }
 
+/// How a leaf is tested against the nodes below the other side's inner node.
+enum class WalkTests {
+    time,            ///< in time only (paper, Fig. 4)
+    time_and_boxes,  ///< as two inner nodes are: to measure the paper's claim that this gains nothing
+};
+
 /// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says
 /// whether to stop.
-template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit>
+template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit, WalkTests walk_tests = WalkTests::time>
 class Traversal {
   public:
     Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
@@ -173,8 +179,7 @@ class Traversal {
         return stop;
     }
 
-    /// A leaf against the children of the other side's inner node (Fig. 4): in time only, as a box test gains nothing
-    /// there.
+    /// A leaf against the children of the other side's inner node (Fig. 4).
     template <Motion motion, Side inner_side>
     bool walk(int leaf, const auto& inner) {
         for (const int child : inner.children) {
@@ -184,7 +189,8 @@ class Traversal {
             const auto& nb = b_.node(ib);
             if constexpr (Observer::watches) observer_.enter(ia, ib);
             bool stop = false;
-            if (may_meet_in_time(na, nb)) {
+            if (may_meet_in_time(na, nb) &&
+                (walk_tests == WalkTests::time || may_meet_in_space(a_.box(na), b_.box(nb)))) {
                 if constexpr (inner_side == Side::a) {
                     stop = na.is_leaf() ? test_samples<motion>(na, nb) : walk<motion, Side::a>(leaf, na);
                 } else {

@@ -1,14 +1,19 @@
+#include <base/random.h>
 #include <base/text.h>
+#include <mobb/level_figures.h>
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
+#include <mobb/traversal.h>
+#include <paper_tables/clock.h>
 #include <paper_tables/measure.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace mobbscope {
 
@@ -19,12 +24,31 @@ constexpr std::size_t kBlock = 1024;
 
 /// What the tables count of one query.
 struct TableCounts : mobb::Statistics {
+    explicit TableCounts(std::vector<PairLevel>& pair_levels) : levels(&pair_levels) {}
+
+    std::vector<PairLevel>* levels;  ///< counts are added
     std::int64_t sample_steps = 0;
     int last_i = -1;
+    std::size_t depth = 0, deepest = 0;
     int entered = 0;
     bool measured = false;
 
-    void enter(int, int) { ++entered; }
+    void enter(int, int) {
+        ++entered;
+        ++depth;
+        deepest = std::max(deepest, depth);
+        if (levels->size() < depth) levels->resize(depth);
+        at_depth().pairs += 1;
+    }
+    void leave() { --depth; }
+    void time_test(bool overlap) {
+        Statistics::time_test(overlap);
+        if (!overlap) at_depth().apart_in_time += 1;
+    }
+    void box_test(mobb::BoxKind test, const mobb::Separation& separation) {
+        Statistics::box_test(test, separation);
+        if (separation.separated()) at_depth().separated += 1;
+    }
     void sample_pair(int i, int j, double squared_distance) {
         Statistics::sample_pair(i, j, squared_distance);
         if (i != last_i) ++sample_steps;
@@ -33,7 +57,9 @@ struct TableCounts : mobb::Statistics {
     void sample_test(bool) {
         measured = true;
         last_i = -1;
+        at_depth().sampled += 1;
     }
+    PairLevel& at_depth() { return (*levels)[depth - 1]; }
     bool rejected_by_roots() const { return entered == 1 && !measured; }
 };
 
@@ -43,20 +69,63 @@ struct FittedMethod {
     std::vector<mobb::Tree> trees;
 };
 
+/// The method's answer.
+template <class Observer>
+std::optional<mobb::Contact> ask(const Method& method, const mobb::PlacedTree& a, const mobb::PlacedTree& b,
+                                 Observer& observer) {
+    if (!method.boxes_in_walk) return mobb::query(a, b, observer);
+    std::optional<mobb::Contact> contact;
+    auto on_hit = [&](int i, int j) {
+        contact = mobb::contact_of(a.samples(), i, b.samples(), j);
+        return true;
+    };
+    using Walker = mobb::Traversal<mobb::PlacedTree, mobb::PlacedTree, Observer, decltype(on_hit),
+                                   mobb::WalkTests::time_and_boxes>;
+    Walker(a, b, observer, on_hit).run();
+    return contact;
+}
+
+TreeFigures tree_figures(const std::vector<mobb::Tree>& trees) {
+    TreeFigures out;
+    for (const mobb::Tree& tree : trees) {
+        out.depth += tree.depth();
+        out.nodes += static_cast<double>(tree.nodes().size());
+        out.volumes.resize(std::max(out.volumes.size(), static_cast<std::size_t>(tree.depth())));
+    }
+    for (const mobb::Tree& tree : trees) {
+        const std::vector<mobb::LevelFigures> levels = mobb::level_figures(tree);
+        for (std::size_t level = 0; level < out.volumes.size(); ++level) {
+            out.volumes[level] += levels[std::min(level, levels.size() - 1)].volume;
+        }
+    }
+    const double count = static_cast<double>(std::max<std::size_t>(trees.size(), 1));
+    out.depth /= count;
+    out.nodes /= count;
+    out.bytes = sizeof(mobb::Tree) + out.nodes * (sizeof(mobb::Node) + sizeof(int));
+    return out;
+}
+
 TableRow count(const FittedMethod& fitted, const Workload& workload,
                const std::vector<std::optional<mobb::Contact>>& truth) {
     mobb::TestCounts sum;
     std::int64_t steps = 0, rejected = 0, root_boxes = 0;
+    TableRow row;
+    row.method = fitted.method->name;
+    if (fitted.method->options) {
+        row.leaf = fitted.method->options->leaf;
+        row.levels = fitted.method->options->levels;
+        row.trees = tree_figures(fitted.trees);
+    }
     for (std::size_t i = 0; i < workload.queries.size(); ++i) {
         const WorkloadQuery& query = workload.queries[i];
-        TableCounts counts;
+        TableCounts counts(row.pair_levels);
         std::optional<mobb::Contact> contact;
         if (fitted.trees.empty()) {
             const auto [a, b] = placed(workload, query);
             contact = mobb::direct_search(a, b, counts);
         } else {
             const auto [a, b] = placed(fitted.trees, query);
-            contact = mobb::query(a, b, counts);
+            contact = ask(*fitted.method, a, b, counts);
             if (mobb::overlap_in_time(a.begin(a.node(0)), a.end(a.node(0)), b.begin(b.node(0)), b.end(b.node(0)))) {
                 ++root_boxes;
             }
@@ -68,34 +137,42 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
         }
         for (const mobb::TestKind test : mobb::kTestKinds) sum[test] += counts.tests[test];
         steps += counts.sample_steps;
+        row.pair_levels[counts.deepest - 1].ended += 1;
     }
-    const auto mean = [&](std::int64_t of) { return static_cast<double>(of) / static_cast<double>(truth.size()); };
-    TableRow row;
-    row.method = fitted.method->name;
-    row.leaf = fitted.method->options ? fitted.method->options->leaf : 0;
+    const auto mean = [&](auto of) { return static_cast<double>(of) / static_cast<double>(truth.size()); };
     for (const mobb::TestKind test : mobb::kTestKinds) row[test] = mean(sum[test]);
     row.sample_steps = mean(steps);
     row.root_rejected = mean(rejected);
     row.root_box_tests = mean(root_boxes);
+    if (fitted.trees.empty()) row.pair_levels.clear();
+    for (PairLevel& level : row.pair_levels) {
+        level = {mean(level.pairs), mean(level.apart_in_time), mean(level.separated), mean(level.sampled),
+                 mean(level.ended)};
+    }
     return row;
 }
 
 /// Nanoseconds for the queries [first, end), their placing left out. `hits` is what they answer.
 double time_block(const FittedMethod& fitted, const Workload& workload, std::size_t first, std::size_t end, int hits) {
-    using Clock = std::chrono::steady_clock;
-    const auto run = [&](const auto& placed_in, const auto& ask) {
+    const auto run = [&](const auto& placed_in, const auto& answer) {
         std::vector<decltype(placed(placed_in, workload.queries.front()))> pairs;
         pairs.reserve(end - first);
         for (std::size_t i = first; i < end; ++i) pairs.push_back(placed(placed_in, workload.queries[i]));
         int found = 0;
-        const auto begin = Clock::now();
-        for (const auto& pair : pairs) found += ask(pair) ? 1 : 0;
-        const auto finish = Clock::now();
+        const auto begin = ThreadClock::now();
+        for (const auto& pair : pairs) found += answer(pair) ? 1 : 0;
+        const auto finish = ThreadClock::now();
         if (found != hits) throw DisagreementError(fitted.method->name + " and the direct search disagree");
-        return std::chrono::duration<double, std::nano>(finish - begin).count();
+        return nanoseconds(finish - begin);
     };
     if (fitted.trees.empty()) {
         return run(workload, [](const auto& pair) { return mobb::direct_search(pair.a, pair.b).has_value(); });
+    }
+    if (fitted.method->boxes_in_walk) {
+        return run(fitted.trees, [&](const auto& pair) {
+            mobb::NoObserver observer;
+            return ask(*fitted.method, pair.a, pair.b, observer).has_value();
+        });
     }
     return run(fitted.trees, [](const auto& pair) { return mobb::query(pair.a, pair.b).has_value(); });
 }
@@ -107,10 +184,9 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-Method method_of(mobb::TreeKind kind, int levels, const char* suffix, mobb::FitOptions options) {
-    options.tree = kind;
-    options.levels = levels;
-    return {std::string(mobb::name(kind)) + suffix, options};
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return quantile(values, 0.5);
 }
 
 /// Linux says it in /proc/cpuinfo; elsewhere it stays unknown.
@@ -138,13 +214,19 @@ TableRows measure(const Workload& workload, const std::vector<Method>& methods, 
     const auto tell = [&](const std::string& doing, int done, int all) {
         if (progress) progress(doing, done, all);
     };
-    const int method_count = static_cast<int>(methods.size());
     std::vector<FittedMethod> fitted;
-    for (int m = 0; m < method_count; ++m) {
-        tell("fitting", m, method_count);
-        const Method& method = methods[static_cast<std::size_t>(m)];
-        fitted.push_back({&method, {}});
-        if (method.options) fitted.back().trees = trees_of(workload, *method.options);
+    std::vector<std::vector<double>> build_means(methods.size());  // by method and round, nanoseconds a tree
+    for (int round = 0; round < rounds; ++round) {
+        tell("fitting", round, rounds);
+        for (std::size_t m = 0; m < methods.size(); ++m) {
+            if (round == 0) fitted.push_back({&methods[m], {}});
+            if (!methods[m].options) continue;
+            const auto begin = ThreadClock::now();
+            std::vector<mobb::Tree> trees = trees_of(workload, *methods[m].options);
+            const double spent = nanoseconds(ThreadClock::now() - begin);
+            build_means[m].push_back(spent / static_cast<double>(trees.size()));
+            if (round == 0) fitted[m].trees = std::move(trees);
+        }
     }
 
     TableRows table;
@@ -160,20 +242,26 @@ TableRows measure(const Workload& workload, const std::vector<Method>& methods, 
         ++table.positive;
     }
     table.positive /= static_cast<double>(truth.size());
-    for (int m = 0; m < method_count; ++m) {
-        tell("counting", m, method_count);
-        table.rows.push_back(count(fitted[static_cast<std::size_t>(m)], workload, truth));
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        tell("counting", static_cast<int>(m), static_cast<int>(methods.size()));
+        table.rows.push_back(count(fitted[m], workload, truth));
+        if (methods[m].options) table.rows[m].trees.build_ns = median(build_means[m]);
     }
 
     std::vector<std::vector<double>> means(methods.size());  // by method and round
+    std::vector<std::size_t> turns(methods.size());
+    std::iota(turns.begin(), turns.end(), std::size_t{0});
+    Uniform uniform(1);
     for (int round = 0; round < rounds; ++round) {
         tell("timing", round, rounds);
         std::vector<double> sums(methods.size(), 0);
         for (std::size_t block = 0; block < hits.size(); ++block) {
             const std::size_t first = block * kBlock;
             const std::size_t end = std::min(first + kBlock, truth.size());
-            for (std::size_t turn = 0; turn < methods.size(); ++turn) {
-                const std::size_t m = (turn + block) % methods.size();
+            for (std::size_t left = turns.size(); left > 1; --left) {
+                std::swap(turns[left - 1], turns[static_cast<std::size_t>(uniform.below(static_cast<int>(left)))]);
+            }
+            for (const std::size_t m : turns) {
                 sums[m] += time_block(fitted[m], workload, first, end, hits[block]);
             }
         }
@@ -188,32 +276,6 @@ TableRows measure(const Workload& workload, const std::vector<Method>& methods, 
         table.rows[m].time_ns_q3 = quantile(means[m], 0.75);
     }
     return table;
-}
-
-std::vector<TableRow> sweep_leaf(const Workload& workload, mobb::FitOptions base, int rounds,
-                                 const MeasureProgress& progress) {
-    constexpr int kLeaves[] = {1, 2, 3, 5, 8, 10, 15, 20, 30, 50};
-    std::vector<Method> methods;
-    for (const int leaf : kLeaves) {
-        base.leaf = leaf;
-        for (Method& method : hierarchical_methods(base)) methods.push_back(std::move(method));
-    }
-    return measure(workload, methods, rounds, progress).rows;
-}
-
-std::vector<Method> hierarchical_methods(const mobb::FitOptions& base) {
-    std::vector<Method> methods;
-    for (const mobb::TreeKind kind : mobb::kTreeKinds) methods.push_back(method_of(kind, 0, "", base));
-    return methods;
-}
-
-std::vector<Method> table_methods(const mobb::FitOptions& base) {
-    std::vector<Method> methods{{"brute", std::nullopt}};
-    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
-        methods.push_back(method_of(kind, 1, "_1level", base));
-    }
-    for (Method& method : hierarchical_methods(base)) methods.push_back(std::move(method));
-    return methods;
 }
 
 std::string machine_words() {

@@ -2,6 +2,7 @@
 #include <paper_tables/table_report.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -49,6 +50,24 @@ void write_figures(JsonWriter& out, const TableRow& row) {
     out.member("sample_steps", row.sample_steps);
     out.member("root_box_tests", row.root_box_tests);
     out.member("root_rejected", row.root_rejected);
+    out.member("depth", row.trees.depth);
+    out.member("nodes", row.trees.nodes);
+    out.member("bytes", row.trees.bytes);
+    out.member("build_ns", row.trees.build_ns);
+}
+
+/// What is known of each level: of the trees, and of the pairs of nodes that are so deep.
+void write_level_lists(JsonWriter& out, const TableRow& row) {
+    out.values("volumes", row.trees.volumes);
+    out.list("pair_levels", row.pair_levels, [&](const PairLevel& level) {
+        out.begin_object(JsonWriter::Layout::row);
+        out.member("pairs", level.pairs);
+        out.member("apart_in_time", level.apart_in_time);
+        out.member("separated", level.separated);
+        out.member("sampled", level.sampled);
+        out.member("queries_ended", level.ended);
+        out.end_object();
+    });
 }
 
 /// A number in a column: `decimals` behind the point, right-aligned to `width`; "-" for zero tests.
@@ -75,13 +94,13 @@ std::string percent(double share) { return formatted("%.1f %%", 100 * share); }
 void write_rows(std::ostream& out, const TableReport& report) {
     out << "method           ns/query   quartiles       ";
     for (const mobb::BoxKind kind : mobb::kBoxKinds) out << right(mobb::info(kind).heading, width_of(kind));
-    out << "  sample pairs   steps  root rejects | paper: us      2D      3D  samples\n";
+    out << "  sample pairs  root rejects   steps | paper: us      2D      3D  samples\n";
     for (const TableRow& row : report.table.rows) {
         out << left(row.method, 15) << cell(row.time_ns, 10, 1) << "   "
             << left(formatted("%.1f..%.1f", row.time_ns_q1, row.time_ns_q3), 16);
         for (const mobb::BoxKind kind : mobb::kBoxKinds) out << cell(row[kind], width_of(kind), 2);
-        out << cell(row[mobb::TestKind::samples], 14, 2) << cell(row.sample_steps, 8, 2) << "  "
-            << right(row.leaf == 0 ? "-" : percent(row.root_rejected), 12);
+        out << cell(row[mobb::TestKind::samples], 14, 2) << "  "
+            << right(row.leaf == 0 ? "-" : percent(row.root_rejected), 12) << cell(row.sample_steps, 8, 2);
         if (const std::optional<PaperRow> paper = paper_row(report.workload, row.method)) {
             out << " |" << cell(paper->time_us, 10, 1) << cell(paper->obb2d, 8, 2) << cell(paper->obb3d, 8, 2)
                 << cell(paper->samples, 9, 2);
@@ -104,9 +123,50 @@ void write_costs(std::ostream& out, const TestCosts& costs) {
     out << (before[0] == ',' ? ".\n" : "No test was made, so none has a price.\n");
     const std::optional<double>& two_d = costs[mobb::BoxKind::obb2d];
     if (two_d && costs.sample_pair) {
-        out << "A 2D box test is worth " << cell(*two_d / *costs.sample_pair, 0, 1)
-            << " sample pairs; on the paper's machine it was worth n_min/2 = 5 steps.\n";
+        const double worth = *two_d / *costs.sample_pair;
+        out << "By itself a 2D box test is worth " << cell(worth, 0, 1)
+            << " sample pairs. The paper's rule makes n_min twice that, " << cell(2 * worth, 0, 0)
+            << " (its own: 10); --sweep measures the best.\n";
     }
+}
+
+/// Where the pairs of nodes end that a query visits, and what the boxes of each level hold, of the paper's two trees.
+void write_levels(std::ostream& out, const TableReport& report) {
+    const auto volume = [](const TableRow& row, std::size_t level) {
+        const std::vector<double>& volumes = row.trees.volumes;
+        return volumes[std::min(level, volumes.size() - 1)];
+    };
+    const auto mobb = std::ranges::find(report.table.rows, "mobb", &TableRow::method);
+    for (const TableRow& row : report.table.rows) {
+        if (row.leaf == 0 || row.levels == 1) continue;
+        out << "\n"
+            << row.method << ": " << formatted("%.1f", row.trees.depth) << " levels, "
+            << formatted("%.1f", row.trees.nodes) << " nodes, " << formatted("%.1f", row.trees.bytes / 1024)
+            << " KiB a tree, built in " << formatted("%.1f", row.trees.build_ns / 1000) << " us\n"
+            << "level   pairs  apart in time  separated  sampled  queries that end  volume, MOBB = 1\n";
+        for (std::size_t i = 0; i < row.pair_levels.size(); ++i) {
+            const PairLevel& level = row.pair_levels[i];
+            const auto of_pairs = [&](double part) { return right(percent(part / level.pairs), 9); };
+            out << left(std::to_string(i), 5) << cell(level.pairs, 8, 3) << "      " << of_pairs(level.apart_in_time)
+                << "  " << of_pairs(level.separated) << of_pairs(level.sampled) << "         "
+                << right(percent(level.ended), 9);
+            if (mobb != report.table.rows.end() && i < row.trees.volumes.size()) {
+                out << cell(volume(row, i) / volume(*mobb, i), 18, 3);
+            }
+            out << '\n';
+        }
+    }
+}
+
+/// The methods that a sweep or variants are compared with, measured in the same rounds.
+void write_beside(std::ostream& out, const std::vector<TableRow>& rows) {
+    const char* before = "In the same rounds: ";
+    for (const TableRow& row : rows) {
+        if (row.leaf != 0 && row.levels != 1) continue;
+        out << before << row.method << formatted(" %.1f", row.time_ns);
+        before = ", ";
+    }
+    out << " ns/query\n";
 }
 
 void write_sweep(std::ostream& out, const std::vector<TableRow>& sweep) {
@@ -115,6 +175,7 @@ void write_sweep(std::ostream& out, const std::vector<TableRow>& sweep) {
     std::vector<std::string> methods;
     std::map<std::pair<std::string, int>, const TableRow*> by;
     for (const TableRow& row : sweep) {
+        if (row.leaf == 0 || row.levels == 1) continue;
         if (std::find(leaves.begin(), leaves.end(), row.leaf) == leaves.end()) leaves.push_back(row.leaf);
         if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
         by[{row.method, row.leaf}] = &row;
@@ -142,6 +203,23 @@ void write_sweep(std::ostream& out, const std::vector<TableRow>& sweep) {
         out << left("n_min " + std::to_string(best->leaf), 26);
     }
     out << '\n';
+    write_beside(out, sweep);
+}
+
+void write_variants(std::ostream& out, const std::vector<TableRow>& variants) {
+    if (variants.empty()) return;
+    out << "\nVariants              ns/query  box tests    pairs   steps  build us   volumes from the root on, m^2*s\n";
+    for (const TableRow& row : variants) {
+        if (row.levels == 1) continue;
+        out << left(row.method, 20) << cell(row.time_ns, 10, 1) << cell(row.box_tests(), 11, 2)
+            << cell(row[mobb::TestKind::samples], 9, 2) << cell(row.sample_steps, 8, 2)
+            << cell(row.trees.build_ns / 1000, 10, 1) << "  ";
+        for (std::size_t i = 0; i < std::min<std::size_t>(row.trees.volumes.size(), 5); ++i) {
+            out << ' ' << brief(std::round(row.trees.volumes[i]));
+        }
+        out << '\n';
+    }
+    write_beside(out, variants);
 }
 
 }  // namespace
@@ -170,6 +248,7 @@ void write_json(std::ostream& stream, const TableReport& report) {
     out.list("rows", report.table.rows, [&](const TableRow& row) {
         out.begin_object();
         write_figures(out, row);
+        write_level_lists(out, row);
         write_paper(out, report.workload, row.method);
         out.end_object();
     });
@@ -181,6 +260,14 @@ void write_json(std::ostream& stream, const TableReport& report) {
         out.list("leaf_sweep", report.sweep, [&](const TableRow& row) {
             out.begin_object(JsonWriter::Layout::row);
             write_figures(out, row);
+            out.end_object();
+        });
+    }
+    if (!report.variants.empty()) {
+        out.list("variants", report.variants, [&](const TableRow& row) {
+            out.begin_object();
+            write_figures(out, row);
+            write_level_lists(out, row);
             out.end_object();
         });
     }
@@ -203,11 +290,13 @@ void write_text(std::ostream& out, const TableReport& report) {
         << percent(report.table.positive) << " collide; the MOBB roots alone reject " << percent(root_rejected(report))
         << ".\n\n";
     write_rows(out, report);
-    out << "\nTimes are medians over the rounds. A sample whose hold overlaps two of the other clip's has two "
-           "partners: pairs "
-           "count both,\nsteps count it once, as the paper seems to.\n";
+    out << "\nTimes are the processor's, medians over the rounds. A sample whose hold overlaps two of the other clip's "
+           "has\n"
+           "two partners: pairs count both, steps count it once, as the paper's samples seem to.\n";
     write_costs(out, report.costs);
+    write_levels(out, report);
     write_sweep(out, report.sweep);
+    write_variants(out, report.variants);
 }
 
 }  // namespace mobbscope

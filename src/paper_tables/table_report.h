@@ -25,7 +25,8 @@ struct TableReport {
     double mean_duration = 0;  ///< of the clips, seconds
     TableRows table;
     TestCosts costs;
-    std::vector<TableRow> sweep;  ///< the hierarchical methods again, at several n_min; empty if not asked for
+    std::vector<TableRow> sweep;     ///< of sweep_methods; empty if not asked for
+    std::vector<TableRow> variants;  ///< of variant_methods; empty if not asked for
 };
 
 /// The share of the queries that the test of the MOBB roots answers: Table 1's "80 %".
@@ -38,7 +39,7 @@ struct PaperRow {
     double time_us = 0;  ///< Table 1: 3.0 GHz Athlon; Table 2: 3 GHz Pentium 4
     double obb2d = 0;
     double obb3d = 0;
-    double samples = 0;
+    double samples = 0;  ///< to be compared with TableRow::sample_steps
 };
 
 /// The row of a method ("mobb_1level", ...) in "table1" or "table2"; none for what the paper did not measure.

@@ -1,10 +1,10 @@
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 #include <mobb/separation.h>
+#include <paper_tables/clock.h>
 #include <paper_tables/test_costs.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -13,13 +13,9 @@ namespace mobbscope {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kMostPairs = 20000;
 constexpr std::size_t kMostSearched = 2000;  // queries of the direct search
 constexpr double kLeastSeconds = 0.1;        // of measuring: long enough for the clock, short enough to wait for
-
-double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
 
 /// Two boxes as a query tested them.
 struct BoxPair {
@@ -66,12 +62,12 @@ BoxPairs collect(const std::vector<mobb::Tree>& trees, const Workload& workload,
 /// something: used here, so that the tests are not thought needless.
 double time_rounds(std::int64_t calls, const auto& round) {
     std::int64_t rounds = 0, found = 0;
-    const auto begin = Clock::now();
+    const auto begin = ThreadClock::now();
     do {
         found += round();
         ++rounds;
-    } while (nanoseconds(Clock::now() - begin) < kLeastSeconds * 1e9);
-    const double spent = nanoseconds(Clock::now() - begin);
+    } while (nanoseconds(ThreadClock::now() - begin) < kLeastSeconds * 1e9);
+    const double spent = nanoseconds(ThreadClock::now() - begin);
     return found <= calls * rounds ? spent / static_cast<double>(calls * rounds) : 0;
 }
 

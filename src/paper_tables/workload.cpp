@@ -63,15 +63,19 @@ double mean_duration(const Workload& workload) {
     return sum / static_cast<double>(workload.clips.size());
 }
 
-Workload crowd_queries(Scene scene, SimulateOptions options, int queries, const SimulationProgress& progress) {
+Workload crowd_queries(Scene scene, int count, const CrowdDraw& draw) {
     if (!scene.graph) scene.graph = std::make_shared<const MotionGraph>(graph_of_whole_clips(scene));
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
-    options.ahead = kChosenAhead;
+    SimulateOptions options;
+    options.seed = draw.seed;
+    options.ahead = draw.ahead;
     options.plan = 0;
-    QuerySample sample(Recorded::all, static_cast<std::size_t>(queries), options.seed, kAskedWithin);
-    simulate(MoveSet(fitted), options, &sample, progress);
-    return workload_of_scene(sample.workload(fitted.scene()));
+    QuerySample sample(Recorded::all, static_cast<std::size_t>(count), draw.seed, draw.within);
+    // Nobody looks ahead there, so nobody who has to turn on the way would keep clear of walls.
+    const MoveSet moves(fitted, kTurnsAtOnce);
+    simulate(moves, options, &sample);
+    return workload_of_scene(sample.workload(moves));
 }
 
 std::vector<WorkloadQuery> random_queries(const std::vector<mobb::ClipPtr>& clips, int count, const QueryDraw& draw) {
@@ -86,8 +90,8 @@ std::vector<WorkloadQuery> random_queries(const std::vector<mobb::ClipPtr>& clip
         query.clip_b = uniform.below(static_cast<int>(clips.size()));
         const auto a = static_cast<std::size_t>(query.clip_a);
         const auto b = static_cast<std::size_t>(query.clip_b);
-        const double x = uniform.within(-draw.translation, draw.translation);
-        const double y = uniform.within(-draw.translation, draw.translation);
+        const double x = uniform.within(-draw.range, draw.range);
+        const double y = uniform.within(-draw.range, draw.range);
         query.b.rotate_deg = uniform.within(0, 360);
         query.b.start = uniform.within(-draw.offset * clips[b]->duration(), draw.offset * clips[a]->duration());
         query.a.translate = -middles[a];

@@ -47,16 +47,18 @@ inline constexpr int kMaxQueries = 10'000'000;
 /// Seconds; 0 without clips.
 double mean_duration(const Workload& workload);
 
-/// With these the queries are like the paper's: some 80 % end at the roots, and 0.45 test their boxes. More than half
-/// are apart in time, so its agents knew more of each other than what plays now.
-inline constexpr double kAskedWithin = 1;    ///< metres: how near a reserved motion comes to a candidate's, at any time
-inline constexpr double kChosenAhead = 2.5;  ///< seconds before its begin at which a move is chosen
+/// What of a crowd's queries is taken. With the defaults they are like the paper's: some 80 % end at the roots, and
+/// 0.45 test their boxes. More than half are apart in time, so its agents knew more of each other than what plays now.
+struct CrowdDraw {
+    double within = 1;   ///< metres >= 0: how near a reserved motion comes to a candidate's, at any time
+    double ahead = 2.5;  ///< seconds >= 0 before its begin at which a move is chosen
+    std::uint64_t seed = 1;
+};
 
-/// Lets a crowd play the scene's graph, or without one its clips whole and back to back, and takes a sample of
-/// `queries` of the pairs of a candidate and another agent's reserved motion within kAskedWithin (0: all of them).
-/// `options.ahead` becomes kChosenAhead, `options.plan` 0: the paper's agents
-/// plan nothing. Throws InputError as simulate does.
-Workload crowd_queries(Scene scene, SimulateOptions options, int queries, const SimulationProgress& progress = {});
+/// Lets a crowd of 100 on 30 x 40 m play the scene's graph for 120 s, or without one its clips whole and back to back,
+/// and takes a sample of `count` of the pairs of a candidate and another agent's reserved motion (0: all of them). The
+/// agents plan nothing and turn on the spot in no time, as the paper's. Throws InputError as simulate does.
+Workload crowd_queries(Scene scene, int count, const CrowdDraw& draw);
 
 /// Made-up walks for those who have no motion capture at hand, about as fast, as wide and as winding as people's:
 /// `count` of them at 30 samples a second that last `mean_seconds` on average, each within a third of it more or less.
@@ -70,13 +72,13 @@ std::vector<mobb::ClipPtr> short_moves(int count, double mean_seconds, std::uint
 /// How far apart the two clips of a query may be. The defaults give the paper's 0.83 box tests of the roots a query:
 /// with offsets of up to `offset` clip lengths, 1 / offset of the queries overlap in time.
 struct QueryDraw {
-    double translation = 3.5;  ///< metres: each coordinate within +-this; of real long clips some 28 % then collide
-    double offset = 1.2;       ///< clip lengths, >= 1: B begins within this many of its own before A, or of A's after
+    double range = 3.5;   ///< metres > 0: each coordinate within +-this; of real long clips some 28 % then collide
+    double offset = 1.2;  ///< clip lengths, >= 1: B begins within this many of its own before A, or of A's after
     std::uint64_t seed = 1;
 };
 
 /// `count` queries: A is at the origin from time 0; B is turned by any angle about the middle of the rectangle that its
-/// path spans, which then is within `translation` of the middle of A's. The same for the same seed on every machine.
+/// path spans, which then is within `range` of the middle of A's. The same for the same seed on every machine.
 std::vector<WorkloadQuery> random_queries(const std::vector<mobb::ClipPtr>& clips, int count, const QueryDraw& draw);
 
 }  // namespace mobbscope

@@ -1,8 +1,11 @@
 #include <base/text.h>
 #include <import/clip/held_steps.h>
+#include <import/clip/sampling.h>
+#include <import/skeleton/warp.h>
 #include <scene/clip_import.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <system_error>
 #include <unordered_map>
 
@@ -29,6 +32,14 @@ const ImportedClip& one_of(const std::vector<ImportedClip>& all, const ImportOpt
                          at->id.empty() ? "it has several animations: name one" : "it has several tracks: name one");
     }
     return *at;
+}
+
+std::vector<ImportedClip> import_again(const SourceFile& file, const ImportOptions& options, const ClipWarp* warp) {
+    try {
+        return import_warped(file.parsed.clips, options, warp);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(file.path.string(), "", error.what());
+    }
 }
 
 }  // namespace
@@ -61,23 +72,50 @@ std::vector<int> clips_of_same_source(const Scene& scene, int clip) {
     return out;
 }
 
+std::vector<ImportedClip> import_warped(const ImportFile& import, const ImportOptions& options, const ClipWarp* warp) {
+    if (!warp) return import(options);
+    if (!options.trim || options.origin.value_or(Origin::keep) != Origin::keep)
+        throw std::invalid_argument(
+            "a warped clip is a part of its source and stays in its place: give trim, and no origin");
+    const double dt = 1 / options.fps.value_or(kDefaultFps);
+    ImportOptions longer = options;
+    longer.trim->second += dt;
+    std::vector<ImportedClip> out = import(longer);
+    for (ImportedClip& clip : out) {
+        if (!clip.skeleton) throw std::invalid_argument("only motion of joints can be warped; leave it out");
+        if (clip.clip->count() < sample_count(longer.trim->first, longer.trim->second, dt) || clip.clip->count() < 2)
+            throw std::invalid_argument("the source has no frame behind the part that is warped; trim it earlier");
+        WarpedClip made = warped(*clip.clip, *clip.skeleton, *warp, options.radius.has_value());
+        clip.clip = std::move(made.clip);
+        clip.skeleton = std::move(made.skeleton);
+    }
+    return out;
+}
+
 std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
                                      const std::vector<std::pair<int, ImportOptions>>& wanted) {
     std::vector<ReimportedClip> out;
     std::optional<ImportOptions> made_with;
     std::vector<ImportedClip> made;
     for (const auto& [index, options] : wanted) {
-        const bool alone = wanted.size() == 1;
+        const SceneClip& was = scene.clips.at(static_cast<std::size_t>(index));
+        const bool alone = wanted.size() == 1 || was.warp;
         const ImportOptions common = alone ? options : without_id(options);
-        if (made_with != common) {
-            made = file.parsed.clips(common);
-            made_with = common;
+        if (was.warp || made_with != common) {
+            made = import_again(file, common, was.warp.get());
+            made_with = was.warp ? std::nullopt : std::optional(common);
         }
         const ImportedClip& imported = one_of(made, options, file.path);
-        const SceneClip& was = scene.clips.at(static_cast<std::size_t>(index));
-        out.push_back(
-            {index, {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start}});
+        out.push_back({index,
+                       {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start,
+                        was.warp}});
         name_own_radius(out.back().is);
+        if (!was.turn) continue;
+        try {
+            bend(out.back().is, *was.turn);
+        } catch (const std::invalid_argument& error) {
+            throw InputError(file.path.string(), "", error.what());
+        }
     }
     return out;
 }

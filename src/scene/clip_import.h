@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,6 +35,14 @@ std::filesystem::path source_path(const Scene& scene, const SceneClip& clip);
 
 /// The clips that come from the same file as one with a source, itself included: indices into Scene::clips.
 std::vector<int> clips_of_same_source(const Scene& scene, int clip);
+
+/// Makes clips of one file.
+using ImportFile = std::function<std::vector<ImportedClip>(const ImportOptions&)>;
+
+/// The clips of a file, or the one that is warped: then a part of a motion by `trim`, behind which the file goes on for
+/// a frame at least, whose root is where the file has it. Throws InputError, and std::invalid_argument for a warp that
+/// does not suit the file.
+std::vector<ImportedClip> import_warped(const ImportFile& import, const ImportOptions& options, const ClipWarp* warp);
 
 /// A clip as it is with other options.
 struct ReimportedClip {

@@ -1,10 +1,13 @@
 #include <base/text.h>
+#include <scene/clip_turn.h>
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <unordered_set>
+#include <utility>
 
 namespace mobbscope {
 
@@ -33,20 +36,20 @@ class CrowdReader {
         if (!scene_.agents.empty() || !scene_.queries.empty()) {
             place_.fail("a scene has a crowd, or agents and queries, not both; remove one");
         }
-        place_.allow_only({"area", "seconds", "seed", "ahead", "grace", "plan", "agents"});
-        CrowdRun run;
+        place_.allow_only({"area", "seconds", "seed", "ahead", "grace", "plan", "turn_rate", "agents"});
         const JsonPlace area = place_.require("area");
         area.require_size(2, "[width, depth] in metres");
-        run.area = {positive(area[0], mobb::kMaxLength), positive(area[1], mobb::kMaxLength)};
-        run.seconds = positive(place_.require("seconds"), mobb::kMaxTime);
-        run.seed = read_seed(place_.require("seed"));
-        if (const auto ahead = place_.find("ahead")) run.ahead = ahead->number(0, mobb::kMaxTime);
-        if (const auto grace = place_.find("grace")) run.grace = grace->number(0, mobb::kMaxTime);
-        if (const auto plan = place_.find("plan")) run.plan = plan->number(0, mobb::kMaxTime);
+        run_.area = {positive(area[0], mobb::kMaxLength), positive(area[1], mobb::kMaxLength)};
+        run_.seconds = positive(place_.require("seconds"), mobb::kMaxTime);
+        run_.seed = read_seed(place_.require("seed"));
+        if (const auto ahead = place_.find("ahead")) run_.ahead = ahead->number(0, mobb::kMaxTime);
+        if (const auto grace = place_.find("grace")) run_.grace = grace->number(0, mobb::kMaxTime);
+        if (const auto plan = place_.find("plan")) run_.plan = plan->number(0, mobb::kMaxTime);
+        if (const auto rate = place_.find("turn_rate")) run_.turn_rate = rate->number(0, kMaxTurnRate);
         const JsonPlace agents = place_.require("agents");
         if (agents.size() == 0) agents.fail("there is no agent; add one");
-        for (int i = 0; i < agents.size(); ++i) run.agents.push_back(read_agent(agents[i]));
-        return run;
+        for (int i = 0; i < agents.size(); ++i) run_.agents.push_back(read_agent(agents[i]));
+        return std::move(run_);
     }
 
   private:
@@ -110,17 +113,47 @@ class CrowdReader {
                                    turn.number(-180, 180)};
             const GraphMove& from = scene_.graph->moves[static_cast<std::size_t>(last)];
             const GraphMove& to = scene_.graph->moves[static_cast<std::size_t>(next.move)];
+            if (to.turned) move.fail("that move is turned itself; name the one that it is a variant of");
             if (from.to != to.from) {
                 pair.fail("begins in hub " + hub(to.from) + ", but the move before ends in " + hub(from.to));
             }
-            Stance exit = from.exit;
-            exit.heading_deg += next.turn_deg;
-            at = following(at, exit, scene_.clips[static_cast<std::size_t>(from.clip)].clip->duration(), to.entry);
+            check_turn(turn, to);
+            Stance exit = i == 0 ? from.exit : turned_exit(pair, out.back());
+            if (run_.turn_rate == kTurnsAtOnce) exit.heading_deg += next.turn_deg;
+            at = following(at, exit, clip_of(from).duration(), to.entry);
             if (!mobb::is_valid(at)) pair.fail("leads beyond what can be placed; leave it out");
             last = next.move;
             out.push_back(next);
         }
         return out;
+    }
+
+    /// A turn that the run's agents can make on the way of a move.
+    void check_turn(const JsonPlace& place, const GraphMove& move) const {
+        const double turn = place.number();
+        if (std::remainder(turn, kTurnStep) != 0)
+            place.fail(brief(turn) + " degrees are no multiple of " + brief(kTurnStep));
+        if (turn == 0 || run_.turn_rate == kTurnsAtOnce) return;
+        const double seconds = turn_at_rate(turn, run_.turn_rate).seconds;
+        if (seconds <= clip_of(move).duration()) return;
+        place.fail("the move lasts " + brief(clip_of(move).duration()) + " s, but at " + brief(run_.turn_rate) +
+                   " degrees/s a turn by " + brief(turn) + " degrees takes " + brief(seconds) + " s; turn less");
+    }
+
+    /// Where a planned move leads that turns on its way.
+    Stance turned_exit(const JsonPlace& place, const PlannedMove& planned) const {
+        const GraphMove& move = scene_.graph->moves[static_cast<std::size_t>(planned.move)];
+        if (planned.turn_deg == 0 || run_.turn_rate == kTurnsAtOnce) return move.exit;
+        const ClipTurn turn = turn_at_rate(planned.turn_deg, run_.turn_rate);
+        try {
+            return bent_exit(clip_of(move), *bent(clip_of(move), turn), move.exit, turn);
+        } catch (const std::invalid_argument& error) {
+            place.fail(error.what());
+        }
+    }
+
+    const mobb::Clip& clip_of(const GraphMove& move) const {
+        return *scene_.clips[static_cast<std::size_t>(move.clip)].clip;
     }
 
     void check_joint(const JsonPlace& place, const Play& before, const Play& play) const {
@@ -149,9 +182,12 @@ class CrowdReader {
                       ")");
         }
         const double turn = std::remainder(taken.heading_deg - left.heading_deg, 360.0);
-        if (play.kind == PlayKind::chosen && !(std::abs(turn) <= kJoint)) {
+        const bool may_turn = run_.turn_rate == kTurnsAtOnce && play.kind != PlayKind::chosen;
+        if (!may_turn && !(std::abs(turn) <= kJoint)) {
             place.require("rotate_deg")
-                .fail("faces " + brief(turn) + " degrees off the end of the play before; only a pivoted one may");
+                .fail("faces " + brief(turn) +
+                      " degrees off the end of the play before; only a pivoted one may, in a "
+                      "run without turn_rate");
         }
     }
 
@@ -159,6 +195,7 @@ class CrowdReader {
 
     const JsonPlace& place_;
     const Scene& scene_;
+    CrowdRun run_;
     std::unordered_set<std::string> names_;
 };
 
@@ -197,6 +234,7 @@ void write_crowd(JsonWriter& out, const CrowdRun& crowd) {
     out.member("ahead", crowd.ahead);
     out.member("grace", crowd.grace);
     if (crowd.plan != 0) out.member("plan", crowd.plan);
+    if (crowd.turn_rate != kTurnsAtOnce) out.member("turn_rate", crowd.turn_rate);
     out.list("agents", crowd.agents, [&](const CrowdAgent& agent) {
         out.begin_object();
         out.member("name", agent.name);

@@ -88,6 +88,31 @@ Stance read_stance(const JsonPlace& place) {
             place[2].number(-kMaxAngle, kMaxAngle)};
 }
 
+TurnedMove read_turned(const JsonPlace& place, int moves) {
+    place.allow_only({"move", "deg"});
+    return {place.require("move").integer(0, moves - 1), place.require("deg").number(-180, 180)};
+}
+
+constexpr double kSameHeading = 1e-6;  // degrees: more than rounding
+
+/// Checks a turned move against the one that it is a variant of.
+void check_turned(const JsonPlace& place, const std::vector<GraphMove>& moves, const GraphMove& turned) {
+    if (!turned.turned) return;
+    const JsonPlace variant = place.require("turned");
+    const JsonPlace of = variant.require("move");
+    const GraphMove& base = moves[static_cast<std::size_t>(turned.turned->move)];
+    if (base.turned) of.fail("that move is turned itself; name the one that it is a variant of");
+    if (turned.from != base.from || turned.to != base.to || turned.rig != base.rig)
+        of.fail("that move joins other hubs, or is of another rig; name the one that this is a variant of");
+    if (turned.entry != base.entry) of.fail("that move has another entry; a turned one begins as it does");
+    const double heading = base.exit.heading_deg + turned.turned->deg;
+    if (!(std::abs(std::remainder(turned.exit.heading_deg - heading, 360.0)) <= kSameHeading)) {
+        const JsonPlace exit = place.require("exit");
+        exit[2].fail("a move that turns by " + brief(turned.turned->deg) + " degrees ends at " + brief(heading) +
+                     " degrees; give those");
+    }
+}
+
 void write_stance(JsonWriter& out, const char* key, const Stance& stance) {
     out.member(key, {stance.position.x, stance.position.y, stance.heading_deg});
 }
@@ -169,13 +194,16 @@ MotionGraph read_graph(const JsonPlace& place, const std::function<int(const Jso
     const int last_rig = static_cast<int>(graph.rigs.size()) - 1;
     for (int i = 0; i < moves.size(); ++i) {
         const JsonPlace move = moves[i];
-        move.allow_only({"clip", "from", "to", "entry", "exit", "rig"});
+        move.allow_only({"clip", "from", "to", "entry", "exit", "rig", "turned"});
         const auto rig = move.find("rig");
         if (rig && graph.rigs.empty()) rig->fail("the graph lists no rigs; add \"rigs\", or leave this out");
         graph.moves.push_back({clip_at(move.require("clip")), move.require("from").integer(0, last_hub),
                                move.require("to").integer(0, last_hub), read_stance(move.require("entry")),
                                read_stance(move.require("exit")), rig ? rig->integer(0, last_rig) : -1});
+        if (const auto turned = move.find("turned")) graph.moves.back().turned = read_turned(*turned, moves.size());
     }
+    for (int i = 0; i < moves.size(); ++i)
+        check_turned(moves[i], graph.moves, graph.moves[static_cast<std::size_t>(i)]);
     return graph;
 }
 
@@ -210,6 +238,12 @@ void write_graph(JsonWriter& out, const MotionGraph& graph, const std::function<
         write_stance(out, "entry", move.entry);
         write_stance(out, "exit", move.exit);
         if (move.rig >= 0) out.member("rig", move.rig);
+        if (move.turned) {
+            out.begin_object("turned", Layout::row);
+            out.member("move", move.turned->move);
+            out.member("deg", move.turned->deg);
+            out.end_object();
+        }
         out.end_object();
     });
     out.end_object();

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,13 @@ struct GraphHub {
     friend bool operator==(const GraphHub&, const GraphHub&) = default;
 };
 
+/// Of which move another is a variant whose way is bent (scene/clip_turn.h).
+struct TurnedMove {
+    int move = 0;    ///< index into MotionGraph::moves, of one that is no variant itself
+    double deg = 0;  ///< that it turns further, counter-clockwise
+    friend bool operator==(const TurnedMove&, const TurnedMove&) = default;
+};
+
 /// A clip of the scene as an edge from hub to hub.
 struct GraphMove {
     int clip = 0;  ///< index into Scene::clips
@@ -37,6 +45,7 @@ struct GraphMove {
     Stance entry;  ///< at the clip's first sample
     Stance exit;   ///< where the next clip's first sample comes: one dt after the last sample
     int rig = -1;  ///< index into MotionGraph::rigs; -1: the clip has no skeleton, or the file does not say
+    std::optional<TurnedMove> turned{};  ///< none: a move of its own
     friend bool operator==(const GraphMove&, const GraphMove&) = default;
 };
 
@@ -86,7 +95,7 @@ std::vector<std::vector<int>> moves_by_hub(const MotionGraph& graph);
 
 /// `clip_at` gives the index of the clip that a place names, or throws InputError. Checks that there is a hub and a
 /// move, that hubs have names of their own, that rigs have joints, each once, that moves join hubs and are of rigs that
-/// exist, and that stances and bounds are in range.
+/// exist, that turned ones begin and end as what they are variants of, and that stances and bounds are in range.
 /// A hub that no move leaves is allowed. Throws InputError.
 MotionGraph read_graph(const JsonPlace& place, const std::function<int(const JsonPlace&)>& clip_at);
 

@@ -3,9 +3,11 @@
 
 #include <base/error.h>
 #include <import/clip/imported_clip.h>
+#include <import/skeleton/warp.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
 #include <mobb/tree.h>
+#include <scene/clip_turn.h>
 #include <scene/view_state.h>
 
 #include <cstddef>
@@ -40,6 +42,8 @@ struct SceneClip {
     SourceFacts facts{};                         ///< of the source; of inline samples the warnings alone
     std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, see import/skeleton/motion.h
     double start = 0;                            ///< seconds: when it starts among the tracks of its source
+    std::shared_ptr<const ClipWarp> warp{};      ///< of a part of a motion: `clip` and `skeleton` are warped; null: not
+    std::optional<ClipTurn> turn{};  ///< of one with a source: by which clip and skeleton were bent after the import
 };
 
 /// One side of a query: a clip and where it is placed.

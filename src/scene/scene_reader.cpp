@@ -172,6 +172,32 @@ class NameTable {
     std::unordered_map<std::string, int> index_;
 };
 
+constexpr double kMostSpeed = 1e6;  // metres or radians per second, of poses
+constexpr int kPoseNumbers = 10;
+
+/// A joint's rotation, spin and offset, on one line of numbers.
+HangingJoint read_hanging_joint(const JsonPlace& place) {
+    place.require_size(kPoseNumbers, "[qx, qy, qz, qw, wx, wy, wz, x, y, z]");
+    const auto number = [&](int i, double most) { return place[i].number(-most, most); };
+    const glm::dquat rotation(number(3, 1), number(0, 1), number(1, 1), number(2, 1));
+    if (!(std::abs(glm::length(rotation) - 1) < 1e-6)) place.fail("its first four numbers are no unit quaternion");
+    return {rotation,
+            {number(4, kMostSpeed), number(5, kMostSpeed), number(6, kMostSpeed)},
+            {number(7, mobb::kMaxLength), number(8, mobb::kMaxLength), number(9, mobb::kMaxLength)}};
+}
+
+MovingPose read_pose(const JsonPlace& place) {
+    place.allow_only({"height", "velocity", "joints"});
+    MovingPose pose;
+    pose.height = place.require("height").number(-mobb::kMaxLength, mobb::kMaxLength);
+    const JsonPlace velocity = place.require("velocity");
+    velocity.require_size(3, "[along the heading, to the left, up] in metres per second");
+    for (int i = 0; i < 3; ++i) pose.velocity[i] = velocity[i].number(-kMostSpeed, kMostSpeed);
+    const JsonPlace joints = place.require("joints");
+    for (int i = 0; i < joints.size(); ++i) pose.joints.push_back(read_hanging_joint(joints[i]));
+    return pose;
+}
+
 class SceneReader {
   public:
     SceneReader(const JsonPlace& root, std::filesystem::path folder, const ImportOptions& overrides,
@@ -179,8 +205,16 @@ class SceneReader {
         : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress) {}
 
     Scene read() {
-        root_.allow_only({"$schema", "mobbscope", "clips", "graph", "crowd", "agents", "fit", "queries", "view"});
+        root_.allow_only(
+            {"$schema", "mobbscope", "poses", "clips", "graph", "crowd", "agents", "fit", "queries", "view"});
         check_version();
+        if (const auto poses = root_.find("poses")) {
+            for (int i = 0; i < poses->members(); ++i) {
+                const JsonPlace pose = poses->member(i);
+                if (!pose_names_.add(pose.key())) pose.fail("another pose is named " + in_quotes(pose.key()));
+                poses_.push_back(std::make_shared<const MovingPose>(read_pose(pose)));
+            }
+        }
         const JsonPlace clips = root_.require("clips");
         if (clips.members() == 0) clips.fail("there is no clip; add one");
         for (int i = 0; i < clips.members(); ++i) {
@@ -191,6 +225,7 @@ class SceneReader {
             scene_.graph = std::make_shared<MotionGraph>(
                 read_graph(*graph, [this](const JsonPlace& clip) { return clip_names_.find(clip, "clip"); }));
         }
+        if (scene_.graph) check_turned_clips();
         if (const auto agents = root_.find("agents")) {
             for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
         }
@@ -225,12 +260,16 @@ class SceneReader {
         // A misspelt key is named as such before anything is concluded from what is missing.
         std::vector<std::string_view> keys{"source"};
         for_each_import_option([&keys](const char* key, auto) { keys.push_back(key); });
+        keys.push_back("warp");
+        keys.push_back("turn");
         keys.push_back("samples");
         place.allow_only(keys);
         if (place.find("source")) {
             read_source(place, clip);
         } else if (place.find("samples")) {
             refuse_import_keys(place);
+            if (const auto turn = place.find("turn"))
+                turn->fail("only a clip with a source is turned; turn the samples, and remove this");
             clip.clip = read_samples(place, overrides_.motion);
             warn_of_long_held_step(*clip.clip, clip.facts.warnings);
         } else {
@@ -239,7 +278,35 @@ class SceneReader {
         return clip;
     }
 
+    static void read_turn(const JsonPlace& place, SceneClip& clip) {
+        place.allow_only({"deg", "seconds"});
+        const double deg = place.require("deg").number(-180, 180);
+        const JsonPlace seconds = place.require("seconds");
+        if (seconds.number(0, mobb::kMaxTime) == 0) seconds.fail("must be over 0: nobody turns in no time");
+        try {
+            bend(clip, {deg, seconds.number()});
+        } catch (const std::invalid_argument& error) {
+            place.fail(error.what());
+        }
+    }
+
+    /// A turned move plays a clip that turns as far; of samples it cannot be told.
+    void check_turned_clips() const {
+        const JsonPlace graph = root_.require("graph");
+        const JsonPlace moves = graph.require("moves");
+        for (int i = 0; i < moves.size(); ++i) {
+            const GraphMove& move = scene_.graph->moves[static_cast<std::size_t>(i)];
+            const SceneClip& clip = scene_.clips[static_cast<std::size_t>(move.clip)];
+            if (!move.turned || !clip.source || (clip.turn && clip.turn->deg == move.turned->deg)) continue;
+            const std::string now = clip.turn ? "by " + brief(clip.turn->deg) + " degrees" : "not at all";
+            const JsonPlace place = moves[i];
+            place.require("clip").fail("the clip " + in_quotes(clip.name) + " turns " + now + ", the move by " +
+                                       brief(move.turned->deg) + " degrees; mend the clip's turn");
+        }
+    }
+
     static void refuse_import_keys(const JsonPlace& place) {
+        if (const auto warp = place.find("warp")) warp->fail("samples are as they are; remove it, or give a source");
         for_each_import_option([&place](std::string_view key, auto) {
             const auto import_key = place.find(key);
             // These two are those of the samples too.
@@ -260,11 +327,15 @@ class SceneReader {
         for (const std::string& key : applicable(clip.options, *clip.source).left_out) {
             place.require(key).fail(does_not_apply(key, *clip.source) + "; leave it out");
         }
+        if (const auto warp = place.find("warp")) clip.warp = read_warp(*warp);
         std::vector<ImportWarning> warnings;
         const ImportOptions overrides = overrides_for(*clip.source, overrides_, warnings);
         try {
+            const auto import = [&](const ImportOptions& options) {
+                return importer_.clips(folder_ / *clip.source, options);
+            };
             std::vector<ImportedClip> imported =
-                importer_.clips(folder_ / *clip.source, merged(clip.options, overrides));
+                import_warped(import, merged(clip.options, overrides), clip.warp.get());
             if (imported.size() > 1) refuse_several(*clip.source, imported);
             clip.clip = imported.front().clip;
             clip.facts = std::move(imported.front().facts);
@@ -273,7 +344,24 @@ class SceneReader {
             append(clip.facts.warnings, warnings);
         } catch (const InputError& error) {
             source.fail(error.what());
+        } catch (const std::invalid_argument& error) {
+            place.require("warp").fail(error.what());
         }
+        if (const auto turn = place.find("turn")) read_turn(*turn, clip);
+    }
+
+    WarpEnd read_warp_end(const JsonPlace& place) const {
+        place.require_size(2, "[pose, heading in degrees]");
+        const int pose = pose_names_.find(place[0], "pose");
+        return {place[0].string(), poses_[static_cast<std::size_t>(pose)], place[1].number(-1e9, 1e9)};
+    }
+
+    std::shared_ptr<const ClipWarp> read_warp(const JsonPlace& place) const {
+        place.allow_only({"seconds", "begin", "end"});
+        const JsonPlace seconds = place.require("seconds");
+        if (seconds.number(0, mobb::kMaxTime) == 0) seconds.fail("must be over 0");
+        return std::make_shared<const ClipWarp>(
+            ClipWarp{seconds.number(), read_warp_end(place.require("begin")), read_warp_end(place.require("end"))});
     }
 
     [[noreturn]] void refuse_several(const std::string& source, const std::vector<ImportedClip>& imported) const {
@@ -361,6 +449,8 @@ class SceneReader {
     const ImportOptions& overrides_;
     const Progress& progress_;
     Importer importer_;
+    NameTable pose_names_;
+    std::vector<std::shared_ptr<const MovingPose>> poses_;  ///< by their place among the names
     NameTable clip_names_;
     NameTable agent_names_;
     Scene scene_;

@@ -5,10 +5,14 @@
 #include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
+#include <scene/scene_edits.h>
 #include <scene/scene_json.h>
 #include <scene/view_options.h>
 
 #include <sstream>
+#include <string>
+#include <unordered_map>
+#include <vector>
 
 namespace mobbscope {
 
@@ -27,7 +31,61 @@ void write_option(JsonWriter& out, const char* key, const std::pair<double, doub
     out.member(key, {trim.first, trim.second});
 }
 
-void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
+/// The poses that clips are warped to, each once, with a name of its own.
+class PoseNames {
+  public:
+    explicit PoseNames(const Scene& scene) {
+        for (const SceneClip& clip : scene.clips) {
+            if (!clip.warp || !clip.source) continue;
+            for (const WarpEnd* end : {&clip.warp->begin, &clip.warp->end}) {
+                const auto [at, is_new] = names_.try_emplace(end->pose.get());
+                if (!is_new) continue;
+                at->second = unused_.take(end->name);
+                poses_.push_back(end->pose.get());
+            }
+        }
+    }
+
+    const std::string& operator[](const MovingPose* pose) const { return names_.at(pose); }
+
+    void write(JsonWriter& out) const {
+        if (poses_.empty()) return;
+        out.begin_object("poses");
+        for (const MovingPose* pose : poses_) {
+            out.begin_object(names_.at(pose));
+            out.member("height", pose->height);
+            out.member("velocity", {pose->velocity.x, pose->velocity.y, pose->velocity.z});
+            out.list("joints", pose->joints, [&](const HangingJoint& joint) {
+                const glm::dquat& q = joint.rotation;
+                out.numbers({q.x, q.y, q.z, q.w, joint.spin.x, joint.spin.y, joint.spin.z, joint.offset.x,
+                             joint.offset.y, joint.offset.z});
+            });
+            out.end_object();
+        }
+        out.end_object();
+    }
+
+  private:
+    UnusedNames unused_;
+    std::unordered_map<const MovingPose*, std::string> names_;
+    std::vector<const MovingPose*> poses_;  ///< in the order of their first clips
+};
+
+void write_warp(JsonWriter& out, const ClipWarp& warp, const PoseNames& poses) {
+    const auto write_end = [&](const char* key, const WarpEnd& end) {
+        out.begin_array(key);
+        out.value(poses[end.pose.get()]);
+        out.value(end.heading_deg);
+        out.end_array();
+    };
+    out.begin_object("warp");
+    out.member("seconds", warp.seconds);
+    write_end("begin", warp.begin);
+    write_end("end", warp.end);
+    out.end_object();
+}
+
+void write_clip(JsonWriter& out, const SceneClip& clip, const PoseNames& poses, bool inline_samples) {
     out.key(clip.name);
     if (clip.source && !inline_samples) {
         out.begin_object(Layout::row);
@@ -35,6 +93,13 @@ void write_clip(JsonWriter& out, const SceneClip& clip, bool inline_samples) {
         for_each_import_option([&](const char* key, auto option) {
             if (clip.options.*option) write_option(out, key, *(clip.options.*option));
         });
+        if (clip.warp) write_warp(out, *clip.warp, poses);
+        if (clip.turn) {
+            out.begin_object("turn", Layout::row);
+            out.member("deg", clip.turn->deg);
+            out.member("seconds", clip.turn->seconds);
+            out.end_object();
+        }
         out.end_object();
         return;
     }
@@ -105,8 +170,10 @@ std::string to_json(const Scene& scene, bool inline_samples) {
     JsonWriter out(text);
     out.begin_object();
     out.member("mobbscope", 1);
+    const PoseNames poses(scene);
+    if (!inline_samples) poses.write(out);
     out.begin_object("clips");
-    for (const SceneClip& clip : scene.clips) write_clip(out, clip, inline_samples);
+    for (const SceneClip& clip : scene.clips) write_clip(out, clip, poses, inline_samples);
     out.end_object();
     if (scene.graph) {
         out.key("graph");

@@ -291,6 +291,22 @@ TEST(ImportDialog, ACrowdsUnitAndFrameTimeChangeForAllOfItsFile) {
     for (const char* other : {"import.root", "import.up", "import.animation"}) EXPECT_FALSE(w.has(other)) << other;
 }
 
+TEST(ImportDialog, AColumnOfRadiiIsChosen) {
+    ImportWindow w;
+    w.folder.write("r.csv", "t,x,y,r,big\n0,0,0,1,2\n1,1,0,1,3\n");
+    w.folder.write("r.json", R"({"clips": {"a": {"source": "r.csv", "radius": "big"}}})");
+    w.open("r.json");
+    EXPECT_EQ(w.clip().clip->samples()[1].r, 3);
+    run_command(w.session, "clip.import");
+    w.window.settle();
+    run_command(w.session, "clip.set", "radius 0.5");
+    EXPECT_EQ(w.clip().clip->samples()[1].r, 3) << "a column that means nothing else is not passed over";
+    w.click("import.radius");
+    w.click("import.radius.big");
+    EXPECT_EQ(w.clip().clip->samples()[0].r, 2);
+    EXPECT_EQ(option_text(w.clip().options, *import_option("radius")), "big");
+}
+
 TEST(ImportDialog, TheFileIsReadOnceUntilItChanges) {
     ImportWindow w;
     w.open("body.bvh");

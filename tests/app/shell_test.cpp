@@ -47,7 +47,7 @@ class ShellTest : public ::testing::TestWithParam<Backend> {
     void hover_over_a_disk() {
         const DrawList& list = *window->shell().shown();
         const DiskInstance& disk = list.disks[3];
-        const glm::vec2 pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.5f * disk.height)).value();
+        const glm::vec2 pixel = list.projection.project(disk.base + glm::vec3(0, 0, 0.5f * disk.height())).value();
         window->shell().feed(MouseMove{window->shell().marks().all().at("viewport").min + pixel});
         window->settle();
         ASSERT_TRUE(session.hovered.on_path());

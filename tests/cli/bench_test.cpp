@@ -92,11 +92,56 @@ TEST(Bench, Table2OnAFolder) {
     EXPECT_LT(row("mobb")["obb2d"].get<double>(), 28);
 }
 
+TEST(Bench, SweepAndVariantsAreLists) {
+    const Result run =
+        run_program({"bench", "table2", "--queries", "200", "--rounds", "1", "--sweep", "--variants", "--json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const nlohmann::json json = nlohmann::json::parse(run.out);
+    int largest = 0;
+    for (const nlohmann::json& row : json["leaf_sweep"]) largest = std::max(largest, row["leaf"].get<int>());
+    EXPECT_EQ(largest, 200);
+    EXPECT_EQ(json["leaf_sweep"][0]["method"], "brute");
+    std::vector<std::string> variants;
+    for (const nlohmann::json& row : json["variants"]) variants.push_back(row["method"]);
+    for (const char* variant : {"mobb_1level", "mobb", "mobb_covariance", "umobb_w2", "mobb_walk_boxes"}) {
+        EXPECT_NE(std::find(variants.begin(), variants.end(), variant), variants.end()) << variant;
+    }
+}
+
+TEST(Bench, SaysHowQueriesWereDrawn) {
+    const auto bench = [](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "bench");
+        arguments.insert(arguments.end(), {"--queries", "1000", "--rounds", "1", "--json"});
+        const Result run = run_program(arguments);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return nlohmann::json::parse(run.out);
+    };
+    // What is nearer collides more.
+    const nlohmann::json near = bench({"table2", "--range", "1"}), far = bench({"table2", "--range", "8"});
+    EXPECT_GT(near["positive"].get<double>(), 2 * far["positive"].get<double>());
+    EXPECT_NE(far["description"].get<std::string>().find("within 8 m"), std::string::npos);
+    // Who chooses where the last move ends is asked of what plays then: the roots always overlap in time.
+    const nlohmann::json at_once = bench({"table1", "--ahead", "0", "--within", "5"}), ahead = bench({"table1"});
+    EXPECT_GT(at_once["rows"][1]["root_box_tests"], 0.95);
+    EXPECT_LT(ahead["rows"][1]["root_box_tests"], 0.6);
+    EXPECT_LT(at_once["positive"], ahead["positive"]);  // most are far away
+    EXPECT_NE(ahead["description"].get<std::string>().find("choosing 2.5 s ahead, of all within 1 m"),
+              std::string::npos);
+}
+
 TEST(Bench, BadUsageIsSaidInOneLine) {
+    const std::string crossing = MOBBSCOPE_SOURCE_DIR "/assets/scenes/crossing.json";
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bench"},
                                                       {"bench", "table3"},
                                                       {"bench", "table2", "--queries", "0"},
                                                       {"bench", "table2", "--rounds", "x"},
+                                                      {"bench", "table1", "--ahead", "-1"},
+                                                      {"bench", "table1", "--within", "nan"},
+                                                      {"bench", "table2", "--range", "0"},
+                                                      {"bench", "table2", "--ahead", "1"},
+                                                      {"bench", "table2", "--within", "1"},
+                                                      {"bench", "table1", "--range", "2"},
+                                                      {"bench", "table1", crossing, "--ahead", "1"},
                                                       {"bench", "table2", "no/such/folder"}}) {
         const Result run = run_program(arguments);
         EXPECT_EQ(run.status, 2);

@@ -65,12 +65,16 @@ TEST_F(GraphTest, IsBuiltAndItsBoundsHold) {
     EXPECT_LE(info["joints"]["root_speed"]["largest"], info["bounds"]["root_speed"]);
     EXPECT_EQ(info["joints"]["pose_distance"]["count"], info["joints"]["count"]);
     EXPECT_EQ(info["dead_ends"].size(), 0u);
+    EXPECT_EQ(info["continuity"]["measured"], info["joints"]["count"]);
+    EXPECT_GT(info["continuity"]["foot_slide"]["within"]["metres"], info["continuity"]["foot_slide"]["median"]);
     double seconds = 0;
     for (const auto& source : info["sources"]) seconds += source["seconds"].get<double>();
     EXPECT_NEAR(seconds, info["seconds"].get<double>(), 1e-9);
     const Result words = run_program({"graph", "info", graph()});
     EXPECT_EQ(words.status, 0);
-    for (const char* part : {"hubs, ", "a choice", "pose distance", "root velocity", "wander.glb"}) {
+    for (const char* part :
+         {"hubs, ", "a choice", "pose distance", "root velocity", "wander.glb",
+          "joins           changes from frame to frame", "largest ratio   ", "feet            slide "}) {
         EXPECT_NE(words.out.find(part), std::string::npos) << part << " in " << words.out;
     }
 }
@@ -192,7 +196,25 @@ TEST_F(GraphTest, ABrokenBoundIsExitStatus1) {
     broken = json();
     broken["graph"]["moves"][3]["exit"][0] = broken["graph"]["moves"][3]["exit"][0].get<double>() + 0.2;
     folder_->write("speed.json", broken.dump());
-    expect_refused({"graph", "info", path("speed.json")}, "the change of the root's velocity is", 1);
+    const Result run = run_program({"graph", "info", path("speed.json")});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_NE(run.err.find("the change of the root's velocity is"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("the change of the joint position is"), std::string::npos) << "and bodies jump";
+}
+
+TEST_F(GraphTest, TheTurnedMovesOfARunAreMeasuredAsRecorded) {
+    const std::string run = path("turned.json");
+    ASSERT_EQ(run_program(
+                  {"simulate", graph(), "-o", run, "--agents", "30", "--area", "9x9", "--seconds", "10", "--plan", "0"})
+                  .status,
+              0);
+    ASSERT_NE(slurp(run).find("\"turned\""), std::string::npos) << "nobody turns on the way";
+    const Result result = run_program({"graph", "info", run, "--json"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const auto largest = [](const std::string& info) {
+        return nlohmann::json::parse(info)["joints"]["root_speed"]["largest"].get<double>();
+    };
+    EXPECT_EQ(largest(result.out), largest(run_program({"graph", "info", graph(), "--json"}).out));
 }
 
 TEST_F(GraphTest, NoSpeedIsInfinite) {
@@ -230,6 +252,7 @@ TEST_F(GraphTest, WithSamplesInsideItStandsAlone) {
     const nlohmann::json info = nlohmann::json::parse(run.out);
     EXPECT_TRUE(info["joints"]["pose_distance"]["largest"].is_null());
     EXPECT_GT(info["joints"]["root_speed"]["largest"], 0);
+    EXPECT_EQ(info["continuity"]["measured"], 0);
     EXPECT_NE(run_program({"graph", "info", file}).out.find("not measured"), std::string::npos);
 }
 

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -79,6 +81,26 @@ TEST_F(Simulate, TheSameBytesOnAnyNumberOfThreads) {
     EXPECT_NE(slurp(run), one);
 }
 
+TEST_F(Simulate, MovesAreTurnedOnTheWayAsFastAsAllowed) {
+    const Result turned = simulate();
+    EXPECT_NE(turned.out.find(" on the way, at most 120 degrees/s; "), std::string::npos) << turned.out;
+    const Scene scene = load_scene(run);
+    EXPECT_EQ(scene.crowd->turn_rate, 120);
+    const auto is_turned = [](const GraphMove& move) { return move.turned.has_value(); };
+    EXPECT_GT(std::ranges::count_if(scene.graph->moves, is_turned), 0);
+    // A run is simulated anew from the moves that its own are made of.
+    const std::string again = (folder.path() / "again.json").string();
+    ASSERT_EQ(
+        run_program({"simulate", run, "-o", again, "--agents", "12", "--area", "8x9", "--seconds", "12", "--seed", "3"})
+            .status,
+        0);
+    EXPECT_EQ(load_scene(again).graph->moves, scene.graph->moves);
+    ASSERT_EQ(simulate({"--turn-rate", "0"}).status, 0);
+    EXPECT_EQ(std::ranges::count_if(load_scene(run).graph->moves, is_turned), 0);
+    EXPECT_EQ(simulate({"--turn-rate", "-1"}).status, 2);
+    EXPECT_EQ(simulate({"--turn-rate", "3601"}).status, 2);
+}
+
 TEST_F(Simulate, SourcesLeadWhereTheyLed) {
     std::filesystem::create_directories(folder.path() / "out");
     const std::string moved = (folder.path() / "out" / "moved.json").string();
@@ -96,16 +118,51 @@ TEST_F(Simulate, SourcesLeadWhereTheyLed) {
 TEST_F(Simulate, TheSummaryAsJson) {
     const Result result = simulate({"--json"});
     const json summary = json::parse(result.out);
-    EXPECT_EQ(testing::keys(summary),
-              (std::set<std::string>{"agents", "simulated_seconds", "plays", "choices", "candidates", "off_floor",
-                                     "colliding", "no_way_on", "in_the_way", "pivots", "forced", "queries", "most_held",
-                                     "wall_seconds", "queries_per_second"}));
+    EXPECT_EQ(
+        testing::keys(summary),
+        (std::set<std::string>{"agents", "simulated_seconds", "plays", "choices", "candidates", "off_floor",
+                               "colliding", "no_way_on", "in_the_way", "pivots", "forced", "queries", "most_held",
+                               "wall_seconds", "queries_per_second", "turn_rate", "continuity", "continuity_forced"}));
     const Scene scene = load_scene(run);
     std::size_t plays = 0;
     for (const CrowdAgent& agent : scene.crowd->agents) plays += agent.plays.size();
     EXPECT_EQ(summary["plays"], plays);
     EXPECT_EQ(summary["choices"], plays - 12);
     EXPECT_EQ(summary["simulated_seconds"], 12);
+    // Tracks have no skeletons.
+    EXPECT_EQ(
+        summary["continuity"]["joins"].get<std::size_t>() + summary["continuity_forced"]["joins"].get<std::size_t>(),
+        plays - 12);
+    EXPECT_EQ(summary["continuity"]["measured"], 0);
+    EXPECT_TRUE(summary["continuity"]["joint_position"]["ratio"].is_null());
+    EXPECT_NE(simulate().out.find("was not measured: no two clips that join have one skeleton\n"), std::string::npos);
+}
+
+TEST_F(Simulate, HowContinuousTheRunIsIsTold) {
+    const std::string clips = MOBBSCOPE_SOURCE_DIR "/assets/clips";
+    const std::vector<std::string> whole{"simulate", clips, "--whole", "-o", run, "--agents", "10", "--seconds", "20"};
+    const Result words = run_program(whole);
+    ASSERT_EQ(words.status, 0) << words.err;
+    for (const char* part :
+         {"changes where moves join, against those inside them: a ratio over 1.25 at ",
+          " different); largest: joint position ", ", heading ", ", root velocity ", "feet slide "}) {
+        EXPECT_NE(words.out.find(part), std::string::npos) << part << " in " << words.out;
+    }
+    std::vector<std::string> as_json = whole;
+    as_json.emplace_back("--json");
+    const json summary = json::parse(run_program(as_json).out);
+    const json& continuity = summary["continuity"];
+    EXPECT_TRUE(continuity["bound"].is_null());
+    EXPECT_EQ(continuity["joins"].get<std::int64_t>() + summary["continuity_forced"]["joins"].get<std::int64_t>(),
+              summary["choices"]);
+    EXPECT_EQ(continuity["measured"], continuity["joins"]);
+    for (const char* change : {"joint_position", "heading", "root_velocity", "joint_velocity"}) {
+        const json& largest = continuity[change];
+        EXPECT_NEAR(largest["ratio"].get<double>(), largest["across"].get<double>() / largest["inside"].get<double>(),
+                    1e-9);
+        EXPECT_LE(largest["over"], continuity["joins"]);
+    }
+    EXPECT_GT(continuity["foot_slide"]["contacts"], 0);
 }
 
 TEST_F(Simulate, RecordedQueriesAreAnswered) {
@@ -137,7 +194,8 @@ TEST_F(Simulate, WholeClipsOfAFolder) {
     const Result whole = run_program(
         {"simulate", (folder.path() / "clips").string(), "-o", run, "--whole", "--agents", "5", "--seconds", "5"});
     ASSERT_EQ(whole.status, 0) << whole.err;
-    EXPECT_EQ(load_scene(run).graph->moves.size(), 2u);
+    const std::vector<GraphMove> moves = load_scene(run).graph->moves;
+    EXPECT_EQ(std::ranges::count_if(moves, [](const GraphMove& move) { return !move.turned; }), 2);
 }
 
 TEST_F(Simulate, BadUsageIsRefusedAndNothingWritten) {

@@ -41,10 +41,12 @@ class ChoiceTest : public ::testing::Test {
                 ASSERT_EQ(choice.kind, play.kind) << agent << " " << i;
                 EXPECT_EQ(choice.time, play.chosen_at);
                 EXPECT_TRUE(comes_out_as(play, choice));
-                EXPECT_EQ(taken.move, play.move);
+                EXPECT_EQ(taken.played, play.move);
+                EXPECT_EQ(moves.origin(play.move), (PlannedMove{taken.move, taken.turn_deg}));
                 EXPECT_EQ(taken.placement, play.placement);
                 EXPECT_EQ(choice.plan, play.plan);
-                EXPECT_EQ(taken.is_free() || taken.blocker->planned > 0, play.kind != PlayKind::forced);
+                const bool meets_somebody = taken.blocker && taken.blocker->planned == 0;
+                EXPECT_EQ(taken.leaves_floor || meets_somebody, play.kind == PlayKind::forced);
                 if (play.kind != PlayKind::forced) {
                     EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
                 }
@@ -102,15 +104,14 @@ TEST_F(ChoiceTest, ChoicesOfAnEditedRunDoNotComeOut) {
     EXPECT_GT(others(MoveSet(fitted_wider), simulated), 0u) << "other sources";
 }
 
-/// An agent at the left wall that walks into it.
-ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area) {
+/// An agent at the left wall that walks into it, and has so many metres left.
+ChoicePoint at_wall(const MoveSet& moves, glm::dvec2 area, double left = 0.7) {
     ChoicePoint point;
     point.agent = 0;
     point.play = 1;
     point.before.placement.rotate_deg = 180;
-    // Its first move ends 0.7 m before the wall.
     const double exit = moves.move(0).exit.position.x;
-    point.before.placement.translate = {-area.x / 2 + 0.7 + exit, 0};
+    point.before.placement.translate = {-area.x / 2 + left + exit, 0};
     point.time = moves.duration(0);
     return point;
 }
@@ -181,7 +182,7 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     crowd.area = {20, 20};
     crowd.plan = 4;
     ReservationTable reservations(moves, crowd.area, crowd.grace);
-    const ChoicePoint point = at_wall(moves, crowd.area);
+    const ChoicePoint point = at_wall(moves, crowd.area, 2);
     const Choice choice = choose(moves, reservations, crowd, point);
     EXPECT_FALSE(choice.candidates[choice.taken].no_way_on);
     double seconds = 0;
@@ -212,7 +213,7 @@ TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
     CrowdRun crowd;
     crowd.area = {20, 20};
     ReservationTable reservations(moves, crowd.area, crowd.grace);
-    const Choice choice = choose(moves, reservations, crowd, at_wall(moves, crowd.area));
+    const Choice choice = choose(moves, reservations, crowd, at_wall(moves, crowd.area, 1.1));
     EXPECT_EQ(choice.kind, PlayKind::pivoted);
     double least = 360;
     for (const Candidate& candidate : choice.candidates) {
@@ -253,11 +254,11 @@ TEST_F(ChoiceTest, RoomIsKeptWhereOthersEnd) {
     }
 }
 
-TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
+TEST_F(ChoiceTest, WithNobodyFreeTheLeastContactIsForcedAndTheFloorKept) {
     CrowdRun crowd;
     crowd.area = {20, 20};
     ReservationTable reservations(moves, crowd.area, crowd.grace);
-    const ChoicePoint point = at_wall(moves, crowd.area);
+    const ChoicePoint point = at_wall(moves, crowd.area, 1.2);
     // Somebody stands all around: slow walkers at the very spot, a little later.
     for (int other = 1; other < 4; ++other) {
         const mobb::Placement at{{-9.3 + 0.2 * other, 0.1 * other}, 90.0 * other, point.time + 0.1 * other};
@@ -268,14 +269,18 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLatestContactIsForcedAndTheFloorKept) {
     const Candidate& taken = choice.candidates[choice.taken];
     EXPECT_FALSE(taken.leaves_floor);
     ASSERT_TRUE(taken.blocker);
+    const auto seconds = [&](const Candidate& candidate) {
+        return reservations.motions().seconds_of_contact(moves.motion(0, 1, candidate.played, candidate.placement));
+    };
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_FALSE(candidate.is_free());
-        if (candidate.leaves_floor) continue;
-        EXPECT_LE(candidate.blocker->contact.time, taken.blocker->contact.time);
+        if (!candidate.leaves_floor) {
+            EXPECT_GE(seconds(candidate), seconds(taken));
+        }
     }
 }
 
-TEST_F(ChoiceTest, OnNoFloorAtAllTheLatestContactIsStillFound) {
+TEST_F(ChoiceTest, OnNoFloorAtAllTheLeastContactIsStillFound) {
     CrowdRun crowd;
     crowd.area = {0.5, 0.5};
     ReservationTable reservations(moves, crowd.area, crowd.grace);
@@ -283,7 +288,7 @@ TEST_F(ChoiceTest, OnNoFloorAtAllTheLatestContactIsStillFound) {
     const Choice choice = choose(moves, reservations, crowd, point);
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
-    // In a room of one's own no contact is the latest.
+    // In a room of one's own there is none.
     EXPECT_FALSE(choice.candidates[choice.taken].blocker);
 }
 

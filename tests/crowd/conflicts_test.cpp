@@ -4,14 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace mobbscope {
 namespace {
 
-/// Trees and where they are placed; what find_conflicts takes.
+/// Trees and where they are placed.
 class Crowd {
   public:
     void add(mobb::ClipPtr clip, const mobb::Placement& placement, const mobb::FitOptions& fit = {}) {
@@ -30,6 +34,25 @@ mobb::ClipPtr walking(double x0, double y, int count) {
     std::vector<mobb::Disk> samples;
     for (int i = 0; i < count; ++i) samples.push_back({x0 + 0.1 * i, y, 0.5});
     return std::make_shared<const mobb::Clip>(0.1, std::move(samples));
+}
+
+struct Conflicts {
+    std::vector<Conflict> found;  ///< by a, then b
+    std::int64_t pairs_tested = 0;
+};
+
+/// Of a crowd in which each path is a person's.
+Conflicts find_conflicts(std::span<const mobb::PlacedTree> crowd, Search search, const Progress& progress = {}) {
+    std::vector<int> person_of(crowd.size());
+    std::iota(person_of.begin(), person_of.end(), 0);
+    PeopleConflicts people = find_people_conflicts(crowd, person_of, search, progress);
+    std::ranges::sort(people.found, {}, [](const PeopleConflict& found) { return std::pair(found.a, found.b); });
+    Conflicts out{{}, static_cast<std::int64_t>(people.pairs_tested)};
+    for (const PeopleConflict& found : people.found) {
+        EXPECT_EQ(found.intervals, found.deepest.intervals) << "there is one pair of paths";
+        out.found.push_back(found.deepest);
+    }
+    return out;
 }
 
 void expect_same(const Conflicts& a, const Conflicts& b) {
@@ -94,9 +117,10 @@ TEST(Conflicts, RandomCrowdsAreAsTheDirectSearchHasThem) {
     for (int round = 0; round < 60; ++round) {
         Crowd crowd;
         const double spread = random.real(1, 15);
-        const mobb::ClipPtr first = mobb::test::random_clip(random, 300);
+        const mobb::ClipPtr first = mobb::test::random_motion(random, mobb::test::random_clip(random, 300));
         for (int i = 0; i < 25; ++i) {
-            const mobb::ClipPtr clip = mobb::test::random_partner(random, *first, 300);
+            const mobb::ClipPtr clip =
+                mobb::test::random_motion(random, mobb::test::random_partner(random, *first, 300));
             mobb::Placement other, placement;
             mobb::test::random_placements(random, *first, *clip, other, placement);
             placement.translate += glm::dvec2{random.real(0, spread), random.real(0, spread)};
@@ -117,8 +141,8 @@ TEST(Conflicts, OfHairsBreadthsNothingIsLost) {
     mobb::test::Random random(11);
     std::size_t found = 0;
     for (int round = 0; round < 2000; ++round) {
-        const mobb::ClipPtr a = mobb::test::random_clip(random, 40);
-        const mobb::ClipPtr b = mobb::test::random_partner(random, *a, 40);
+        const mobb::ClipPtr a = mobb::test::random_motion(random, mobb::test::random_clip(random, 40));
+        const mobb::ClipPtr b = mobb::test::random_motion(random, mobb::test::random_partner(random, *a, 40));
         mobb::Placement place_a, place_b;
         mobb::test::random_placements(random, *a, *b, place_a, place_b);
         Crowd crowd;

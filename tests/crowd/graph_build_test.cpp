@@ -5,6 +5,9 @@
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/pose_distance.h>
 #include <crowd/graph/rigs.h>
+#include <crowd/simulation/move_set.h>
+#include <import/skeleton/warp.h>
+#include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
@@ -13,12 +16,16 @@
 
 #include <tbb/global_control.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -167,6 +174,62 @@ TEST_F(OwnGraph, JointsOfBodiesStayWhereTheyAre) {
         ASSERT_LE(std::sqrt(squares / static_cast<double>(track_a.joints)),
                   std::sqrt(5.0) * graph().bounds.pose_distance);
     }
+}
+
+TEST_F(OwnGraph, MovesOfAHubBeginInOnePose) {
+    std::map<int, MovingPose> of_hub;
+    double height = 0;
+    for (const GraphMove& move : graph().moves) {
+        const SceneClip& clip = scene().clips[static_cast<std::size_t>(move.clip)];
+        ASSERT_TRUE(clip.warp);
+        EXPECT_EQ(clip.warp->end.name, graph().hubs[static_cast<std::size_t>(move.to)].name);
+        // Of one frame and the next, as there is none before.
+        const MovingPose pose = moving_pose(*clip.clip, *clip.skeleton, 1, move.entry.heading_deg);
+        const auto& [unused, first] = *of_hub.try_emplace(move.from, pose).first;
+        EXPECT_NEAR(pose.height, first.height, 1e-5);
+        EXPECT_LT(glm::distance(pose.velocity, first.velocity), 1e-4);
+        // Second frames differ by what joints accelerate by.
+        for (std::size_t i = 0; i < pose.joints.size(); ++i)
+            EXPECT_GT(std::abs(glm::dot(pose.joints[i].rotation, first.joints[i].rotation)), 0.9999);
+        height = pose.height;
+    }
+    EXPECT_GT(height, 0.5);
+    EXPECT_EQ(of_hub.size(), graph().hubs.size());
+}
+
+TEST_F(OwnGraph, WithoutAWarpMovesAreAsRecorded) {
+    GraphOptions options;
+    options.warp = 0;
+    const Scene& recordings = own_recordings(folder_->path());
+    const BuiltGraph plain = build_graph(recordings, options, "clips");
+    ASSERT_EQ(plain.scene.clips.size(), scene().clips.size());
+    EXPECT_EQ(*plain.scene.graph, graph());
+    for (const SceneClip& clip : plain.scene.clips) EXPECT_FALSE(clip.warp);
+    const Transitions of_plain = each_transition(plain.scene);
+    EXPECT_EQ(each_transition(scene()).pose_distance, of_plain.pose_distance) << "bounds are those of recordings";
+    EXPECT_EQ(each_transition(scene()).root_speed, of_plain.root_speed);
+    options.warp = -1;
+    EXPECT_THROW(build_graph(recordings, options, "clips"), std::invalid_argument);
+}
+
+TEST_F(OwnGraph, TurnedMovesAreMeasuredAsWhatTheyAreVariantsOf) {
+    const FittedScene fitted(scene(), {});
+    const MoveSet moves(fitted, kDefaultTurnRate);
+    constexpr int kMove = 3;
+    const int turned = moves.turned({kMove, 30}).value();
+    const Scene run = moves.extended(std::array{turned}).scene;
+    const int variant = static_cast<int>(graph().moves.size());
+    ASSERT_TRUE(run.graph->moves.at(static_cast<std::size_t>(variant)).turned);
+    const Transitions all = each_transition(run);
+    std::map<std::pair<int, int>, std::pair<double, double>> of;
+    for (std::size_t i = 0; i < all.moves.size(); ++i) of[all.moves[i]] = {all.pose_distance[i], all.root_speed[i]};
+    std::size_t joins = 0;
+    for (const auto& [moves_of, measured] : of) {
+        const auto recorded = [&](int move) { return move == variant ? kMove : move; };
+        EXPECT_EQ(measured, of.at({recorded(moves_of.first), recorded(moves_of.second)}));
+        if (moves_of.first == variant || moves_of.second == variant) ++joins;
+    }
+    EXPECT_GT(joins, 10u);
 }
 
 TEST_F(OwnGraph, ItsFileGivesTheSameSamples) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -66,7 +67,11 @@ TEST(People, CollideWhereTheirPlaysDo) {
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& run_agent : people.placed_agents()) crowd.push_back(people.placed(run_agent));
     std::set<std::pair<int, int>> found;
-    for (const Conflict& conflict : find_conflicts(crowd, Search::trees).found) found.emplace(conflict.a, conflict.b);
+    std::vector<int> person_of(crowd.size());
+    std::iota(person_of.begin(), person_of.end(), 0);
+    for (const PeopleConflict& conflict : find_people_conflicts(crowd, person_of, Search::trees).found) {
+        found.emplace(conflict.a, conflict.b);
+    }
     EXPECT_EQ(found, expected);
 }
 

@@ -54,8 +54,8 @@ inline Scene with_run(Scene scene, int agents, glm::dvec2 area, double plan = 0)
     options.seconds = 20;
     options.plan = plan;
     const FittedScene fitted(scene, {});
-    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), options).run);
-    return scene;
+    const MoveSet moves(fitted);
+    return scene_of_run(moves, simulate(moves, options).run);
 }
 
 }  // namespace mobbscope::testing

@@ -109,6 +109,17 @@ TEST(ImportOffer, OfATableAsksForWhatTheFileLacks) {
     EXPECT_EQ(offer_of("t,x,y,r\n0,0,0,1\n1,0,0,1\n").find("motion")->taken, "held");
 }
 
+TEST(ImportOffer, OfATableHasTheColumnsThatMayHoldRadii) {
+    const TempFolder folder;
+    const ParsedFile file = parse_clip_file(folder.write("a.csv", "t,x,y,big\n0,0,0,2\n1,1,0,3\n"));
+    const ImportOffer offer = file.offer({});
+    ASSERT_EQ(values_of(*offer.find("radius")), std::vector<std::string>{"big"});
+    EXPECT_TRUE(offer.find("radius")->required);
+    ImportOptions options;
+    set_option(options, *import_option("radius"), "big");
+    EXPECT_EQ(file.clips(options).front().clip->samples()[1].r, 3);
+}
+
 TEST(ImportOffer, OfTracksSaysWhatWasAssumed) {
     const TempFolder folder;
     const ParsedFile file = parse_clip_file(folder.write("a.txt", "0 1 0 0\n10 1 1 0\n0 2 0 1\n10 2 1 1\n"));

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,7 +28,7 @@ enum class Moves { whole_clips, graph };
 
 /// Some agents play the clips for a while, and all of it is written and read again.
 void expect_same_again(const std::vector<std::filesystem::path>& places, Moves moves, const ImportOptions& options = {},
-                       const GraphOptions& graph_options = {}) {
+                       const GraphOptions& graph_options = {}, glm::dvec2 area = {40, 40}, bool needs_turns = false) {
     for (const std::filesystem::path& place : places) {
         if (!std::filesystem::exists(place)) GTEST_SKIP() << "no test data at " << place;
     }
@@ -39,10 +40,14 @@ void expect_same_again(const std::vector<std::filesystem::path>& places, Moves m
     }
     SimulateOptions run;
     run.agents = 6;
-    run.area = {40, 40};
+    run.area = area;
     run.seconds = 30;
     const FittedScene fitted(scene, {});
-    scene.crowd = std::make_shared<const CrowdRun>(simulate(MoveSet(fitted), run).run);
+    const MoveSet set(fitted);
+    scene = scene_of_run(set, simulate(set, run).run);
+    if (needs_turns) {
+        EXPECT_GT(std::ranges::count_if(scene.clips, [](const SceneClip& clip) { return clip.turn.has_value(); }), 0);
+    }
     for (const CrowdAgent& agent : scene.crowd->agents) {
         const PlayedMotion motion(scene, agent.name);
         EXPECT_EQ(motion.plays(), agent.plays.size());
@@ -55,6 +60,8 @@ void expect_same_again(const std::vector<std::filesystem::path>& places, Moves m
 
 TEST(ExportedRuns, OfWholeClips) { expect_same_again({kOwnClips}, Moves::whole_clips); }
 TEST(ExportedRuns, OfAGraph) { expect_same_again({kOwnClips}, Moves::graph); }
+
+TEST(ExportedRuns, OfMovesThatTurnOnTheWay) { expect_same_again({kOwnClips}, Moves::graph, {}, {}, {8, 8}, true); }
 
 TEST(ExportedRuns, OfManySamplesASecond) {
     ImportOptions options;

@@ -1,11 +1,18 @@
+#include <mobb/level_figures.h>
 #include <mobb/query.h>
 #include <paper_tables/measure.h>
+#include <paper_tables/methods.h>
 #include <paper_tables/test_costs.h>
 #include <paper_tables/workload.h>
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <memory>
 #include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -54,7 +61,7 @@ TEST(Measure, CountsWhatEachMethodTests) {
 
 TEST(Measure, CountsAreThoseOfTheStatisticsObserver) {
     const Workload workload = some_queries(200);
-    const TableRows table = measure(workload, hierarchical_methods({}), 1);
+    const TableRows table = measure(workload, table_methods({}), 1);
     mobb::FitOptions options;
     options.tree = mobb::TreeKind::umobb;
     std::int64_t boxes = 0, pairs = 0;
@@ -81,12 +88,90 @@ TEST(Measure, AnOffsetBetweenSamplesGivesEachTwoPartners) {
     EXPECT_EQ(measure(workload, {{"brute", std::nullopt}}, 1).rows[0][mobb::TestKind::samples], 10);
 }
 
-TEST(Measure, SweepsLeaves) {
-    const std::vector<TableRow> rows = sweep_leaf(some_queries(50), {}, 1);
-    std::set<int> leaves;
-    for (const TableRow& each : rows) leaves.insert(each.leaf);
-    EXPECT_TRUE(leaves.contains(1) && leaves.contains(10) && leaves.contains(50));
-    EXPECT_EQ(rows.size(), leaves.size() * hierarchical_methods({}).size());
+TEST(Measure, SweepsLeavesBesideTheBaselines) {
+    const std::vector<TableRow> rows = measure(some_queries(50), sweep_methods({}), 1).rows;
+    std::map<std::string, std::set<int>> leaves;
+    for (const TableRow& each : rows) leaves[each.method].insert(each.leaf);
+    for (const mobb::TreeKind kind : mobb::kTreeKinds) {
+        const std::set<int>& of_kind = leaves[std::string(mobb::name(kind))];
+        EXPECT_TRUE(of_kind.contains(1) && of_kind.contains(10) && of_kind.contains(50)) << mobb::name(kind);
+        EXPECT_EQ(*of_kind.rbegin(), 200) << mobb::name(kind);
+    }
+    for (const char* beside : {"brute", "mobb_1level", "umobb_1level"}) EXPECT_EQ(leaves[beside].size(), 1u) << beside;
+}
+
+TEST(Measure, CountsWhatBecomesOfThePairsOfEachLevel) {
+    const TableRows table = measure(some_queries(2000), table_methods({}), 1);
+    EXPECT_TRUE(row(table, "brute").pair_levels.empty());
+    for (const char* method : {"mobb_1level", "mobb", "umobb", "moving"}) {
+        const TableRow& each = row(table, method);
+        ASSERT_FALSE(each.pair_levels.empty()) << method;
+        EXPECT_EQ(each.pair_levels[0].pairs, 1) << method;
+        EXPECT_DOUBLE_EQ(each.pair_levels[0].apart_in_time, 1 - each.root_box_tests) << method;
+        EXPECT_DOUBLE_EQ(each.pair_levels[0].apart_in_time + each.pair_levels[0].separated, each.root_rejected);
+        EXPECT_DOUBLE_EQ(each.pair_levels[0].ended, each.pair_levels.size() == 1 ? 1 : each.root_rejected) << method;
+        double pairs = 0, ended = 0;
+        for (const PairLevel& level : each.pair_levels) {
+            pairs += level.pairs;
+            ended += level.ended;
+            EXPECT_LE(level.apart_in_time + level.separated + level.sampled, level.pairs + 1e-12) << method;
+        }
+        EXPECT_NEAR(pairs, each[mobb::TestKind::time], 1e-9) << method;
+        EXPECT_NEAR(ended, 1, 1e-9) << method;
+        // Each pair goes one level down on one side at least.
+        EXPECT_LE(static_cast<double>(each.pair_levels.size()), 2 * static_cast<double>(each.trees.volumes.size()) - 1);
+    }
+    EXPECT_EQ(row(table, "mobb_1level").pair_levels.size(), 1u);
+}
+
+TEST(Measure, SaysHowLargeTreesAndTheirBoxesAre) {
+    const Workload workload = some_queries(20);
+    const TableRows table = measure(workload, table_methods({}), 1);
+    mobb::FitOptions options;
+    options.tree = mobb::TreeKind::umobb;
+    double nodes = 0, root_volume = 0, leaf_volume = 0;
+    for (const mobb::Tree& tree : trees_of(workload, options)) {
+        nodes += static_cast<double>(tree.nodes().size()) / 6;
+        root_volume += mobb::level_figures(tree).front().volume;
+        leaf_volume += mobb::level_figures(tree).back().volume;
+    }
+    const TreeFigures& trees = row(table, "umobb").trees;
+    EXPECT_DOUBLE_EQ(trees.nodes, nodes);
+    EXPECT_GT(trees.bytes, nodes * sizeof(mobb::Node));
+    EXPECT_GT(trees.build_ns, 0);
+    EXPECT_GE(static_cast<double>(trees.volumes.size()), trees.depth);
+    EXPECT_DOUBLE_EQ(trees.volumes.front(), root_volume);
+    EXPECT_DOUBLE_EQ(trees.volumes.back(), leaf_volume);
+    EXPECT_EQ(row(table, "brute").trees.nodes, 0);
+    EXPECT_EQ(row(table, "mobb_1level").trees.nodes, 1);
+}
+
+TEST(Measure, VariantsChangeOneThingEach) {
+    const TableRows table = measure(some_queries(2000), variant_methods({}), 1);
+    // Box tests in place of sample tests where a leaf meets an inner node; the trees are the same.
+    for (const std::string kind : {"mobb", "umobb"}) {
+        const TableRow& paper = row(table, kind);
+        const TableRow& boxes = row(table, kind + "_walk_boxes");
+        EXPECT_GT(boxes.box_tests(), paper.box_tests()) << kind;
+        EXPECT_LT(boxes[mobb::TestKind::samples], paper[mobb::TestKind::samples]) << kind;
+        EXPECT_EQ(boxes.trees.volumes, paper.trees.volumes) << kind;
+        EXPECT_LT(row(table, kind + "_minarea").trees.volumes[0], paper.trees.volumes[0]) << kind;
+        EXPECT_NE(row(table, kind + "_covariance").trees.volumes[1], paper.trees.volumes[1]) << kind;
+    }
+    EXPECT_LT(row(table, "umobb_w4").trees.volumes.back(), row(table, "umobb_w0.25").trees.volumes.back());
+
+    // Variants are of what is asked for.
+    mobb::FitOptions base;
+    base.axes = mobb::Axes::covariance;
+    base.time_scale = 0.5;
+    std::set<std::string> names;
+    for (const Method& method : variant_methods(base)) EXPECT_TRUE(names.insert(method.name).second) << method.name;
+    EXPECT_TRUE(names.contains("mobb_endpoints") && names.contains("umobb_w0.125") && names.contains("umobb_w2"));
+    EXPECT_FALSE(names.contains("mobb_covariance"));
+    base.time_scale = mobb::kMaxTimeScale;
+    for (const Method& method : variant_methods(base)) {
+        EXPECT_LE(method.options->time_scale, mobb::kMaxTimeScale) << method.name;
+    }
 }
 
 TEST(Measure, EveryTestHasACost) {

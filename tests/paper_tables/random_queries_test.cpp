@@ -31,11 +31,11 @@ TEST(RandomQueries, ASeedGivesTheSameQueries) {
     EXPECT_NE(some[9].b, others[9].b);
 }
 
-TEST(RandomQueries, TheMiddlesOfThePathsAreWithinTheTranslation) {
+TEST(RandomQueries, TheMiddlesOfThePathsAreWithinTheRange) {
     // A clip far from its own origin is turned about its path, not about the origin.
     const auto far = std::make_shared<const mobb::Clip>(
         1.0, std::vector<mobb::Disk>{{1000, 2000, 0.3}, {1002, 2000, 0.3}, {1002, 2004, 0.3}});
-    for (const WorkloadQuery& query : random_queries({far}, 100, {.translation = 3})) {
+    for (const WorkloadQuery& query : random_queries({far}, 100, {.range = 3})) {
         const mobb::PlacedClip a(*far, query.a), b(*far, query.b);
         const auto middle_x = [](const mobb::PlacedClip& clip) { return (clip.disk(0).x + clip.disk(2).x) / 2; };
         const auto middle_y = [](const mobb::PlacedClip& clip) { return (clip.disk(0).y + clip.disk(2).y) / 2; };

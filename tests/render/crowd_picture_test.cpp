@@ -101,7 +101,7 @@ TEST_F(CrowdPicture, SpaceTimeShowsTheWindowAlone) {
     EXPECT_EQ(who_has_a_disk(list).size() >= 20u, true);
     for (const DiskInstance& disk : list.disks) {
         const double begin = list.space.place(glm::dvec3(disk.base)).z;
-        const double end = begin + disk.height / list.space.time_height;
+        const double end = begin + disk.height() / list.space.time_height;
         EXPECT_GT(end, 9 - 1e-4);
         EXPECT_LT(begin, 11 + 1e-4);
     }

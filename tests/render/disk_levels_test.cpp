@@ -35,7 +35,7 @@ std::vector<DiskInstance> path() {
         const float t = static_cast<float>(i);
         disk.base = {0.03f * t, 0.5f * std::sin(0.1f * t), 0.1f * t};
         disk.radius = 0.4f + 0.02f * std::sin(0.3f * t);
-        disk.height = 0.1f;
+        disk.stand_upright(0.1f);
         disk.color = {0.2f, 0.4f, 0.6f, 1};
         disk.id = {0, ObjectId::Kind::disk, i};
         disk.order = {DrawLayer::surroundings, 0, i};
@@ -83,6 +83,51 @@ TEST(DiskLevels, DisksKnowWhichStandOnThemAndWhichTheyStandOn) {
     EXPECT_EQ(pieces.back().above, glm::vec3(0));
 }
 
+/// The same path, run along from disk to disk.
+std::vector<DiskInstance> running_path() {
+    std::vector<DiskInstance> disks = path();
+    for (std::size_t i = 0; i + 1 < disks.size(); ++i) {
+        disks[i].top = disks[i + 1].base;
+        disks[i].top_radius = disks[i + 1].radius;
+    }
+    return disks;
+}
+
+TEST(DiskLevels, WhatRunsGoesOnInTheSameFaceAndJoinsUpInSmoothTubes) {
+    DiskLevels levels(running_path());
+    const std::vector<DiskPiece> pieces = pieces_of(levels.disks());
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+        EXPECT_EQ(pieces[i].top, pieces[i + 1].base) << i;
+        EXPECT_EQ(pieces[i].above, glm::vec3(0, 0, pieces[i].top_radius)) << i;
+        EXPECT_EQ(pieces[i + 1].below, glm::vec3(0, 0, pieces[i].top_radius)) << i;
+    }
+    EXPECT_EQ(levels.blocks()[0].widest_step, 0);
+    EXPECT_NEAR(levels.most_lean(), 0.064f, 3e-3f);
+    const Drawn far = seen(levels, lens_of(8));
+    ASSERT_FALSE(far.tubes.empty());
+    for (const DiskPiece& tube : far.tubes) EXPECT_EQ(tube.id, kSmooth);
+    for (int level = 1; level < DiskLevels::kLevels; ++level) {
+        EXPECT_EQ(drawn(levels, 0, level).disks.size(), 1u) << "the last, at level " << level;
+    }
+    DiskLevels upright(path());
+    for (const DiskPiece& tube : seen(upright, lens_of(8)).tubes) EXPECT_EQ(tube.id, kStairs);
+}
+
+/// From above the height of a disk is not seen, but how far it leans.
+TEST(DiskLevels, DisksThatLeanFarStayAsTheyAreFromAbove) {
+    auto disks = running_path();
+    const auto tubes = [&](double pitch) {
+        DiskLevels levels(disks);
+        return seen(levels, lens_of(25, pitch)).tubes.size();
+    };
+    EXPECT_GT(tubes(90), 0u);
+    for (DiskInstance& disk : disks) {
+        disk.base.x *= 3;
+        disk.top.x *= 3;
+    }
+    EXPECT_EQ(tubes(90), 0u);
+}
+
 TEST(DiskLevels, FarDisksJoinUp) {
     DiskLevels levels(path());
     const Drawn far = seen(levels, lens_of(8));
@@ -126,7 +171,7 @@ TEST(DiskLevels, TheChosenLevelIsNearlyAsCoarseAsItMayBe) {
     auto disks = path();
     for (DiskInstance& disk : disks) {
         disk.base.z *= 0.1f;
-        disk.height *= 0.1f;
+        disk.stand_upright(0.01f);
     }
     const DiskLevels levels(disks);
     for (float pixels = 6; pixels < 80; pixels *= 1.07f) {
@@ -142,6 +187,7 @@ TEST(DiskLevels, LeapsCutTubesOnlyWhereTheyAreSeen) {
     for (std::size_t i = 0; i < disks.size(); ++i) {
         disks[i].base = {0.05f * static_cast<float>(i / 10), 0, 0.1f * static_cast<float>(i)};
         disks[i].radius = 0.4f;
+        disks[i].stand_upright(0.1f);
     }
     DiskLevels levels(disks);
     EXPECT_EQ(drawn(levels, 0, DiskLevels::kLevels - 1).disks.size(), 1u) << "the last";
@@ -150,9 +196,10 @@ TEST(DiskLevels, LeapsCutTubesOnlyWhereTheyAreSeen) {
 
 TEST(DiskLevels, TheUsualRadiusIsTheMeanUnlessOneIsFarWider) {
     std::vector<DiskInstance> disks = path();
-    for (std::size_t i = 0; i < disks.size(); ++i) disks[i].radius = i % 2 == 0 ? 0.4f : 0.5f;
+    const auto widen = [&](std::size_t i, float radius) { disks[i].radius = disks[i].top_radius = radius; };
+    for (std::size_t i = 0; i < disks.size(); ++i) widen(i, i % 2 == 0 ? 0.4f : 0.5f);
     EXPECT_NEAR(DiskLevels(disks).blocks()[0].usual_radius, 0.45f, 1e-5f);
-    disks[7].radius = 3;
+    widen(7, 3);
     EXPECT_NEAR(DiskLevels(disks).blocks()[0].usual_radius, 2, 1e-5f);
 }
 
@@ -163,6 +210,7 @@ TEST(DiskLevels, EveryLevelCoversThePath) {
         disks.back().id.index = disks.back().id.index + 1;
         disks.back().order.index = disks.back().order.index + 1;
         disks.back().base += glm::vec3(0.01f, 0.02f * static_cast<float>(i % 7), 0.1f);
+        disks.back().stand_upright(0.1f);
     }
     DiskLevels levels(disks);
     ASSERT_GT(levels.blocks().size(), 2u);

@@ -66,6 +66,30 @@ TEST(DiskProjection, TheFarthestMarksAreTheBoxesSides) {
     }
 }
 
+TEST(DiskProjection, OfDisksThatRunTheFarthestMarksAreTheBoxesSidesToo) {
+    for (const mobb::TreeKind kind : {mobb::TreeKind::mobb, mobb::TreeKind::umobb}) {
+        mobb::FitOptions options;
+        options.tree = kind;
+        options.leaf = 2;
+        const FittedScene fitted(testing::running_scene({{{3, -2}, 25, 1.5}}, 12), options);
+        const DrawnAgent agent = drawn_agents(fitted, {})[0];
+        for (std::size_t node = 0; node < agent.placed.tree().nodes().size(); ++node) {
+            const mobb::Box box = world_box(agent.placed, static_cast<int>(node));
+            for (const std::size_t which : {0u, 1u}) {
+                const auto axis = static_cast<std::size_t>(
+                    disk_extents(agent, static_cast<int>(node), agent.placed.node(static_cast<int>(node)).first)
+                        .along[which]
+                        .axis);
+                const double middle = glm::dot(box.center, box.axes[axis]);
+                const double half = box.half[static_cast<int>(axis)];
+                const Range range = reached(agent, static_cast<int>(node), which);
+                EXPECT_NEAR(range.low, middle - half, 1e-9) << "node " << node << ", axis " << axis;
+                EXPECT_NEAR(range.high, middle + half, 1e-9) << "node " << node << ", axis " << axis;
+            }
+        }
+    }
+}
+
 TEST(DiskProjection, OfASingleSampleTheMarksAreTheBoxesSides) {
     const FittedScene fitted = one_walk(mobb::TreeKind::umobb, 1);
     const DrawnAgent agent = drawn_agents(fitted, {})[0];
@@ -82,13 +106,13 @@ TEST(DiskProjection, TheCornersAreWhatTheMarksComeFrom) {
     const FittedScene fitted = one_walk(mobb::TreeKind::umobb);
     const DrawnAgent agent = drawn_agents(fitted, {})[0];
     const DiskExtents extents = disk_extents(agent, 0, 20);
-    EXPECT_NEAR(extents.height, 1 / 30.0, 1e-12);
+    EXPECT_NEAR(extents.rise.z, 1 / 30.0, 1e-12);
     EXPECT_NE(extents.along[0].max, -extents.along[0].min) << "the base is not the middle of the disk";
     for (const AxisExtent& axis : extents.along) {
         for (const auto& [value, corner] : {std::pair(axis.min, axis.min_corner), {axis.max, axis.max_corner}}) {
             EXPECT_NEAR(glm::dot(corner, axis.direction), value, 1e-12);
             EXPECT_NEAR(std::hypot(corner.x, corner.y), extents.radius, 1e-12);
-            EXPECT_TRUE(std::abs(corner.z) < 1e-12 || std::abs(corner.z - extents.height) < 1e-12);
+            EXPECT_TRUE(std::abs(corner.z) < 1e-12 || std::abs(corner.z - extents.rise.z) < 1e-12);
         }
     }
 }

@@ -97,6 +97,17 @@ TEST(DrawListJson, NumbersAreShort) {
     EXPECT_FALSE(std::regex_search(text, std::regex("[0-9]\\.[0-9]{7}")));
 }
 
+TEST(DrawListJson, ADiskThatLeansSaysWhereItEnds) {
+    const DrawList list = build_draw_list({testing::running_scene({{}}), {}}, {}, kGoldenSize);
+    const json disks = json::parse(text_of(list))["disks"];
+    for (std::size_t i = 0; i + 1 < disks.size(); ++i) {
+        EXPECT_EQ(disks[i]["top"], disks[i + 1]["base"]) << i;
+        EXPECT_EQ(disks[i]["top_radius"], disks[i + 1]["radius"]) << i;
+    }
+    EXPECT_FALSE(disks.back().contains("top")) << "the last one stays";
+    EXPECT_FALSE(json::parse(text_of(levels()))["disks"][0].contains("top"));
+}
+
 TEST(DrawListJson, IdsCountFromOneByParticipantKindAndIndex) {
     const json value = json::parse(text_of(levels()));
     // All disks of A, its boxes, then those of B.

@@ -30,9 +30,31 @@ TEST(DrawList, HasADiskForEverySample) {
         EXPECT_NEAR(disk.base.x + list.space.origin.x, truth.x, 1e-5);
         EXPECT_NEAR(disk.base.y + list.space.origin.y, truth.y, 1e-5);
         EXPECT_NEAR(disk.base.z / list.space.time_height + list.space.origin.z, placed.placed_clip().time(i), 1e-5);
-        EXPECT_NEAR(disk.height / list.space.time_height, 1 / 30.0, 1e-6);
+        EXPECT_NEAR(disk.height() / list.space.time_height, 1 / 30.0, 1e-6);
         EXPECT_FLOAT_EQ(disk.radius, 0.4f);
         EXPECT_EQ(disk.id, (ObjectId{1, ObjectId::Kind::disk, i}));
+    }
+}
+
+TEST(DrawList, ADiskThatRunsEndsInTheFaceInWhichTheNextBegins) {
+    for (const double far : {0.0, 1e4}) {
+        const FittedScene fitted(testing::running_scene({{{far, 1}, 33, far}}, 40), {});
+        const DrawList list = build_draw_list(fitted, {}, kGoldenSize);
+        ASSERT_EQ(list.disks.size(), 40u);
+        const mobb::PlacedClip clip = drawn_agents(fitted, {})[0].clip();
+        for (int i = 0; i < 40; ++i) {
+            const DiskInstance& disk = list.disks[static_cast<std::size_t>(i)];
+            const mobb::Disk end = clip.disk_at_end(i);
+            EXPECT_LT(glm::length(disk.top - list.space.point(end.x, end.y, clip.time(i + 1))), 1e-5f) << i;
+            if (i == 39) {
+                EXPECT_EQ(disk.lean(), 0) << "the last one stays";
+                break;
+            }
+            const DiskInstance& next = list.disks[static_cast<std::size_t>(i + 1)];
+            EXPECT_EQ(disk.top, next.base) << i;
+            EXPECT_EQ(disk.top_radius, next.radius) << i;
+            EXPECT_GT(disk.lean(), 0.5f) << i;
+        }
     }
 }
 
@@ -57,22 +79,28 @@ TEST(DrawList, DrawnBoxesHoldTheirDisks) {
          {mobb::TreeKind::mobb, mobb::TreeKind::umobb, mobb::TreeKind::moving, mobb::TreeKind::aabb}) {
         mobb::FitOptions options;
         options.tree = kind;
-        const FittedScene fitted(testing::scene_of({{}, {{1, -1}, 70, 0}}), options);
-        ViewState view;
-        view.time_height = 0.37;
-        const DrawList list = build_draw_list(fitted, view, kGoldenSize);
-        for (const BoxInstance& box : list.boxes) {
-            const glm::mat3 inverse = glm::inverse(glm::mat3(box.extents[0], box.extents[1], box.extents[2]));
-            const mobb::Node& node = fitted.tree(0).nodes()[static_cast<std::size_t>(box.id.index)];
-            for (const DiskInstance& disk : list.disks) {
-                if (disk.id.agent != box.id.agent || disk.id.index < node.first || disk.id.index >= node.end())
-                    continue;
-                for (int i = 0; i < 16; ++i) {
-                    const float angle = static_cast<float>(i) * 0.3926991f;
-                    const glm::vec3 rim = disk.base + disk.radius * glm::vec3(std::cos(angle), std::sin(angle), 0) +
-                                          glm::vec3(0, 0, i % 2 ? disk.height : 0);
-                    const glm::vec3 unit = glm::abs(inverse * (rim - box.center));
-                    EXPECT_LE(std::max({unit.x, unit.y, unit.z}), 1 + 1e-4f);
+        options.leaf = 2;
+        const std::vector<mobb::Placement> places{{}, {{1, -1}, 70, 0}};
+        for (const bool running : {false, true}) {
+            const FittedScene fitted(running ? testing::running_scene(places, 12) : testing::scene_of(places), options);
+            ViewState view;
+            view.time_height = 0.37;
+            view.levels = {0, 2, false};
+            const DrawList list = build_draw_list(fitted, view, kGoldenSize);
+            for (const BoxInstance& box : list.boxes) {
+                const glm::mat3 inverse = glm::inverse(glm::mat3(box.extents[0], box.extents[1], box.extents[2]));
+                const mobb::Node& node = fitted.tree(0).nodes()[static_cast<std::size_t>(box.id.index)];
+                for (const DiskInstance& disk : list.disks) {
+                    if (disk.id.agent != box.id.agent || disk.id.index < node.first || disk.id.index >= node.end())
+                        continue;
+                    for (int i = 0; i < 16; ++i) {
+                        const float angle = static_cast<float>(i) * 0.3926991f;
+                        const glm::vec3 way(std::cos(angle), std::sin(angle), 0);
+                        for (const glm::vec3& rim : {disk.base + disk.radius * way, disk.top + disk.top_radius * way}) {
+                            const glm::vec3 unit = glm::abs(inverse * (rim - box.center));
+                            EXPECT_LE(std::max({unit.x, unit.y, unit.z}), 1 + 1e-4f);
+                        }
+                    }
                 }
             }
         }
@@ -111,7 +139,7 @@ TEST(DrawList, ASceneIsAboutAsTallAsWide) {
     float height = 0;
     float width = 0;
     for (const DiskInstance& disk : list.disks) {
-        height = std::max(height, disk.base.z + disk.height);
+        height = std::max(height, disk.base.z + disk.height());
         width = std::max(width, 2 * (std::abs(disk.base.x) + disk.radius));
     }
     EXPECT_NEAR(height / width, 1, 0.1);

@@ -1,4 +1,5 @@
 // What is pointed out: lines of their own, over the world and below the words.
+#include <mobb/traversal.h>
 #include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
 #include <render/pictures/build_draw_list.h>
@@ -99,6 +100,24 @@ TEST(Highlights, StandWhereTheAgentIs) {
     add_ghost(list, agent.clip(), 1);
     EXPECT_EQ(list.highlights.size(), 2 * ring + 2 * static_cast<std::size_t>(agent.clip().count() - 1));
     EXPECT_EQ(list.highlights.back().role, Role::ghost);
+}
+
+TEST(Highlights, ASampleThatRunsIsOutlinedWhereItIsThen) {
+    const FittedScene fitted(testing::running_scene({{{1, 2}, 40, 3}}), {});
+    const DrawnAgent agent = drawn_agents(fitted, {})[0];
+    const auto outlined = [&](DrawList list, double time) {
+        ASSERT_TRUE(add_highlight(list, agent, {Kind::sample, 2}, Role::hover, 1));
+        const mobb::Disk disk = mobb::swept(agent.clip(), 2).at(time);
+        for (const HighlightLine& line : list.highlights) {
+            const glm::dvec3 place = list.space.place(line.from);
+            EXPECT_NEAR(std::hypot(place.x - disk.x, place.y - disk.y), disk.r, 1e-4);
+            if (list.moment) continue;
+            EXPECT_NEAR(place.z, time, 1e-4);
+        }
+    };
+    outlined(build_draw_list(fitted, {}, kSmallSize), 0.5 * (agent.clip().time(2) + agent.clip().time(3)));
+    const double then = agent.clip().time(2) + 0.1;
+    outlined(build_draw_list(fitted, moment_at(then), kSmallSize), then);
 }
 
 TEST(Highlights, ALongWayHasFewLines) {

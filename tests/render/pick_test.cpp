@@ -1,3 +1,4 @@
+#include <mobb/traversal.h>
 #include <render/drawlist/camera.h>
 #include <render/drawlist/pick.h>
 #include <render/drawlist/picture_options.h>
@@ -78,8 +79,9 @@ Agreement compare(const DrawList& list, const IdImage& drawn) {
 class PickTest : public testing::OnEachBackend {};
 
 TEST_P(PickTest, AgreesWithThePicture) {
-    for (const char* name : {"crossing", "collision", "circles"}) {
-        const FittedScene fitted = demo_scene(name);
+    for (const std::string name : {"crossing", "collision", "circles", "running"}) {
+        const FittedScene fitted =
+            name == "running" ? FittedScene(testing::running_scene({{}, {{1, -1}, 90, 0}}), {}) : demo_scene(name);
         std::vector<ViewState> views(8, fitted.scene().view);
         views[0].levels = {0, 4, false};
         views[1].levels = {3, 3, false};
@@ -109,17 +111,20 @@ TEST_P(PickTest, AgreesWithThePicture) {
 }
 
 TEST_P(PickTest, AgreesFromInsideABoxAmongDisks) {
-    const FittedScene fitted = demo_scene("crossing");
-    ViewState view = fitted.scene().view;
-    view.levels = {0, 2, false};
-    DrawList list = build_draw_list(fitted, view, kPickSize);
-    view.camera = list.camera;
-    view.camera.fov_deg = 100;
-    view.camera.distance = 0.2;
-    list = build_draw_list(fitted, view, kPickSize);
-    const Agreement agreement = compare(list, renderer().draw_ids(list));
-    EXPECT_GT(agreement.shown, agreement.pixels / 2);
-    EXPECT_LT(agreement.differing, 0.005 * agreement.shown) << agreement.example;
+    for (const bool running : {false, true}) {
+        const FittedScene fitted =
+            running ? FittedScene(testing::running_scene({{}, {{1, -1}, 90, 0}}, 30), {}) : demo_scene("crossing");
+        ViewState view = fitted.scene().view;
+        view.levels = {0, 2, false};
+        DrawList list = build_draw_list(fitted, view, kPickSize);
+        view.camera = list.camera;
+        view.camera.fov_deg = 100;
+        view.camera.distance = 0.2;
+        list = build_draw_list(fitted, view, kPickSize);
+        const Agreement agreement = compare(list, renderer().draw_ids(list));
+        EXPECT_GT(agreement.shown, agreement.pixels / 2);
+        EXPECT_LT(agreement.differing, 0.005 * agreement.shown) << agreement.example;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, PickTest, ::testing::Values(Backend::osmesa, Backend::egl), testing::backend_name);
@@ -138,22 +143,29 @@ double off_surface(const mobb::PlacedTree& tree, int node, glm::dvec3 place) {
 }
 
 double off_surface(const mobb::PlacedClip& clip, int sample, glm::dvec3 place) {
-    const mobb::Disk disk = clip.disk(sample);
+    const mobb::Disk disk = mobb::swept(clip, sample).at(place.z);
     const double beyond_rim = std::hypot(place.x - disk.x, place.y - disk.y) - disk.r;
     const double beyond_faces = std::max(clip.time(sample) - place.z, place.z - clip.time(sample + 1));
     return std::abs(std::max(beyond_rim, beyond_faces));
 }
 
-class PickedPlaces : public ::testing::TestWithParam<mobb::TreeKind> {};
+struct PickedCase {
+    mobb::TreeKind kind;
+    bool running;
+};
+
+class PickedPlaces : public ::testing::TestWithParam<PickedCase> {};
 
 TEST_P(PickedPlaces, LieOnWhatIsPicked) {
     for (const bool far : {false, true}) {
         const glm::dvec2 there = far ? glm::dvec2(10'000, -10'000) : glm::dvec2(0);
         const double then = far ? 1e5 : 0;
         mobb::FitOptions options;
-        options.tree = GetParam();
+        options.tree = GetParam().kind;
         options.time_scale = 2;
-        const FittedScene fitted(testing::scene_of({{there, 0, then}, {there + glm::dvec2(1, -1), 90, then}}), options);
+        const std::vector<mobb::Placement> places{{there, 0, then}, {there + glm::dvec2(1, -1), 90, then}};
+        const FittedScene fitted(GetParam().running ? testing::running_scene(places) : testing::scene_of(places),
+                                 options);
         for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::top, CameraPreset::side}) {
             ViewState view;
             view.camera.preset = preset;
@@ -185,9 +197,29 @@ TEST_P(PickedPlaces, LieOnWhatIsPicked) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, PickedPlaces,
-                         ::testing::Values(mobb::TreeKind::umobb, mobb::TreeKind::moving, mobb::TreeKind::aabb),
-                         [](const auto& test) { return std::string(mobb::name(test.param)); });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, PickedPlaces,
+    ::testing::Values(PickedCase{mobb::TreeKind::umobb, false}, PickedCase{mobb::TreeKind::moving, false},
+                      PickedCase{mobb::TreeKind::aabb, false}, PickedCase{mobb::TreeKind::umobb, true}),
+    [](const auto& test) { return std::string(mobb::name(test.param.kind)) + (test.param.running ? "_running" : ""); });
+
+TEST(Pick, ASampleThatRunsIsHitWhereItIsInBetween) {
+    const FittedScene fitted(testing::running_scene({{{2, 1}, 30, 5}}), {});
+    for (const CameraPreset preset : {CameraPreset::iso, CameraPreset::top, CameraPreset::side}) {
+        ViewState view;
+        view.camera.preset = preset;
+        const DrawList list = build_draw_list(fitted, view, kPickSize);
+        const mobb::PlacedClip clip = drawn_agents(fitted, view)[0].clip();
+        for (int i = 0; i + 1 < clip.count(); ++i) {
+            const double time = 0.5 * (clip.time(i) + clip.time(i + 1));
+            const mobb::Disk disk = mobb::swept(clip, i).at(time);
+            const glm::vec2 pixel = list.projection.project(list.space.point(disk.x, disk.y, time)).value();
+            const std::vector<Pick> picks = pick(list, pixel);
+            const auto it = std::ranges::find(picks, ObjectId{0, ObjectId::Kind::disk, i}, &Pick::id);
+            EXPECT_TRUE(it != picks.end()) << "sample " << i;
+        }
+    }
+}
 
 TEST(Pick, NothingIsPickedBesideTheScene) {
     const FittedScene fitted = testing::miss_scene();

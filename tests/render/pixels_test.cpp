@@ -101,6 +101,27 @@ TEST_P(PictureTest, FarFromTheOriginItLooksTheSame) {
     EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
 }
 
+/// Something just before the eye, as a plane that it stands in, leaves little depth for the rest.
+TEST_P(PictureTest, DisksHideTheFloorHoweverNearTheNearestIs) {
+    const FittedScene fitted(testing::running_scene({{}, {{1, -1}, 90, 0}}), {});
+    ViewState view;
+    view.camera.preset = CameraPreset::iso;
+    view.boxes = view.labels = false;
+    DrawList list = build_draw_list(fitted, view, kSmallSize);
+    ViewProjection& projection = list.projection;
+    ASSERT_TRUE(projection.perspective);
+    const Image usual = renderer().draw(list);
+    projection.near_depth = 1e-3f * projection.far_depth;
+    const float range = projection.far_depth - projection.near_depth;
+    glm::mat4& clip = projection.clip_from_world;
+    for (int column = 0; column < 4; ++column) {
+        clip[column][2] = (projection.far_depth + projection.near_depth) / range * clip[column][3];
+    }
+    clip[3][2] -= 2 * projection.far_depth * projection.near_depth / range;
+    const ImageDiff result = diff(renderer().draw(list), usual, {8, 0.0005});
+    EXPECT_TRUE(result.same) << result.differing << " pixels differ, by up to " << result.largest;
+}
+
 TEST_P(PictureTest, DisksHideWhatIsBehindThem) {
     const FittedScene fitted = testing::hit_scene();
     ViewState view;

@@ -1,5 +1,6 @@
 #include <explain/query_progress.h>
 #include <explain/query_sentence.h>
+#include <mobb/traversal.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/query/query_boxes.h>
 #include <render/query/separation_gap.h>
@@ -12,6 +13,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -249,6 +252,45 @@ TEST(QueryPicture, HitAndCursorRingsDifferAndAreExplained) {
     EXPECT_EQ(explained(LegendEntry::Mark::disk), 1) << "the dim disks";
 }
 
+TEST(QueryPicture, AContactBetweenSamplesStandsWhereItBegins) {
+    Query query(FittedScene(testing::running_scene({{{2, 1}, 30, 5}, {{4.2, 2.9}, 200, 5}}), {}));
+    ASSERT_TRUE(query.recorded.contact);
+    const mobb::Contact& contact = *query.recorded.contact;
+    query.view.time = contact.time + 0.05;
+    const DrawList list = query.at(query.recorded.trace.size() - 1, {1280, 720});
+    const auto agents = drawn_agents(query.fitted, query.view);
+    const std::array<int, 2> samples{contact.a_sample, contact.b_sample};
+    EXPECT_GT(contact.time, agents[0].clip().time(samples[0]) + 0.02) << "not where a sample begins";
+    const auto disk = [&](std::size_t side, double time) {
+        return mobb::swept(agents[side].clip(), samples[side]).at(time);
+    };
+    // How wide a ring is around what it stands around, in radii.
+    const auto around = [&](const LineInstance& line, double time) {
+        const glm::dvec3 place = list.space.place(line.from);
+        EXPECT_NEAR(place.z, time, 1e-5);
+        const auto radii = [&](std::size_t side) {
+            const mobb::Disk d = disk(side, time);
+            return std::hypot(place.x - d.x, place.y - d.y) / d.r;
+        };
+        const auto is_ring = [](double r) { return std::abs(r - 1.04) < 1e-4 || std::abs(r - 1.4) < 1e-4; };
+        return is_ring(radii(0)) || is_ring(radii(1));
+    };
+    int hits = 0, cursors = 0;
+    for (const LineInstance& line : list.lines) {
+        if (line.order.layer != DrawLayer::rings) continue;
+        const bool cursor = line.color == list.palette.text;
+        ++(cursor ? cursors : hits);
+        EXPECT_TRUE(around(line, cursor ? *query.view.time : contact.time));
+    }
+    EXPECT_GT(hits, 0);
+    EXPECT_GT(cursors, 0);
+    // The words point at A's disk then.
+    const mobb::Disk a = disk(0, contact.time);
+    const glm::vec2 at = list.projection.project(list.space.point(a.x, a.y, contact.time)).value();
+    EXPECT_TRUE(std::ranges::any_of(list.overlay_lines,
+                                    [&](const OverlayLine& line) { return glm::length(line.from - at) < 0.01f; }));
+}
+
 TEST(QueryPicture, EarlierPairsAreSeenInBothThemes) {
     Query query(testing::miss_scene());
     query.view.past = Past::all;
@@ -360,7 +402,13 @@ TEST(QuerySentence, SaysWhenAndHowDeepAHitIs) {
     const Query query(testing::hit_scene());
     const std::string sentence = step_sentence(query.sides, query.recorded.trace, query.recorded.trace.size() - 1);
     EXPECT_NE(sentence.find("hit at " + with_unit(query.recorded.contact->time, "s")), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("deep"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(" m deep"), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find("up to"), std::string::npos) << sentence;
+    // Who moves between samples only touches the other at first.
+    const Query moving(FittedScene(testing::running_scene({{}, {{1, -1}, 90, 0}}), {}));
+    ASSERT_TRUE(moving.recorded.contact);
+    const std::string touch = step_sentence(moving.sides, moving.recorded.trace, moving.recorded.trace.size() - 1);
+    EXPECT_NE(touch.find(" s, up to "), std::string::npos) << touch;
 }
 
 TEST(QuerySentence, NodesAreNamedByLevelAndPlace) {

@@ -27,6 +27,22 @@ inline Scene scene_of(std::vector<mobb::Placement> placements, int samples = 60)
     return scene;
 }
 
+/// Somebody seen 2.5 times a second who runs straight in between, with a radius that changes fast.
+inline mobb::ClipPtr run(int samples, double dt = 0.4) {
+    std::vector<mobb::Disk> disks;
+    for (int i = 0; i < samples; ++i) {
+        disks.push_back({1.4 * dt * i, 0.3 * std::sin(2.5 * dt * i), 0.3 + 0.15 * std::cos(7.5 * dt * i)});
+    }
+    return std::make_shared<const mobb::Clip>(dt, std::move(disks), mobb::Motion::linear);
+}
+
+/// The same with clips that run between samples.
+inline Scene running_scene(std::vector<mobb::Placement> placements, int samples = 6, double dt = 0.4) {
+    Scene scene = scene_of(std::move(placements));
+    scene.clips.front().clip = run(samples, dt);
+    return scene;
+}
+
 /// Two paths that cross at right angles and hit in the middle.
 inline FittedScene hit_scene(mobb::TreeKind kind = mobb::TreeKind::mobb) {
     mobb::FitOptions options;

@@ -80,7 +80,7 @@ TEST(CrowdJson, PlaysFollowEachOther) {
            "(3, 6)");
     expect(R"({"move": 1, "translate": [3, 6], "rotate_deg": 75, "start": 1.5})",
            "s.json: line 7, /crowd/agents/0/plays/1/rotate_deg: faces -15 degrees off the end of the play before; "
-           "only a pivoted one may");
+           "only a pivoted one may, in a run without turn_rate");
     expect(R"({"move": 1, "translate": [3, 6], "rotate_deg": 90, "start": 1.5, "chosen_at": -0.75})",
            "s.json: line 7, /crowd/agents/0/plays/1: chosen at -0.75 s, before the play before it, at -0.5 s");
     // A whole turn more is the same heading.

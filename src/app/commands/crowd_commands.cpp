@@ -117,31 +117,12 @@ void list_candidates(Session& session, const std::string& text) {
     session.candidates.which = static_cast<CandidateList::Which>(which_of(kWhich, "choice", text));
 }
 
-/// Who rules the pointed out candidate out; null if nobody does.
-const Candidate* ruled_out(const Session& session, int candidate) {
-    const FollowedChoice* choice = session.choice();
-    if (!choice || candidate < 0 || static_cast<std::size_t>(candidate) >= choice->choice.candidates.size()) {
-        return nullptr;
-    }
-    const Candidate& asked = choice->choice.candidates[static_cast<std::size_t>(candidate)];
-    return asked.blocker ? &asked : nullptr;
-}
-
 void open_candidate(Session& session, const std::string& text) {
     int index = session.candidate();
     if (!text.empty()) {
         index = whole_number_in(text, "the candidate", 0, std::numeric_limits<int>::max());
     }
-    const Candidate* candidate = ruled_out(session, index);
-    if (!candidate) {
-        throw std::invalid_argument("nobody rules this candidate out: take one that meets somebody");
-    }
-    const CrowdRun& run = *session.crowd();
-    const auto clip_of = [&](int move) { return session.scene().graph->moves[static_cast<std::size_t>(move)].clip; };
-    const CrowdAgent& other = run.agents[static_cast<std::size_t>(candidate->blocker->agent)];
-    const Play play = blocking_play(session.scene(), *candidate->blocker);
-    session.open_excerpt({session.view().follow, clip_of(candidate->move), candidate->placement, -1},
-                         {other.name, clip_of(play.move), play.placement, -1});
+    session.open_candidate(index);
 }
 
 // --- conflicts

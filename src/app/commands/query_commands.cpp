@@ -120,6 +120,8 @@ void capture(Session& session, const std::string& text) {
         for (SceneClip& clip : scene.clips) {
             clip.source.reset();
             clip.options = {};
+            clip.warp.reset();
+            clip.turn.reset();
         }
         make_queries_explicit(scene);
         scene.queries.front().expect = Expectation{contact.has_value(), contact};

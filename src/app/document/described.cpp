@@ -2,11 +2,11 @@
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <mobb/kinds.h>
+#include <mobb/level_figures.h>
 #include <render/parts/node_boxes.h>
 #include <scene/path_figures.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace mobbscope::app {
 
@@ -32,11 +32,7 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
     }
     if (!upright) out.facts.emplace_back("side 3", formatted("%.3f m", 2 * world.half[2]));
     const double volume = mobb::volume(node.box, tree.time_scale());
-    double cylinders = 0;
-    for (int i = node.first; i < node.end(); ++i) {
-        const double r = tree.tree().clip().samples()[static_cast<std::size_t>(i)].r;
-        cylinders += std::numbers::pi * r * r * tree.tree().clip().dt();
-    }
+    const double cylinders = mobb::cylinder_volume(tree.tree().clip(), {node.first, node.count});
     out.facts.emplace_back("volume", formatted("%.4g m\u00B2\u00B7s", volume));
     if (volume > 0) out.facts.emplace_back("tightness", formatted("%.1f %%", 100 * cylinders / volume));
 }

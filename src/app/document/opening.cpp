@@ -9,7 +9,9 @@
 #include <scene/scene_edits.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -324,13 +326,35 @@ void Session::answer_unsaved(Unsaved choice) {
 
 // --- excerpts
 
-void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) {
+void Session::open_excerpt(const PlacedAgent& a, const PlacedAgent& b) { open_excerpt_of(scene(), a, b); }
+
+void Session::open_candidate(int candidate) {
+    const FollowedChoice* followed = choice();
+    const std::vector<Candidate> none;
+    const std::vector<Candidate>& asked_for = followed ? followed->choice.candidates : none;
+    if (candidate < 0 || candidate >= static_cast<int>(asked_for.size()) ||
+        !asked_for[static_cast<std::size_t>(candidate)].blocker) {
+        throw std::invalid_argument("nobody rules this candidate out: take one that meets somebody");
+    }
+    const Candidate& asked = asked_for[static_cast<std::size_t>(candidate)];
+    const Blocker& blocker = *asked.blocker;
+    // Moves that are turned but not played are none of the run's graph.
+    const auto [scene, index] = choosing_.moves->extended(std::array{asked.played, blocker.move});
+    const auto clip_of = [&, &run = scene, &at = index](int move) {
+        return run.graph->moves[static_cast<std::size_t>(at[static_cast<std::size_t>(move)])].clip;
+    };
+    open_excerpt_of(
+        scene, {view().follow, clip_of(asked.played), asked.placement, -1},
+        {crowd()->agents[static_cast<std::size_t>(blocker.agent)].name, clip_of(blocker.move), blocker.placement, -1});
+}
+
+void Session::open_excerpt_of(const Scene& of, const PlacedAgent& a, const PlacedAgent& b) {
     require_no_job();
     Scene excerpt;
     excerpt.file = scene().file;
     excerpt.fit = document().fitted->options();
-    excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(a.clip)]);
-    if (b.clip != a.clip) excerpt.clips.push_back(scene().clips[static_cast<std::size_t>(b.clip)]);
+    excerpt.clips.push_back(of.clips[static_cast<std::size_t>(a.clip)]);
+    if (b.clip != a.clip) excerpt.clips.push_back(of.clips[static_cast<std::size_t>(b.clip)]);
     excerpt.agents.push_back({a.name, 0, a.placement, std::nullopt});
     excerpt.agents.push_back(
         {b.name == a.name ? b.name + " (2)" : b.name, b.clip == a.clip ? 0 : 1, b.placement, std::nullopt});

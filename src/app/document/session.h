@@ -255,6 +255,8 @@ class Session {
     /// Opens two paths as a scene of their own, with the query between them. Undo leads back, and so does
     /// leave_excerpt.
     void open_excerpt(const PlacedAgent& a, const PlacedAgent& b);
+    /// The same with a candidate of `choice` and who rules it out. Throws std::invalid_argument if nobody does.
+    void open_candidate(int candidate);
     bool in_excerpt() const { return document().excerpt_of != nullptr; }
     void leave_excerpt();
 
@@ -563,6 +565,8 @@ class Session {
         std::shared_ptr<const FittedScene> fitted;
     };
     std::shared_ptr<const FittedScene> shown_at(const SceneView& seen, Shown& kept) const;
+    /// What open_excerpt does; the clips are those of `of`.
+    void open_excerpt_of(const Scene& of, const PlacedAgent& a, const PlacedAgent& b);
     mutable Shown shown_;  ///< of the active view
     struct PointedOut {
         int agent = -1, play = -1;  ///< of the choice

@@ -74,9 +74,10 @@ void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& co
                "");
     number_row(ui, "Distance", with_unit(contact.distance, "m"), contact.distance, "m");
     number_row(ui, "Sum of radii", with_unit(contact.radii, "m"), contact.radii, "m");
-    const double deep =
-        most_overlap(findings.sides[0].clip(), findings.sides[1].clip(), contact.a_sample, contact.b_sample);
-    number_row(ui, "How deep", with_unit(deep, "m"), deep, "m");
+    const mobb::PlacedClip& a = findings.sides[0].clip();
+    const mobb::PlacedClip& b = findings.sides[1].clip();
+    number_row(ui, "How deep", overlap_words(a, b, contact.a_sample, contact.b_sample),
+               most_overlap(a, b, contact.a_sample, contact.b_sample), "m");
 }
 
 void right_aligned(const std::string& text, float right, ImU32 color) {

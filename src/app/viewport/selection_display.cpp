@@ -32,9 +32,7 @@ void add_candidate(DrawList& list, const Session& session, float scale) {
     const FollowedChoice* followed = session.choice();
     if (!followed || !session.view().candidates || session.candidate() < 0) return;
     const Candidate& candidate = followed->choice.candidates[static_cast<std::size_t>(session.candidate())];
-    const GraphMove& move = session.scene().graph->moves[static_cast<std::size_t>(candidate.move)];
-    const mobb::Clip& clip = *session.scene().clips[static_cast<std::size_t>(move.clip)].clip;
-    add_way_highlight(list, mobb::PlacedClip(clip, candidate.placement), Role::candidate, scale);
+    add_way_highlight(list, mobb::PlacedClip(*candidate.clip, candidate.placement), Role::candidate, scale);
 }
 
 void add_other_of_conflict(DrawList& list, const Session& session, float scale) {

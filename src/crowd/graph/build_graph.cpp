@@ -3,10 +3,12 @@
 #include <base/random.h>
 #include <base/text.h>
 #include <crowd/graph/build_graph.h>
+#include <crowd/graph/continuity.h>
 #include <crowd/graph/cut_search.h>
 #include <crowd/graph/graph_figures.h>
 #include <crowd/graph/hub_choice.h>
 #include <crowd/graph/rigs.h>
+#include <import/skeleton/warp.h>
 #include <scene/arrangement.h>
 #include <scene/load_files.h>
 #include <scene/motion_graph.h>
@@ -43,6 +45,7 @@ void check_options(const GraphOptions& options) {
     require(options.least_seconds > 0, "the least seconds of a move must be over 0");
     require(options.most_seconds >= options.least_seconds && std::isfinite(options.most_seconds),
             "the most seconds of a move must be at least the least");
+    require(options.warp >= 0 && std::isfinite(options.warp), "the seconds of a warp must be 0 or more");
     require(options.hubs >= 1 && options.moves >= 1 && options.candidates >= 1 && options.least_moves >= 1,
             "counts must be at least 1");
 }
@@ -141,6 +144,7 @@ class Builder {
         find_hubs();
         choose_moves();
         drop_dead_ends();
+        find_poses();
         out.scene = written();
         out.report = report_;
         return out;
@@ -191,6 +195,35 @@ class Builder {
         report_.dropped_hubs = hubs - hubs_.size();
     }
 
+    /// Of each hub the mean of the poses in which moves begin and end there.
+    void find_poses() {
+        std::vector<std::map<std::pair<int, int>, const Cut*>> cuts(hubs_.size());  // each once, in one order
+        for (const Piece& move : moves_) {
+            const auto add = [&](int hub, const Cut& cut) {
+                cuts[static_cast<std::size_t>(hub)].emplace(std::pair(cut.recording, cut.frame), &cut);
+            };
+            add(move.from, move.begin);
+            add(move.to, move.end);
+        }
+        for (const auto& of_hub : cuts) {
+            std::vector<MovingPose> poses;
+            for (const auto& [unused, cut] : of_hub) {
+                const SceneClip& clip = recorded(cut->recording);
+                poses.push_back(moving_pose(*clip.clip, *clip.skeleton, cut->frame, cut->heading_deg));
+            }
+            poses_.push_back(std::make_shared<const MovingPose>(mean(poses)));
+        }
+    }
+
+    const SceneClip& recorded(int recording) const {
+        return scene_.clips[static_cast<std::size_t>(recordings_[static_cast<std::size_t>(recording)].clip)];
+    }
+
+    WarpEnd warp_end(int hub, const Cut& cut) const {
+        const auto at = static_cast<std::size_t>(hub);
+        return {letters(at), poses_[at], cut.heading_deg};
+    }
+
     Stance stance(const Cut& cut) const {
         const PoseTrack& track = recordings_[static_cast<std::size_t>(cut.recording)].track;
         return {track.root[static_cast<std::size_t>(cut.frame)], cut.heading_deg};
@@ -198,9 +231,8 @@ class Builder {
 
     /// The samples from the first cut up to the one before the second.
     SceneClip part(const Piece& piece, UnusedNames& names) const {
-        const Recording& recording = recordings_[static_cast<std::size_t>(piece.begin.recording)];
-        const SceneClip& whole = scene_.clips[static_cast<std::size_t>(recording.clip)];
-        const double dt = recording.track.dt;
+        const SceneClip& whole = recorded(piece.begin.recording);
+        const double dt = whole.clip->dt();
         const double file_begin = whole.options.trim ? whole.options.trim->first : 0;
         const double begin = file_begin + piece.begin.frame * dt;
         const double end = file_begin + piece.end.frame * dt;
@@ -215,24 +247,40 @@ class Builder {
         clip.options.unit = short_or_exact(whole.facts.unit);
         if (is_utf8(whole.facts.root) && leads_to_root(*whole.skeleton, whole.facts.root))
             clip.options.root = whole.facts.root;
-        const auto samples = whole.clip->samples().subspan(
-            static_cast<std::size_t>(piece.begin.frame), static_cast<std::size_t>(piece.end.frame - piece.begin.frame));
-        clip.clip = std::make_shared<mobb::Clip>(dt, std::vector<mobb::Disk>(samples.begin(), samples.end()),
-                                                 whole.clip->motion());
         clip.facts = whole.facts;
         clip.facts.warnings.clear();
-        auto skeleton = std::make_shared<Skeleton>();
-        skeleton->joints = whole.skeleton->joints;
-        skeleton->root = whole.skeleton->root;
-        skeleton->rest = whole.skeleton->rest;
-        for (int f = piece.begin.frame; f < piece.end.frame; ++f) {
-            const auto pose = whole.skeleton->at(f);
-            skeleton->positions.insert(skeleton->positions.end(), pose.begin(), pose.end());
-            const auto rotations = whole.skeleton->rotations_at(f);
-            skeleton->rotations.insert(skeleton->rotations.end(), rotations.begin(), rotations.end());
+        if (options_.warp > 0) {
+            clip.warp = std::make_shared<const ClipWarp>(
+                ClipWarp{options_.warp, warp_end(piece.from, piece.begin), warp_end(piece.to, piece.end)});
+            WarpedClip made = warped(*frames_of(*whole.clip, piece.begin.frame, piece.end.frame + 1),
+                                     frames_of(*whole.skeleton, piece.begin.frame, piece.end.frame + 1), *clip.warp,
+                                     whole.options.radius.has_value());
+            clip.clip = std::move(made.clip);
+            clip.skeleton = std::move(made.skeleton);
+        } else {
+            clip.clip = frames_of(*whole.clip, piece.begin.frame, piece.end.frame);
+            clip.skeleton =
+                std::make_shared<const Skeleton>(frames_of(*whole.skeleton, piece.begin.frame, piece.end.frame));
         }
-        clip.skeleton = std::move(skeleton);
         return clip;
+    }
+
+    static mobb::ClipPtr frames_of(const mobb::Clip& clip, int first, int end) {
+        const auto samples =
+            clip.samples().subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
+        return std::make_shared<const mobb::Clip>(clip.dt(), std::vector<mobb::Disk>(samples.begin(), samples.end()),
+                                                  clip.motion());
+    }
+
+    static Skeleton frames_of(const Skeleton& skeleton, int first, int end) {
+        Skeleton out{skeleton.joints, skeleton.root, {}, {}, skeleton.rest};
+        for (int f = first; f < end; ++f) {
+            const auto pose = skeleton.at(f);
+            out.positions.insert(out.positions.end(), pose.begin(), pose.end());
+            const auto rotations = skeleton.rotations_at(f);
+            out.rotations.insert(out.rotations.end(), rotations.begin(), rotations.end());
+        }
+        return out;
     }
 
     /// Of joints that share a name the first is found by it.
@@ -276,15 +324,18 @@ class Builder {
     std::vector<Recording> recordings_;
     std::vector<Hub> hubs_;
     std::vector<Piece> moves_;
+    std::vector<std::shared_ptr<const MovingPose>> poses_;  ///< by hub
     BuildReport report_;
 };
 
-/// Of the graph's moves, which stay so that no transition breaks a bound.
-std::vector<bool> moves_without_breaks(const MotionGraph& graph, const Transitions& measured) {
+/// Of the graph's moves, which stay so that no transition breaks a bound. `jumps`: those that break what warped moves
+/// promise.
+std::vector<bool> moves_without_breaks(const MotionGraph& graph, const Transitions& measured,
+                                       const std::vector<bool>& jumps) {
     std::vector<std::vector<std::size_t>> breaks_with(graph.moves.size());  // of each move, the moves on the other side
     for (std::size_t i = 0; i < measured.moves.size(); ++i) {
         if (!exceeds(measured.pose_distance[i], graph.bounds.pose_distance) &&
-            !exceeds(measured.root_speed[i], graph.bounds.root_speed)) {
+            !exceeds(measured.root_speed[i], graph.bounds.root_speed) && !jumps[i]) {
             continue;
         }
         const auto before = static_cast<std::size_t>(measured.moves[i].first);
@@ -487,7 +538,9 @@ void check_graph(BuiltGraph& built, int least_moves, const Progress& progress) {
     const Transitions measured = each_transition(read, progress);
     built.report.joints_checked = measured.moves.size();
     MotionGraph graph = *scene.graph;
-    std::vector<bool> keep = moves_without_breaks(graph, measured);
+    const std::vector<bool> jumps =
+        promises_continuity(read) ? joins_over(read, measured.moves) : std::vector<bool>(measured.moves.size(), false);
+    std::vector<bool> keep = moves_without_breaks(graph, measured, jumps);
     built.report.broken = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));
     if (built.report.broken == 0) return;
 

@@ -65,9 +65,10 @@ BuiltGraph build_graph(const Scene& recordings, const GraphOptions& options, con
                        const Progress& progress = {});
 
 /// Takes the moves out of a graph that break its bounds where they are joined, as `graph info` will measure them: the
-/// scene is written, read again with the clips' files, and every transition measured (each_transition). As long as one
-/// breaks a bound, the move is taken out that most of those have, then whatever leads nowhere without them or to fewer
-/// than `least_moves`. No move may be left. Counts in the report. Throws InputError if what was written cannot be read.
+/// scene is written, read again with the clips' files, and every transition measured (each_transition, joins_over). As
+/// long as one breaks a bound, the move is taken out that most of those have, then whatever leads nowhere without them
+/// or to fewer than `least_moves`. No move may be left. Counts in the report. Throws InputError if what was written
+/// cannot be read.
 void check_graph(BuiltGraph& built, int least_moves, const Progress& progress = {});
 
 /// Picks pieces that differ, all of which join the same two hubs, at most `most`. The first is the one that is most

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -39,13 +40,6 @@ constexpr std::size_t kMostTransitions = 20'000'000;
 
 constexpr double kRounding = 1e-6;  // relative, and in metres or metres per second
 
-/// A move's poses, with some from before and after it where its source has them.
-struct MovePoses {
-    std::optional<PoseTrack> track;
-    int entry = 0;  ///< frames of the track
-    int exit = 0;
-};
-
 /// The track of a move's clip, or of a longer part of its recording.
 PoseTrack track_of(const Scene& scene, const SceneClip& of, const mobb::Clip& clip, const Skeleton& skeleton,
                    const std::vector<GraphRig>& rigs, int rig) {
@@ -58,24 +52,18 @@ PoseTrack track_of(const Scene& scene, const SceneClip& of, const mobb::Clip& cl
     }
 }
 
-/// The poses of the clip and those around it that a window at either end needs.
-MovePoses poses_of(const Scene& scene, const GraphMove& move, const std::vector<GraphRig>& rigs, Importer& importer) {
+/// A move's poses.
+struct MovePoses {
+    std::optional<PoseTrack> track;
+    int entry = 0;  ///< frames of the track
+    int exit = 0;
+};
+
+MovePoses poses_of(const Scene& scene, const GraphMove& move, const std::vector<GraphRig>& rigs,
+                   const RecordedMove& recorded) {
+    if (!recorded.skeleton || move.rig < 0) return {};
     const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
-    if (!clip.skeleton || move.rig < 0) return {};
-    const int count = clip.clip->count();
-    // A path that was put at the origin cannot be lengthened in front.
-    if (!clip.source || !clip.options.trim || clip.options.origin.value_or(Origin::keep) != Origin::keep) {
-        return {track_of(scene, clip, *clip.clip, *clip.skeleton, rigs, move.rig), 0, count};
-    }
-    const double dt = clip.clip->dt();
-    const int reach = window_offsets(dt).back();
-    const auto [begin, end] = *clip.options.trim;
-    const int in_front = static_cast<int>(std::min<double>(reach, std::floor(begin / dt + kRounding)));
-    ImportOptions options = clip.options;
-    options.trim = {std::max(0.0, begin - in_front * dt), end + (reach + 1) * dt};
-    const ImportedClip longer = importer.clips(scene.file.parent_path() / *clip.source, options).front();
-    if (!longer.skeleton) return {};
-    return {track_of(scene, clip, *longer.clip, *longer.skeleton, rigs, move.rig), in_front, in_front + count};
+    return {track_of(scene, clip, *recorded.clip, *recorded.skeleton, rigs, move.rig), recorded.entry, recorded.exit};
 }
 
 /// The root's velocity at both ends of a move, metres per second, with the heading of the stance along +x.
@@ -84,17 +72,17 @@ struct EndVelocities {
     glm::dvec2 exit;
 };
 
-EndVelocities velocities_of(const mobb::Clip& clip, const GraphMove& move) {
+EndVelocities velocities_of(const RecordedMove& recorded, const GraphMove& move) {
     // The stances are what joins the moves, so they stand for the ends whatever the samples say.
     const auto at = [&](int i) -> glm::dvec2 {
-        if (i == 0) return move.entry.position;
-        if (i == clip.count()) return move.exit.position;
-        const mobb::Disk& disk = clip.samples()[static_cast<std::size_t>(i)];
+        if (i == recorded.entry) return move.entry.position;
+        if (i == recorded.exit) return move.exit.position;
+        const mobb::Disk& disk = recorded.clip->samples()[static_cast<std::size_t>(i)];
         return {disk.x, disk.y};
     };
-    const int last = clip.count() - 1;
-    return {mobb::Rotation::from_degrees(-move.entry.heading_deg)((at(1) - at(0)) / clip.dt()),
-            mobb::Rotation::from_degrees(-move.exit.heading_deg)((at(last + 1) - at(last)) / clip.dt())};
+    const double dt = recorded.clip->dt();
+    return {mobb::Rotation::from_degrees(-move.entry.heading_deg)((at(recorded.entry + 1) - at(recorded.entry)) / dt),
+            mobb::Rotation::from_degrees(-move.exit.heading_deg)((at(recorded.exit) - at(recorded.exit - 1)) / dt)};
 }
 
 /// The joints that a rig names may be more in one skeleton than in another, where several have one name.
@@ -111,6 +99,12 @@ void check_comparable(const Scene& scene, const std::vector<GraphMove>& moves, c
                          "has another number of joints that count than clip " + name(other) +
                              ", of the same rig; build the graph again");
     }
+}
+
+/// The move itself, or of a turned one that of which it is a variant: sources hold no turns.
+std::size_t as_recorded(const MotionGraph& graph, int move) {
+    const std::optional<TurnedMove>& turned = graph.moves[static_cast<std::size_t>(move)].turned;
+    return static_cast<std::size_t>(turned ? turned->move : move);
 }
 
 TransitionSpread spread_of(const std::vector<std::pair<int, int>>& transitions, const std::vector<double>& values) {
@@ -132,12 +126,14 @@ TransitionSpread spread_of(const std::vector<std::pair<int, int>>& transitions, 
     return out;
 }
 
+}  // namespace
+
 std::vector<std::pair<int, int>> transitions_of(const MotionGraph& graph) {
     const std::vector<std::vector<int>> begin_in = moves_by_hub(graph);
     std::size_t transitions = 0;
     for (const GraphMove& move : graph.moves) transitions += begin_in[static_cast<std::size_t>(move.to)].size();
     if (transitions > kMostTransitions) {
-        throw InputError("the graph has " + std::to_string(transitions) + " joints, more than the " +
+        throw InputError("the graph has " + std::to_string(transitions) + " joins, more than the " +
                          std::to_string(kMostTransitions) + " that are measured; give it fewer moves a hub");
     }
     std::vector<std::pair<int, int>> out;
@@ -149,7 +145,23 @@ std::vector<std::pair<int, int>> transitions_of(const MotionGraph& graph) {
     return out;
 }
 
-}  // namespace
+RecordedMove recorded_move(const Scene& scene, const GraphMove& move, Importer& importer) {
+    const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
+    const int count = clip.clip->count();
+    // A path that was put at the origin cannot be lengthened in front.
+    if (!clip.skeleton || !clip.source || !clip.options.trim ||
+        clip.options.origin.value_or(Origin::keep) != Origin::keep) {
+        return {clip.clip, clip.skeleton, 0, count};
+    }
+    const double dt = clip.clip->dt();
+    const int reach = window_offsets(dt).back();
+    const auto [begin, end] = *clip.options.trim;
+    const int in_front = static_cast<int>(std::min<double>(reach, std::floor(begin / dt + kRounding)));
+    ImportOptions options = clip.options;
+    options.trim = {std::max(0.0, begin - in_front * dt), end + (reach + 1) * dt};
+    const ImportedClip longer = importer.clips(scene.file.parent_path() / *clip.source, options).front();
+    return {longer.clip, longer.skeleton, in_front, in_front + count};
+}
 
 double way_of(const mobb::Clip& clip, const GraphMove& move) {
     const auto samples = clip.samples();
@@ -211,9 +223,10 @@ Transitions each_transition(const Scene& scene, const Progress& progress) {
     std::vector<EndVelocities> velocities;
     for (std::size_t m = 0; m < graph.moves.size(); ++m) {
         if (progress) progress(m, graph.moves.size());
-        poses.push_back(poses_of(scene, graph.moves[m], graph.rigs, importer));
-        const SceneClip& clip = scene.clips[static_cast<std::size_t>(graph.moves[m].clip)];
-        velocities.push_back(velocities_of(*clip.clip, graph.moves[m]));
+        const GraphMove& move = graph.moves[m];
+        const RecordedMove recorded = recorded_move(scene, move, importer);
+        poses.push_back(poses_of(scene, move, graph.rigs, recorded));
+        velocities.push_back(velocities_of(recorded, move));
     }
     check_comparable(scene, graph.moves, poses);
 
@@ -221,8 +234,8 @@ Transitions each_transition(const Scene& scene, const Progress& progress) {
     out.pose_distance.assign(out.moves.size(), -1);
     out.root_speed.resize(out.moves.size());
     tbb::parallel_for(std::size_t{0}, out.moves.size(), [&](std::size_t i) {
-        const auto a = static_cast<std::size_t>(out.moves[i].first);
-        const auto b = static_cast<std::size_t>(out.moves[i].second);
+        const std::size_t a = as_recorded(graph, out.moves[i].first);
+        const std::size_t b = as_recorded(graph, out.moves[i].second);
         out.root_speed[i] = glm::distance(velocities[a].exit, velocities[b].entry);
         const std::optional<PoseTrack>& before = poses[a].track;
         const std::optional<PoseTrack>& after = poses[b].track;

@@ -1,10 +1,12 @@
 /// A motion graph in figures.
 #pragma once
 
+#include <import/import.h>
 #include <scene/motion_graph.h>
 #include <scene/scene.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,6 +52,21 @@ GraphFigures graph_figures(const Scene& scene);
 /// Metres that the root goes in a move, from its first sample to its exit.
 double way_of(const mobb::Clip& clip, const GraphMove& move);
 
+/// A move as its source has it, not warped, with some frames from before and after it where the source has them.
+struct RecordedMove {
+    mobb::ClipPtr clip;
+    std::shared_ptr<const Skeleton> skeleton;
+    int entry = 0;  ///< frames of the clip
+    int exit = 0;
+};
+
+/// Throws InputError if the source cannot be read.
+RecordedMove recorded_move(const Scene& scene, const GraphMove& move, Importer& importer);
+
+/// All transitions of a graph, as pairs of indices into its moves: each a move and one that may follow it. Throws
+/// InputError if there are more than can be measured.
+std::vector<std::pair<int, int>> transitions_of(const MotionGraph& graph);
+
 /// What was measured over all transitions: a transition is a move and one that may follow it.
 struct TransitionSpread {
     std::size_t count = 0;  ///< transitions measured
@@ -73,10 +90,10 @@ struct Transitions {
     std::vector<double> root_speed;          ///< metres per second
 };
 
-/// Poses come from the clips' sources, a few frames beyond each clip included; between clips without a skeleton, or of
-/// different rigs, there is no pose distance. The joints that count are those that the graph lists; where it lists no
-/// rigs, those of rigs_of(scene). The scene has a graph. `progress` is told before each clip's poses are read. Throws
-/// InputError.
+/// Of moves as they were recorded, not as they are warped or turned. Poses come from the clips' sources, a few frames
+/// beyond each clip included; between clips without a skeleton, or of different rigs, there is no pose distance. The
+/// joints that count are those that the graph lists; where it lists no rigs, those of rigs_of(scene). The scene has a
+/// graph. `progress` is told before each clip's poses are read. Throws InputError.
 Transitions each_transition(const Scene& scene, const Progress& progress = {});
 
 /// The same in figures.

@@ -16,6 +16,7 @@ struct GraphOptions {
     GraphBounds bounds{0.16, 0.6};
     double least_seconds = 1;  ///< that a move lasts, over 0
     double most_seconds = 4;   ///< at least least_seconds
+    double warp = 0.3;         ///< seconds over which a move is warped at either end, 0 or more; 0: not at all
     int hubs = 8;              ///< most hubs that a rig gets, at least 1
     int moves = 16;            ///< most moves from one hub to another, at least 1
     int candidates = 400;      ///< moments looked at as hubs, for each rig, at least 1

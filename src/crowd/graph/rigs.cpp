@@ -89,19 +89,25 @@ GraphRig rig_of(const std::vector<const Skeleton*>& skeletons) {
 
 }  // namespace
 
-SceneRigs rigs_of(const Scene& scene) {
-    SceneRigs out;
+std::vector<int> rig_of_each_clip(const Scene& scene) {
+    std::vector<int> out;
     std::unordered_map<std::string, int> known;
-    std::vector<std::vector<const Skeleton*>> skeletons;
     for (const SceneClip& clip : scene.clips) {
-        if (!clip.skeleton) {
-            out.of_clip.push_back(-1);
-            continue;
-        }
-        const auto [rig, is_new] = known.try_emplace(key_of(*clip.skeleton), static_cast<int>(skeletons.size()));
-        if (is_new) skeletons.emplace_back();
-        skeletons[static_cast<std::size_t>(rig->second)].push_back(clip.skeleton.get());
-        out.of_clip.push_back(rig->second);
+        out.push_back(clip.skeleton
+                          ? known.try_emplace(key_of(*clip.skeleton), static_cast<int>(known.size())).first->second
+                          : -1);
+    }
+    return out;
+}
+
+SceneRigs rigs_of(const Scene& scene) {
+    SceneRigs out{{}, rig_of_each_clip(scene)};
+    std::vector<std::vector<const Skeleton*>> skeletons;
+    for (std::size_t c = 0; c < scene.clips.size(); ++c) {
+        if (out.of_clip[c] < 0) continue;
+        const auto rig = static_cast<std::size_t>(out.of_clip[c]);
+        if (rig == skeletons.size()) skeletons.emplace_back();
+        skeletons[rig].push_back(scene.clips[c].skeleton.get());
     }
     for (const auto& of_rig : skeletons) out.rigs.push_back(rig_of(of_rig));
     return out;

@@ -9,11 +9,14 @@
 
 namespace mobbscope {
 
-/// The rigs of a scene's clips. Clips are of one rig if their joints have the same names, hang on each other in the
-/// same way and have the same root.
+/// The number of each clip's rig, counted from 0 in the order of their first clips; -1: it has no skeleton. Clips are
+/// of one rig if their joints have the same names, hang on each other in the same way and have the same root.
+std::vector<int> rig_of_each_clip(const Scene& scene);
+
+/// The rigs of a scene's clips.
 struct SceneRigs {
-    std::vector<GraphRig> rigs;  ///< in the order of their first clips
-    std::vector<int> of_clip;    ///< of each clip of the scene, an index into rigs; -1: it has no skeleton
+    std::vector<GraphRig> rigs;  ///< by number
+    std::vector<int> of_clip;    ///< rig_of_each_clip
 };
 
 /// Tells rigs apart and chooses the joints that count: the root, and below it every joint whose bone is at least a

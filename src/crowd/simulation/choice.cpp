@@ -10,13 +10,26 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace mobbscope {
 
 namespace {
 
+constexpr double kTravels = 0.3;     // metres from a move's begin to its end: what is less is standing
 constexpr double kSamePlace = 1e-6;  // metres, degrees: as precisely as plays must join
+
+/// A move of the set, not placed yet.
+Candidate candidate_of(const MoveSet& moves, int move) {
+    const PlannedMove& origin = moves.origin(move);
+    return {origin.move, origin.turn_deg, move, moves.tree(move).shared_clip(), {}, false, {}, false, false};
+}
+
+/// Metres by which a disk reaches over a wall.
+double beyond_wall(const mobb::Disk& disk, glm::dvec2 area) {
+    return std::max({std::abs(disk.x) + disk.r - area.x / 2, std::abs(disk.y) + disk.r - area.y / 2, 0.0});
+}
 
 class Chooser {
   public:
@@ -40,8 +53,10 @@ class Chooser {
             check_candidates(first);
             if (take_clear(first)) return done();
         }
-        if (take_in_the_way() || take_longest_plan() || take_against_plans()) return done();
-        take_latest();
+        if ((stood_ && take_with_way_on(0, is_clear)) || take_in_the_way() || take_longest_plan() ||
+            take_against_plans())
+            return done();
+        take_least_harm();
         choice_.kind = PlayKind::forced;
         return std::move(choice_);
     }
@@ -50,18 +65,21 @@ class Chooser {
     void add_candidates(double turn) {
         const Play& before = point_.before;
         for (const int move : moves_.after(before.move)) {
-            Candidate candidate{move,  turn, moves_.following(before.move, before.placement, move, turn), false, {},
-                                false, false};
+            const std::optional<int> played = moves_.turned({move, turn});
+            if (!played) continue;
+            Candidate candidate = candidate_of(moves_, *played);
+            candidate.turn_deg = turn;
+            candidate.placement = moves_.following(before.move, before.placement, {move, turn});
             // A graph whose moves lead far away would in the end leave what can be placed.
             if (!mobb::is_valid(candidate.placement)) continue;
-            const mobb::PlacedClip placed(moves_.tree(move).clip(), candidate.placement);
-            candidate.leaves_floor = leaves_floor(placed, moves_.bounds(move), run_.area);
+            const mobb::PlacedClip placed(*candidate.clip, candidate.placement);
+            candidate.leaves_floor = leaves_floor(placed, moves_.bounds(*played), run_.area);
             choice_.candidates.push_back(candidate);
         }
     }
 
     PlayedMove motion_of(const Candidate& candidate) const {
-        return moves_.motion(point_.agent, point_.play, candidate.move, candidate.placement);
+        return moves_.motion(point_.agent, point_.play, candidate.played, candidate.placement);
     }
 
     /// Indices of the candidates from `first` on that meet a condition.
@@ -86,7 +104,7 @@ class Chooser {
         std::vector<Play> plays;
         for (const std::size_t i : of) {
             const Candidate& candidate = choice_.candidates[i];
-            plays.push_back({candidate.move, candidate.placement, point_.time, PlayKind::chosen});
+            plays.push_back({candidate.played, candidate.placement, point_.time, PlayKind::chosen});
         }
         const std::vector<bool> in_the_way = reservations_.in_the_way(point_.agent, point_.play, plays);
         for (std::size_t i = 0; i < of.size(); ++i) choice_.candidates[of[i]].in_the_way = in_the_way[i];
@@ -110,11 +128,22 @@ class Chooser {
                 [&](const Candidate& candidate) { return asked(candidate) && !candidate.blocker; });
     }
 
-    /// One of the free candidates that are in nobody's way and have a way on. At most one heading either way has any:
-    /// the last.
+    /// One of the free candidates that are in nobody's way and have a way on. At most one turn either way has any: the
+    /// last.
     bool take_clear(std::size_t first) {
-        return take_with_way_on(
-            first, [](const Candidate& candidate) { return candidate.is_free() && !candidate.in_the_way; });
+        return take_with_way_on(first, [this](const Candidate& candidate) {
+            return is_clear(candidate) && (!stood_ || travels(candidate.move));
+        });
+    }
+
+    static bool is_clear(const Candidate& candidate) {
+        return candidate.is_free() && !candidate.in_the_way && !candidate.no_way_on;
+    }
+
+    bool travels(int index) const {
+        const GraphMove& move = moves_.move(index);
+        const glm::dvec2 way = move.exit.position - move.entry.position;
+        return std::hypot(way.x, way.y) >= kTravels;
     }
 
     bool take_in_the_way() {
@@ -171,7 +200,7 @@ class Chooser {
             !kept.empty() && kept[0].move == candidate.move && kept[0].turn_deg == candidate.turn_deg;
         kept = was_planned ? kept.subspan(1) : kept.first(0);
         const std::int64_t before = search_.queries();
-        candidate.no_way_on = !search_.look(candidate.move, candidate.placement, kept);
+        candidate.no_way_on = !search_.look(candidate.played, candidate.placement, kept);
         choice_.queries += search_.queries() - before;
         if (candidate.no_way_on && (!longest_ || search_.seconds() > longest_seconds_)) {
             longest_ = index;
@@ -181,39 +210,38 @@ class Chooser {
         return !candidate.no_way_on;
     }
 
-    void take_latest() {
+    void take_least_harm() {
         if (choice_.candidates.empty()) {
             throw InputError(moves_.fitted().scene().file.string(), "",
                              "the graph's moves lead beyond all bounds; check their stances");
         }
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
-        const bool some_stay = std::any_of(choice_.candidates.begin(), choice_.candidates.end(), stays);
+        const bool some_stay = std::ranges::any_of(choice_.candidates, stays);
         if (!some_stay) find_blockers(0, true);
-        const auto contact = [](const Candidate& candidate) {
-            return candidate.blocker ? candidate.blocker->contact.time : std::numeric_limits<double>::infinity();
-        };
-        double latest = -std::numeric_limits<double>::infinity();
-        for (const Candidate& candidate : choice_.candidates) {
-            if (candidate.leaves_floor != some_stay) latest = std::max(latest, contact(candidate));
+        std::vector<std::size_t> best;
+        Harm least;
+        for (const std::size_t i : those(0, [&](const Candidate& c) { return c.leaves_floor != some_stay; })) {
+            const Harm harm = harm_of(choice_.candidates[i]);
+            if (best.empty() || harm < least) {
+                best.clear();
+                least = harm;
+            }
+            if (harm == least) best.push_back(i);
         }
-        const auto is_latest = [&](const Candidate& candidate) {
-            return candidate.leaves_floor != some_stay && contact(candidate) == latest;
-        };
-        // Of those that two who overlap already may take, the ones that part them first.
-        double shortest = std::numeric_limits<double>::infinity();
-        for (const Candidate& candidate : choice_.candidates) {
-            if (is_latest(candidate)) shortest = std::min(shortest, seconds_of_contact(candidate));
-        }
-        const std::vector<std::size_t> best = those(0, [&](const Candidate& candidate) {
-            return is_latest(candidate) && seconds_of_contact(candidate) == shortest;
-        });
         choice_.taken = best[draws().below(static_cast<std::uint32_t>(best.size()))];
     }
 
-    /// With the motion that rules it out.
-    double seconds_of_contact(const Candidate& candidate) const {
-        if (!candidate.blocker || candidate.blocker->planned > 0) return 0;
-        return reservations_.motions().seconds_of_contact(motion_of(candidate), *candidate.blocker);
+    /// The less, the better: seconds of contact with what others play, metres that it ends beyond a wall, and how early
+    /// the first contact is.
+    using Harm = std::tuple<double, double, double>;
+
+    Harm harm_of(const Candidate& candidate) const {
+        const mobb::PlacedClip way(*candidate.clip, candidate.placement);
+        const double beyond = beyond_wall(way.disk(way.count() - 1), run_.area);
+        if (!candidate.blocker || candidate.blocker->planned > 0)
+            return {0, beyond, -std::numeric_limits<double>::infinity()};
+        return {reservations_.motions().seconds_of_contact(motion_of(candidate)), beyond,
+                -candidate.blocker->contact.time};
     }
 
     CounterRandom draws() const {
@@ -227,6 +255,8 @@ class Chooser {
     std::vector<AskedPair>* asked_;
     PlanSearch search_;
     Choice choice_;
+    /// Who stands has a way on nearly always, in front of a wall too: nobody would leave it again.
+    bool stood_ = run_.plan > 0 && !travels(point_.before.move);
     std::optional<std::size_t> longest_;  ///< of the candidates without a way on, the one whose plan is longest
     std::vector<PlannedMove> longest_plan_;
     double longest_seconds_ = 0;
@@ -259,8 +289,11 @@ Choice choose(const MoveSet& moves, const ReservationTable& reservations, const 
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
     const std::vector<Play>& plays = run.agents.at(static_cast<std::size_t>(agent)).plays;
     const Play& made = plays.at(static_cast<std::size_t>(play));
-    if (play == 0)
-        return {made.chosen_at, made.kind, {{made.move, 0, made.placement, false, {}, false, false}}, 0, made.plan, 0};
+    if (play == 0) {
+        Candidate placed = candidate_of(moves, made.move);
+        placed.placement = made.placement;
+        return {made.chosen_at, made.kind, {placed}, 0, made.plan, 0};
+    }
     const ChoicePoint point{agent, play, plays[static_cast<std::size_t>(play) - 1], made.chosen_at};
     ReservationTable reservations(moves, run.area, run.grace);
     for (int other = 0; other < static_cast<int>(run.agents.size()); ++other) {
@@ -273,24 +306,8 @@ bool comes_out_as(const Play& play, const Choice& choice) {
     const Candidate& taken = choice.candidates[choice.taken];
     const glm::dvec2 aside = taken.placement.translate - play.placement.translate;
     const double turn = std::remainder(taken.placement.rotate_deg - play.placement.rotate_deg, 360.0);
-    return taken.move == play.move && choice.kind == play.kind && choice.plan == play.plan &&
+    return taken.played == play.move && choice.kind == play.kind && choice.plan == play.plan &&
            std::hypot(aside.x, aside.y) <= kSamePlace && std::abs(turn) <= kSamePlace;
-}
-
-Play blocking_play(const Scene& run, const Blocker& blocker) {
-    Play play =
-        run.crowd->agents[static_cast<std::size_t>(blocker.agent)].plays[static_cast<std::size_t>(blocker.play)];
-    for (int i = 0; i < blocker.planned; ++i) {
-        const PlannedMove& next = play.plan[static_cast<std::size_t>(i)];
-        const GraphMove& from = run.graph->moves[static_cast<std::size_t>(play.move)];
-        const GraphMove& to = run.graph->moves[static_cast<std::size_t>(next.move)];
-        Stance exit = from.exit;
-        exit.heading_deg += next.turn_deg;
-        const double duration = run.clips[static_cast<std::size_t>(from.clip)].clip->duration();
-        play.placement = following(play.placement, exit, duration, to.entry);
-        play.move = next.move;
-    }
-    return play;
 }
 
 std::optional<int> last_chosen(const CrowdAgent& agent, double time) {

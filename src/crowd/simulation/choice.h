@@ -12,8 +12,10 @@ namespace mobbscope {
 
 /// A move that may follow, where it would be played.
 struct Candidate {
-    int move = 0;         ///< index into MotionGraph::moves
-    double turn_deg = 0;  ///< on the spot before it, counter-clockwise
+    int move = 0;         ///< index into MotionGraph::moves, of one that is not turned itself
+    double turn_deg = 0;  ///< on the way of it, counter-clockwise
+    int played = 0;       ///< the move turned so: index among those of the MoveSet
+    mobb::ClipPtr clip;   ///< of that
     mobb::Placement placement;
     bool leaves_floor = false;
     std::optional<Blocker>
@@ -43,12 +45,15 @@ struct ChoicePoint {
 
 /// Makes a choice. The candidates are the moves that may follow, straight on. One is drawn that stays on the floor, has
 /// no blocker and is not in the way, until one has a way on: a plan that lasts CrowdRun::plan seconds and collides with
-/// nothing that others play or plan. It is taken (`chosen`). If there is none, the agent turns on the spot by 15
-/// degrees either way, by 30, and so on, until there is one (`pivoted`). If no heading has one, of the candidates that
-/// are in the way one at the least turn that has a way on; of those without the one whose plan is longest; of those
-/// that collide only with what others plan one at the least turn. If there is none of these either (`forced`), the
-/// candidate whose first contact is latest is taken, and of several the one whose contact is shortest; candidates that
-/// stay on the floor go first. The random number depends on (seed, agent, play) alone.
+/// nothing that others play or plan. It is taken (`chosen`). If there is none, the moves that turn by 15 degrees on the
+/// way are the candidates too, either way, then those by 30, and so on, until there is one (`pivoted`). An agent whose
+/// move before stood, ending within 0.3 m of its begin, takes one that stands again only if no turn has another (not if
+/// CrowdRun::plan is 0). If no turn has one, of the candidates that are in the way one of the least turn that has a way
+/// on; of those without the one whose plan is longest; of those that collide only with what others plan one of the
+/// least turn. If there is none of these either (`forced`), the candidate is taken that harms least: that is for the
+/// fewest seconds in contact with what others play, summed over all of them, and of several the one whose first contact
+/// is latest. Candidates that stay on the floor go first; if none does, of those with as few seconds that which ends
+/// least far beyond the wall. The random number depends on (seed, agent, play) alone.
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked = nullptr);
 
@@ -56,9 +61,6 @@ Choice choose(const MoveSet& moves, const ReservationTable& reservations, const 
 /// simulated. An agent's first play was placed, not chosen: its choice has that play as the only candidate. Throws
 /// std::out_of_range if there is no such agent or play.
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play);
-
-/// What a blocker's agent plays there, or plans to. Of a run whose scene has a graph.
-Play blocking_play(const Scene& run, const Blocker& blocker);
 
 /// A choice, and the agent and play that it belongs to.
 struct FollowedChoice {
@@ -68,8 +70,9 @@ struct FollowedChoice {
     bool comes_out = true;  ///< as the run says, see comes_out_as
 };
 
-/// Whether a choice made again takes what the run plays: the same move, as chosen, pivoted or forced, at the same place
-/// to a millionth of a metre and degree. It does not where the run or its clips were edited after it was simulated.
+/// Whether a choice made again takes what the run plays: the same move turned as far, as chosen, pivoted or forced, at
+/// the same place to a millionth of a metre and degree. It does not where the run or its clips were edited after it was
+/// simulated.
 bool comes_out_as(const Play& play, const Choice& choice);
 
 /// The agent's play that was chosen last before or at a time; none before its first choice.

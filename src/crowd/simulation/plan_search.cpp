@@ -1,10 +1,13 @@
 #include <crowd/simulation/plan_search.h>
 #include <mobb/clip.h>
 
+#include <optional>
+
 namespace mobbscope {
 
 namespace {
 
+constexpr double kLongest = 2;      // times as long as asked: a plan that leads away from a wall by then, or none
 constexpr int kMostLookedAt = 100;  // moves: what has no way on among those that take least room has hardly any
 
 }  // namespace
@@ -19,8 +22,10 @@ bool PlanSearch::look(int move, const mobb::Placement& placement, std::span<cons
         int last = move;
         mobb::Placement at = placement;
         for (const PlannedMove& next : kept) {
-            at = moves_.following(last, at, next.move, next.turn_deg);
-            last = next.move;
+            const std::optional<int> turned = moves_.turned(next);
+            if (!turned) break;
+            at = moves_.following(last, at, next);
+            last = *turned;
             add(next, reach_ + moves_.duration(last));
         }
         if (extend(last, at, reach_)) return true;
@@ -37,17 +42,21 @@ void PlanSearch::add(const PlannedMove& next, double seconds) {
 }
 
 bool PlanSearch::extend(int before, const mobb::Placement& placed, double seconds) {
-    if (seconds >= run_.plan) return true;
+    if (seconds >= run_.plan && (run_.grace == 0 || !reservations_.faces_wall(before, placed))) return true;
+    if (seconds >= kLongest * run_.plan) return false;
     for (const double turn : kTurns) {
-        for (const int next : moves_.after_by_room(before)) {
-            const mobb::Placement at = moves_.following(before, placed, next, turn);
+        for (const int move : moves_.after_by_room(before)) {
+            const PlannedMove next{move, turn};
+            const std::optional<int> turned = moves_.turned(next);
+            if (!turned) continue;
+            const mobb::Placement at = moves_.following(before, placed, next);
             if (!mobb::is_valid(at)) continue;
-            if (leaves_floor({moves_.tree(next).clip(), at}, moves_.bounds(next), run_.area)) continue;
+            if (leaves_floor({moves_.tree(*turned).clip(), at}, moves_.bounds(*turned), run_.area)) continue;
             if (--left_ < 0) return false;
-            if (!is_free(next, at)) continue;
-            const double end = seconds + moves_.duration(next);
-            add({next, turn}, end);
-            if (extend(next, at, end)) return true;
+            if (!is_free(*turned, at)) continue;
+            const double end = seconds + moves_.duration(*turned);
+            add(next, end);
+            if (extend(*turned, at, end)) return true;
             plan_.pop_back();
         }
     }

@@ -4,16 +4,11 @@
 #include <crowd/simulation/reservation_table.h>
 #include <scene/crowd_run.h>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace mobbscope {
-
-/// Degrees that an agent may turn on the spot before a move, the least first.
-inline constexpr std::array<double, 24> kTurns{0,   15,  -15,  30,  -30,  45,  -45,  60,  -60,  75,  -75,  90,
-                                               -90, 105, -105, 120, -120, 135, -135, 150, -150, 165, -165, 180};
 
 class PlanSearch {
   public:
@@ -24,7 +19,8 @@ class PlanSearch {
         : moves_(moves), reservations_(reservations), run_(run), agent_(agent), play_(play), asked_(asked) {}
 
     /// Looks for moves that can follow `move`, back to back, that stay on the floor, collide with nothing that another
-    /// agent has reserved, and last CrowdRun::plan seconds. It first goes on from `kept`, which is known to be free.
+    /// agent has reserved, last CrowdRun::plan seconds, and do not end facing a wall (that only with a grace, as
+    /// ReservationTable::faces_wall). It first goes on from `kept`, which is known to be free.
     /// True if there are; else plan() is the longest found. It looks at so many moves and no more.
     bool look(int move, const mobb::Placement& placement, std::span<const PlannedMove> kept = {});
 

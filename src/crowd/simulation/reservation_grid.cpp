@@ -155,7 +155,9 @@ CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<A
         if (!contact) continue;
         if (!check.blocker || std::tuple(contact->time, other.motion.agent) <
                                   std::tuple(check.blocker->contact.time, check.blocker->agent)) {
-            check.blocker = {other.motion.agent, other.motion.play, *contact, other.motion.planned};
+            const PlayedMove& met = other.motion;
+            check.blocker = {met.agent,    met.play, *contact, met.planned, met.move, met.tree->shared_clip(),
+                             met.placement};
         }
     }
     return check;
@@ -187,15 +189,17 @@ bool ReservationGrid::is_clear(const PlayedMove& candidate, std::int64_t& querie
     });
 }
 
-double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, const Blocker& blocker) const {
-    const auto reserved = std::find_if(motions_.begin(), motions_.end(), [&blocker](const Held& held) {
-        return held.motion.tree && held.motion.agent == blocker.agent && held.motion.play == blocker.play;
-    });
-    assert(reserved != motions_.end());
-    const mobb::PlacedTree a(*candidate.tree, candidate.placement);
-    const mobb::PlacedTree b(*reserved->motion.tree, reserved->motion.placement);
+double ReservationGrid::seconds_of_contact(const PlayedMove& candidate) const {
+    std::vector<std::uint32_t> slots;
+    find_near(held(candidate), slots);
+    const mobb::PlacedTree placed(*candidate.tree, candidate.placement);
     double seconds = 0;
-    for (const mobb::Interval& interval : mobb::contact_intervals(a, b)) seconds += interval.t1 - interval.t0;
+    for (const std::uint32_t slot : slots) {
+        const PlayedMove& other = motions_[slot].motion;
+        for (const mobb::Interval& interval :
+             mobb::contact_intervals(placed, mobb::PlacedTree(*other.tree, other.placement)))
+            seconds += interval.t1 - interval.t0;
+    }
     return seconds;
 }
 

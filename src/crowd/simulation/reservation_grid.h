@@ -52,6 +52,7 @@ struct PlayedMove {
     const ClipBounds* clip_bounds = nullptr;
     mobb::Placement placement;
     int planned = 0;  ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
+    int move = -1;    ///< index among those of the MoveSet; -1: somebody who stands. A Blocker repeats it
 };
 
 /// The reserved motion that a candidate collides with first; of those met at the same time, that of the agent with the
@@ -61,6 +62,9 @@ struct Blocker {
     int play = 0;
     mobb::Contact contact;  ///< a: the candidate; b: the reserved motion
     int planned = 0;        ///< see PlayedMove
+    int move = -1;          ///< see PlayedMove
+    mobb::ClipPtr clip{};   ///< of the reserved motion, and where it is placed
+    mobb::Placement placement{};
 
     friend bool operator==(const Blocker&, const Blocker&) = default;
 };
@@ -101,8 +105,9 @@ class ReservationGrid {
     /// `asked`.
     bool is_clear(const PlayedMove& candidate, std::int64_t& queries, std::vector<AskedPair>* asked = nullptr) const;
 
-    /// How long the candidate collides with its blocker (seconds), which must not have been forgotten.
-    double seconds_of_contact(const PlayedMove& candidate, const Blocker& blocker) const;
+    /// How long the candidate collides with the motions of the other agents, in seconds: with two at a time it counts
+    /// twice.
+    double seconds_of_contact(const PlayedMove& candidate) const;
 
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
     /// metres of the candidate's, at any time: the pairs that would be queried if times were not compared first, and

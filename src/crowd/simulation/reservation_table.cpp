@@ -1,16 +1,25 @@
 #include <crowd/simulation/reservation_table.h>
-#include <scene/crowd_run.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr double kHeadroom = 1;  // metres before the wall that the next move needs to turn away
+constexpr double kHeadroom = 1;  // metres before the wall that who turns at once needs to turn away
+
+/// Points of a half circle of radius 1 that begins at the origin along x and goes round to the left.
+constexpr std::array<glm::dvec2, 6> kHalfCircle{{{0.5, 0.1339745962155614},
+                                                 {0.8660254037844386, 0.5},
+                                                 {1, 1},
+                                                 {0.8660254037844386, 1.5},
+                                                 {0.5, 1.8660254037844386},
+                                                 {0, 2}}};
 
 }  // namespace
 
@@ -25,10 +34,11 @@ ReservationTable::ReservationTable(const MoveSet& moves, glm::dvec2 area, double
 }
 
 PlayedMove ReservationTable::stand(int agent, int index, const Play& play) const {
-    const GraphMove& move = moves_.move(play.move);
-    const Stand& stand = stand_of_clip_[static_cast<std::size_t>(move.clip)];
+    // A turned clip's last disk is as large as the clip's itself.
+    const Stand& stand = stand_of_clip_[static_cast<std::size_t>(moves_.move(play.move).clip)];
     const mobb::Placement& placed = play.placement;
-    const glm::dvec2 at = mobb::Rotation::from_degrees(placed.rotate_deg)(move.exit.position) + placed.translate;
+    const glm::dvec2 exit = moves_.exit(play.move).position;
+    const glm::dvec2 at = mobb::Rotation::from_degrees(placed.rotate_deg)(exit) + placed.translate;
     return {agent, index, &stand.tree, &stand.clip_bounds, {at, 0, placed.start + moves_.duration(play.move)}};
 }
 
@@ -54,13 +64,22 @@ void ReservationTable::forget_before(double now) {
     stands_.forget_before(now);
 }
 
-bool ReservationTable::faces_wall(const Play& play) const {
-    const GraphMove& move = moves_.move(play.move);
-    const mobb::Rotation heading =
-        mobb::Rotation::from_degrees(play.placement.rotate_deg) * mobb::Rotation::from_degrees(move.exit.heading_deg);
-    const glm::dvec2 at = stand(0, 0, play).placement.translate + heading({kHeadroom, 0});
-    const double radius = moves_.tree(play.move).clip().samples().back().r;
-    return std::abs(at.x) + radius > area_.x / 2 || std::abs(at.y) + radius > area_.y / 2;
+bool ReservationTable::faces_wall(int move, const mobb::Placement& placement) const {
+    const mobb::Rotation rotation = mobb::Rotation::from_degrees(placement.rotate_deg);
+    const glm::dvec2 at = rotation(moves_.exit(move).position) + placement.translate;
+    const mobb::Rotation heading = rotation * mobb::Rotation::from_degrees(moves_.exit(move).heading_deg);
+    const double radius = moves_.tree(move).clip().samples().back().r;
+    const auto is_on_floor = [&](glm::dvec2 ahead) {
+        const glm::dvec2 point = at + heading(ahead);
+        return std::abs(point.x) + radius <= area_.x / 2 && std::abs(point.y) + radius <= area_.y / 2;
+    };
+    const std::optional<double> turning = moves_.turning_radius(move);
+    if (!turning) return !is_on_floor({kHeadroom, 0});
+    return std::ranges::none_of(std::array{-1.0, 1.0}, [&](double side) {
+        return std::ranges::all_of(kHalfCircle, [&](const glm::dvec2& point) {
+            return is_on_floor(*turning * glm::dvec2(point.x, side * point.y));
+        });
+    });
 }
 
 std::vector<bool> ReservationTable::in_the_way(int agent, int index, std::span<const Play> plays) const {
@@ -75,39 +94,10 @@ std::vector<bool> ReservationTable::in_the_way(int agent, int index, std::span<c
     const std::vector<CandidateCheck> beside = stands_.check_all(stands);
     const std::vector<CandidateCheck> before = motions_.check_all(stands);
     for (std::size_t i = 0; i < plays.size(); ++i) {
-        out[i] = through[i].blocker || beside[i].blocker || before[i].blocker || faces_wall(plays[i]);
+        out[i] = through[i].blocker || beside[i].blocker || before[i].blocker ||
+                 faces_wall(plays[i].move, plays[i].placement);
     }
     return out;
-}
-
-MoveSet::MoveSet(const FittedScene& fitted) : fitted_(&fitted), by_hub_(moves_by_hub(graph())) {
-    bounds_.reserve(fitted.scene().clips.size());
-    for (const SceneClip& clip : fitted.scene().clips) bounds_.emplace_back(*clip.clip);
-    const auto room = [this](int move) {
-        const FloorRect rect = bounds(move).bounds({});
-        return (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y) * duration(move);
-    };
-    by_room_ = by_hub_;
-    for (std::vector<int>& moves : by_room_) std::ranges::stable_sort(moves, {}, room);
-}
-
-std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play) const {
-    std::vector<PlayedMove> out;
-    int last = play.move;
-    mobb::Placement at = play.placement;
-    for (const PlannedMove& next : play.plan) {
-        at = following(last, at, next.move, next.turn_deg);
-        last = next.move;
-        out.push_back(motion(agent, index, last, at));
-        out.back().planned = static_cast<int>(out.size());
-    }
-    return out;
-}
-
-mobb::Placement MoveSet::following(int before, const mobb::Placement& placed, int next, double turn_deg) const {
-    Stance exit = move(before).exit;
-    exit.heading_deg += turn_deg;
-    return mobbscope::following(placed, exit, duration(before), move(next).entry);
 }
 
 }  // namespace mobbscope

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace mobbscope {
@@ -38,7 +37,8 @@ class Simulator {
           sample_(sample),
           progress_(progress),
           reservations_(moves, options.area, options.grace) {
-        simulation_.run = {options.area, options.seconds, options.seed, options.ahead, options.grace, options.plan, {}};
+        simulation_.run = {options.area,  options.seconds, options.seed,      options.ahead,
+                           options.grace, options.plan,    moves.turn_rate(), {}};
     }
 
     Simulation run() {
@@ -65,16 +65,16 @@ class Simulator {
 
     void refuse_unplayable() const {
         const std::string file = moves_.fitted().scene().file.string();
-        if (moves_.count() == 0) throw InputError(file, "", "the graph has no move; add one");
-        for (std::size_t move = 0; move < moves_.count(); ++move) {
-            if (moves_.duration(static_cast<int>(move)) < kLeastMove) {
+        if (moves_.unturned().empty()) throw InputError(file, "", "the graph has no move; add one");
+        for (const int move : moves_.unturned()) {
+            if (moves_.duration(move) < kLeastMove) {
                 throw InputError(file, "",
                                  "move " + std::to_string(move) + " of the graph lasts " +
-                                     brief(moves_.duration(static_cast<int>(move))) + " s; a crowd plays moves of " +
-                                     brief(kLeastMove) + " s and more: remove it");
+                                     brief(moves_.duration(move)) + " s; a crowd plays moves of " + brief(kLeastMove) +
+                                     " s and more: remove it");
             }
-            if (!moves_.after(static_cast<int>(move)).empty()) continue;
-            const GraphMove& last = moves_.move(static_cast<int>(move));
+            if (!moves_.after(move).empty()) continue;
+            const GraphMove& last = moves_.move(move);
             throw InputError(file, "",
                              "hub " + in_quotes(moves_.graph().hubs[static_cast<std::size_t>(last.to)].name) +
                                  " of the graph is a dead end: no move begins there; remove what leads to it");
@@ -86,7 +86,7 @@ class Simulator {
     void place(int agent) {
         CounterRandom random(options_.seed, static_cast<std::uint64_t>(agent), 0);
         for (int i = 0; i < kTries; ++i) {
-            const int move = static_cast<int>(random.below(static_cast<std::uint32_t>(moves_.count())));
+            const int move = moves_.unturned()[random.below(static_cast<std::uint32_t>(moves_.unturned().size()))];
             mobb::Placement placement;
             placement.rotate_deg = 360 * random.unit() - 180;
             placement.start = -moves_.duration(move) * random.unit();
@@ -125,13 +125,13 @@ class Simulator {
         const Candidate& taken = choice.candidates[choice.taken];
         if (sample_) record(choice, point);
         count(choice);
-        commit(turn.agent, {taken.move, taken.placement, turn.time, choice.kind, choice.plan});
+        commit(turn.agent, {taken.played, taken.placement, turn.time, choice.kind, choice.plan});
     }
 
     void record(const Choice& choice, const ChoicePoint& point) {
         if (sample_->recorded() == Recorded::all) {
             for (const Candidate& candidate : choice.candidates) {
-                const PlayedMove motion = moves_.motion(point.agent, point.play, candidate.move, candidate.placement);
+                const PlayedMove motion = moves_.motion(point.agent, point.play, candidate.played, candidate.placement);
                 reservations_.motions().all_pairs(motion, sample_->range(), asked_);
                 reservations_.plans().all_pairs(motion, sample_->range(), asked_);
             }
@@ -218,24 +218,61 @@ void QuerySample::offer(std::span<const AskedPair> pairs) {
     }
 }
 
-Scene QuerySample::workload(const Scene& scene) const {
-    Scene out;
-    out.file = scene.file;
-    out.clips = scene.clips;
-    out.fit = scene.fit;
-    std::unordered_map<const mobb::Clip*, int> index;
-    for (std::size_t i = 0; i < scene.clips.size(); ++i) index[scene.clips[i].clip.get()] = static_cast<int>(i);
-    const auto agent = [&](const PlayedMove& motion) {
-        const int clip = index.at(&motion.tree->clip());
-        return PlacedAgent{scene.clips[static_cast<std::size_t>(clip)].name, clip, motion.placement, -1};
-    };
+Scene QuerySample::workload(const MoveSet& moves) const {
     std::vector<Kept> ordered = kept_;
-    std::sort(ordered.begin(), ordered.end(), [](const Kept& a, const Kept& b) { return a.number < b.number; });
-    out.queries.reserve(ordered.size());
+    std::ranges::sort(ordered, {}, &Kept::number);
+    std::vector<int> used;
     for (const Kept& kept : ordered) {
-        out.queries.push_back({agent(kept.pair.candidate), agent(kept.pair.reserved), {}, {}});
+        used.push_back(kept.pair.candidate.move);
+        used.push_back(kept.pair.reserved.move);
     }
-    return out;
+    MoveSet::Extended extended = moves.extended(used);
+    Scene& out = extended.scene;
+    const auto agent = [&](const PlayedMove& motion) {
+        const int move = extended.index[static_cast<std::size_t>(motion.move)];
+        const int clip = out.graph->moves[static_cast<std::size_t>(move)].clip;
+        return PlacedAgent{out.clips[static_cast<std::size_t>(clip)].name, clip, motion.placement, -1};
+    };
+    out.queries.reserve(ordered.size());
+    for (const Kept& kept : ordered)
+        out.queries.push_back({agent(kept.pair.candidate), agent(kept.pair.reserved), {}, {}});
+    out.graph = nullptr;
+    out.view = {};
+    return std::move(out);
+}
+
+Scene scene_of_run(const MoveSet& moves, CrowdRun run) {
+    std::vector<int> used;
+    for (const CrowdAgent& agent : run.agents) {
+        for (const Play& play : agent.plays) used.push_back(play.move);
+    }
+    auto [scene, index] = moves.extended(used);
+    for (CrowdAgent& agent : run.agents) {
+        for (Play& play : agent.plays) play.move = index[static_cast<std::size_t>(play.move)];
+    }
+    scene.crowd = std::make_shared<const CrowdRun>(std::move(run));
+    return std::move(scene);
+}
+
+void remove_run(Scene& scene) {
+    scene.crowd = nullptr;
+    MotionGraph graph = *scene.graph;
+    std::erase_if(graph.moves, [](const GraphMove& move) { return move.turned.has_value(); });
+    if (graph.moves.size() == scene.graph->moves.size()) return;
+    std::vector<bool> turned(scene.clips.size(), false);
+    for (const GraphMove& move : scene.graph->moves) {
+        if (move.turned) turned[static_cast<std::size_t>(move.clip)] = true;
+    }
+    for (const GraphMove& move : graph.moves) turned[static_cast<std::size_t>(move.clip)] = false;
+    std::vector<int> index(scene.clips.size());
+    std::vector<SceneClip> kept;
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) {
+        index[i] = static_cast<int>(kept.size());
+        if (!turned[i]) kept.push_back(std::move(scene.clips[i]));
+    }
+    for (GraphMove& move : graph.moves) move.clip = index[static_cast<std::size_t>(move.clip)];
+    scene.clips = std::move(kept);
+    scene.graph = std::make_shared<const MotionGraph>(std::move(graph));
 }
 
 }  // namespace mobbscope

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crowd/simulation/choice.h>
+#include <crowd/simulation/move_set.h>
 #include <crowd/simulation/reservation_grid.h>
 #include <scene/crowd_run.h>
 #include <scene/scene.h>
@@ -36,9 +37,9 @@ class QuerySample {
     std::uint64_t offered() const { return offered_; }
     std::size_t size() const { return kept_.size(); }
 
-    /// A scene with the clips of `scene` and one query for each pair, in the order in which they were asked. The
-    /// candidate is `a`.
-    Scene workload(const Scene& scene) const;
+    /// A scene with the clips of the moves, those that are turned only where they are asked about, and one query for
+    /// each pair, in the order in which they were asked. The candidate is `a`. `moves` as in the simulation.
+    Scene workload(const MoveSet& moves) const;
 
   private:
     struct Kept {
@@ -61,7 +62,7 @@ struct SimulateOptions {
     std::uint64_t seed = 1;   ///< at most kMaxSeed
     double ahead = 0;         ///< seconds, >= 0: each move is chosen so long before it begins; the paper's is 0
     double grace = 1;         ///< seconds, >= 0: room kept where moves end, see choose; the paper's is 0
-    double plan = 4;          ///< seconds, >= 0, for which each choice plans how to go on, see choose; the paper's is 0
+    double plan = 8;          ///< seconds, >= 0, for which each choice plans how to go on, see choose; the paper's is 0
     int threads = 0;          ///< at most kMaxThreads; 0: as many as the machine has. The run does not depend on it
 };
 
@@ -96,9 +97,17 @@ struct SimulationCounts {
 using SimulationProgress = std::function<void(const SimulationCounts&)>;
 
 struct Simulation {
-    CrowdRun run;
+    CrowdRun run;  ///< of the moves of the MoveSet: see scene_of_run
     SimulationCounts counts;
 };
+
+/// The scene of the moves with a run of them as its crowd: behind its graph's moves and clips come the turned ones that
+/// are played, by move and then by turn. What it is does not depend on the order of plays.
+Scene scene_of_run(const MoveSet& moves, CrowdRun run);
+
+/// Takes a run's turned moves and its crowd from a scene that is to be simulated anew, and the clips that only they
+/// play. Agents and queries must be gone.
+void remove_run(Scene& scene);
 
 /// Runs a crowd. Every agent is placed at random, in mid-move, where it collides with nobody; then choices are made in
 /// the order of (time, agent) until every agent's moves reach the end. `sample` is offered the queries of all choices.

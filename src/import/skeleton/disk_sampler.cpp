@@ -69,13 +69,7 @@ void DiskSampler::sample(double t, PosedDisk& out) {
 void DiskSampler::take(double t, PosedDisk& out) const {
     motion_.pose(t, out.positions, &out.rotations);
     const glm::dvec3 centre = out.positions[root_];
-    double radius = 0;
-    for (std::size_t i = 0; i < out.positions.size(); ++i) {
-        if (!inside_[i]) continue;
-        const glm::dvec3 arm = out.positions[i] - centre;
-        radius = std::max(radius, std::hypot(arm.x, arm.y));
-    }
-    out.disk = {centre.x, centre.y, radius};
+    out.disk = {centre.x, centre.y, ground_reach(out.positions, root_, inside_)};
 }
 
 const PosedDisk& DiskSampler::stored(std::size_t frame) {
@@ -85,6 +79,16 @@ const PosedDisk& DiskSampler::stored(std::size_t frame) {
         slot.frame = frame;
     }
     return slot.posed;
+}
+
+double ground_reach(std::span<const glm::dvec3> positions, std::size_t root, const std::vector<bool>& inside) {
+    double reach = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (!inside[i]) continue;
+        const glm::dvec3 arm = positions[i] - positions[root];
+        reach = std::max(reach, std::hypot(arm.x, arm.y));
+    }
+    return reach;
 }
 
 std::vector<bool> subtree(std::span<const Joint> joints, int root) {

@@ -76,6 +76,9 @@ class DiskSampler {
     std::array<Slot, 2> slots_;
 };
 
+/// The largest distance over the ground from the root to a joint that is `inside`.
+double ground_reach(std::span<const glm::dvec3> positions, std::size_t root, const std::vector<bool>& inside);
+
 /// The joint that is taken where no option names one, and why, in words.
 struct DefaultRoot {
     int joint = 0;

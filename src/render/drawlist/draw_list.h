@@ -7,11 +7,13 @@
 #include <render/drawlist/view_projection.h>
 #include <render/image/image.h>
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -110,14 +112,24 @@ struct DrawOrder {
     friend auto operator<=>(const DrawOrder&, const DrawOrder&) = default;
 };
 
-/// One sample: a short upright cylinder over the time that it holds.
+/// One sample over its time: of a held clip a short upright cylinder; of a linear one a frustum that leans to the next
+/// sample, whose lower face is its upper one.
 struct DiskInstance {
-    glm::vec3 base{0};  ///< centre of the lower face, drawn space
-    float radius = 0;
-    float height = 0;
+    glm::vec3 base{0};     ///< centre of the lower face, drawn space
+    float radius = 0;      ///< of the lower face
+    glm::vec3 top{0};      ///< centre of the upper face, straight above the base or not
+    float top_radius = 0;  ///< of the upper face
     Rgba color{1};  ///< opacity below 1 steps back towards the background; the disk still hides what is behind it
     ObjectId id;
     DrawOrder order;
+
+    float height() const { return top.z - base.z; }
+    /// How far a point of the side goes over the floor from below to above, metres at most; 0 of an upright cylinder.
+    float lean() const { return glm::length(glm::vec2(top) - glm::vec2(base)) + std::abs(top_radius - radius); }
+    void stand_upright(float height) {
+        top = base + glm::vec3(0, 0, height);
+        top_radius = radius;
+    }
 };
 
 /// What a box stands for: each state has its own colour and line.

@@ -78,10 +78,12 @@ bool on_screen(const ViewProjection& projection, std::span<const glm::vec3> corn
 }
 
 bool on_screen(const ViewProjection& projection, const DiskInstance& disk) {
-    BoxInstance around;
-    around.center = disk.base + glm::vec3(0, 0, disk.height / 2);
-    around.extents = {glm::vec3(disk.radius, 0, 0), glm::vec3(0, disk.radius, 0), glm::vec3(0, 0, disk.height / 2)};
-    return on_screen(projection, box_corners(around));
+    std::array<glm::vec3, 8> corners;
+    for (unsigned bits = 0; bits < 8; ++bits) {
+        const glm::vec3 way((bits & 1u) ? 1 : -1, (bits & 2u) ? 1 : -1, 0);
+        corners[bits] = (bits & 4u) ? disk.top + disk.top_radius * way : disk.base + disk.radius * way;
+    }
+    return on_screen(projection, corners);
 }
 
 std::string_view name(BoxState state) {
@@ -167,7 +169,11 @@ void write_disk(JsonWriter& out, const DiskInstance& disk, const Objects& object
     write_object(out, objects, disk.id, "sample");
     vector(out, "base", disk.base);
     number(out, "radius", disk.radius);
-    number(out, "height", disk.height);
+    number(out, "height", disk.height());
+    if (disk.lean() > 0) {
+        vector(out, "top", disk.top);
+        number(out, "top_radius", disk.top_radius);
+    }
     color(out, "color", disk.color);
     write_seen(out, objects, disk.id, on_screen(projection, disk));
 }

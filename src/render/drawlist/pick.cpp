@@ -39,26 +39,46 @@ struct Span {
     bool empty() const { return !(enter <= leave); }
 };
 
-Span inside(const DiskInstance& disk, const Ray& ray) {
-    const double half = 0.5 * static_cast<double>(disk.height);
-    const glm::dvec3 from = ray.origin - (glm::dvec3(disk.base) + glm::dvec3(0, 0, half));
-    const glm::dvec2 at(from);
-    const glm::dvec2 rate(ray.direction);
-    const double r = disk.radius;
-    // Against the circle: |at + t * rate|^2 <= r^2. The distance of the line from the centre loses no digits far away.
-    const double speed = glm::length(rate);
-    Span span;
-    if (speed > 0) {
-        const double aside = (at.x * rate.y - at.y * rate.x) / speed;
-        if (std::abs(aside) > r) return {1, 0};
-        const double nearest = -glm::dot(at, rate) / (speed * speed);
-        const double reach = std::sqrt(r * r - aside * aside) / speed;
-        span = {nearest - reach, nearest + reach};
-    } else if (glm::dot(at, at) > r * r) {
-        return {1, 0};
-    }
-    span.clip(from.z, ray.direction.z, half);
+/// Where |at + t * rate| <= r + t * growth, of a span in which the right side is nowhere below 0.
+Span within(glm::dvec2 at, glm::dvec2 rate, double r, double growth, Span span) {
+    const double a = glm::dot(rate, rate) - growth * growth;
+    const double b = 2 * (glm::dot(at, rate) - r * growth);
+    const double c = glm::dot(at, at) - r * r;
+    const double square = b * b - 4 * a * c;
+    if (a >= 0 && square < 0) return {1, 0};
+    const double root = std::sqrt(std::max(square, 0.0));
+    // The two roots without cancellation: the one at which the left side falls below the right one, then the other.
+    const double q = b > 0 ? -b - root : -b + root;
+    if (q == 0) return a > 0 || c > 0 ? Span{1, 0} : span;
+    const double falling = b > 0 ? q / (2 * a) : 2 * c / q;
+    const double rising = b > 0 ? 2 * c / q : q / (2 * a);
+    // A circle that grows faster than the point leaves it holds all that comes after; one that shrinks so, all before.
+    if (a >= 0 || growth > 0) span.enter = std::max(span.enter, falling);
+    if (a >= 0 || growth < 0) span.leave = std::min(span.leave, rising);
     return span;
+}
+
+/// Distances along the ray count from where it comes nearest to the disk's middle, which loses no digits far away.
+Span inside(const DiskInstance& disk, const Ray& ray) {
+    const glm::dvec3 up = glm::dvec3(disk.top) - glm::dvec3(disk.base);
+    const glm::dvec3 to_middle = glm::dvec3(disk.base) + 0.5 * up - ray.origin;
+    const double nearest = glm::dot(to_middle, ray.direction);
+    const glm::dvec3 from = ray.direction * nearest - to_middle;
+    const double reach = 0.5 * glm::length(up) + static_cast<double>(std::max(disk.radius, disk.top_radius));
+    const double aside_squared = glm::dot(from, from);
+    if (aside_squared > reach * reach) return {1, 0};
+    const double half_chord = std::sqrt(reach * reach - aside_squared);
+    Span span{-half_chord, half_chord};
+    span.clip(from.z, ray.direction.z, 0.5 * up.z);
+    if (span.empty()) return {1, 0};
+    // In the level plane of each point: against the middle and the radius that the disk has there.
+    const double by_height = up.z > 0 ? 1 / up.z : 0;
+    const glm::dvec2 lean = glm::dvec2(up) * by_height;
+    const double radius = disk.radius;
+    const double taper = (static_cast<double>(disk.top_radius) - radius) * by_height;
+    span = within(glm::dvec2(from) - lean * from.z, glm::dvec2(ray.direction) - lean * ray.direction.z,
+                  radius + taper * (from.z + 0.5 * up.z), taper * ray.direction.z, span);
+    return {span.enter + nearest, span.leave + nearest};
 }
 
 Span inside(const BoxInstance& box, const Ray& ray) {

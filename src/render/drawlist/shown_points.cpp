@@ -37,8 +37,9 @@ ShownPoints::ShownPoints(SharedValues<DiskInstance> disks) : disks_(std::move(di
     for (std::size_t i = 0; i < disks_.size(); ++i) {
         const DiskInstance& disk = disks_[i];
         const glm::vec3 around(disk.radius, disk.radius, 0);
-        const glm::vec3 low = disk.base - around;
-        const glm::vec3 high = disk.base + around + glm::vec3(0, 0, disk.height);
+        const glm::vec3 around_top(disk.top_radius, disk.top_radius, 0);
+        const glm::vec3 low = glm::min(disk.base - around, disk.top - around_top);
+        const glm::vec3 high = glm::max(disk.base + around, disk.top + around_top);
         if (i % kInPointBlock == 0) blocks.push_back({low, high});
         blocks.back() = {glm::min(blocks.back().min, low), glm::max(blocks.back().max, high)};
     }
@@ -58,7 +59,7 @@ glm::vec3 ShownPoints::front() const {
 glm::vec3 ShownPoints::back() const {
     if (!points_.empty()) return points_.back();
     const DiskInstance& disk = disks_.back();
-    return disk.base + disk.radius * rim_directions().back() + glm::vec3(0, 0, disk.height);
+    return disk.top + disk.top_radius * rim_directions().back();
 }
 
 float ShownPoints::most(glm::vec3 along, glm::vec3 also, float factor) const {
@@ -78,9 +79,8 @@ float ShownPoints::most(glm::vec3 along, glm::vec3 also, float factor) const {
         for (std::size_t i = block * kInPointBlock; i < end; ++i) {
             const DiskInstance& disk = disks_[i];
             for (const glm::vec3& direction : rim_directions()) {
-                const glm::vec3 rim = disk.base + disk.radius * direction;
-                see(rim);
-                see(rim + glm::vec3(0, 0, disk.height));
+                see(disk.base + disk.radius * direction);
+                see(disk.top + disk.top_radius * direction);
             }
         }
     };

@@ -28,12 +28,12 @@ glm::vec2 ground(glm::vec3 p) { return {p.x, p.y}; }
 
 bool follows(const DiskInstance& next, const DiskInstance& disk) {
     return next.id.agent == disk.id.agent && next.id.index == disk.id.index + 1 &&
-           std::abs(next.base.z - disk.base.z - disk.height) <= 0.01f * disk.height;
+           std::abs(next.base.z - disk.top.z) <= 0.01f * disk.height();
 }
 
-/// What the successor of a disk leaves free of its face, metres.
+/// What the successor of a disk leaves free of its face, metres; nothing where a linear clip goes on.
 float step_between(const DiskInstance& disk, const DiskInstance& next) {
-    return glm::length(ground(next.base - disk.base)) + std::abs(next.radius - disk.radius);
+    return glm::length(ground(next.base - disk.top)) + std::abs(next.radius - disk.top_radius);
 }
 
 DiskBlock measured(const std::vector<DiskInstance>& disks, DiskBlock block) {
@@ -43,11 +43,13 @@ DiskBlock measured(const std::vector<DiskInstance>& disks, DiskBlock block) {
     for (std::size_t i = block.first; i < end; ++i) {
         const DiskInstance& disk = disks[i];
         const glm::vec3 around(disk.radius, disk.radius, 0);
-        min = glm::min(min, disk.base - around);
-        max = glm::max(max, disk.base + around + glm::vec3(0, 0, disk.height));
-        block.widest = std::max(block.widest, disk.radius);
+        const glm::vec3 around_top(disk.top_radius, disk.top_radius, 0);
+        min = glm::min(min, glm::min(disk.base - around, disk.top - around_top));
+        max = glm::max(max, glm::max(disk.base + around, disk.top + around_top));
+        block.widest = std::max({block.widest, disk.radius, disk.top_radius});
+        block.most_lean = std::max(block.most_lean, disk.lean());
         block.usual_radius += disk.radius / static_cast<float>(block.count);
-        block.tallest = std::max(block.tallest, disk.height);
+        block.tallest = std::max(block.tallest, disk.height());
     }
     block.usual_radius = std::max(block.usual_radius, block.widest / kMostTimesUsual);
     const std::size_t steps = block.continues ? block.count : block.count - 1;
@@ -118,11 +120,11 @@ bool is_straight(const std::vector<DiskInstance>& disks, std::size_t first, std:
 }
 
 DiskPiece piece_of(const DiskInstance& disk) {
-    return {disk.base, disk.radius, disk.base + glm::vec3(0, 0, disk.height), disk.radius, {disk.id.r(), disk.id.g()}};
+    return {disk.base, disk.radius, disk.top, disk.top_radius, {disk.id.r(), disk.id.g()}};
 }
 
 bool differ_in_shape(const DiskInstance& a, const DiskInstance& b) {
-    return a.base != b.base || a.radius != b.radius || a.height != b.height || a.id != b.id;
+    return a.base != b.base || a.radius != b.radius || a.top != b.top || a.top_radius != b.top_radius || a.id != b.id;
 }
 
 }  // namespace
@@ -142,9 +144,9 @@ std::vector<DiskPiece> pieces_of(const std::vector<DiskInstance>& disks) {
     for (std::size_t i = 0; i < disks.size(); ++i) {
         out.push_back(piece_of(disks[i]));
         if (i == 0 || !follows(disks[i], disks[i - 1])) continue;
-        const glm::vec2 step = ground(disks[i].base - disks[i - 1].base);
+        const glm::vec2 step = ground(disks[i].base - disks[i - 1].top);
         out[i - 1].above = glm::vec3(step, disks[i].radius);
-        out[i].below = glm::vec3(-step, disks[i - 1].radius);
+        out[i].below = glm::vec3(-step, disks[i - 1].top_radius);
     }
     return out;
 }
@@ -155,6 +157,7 @@ float DiskLevels::tolerance(int level) {
 
 DiskLevels::DiskLevels(std::vector<DiskInstance> disks) : disks_(std::move(disks)), blocks_(blocks_of(disks_)) {
     sort_by_place(blocks_);
+    for (const DiskBlock& block : blocks_) most_lean_ = std::max(most_lean_, block.most_lean);
     note_colors();
 }
 
@@ -196,19 +199,23 @@ const DiskLevels::Level& DiskLevels::level(int index) {
         const float longest_step = std::max(block.longest_step, kSmallLeap * most);
         for (std::size_t first = block.first; first < end;) {
             std::size_t last = first;
+            bool steps = false;
             while (last < limit && last - first < kLongest &&
                    step_between(disks_[last], disks_[last + 1]) <= longest_step &&
                    is_straight(disks_, first, last + 1, most)) {
+                steps = steps || step_between(disks_[last], disks_[last + 1]) > 0;
                 ++last;
             }
-            if (last < first + 2) {
+            // One that leans and has no step above it is a tube by itself, without a line around it.
+            const bool smooth = last > first && !steps && disks_[first].lean() > 0;
+            if (last < first + 2 && !smooth) {
                 single.push_back(index == 0 ? covered[first] : piece_of(disks_[first]));
                 of_single.push_back(static_cast<std::uint32_t>(first++));
                 continue;
             }
             const DiskInstance& a = disks_[first];
             const DiskInstance& b = disks_[last];
-            made->pieces.push_back({a.base, a.radius, b.base, b.radius, {0, 0}});
+            made->pieces.push_back({a.base, a.radius, b.base, b.radius, steps ? kStairs : kSmooth});
             made->sources.push_back(static_cast<std::uint32_t>((first + last) / 2));
             first = last;
         }
@@ -223,7 +230,7 @@ const DiskLevels::Level& DiskLevels::level(int index) {
 
 int DiskLevels::choose(const DiskBlock& block, float pixels, const ViewProjection& projection) {
     const float upwards = std::sqrt(std::max(0.0f, 1 - projection.back.z * projection.back.z));
-    if (block.mixed || block.tallest * pixels * upwards >= kHighest ||
+    if (block.mixed || block.tallest * pixels * upwards + block.most_lean * pixels >= kHighest ||
         block.widest_step * pixels * std::abs(projection.back.z) >= kWidestStep) {
         return 0;
     }

@@ -26,17 +26,22 @@ class PixelScale {
     float scale_;
 };
 
-/// An upright cylinder, or a tube from the lower face of a disk to that of another farther up the path.
+/// A disk, upright or leaning, or a tube from the lower face of a disk to that of another farther up the path.
 struct DiskPiece {
     glm::vec3 base{0};  ///< centre below, drawn space
     float radius = 0;   ///< below
     glm::vec3 top{0};   ///< centre above
     float top_radius = 0;
-    std::array<std::uint32_t, 2> id{0, 0};  ///< of a disk; (0, 0): a tube, which has no upper face
+    std::array<std::uint32_t, 2> id{0, 0};  ///< of a disk; else kStairs or kSmooth: a tube, which has no upper face
     /// Of the disks that stand on it and that it stands on: how far from its own the centre lies, and the radius; what
     /// they hide of its faces need not be drawn. Radius 0: there is none.
     glm::vec3 above{0}, below{0};
 };
+
+/// What a tube stands for: upright disks, which leave some of each other's faces free, or leaning ones that go on where
+/// the last ended.
+inline constexpr std::array<std::uint32_t, 2> kStairs{0, 0};
+inline constexpr std::array<std::uint32_t, 2> kSmooth{0, 1};
 
 /// Disks in drawing order as pieces.
 std::vector<DiskPiece> pieces_of(const std::vector<DiskInstance>& disks);
@@ -54,6 +59,7 @@ struct DiskBlock {
     float widest = 0;        ///< radius
     float usual_radius = 0;  ///< the mean, or more where one is far wider: what the number of sides is chosen for
     float tallest = 0;       ///< disk
+    float most_lean = 0;     ///< of a disk (DiskInstance::lean)
     float longest_step = 0;  ///< longer ones are leaps, which only coarse tubes go over
     float widest_step = 0;   ///< the widest that is no leap: what a disk's successor leaves free of its face, metres
 };
@@ -80,6 +86,7 @@ class DiskLevels {
     const std::vector<DiskInstance>& disks() const { return disks_; }
     /// Near ones near one another.
     const std::vector<DiskBlock>& blocks() const { return blocks_; }
+    float most_lean() const { return most_lean_; }  ///< of all blocks
     /// Made when first asked for.
     const Level& level(int index);
 
@@ -94,6 +101,7 @@ class DiskLevels {
 
     std::vector<DiskInstance> disks_;
     std::vector<DiskBlock> blocks_;
+    float most_lean_ = 0;
     std::array<std::optional<Level>, kLevels> levels_;
 };
 

@@ -57,7 +57,8 @@ float sides_for(float radius, float tolerance) {
 
 /// Whether all of a disk is nearer than what is drawn, or behind the eye.
 bool behind(const DiskInstance& disk, const ViewProjection& projection) {
-    return projection.perspective && projection.depth(disk.base) + disk.radius + disk.height < projection.near_depth;
+    return projection.perspective &&
+           projection.depth(disk.base) + disk.radius + disk.lean() + disk.height() < projection.near_depth;
 }
 
 /// As many as the usual disk of a block needs, of a few numbers: what is far away is most of a crowd. A disk half as
@@ -205,7 +206,8 @@ std::vector<DiskPass::Batch> DiskPass::fine_batches(const ViewProjection& projec
         if (block.widest * scale.at_depth(projection.depth(block.middle) - block.reach) <= radius) continue;
         for (std::size_t i = block.first; i < block.first + block.count; ++i) {
             const DiskInstance& disk = levels_->disks()[i];
-            if (!behind(disk, projection)) radius = std::max(radius, disk.radius * scale.at(disk.base));
+            if (behind(disk, projection)) continue;
+            radius = std::max(radius, std::max(disk.radius, disk.top_radius) * scale.at(disk.base));
         }
     }
     const int sides = std::clamp(4 * static_cast<int>(std::ceil(sides_for(radius, 0.17f) / 4)), 12, 128);
@@ -339,6 +341,7 @@ bool DiskPass::draw_more(const DrawList& list, std::size_t most, DrawStatistics&
     const float near_depth =
         list.projection.perspective ? list.projection.near_depth : std::numeric_limits<float>::lowest();
     glUniform1f(program_.uniform("near_depth"), near_depth);
+    glUniform1f(program_.uniform("most_lean"), levels_->most_lean());
     glUniform3fv(program_.uniform("back"), 1, glm::value_ptr(list.projection.back));
     // With two corners at the sides the outline is right, however few the others are.
     const glm::vec2 across = detail_ == Detail::coarse ? glm::vec2(list.projection.right) : glm::vec2(1, 0);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mobbscope {
 
@@ -57,6 +58,17 @@ void describe_look(const VertexLayout& layout, std::size_t color, std::size_t da
     layout.floats(kColor, 4, color);
     layout.floats(kColor + 1, 4, dash);
     layout.floats(kColor + 2, 3, line);
+}
+
+/// How far lines may come forward, in clip space: by a share of their distance from the eye. Where something is drawn
+/// just before the eye, as a plane that it stands in, depths farther off differ so little that lines would come
+/// through all that stands on the floor.
+float most_bias(const ViewProjection& projection) {
+    if (!projection.perspective) return std::numeric_limits<float>::max();
+    constexpr float kMostShare = 4e-3f;
+    const float n = projection.near_depth;
+    const float f = projection.far_depth;
+    return kMostShare * 2 * f * n / (f - n);
 }
 
 }  // namespace
@@ -158,6 +170,7 @@ void LinePass::draw_scene(const DrawList& list, std::size_t most_boxes, DrawStat
     begin(list.projection.clip_from_world, list.size);
     // Edges touch the disks that they bound; they lie in front of them, and the same edge must not be taken for hidden.
     glUniform1f(program_.uniform("depth_bias"), 8e-4f);
+    glUniform1f(program_.uniform("most_bias"), most_bias(list.projection));
     glEnable(GL_DEPTH_TEST);
     const auto draw_all = [&] {
         for (const Batch& batch : all) draw(batch, scene_lines_, statistics);

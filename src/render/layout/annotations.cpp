@@ -1,4 +1,5 @@
 #include <explain/query_sentence.h>
+#include <mobb/traversal.h>
 #include <render/layout/annotations.h>
 #include <render/parts/paths.h>
 #include <render/query/separation_gap.h>
@@ -46,11 +47,12 @@ void note(std::vector<LabelRequest>& notes, const DrawList& list, glm::vec3 at, 
 
 void add_rings(DrawList& list, std::span<const DrawnAgent> agents, const Emphasis& emphasis, float scale) {
     for (std::size_t i = 0; i < emphasis.at_cursor.size(); ++i) {
-        if (emphasis.at_cursor[i]) add_cursor_ring(list, agents[i], *emphasis.at_cursor[i], scale);
+        if (emphasis.at_cursor[i]) add_cursor_ring(list, agents[i], *emphasis.at_cursor[i], *emphasis.cursor, scale);
     }
     if (!emphasis.hits) return;
     for (std::size_t side = 0; side < 2; ++side) {
-        if (!agents[side].hidden) add_hit_ring(list, agents[side], (*emphasis.hits)[side], scale);
+        if (agents[side].hidden) continue;
+        add_hit_ring(list, agents[side], (*emphasis.hits)[side], emphasis.hit_time, scale);
     }
 }
 
@@ -72,9 +74,11 @@ std::vector<LabelRequest> add_findings(DrawList& list, std::span<const DrawnAgen
     if (event.outcome == mobb::Outcome::hit && !event.pairs.empty() && recorded.contact) {
         const mobb::PlacedClip& clip = sides[0].clip();
         const int sample = event.pairs.back().i;
-        const mobb::Disk disk = clip.disk(sample);
-        note(notes, list, list.space.point(disk.x, disk.y, clip.time(sample)),
-             "hit at " + with_unit(recorded.contact->time, "s"), list.palette.hit, metrics.text);
+        // A disk that runs is elsewhere when the contact begins.
+        const double time = clip.is_linear() ? recorded.contact->time : clip.time(sample);
+        const mobb::Disk disk = mobb::swept(clip, sample).at(time);
+        note(notes, list, list.space.point(disk.x, disk.y, time), "hit at " + with_unit(recorded.contact->time, "s"),
+             list.palette.hit, metrics.text);
     }
     return notes;
 }

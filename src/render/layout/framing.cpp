@@ -45,7 +45,10 @@ void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange
     for (int i = range.first; i < range.end(); ++i) {
         const mobb::Disk disk = clip.disk(i);
         bounds.add({disk.x - disk.r, disk.y - disk.r, clip.time(i)});
-        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i + 1)});
+        const mobb::Disk at_end = clip.disk_at_end(i);
+        bounds.add({disk.x + disk.r, disk.y + disk.r, clip.time(i)});
+        bounds.add({at_end.x - at_end.r, at_end.y - at_end.r, clip.time(i + 1)});
+        bounds.add({at_end.x + at_end.r, at_end.y + at_end.r, clip.time(i + 1)});
     }
 }
 

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <mobb/traversal.h>
 #include <render/layout/legend.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace mobbscope {
 
@@ -33,18 +35,20 @@ class Sight {
     explicit Sight(const DrawList& list)
         : list_(list), picture_{glm::vec2(0), glm::vec2(list.size.width, list.size.height)} {}
 
-    /// A disk around a point of drawn space.
-    bool disk(glm::vec3 at, double radius) const {
-        const auto pixel = list_.projection.project(at);
-        if (!pixel) return false;
-        const float r = static_cast<float>(radius) * list_.projection.pixels_per_metre(at);
-        return Rect{*pixel, *pixel}.grown(std::max(r, 0.5f)).overlaps(picture_);
-    }
+    /// From where it begins to where it ends.
     bool sample(const DrawnAgent& agent, int index) const {
-        const mobb::Disk disk_of = agent.clip().disk(index);
-        // Of a moment it is the floor that is seen.
-        const double time = list_.moment ? 0 : agent.clip().time(index);
-        return disk(list_.space.point(disk_of.x, disk_of.y, time), disk_of.r);
+        const mobb::SweptDisk swept = mobb::swept(agent.clip(), index);
+        std::optional<Rect> around;
+        for (const auto& [disk, time] : {std::pair(swept.from, swept.begin), std::pair(swept.to, swept.end)}) {
+            // Of a moment it is the floor that is seen.
+            const glm::vec3 at = list_.space.point(disk.x, disk.y, list_.moment ? 0 : time);
+            const auto pixel = list_.projection.project(at);
+            if (!pixel) continue;
+            const float r = static_cast<float>(disk.r) * list_.projection.pixels_per_metre(at);
+            const Rect one = Rect{*pixel, *pixel}.grown(std::max(r, 0.5f));
+            around = around ? Rect{glm::min(around->min, one.min), glm::max(around->max, one.max)} : one;
+        }
+        return around && around->overlaps(picture_);
     }
     bool path(const DrawnAgent& agent) const {
         const mobb::SampleRange shown = agent.samples();

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <mobb/traversal.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/highlights.h>
 #include <render/parts/node_boxes.h>
@@ -70,7 +71,8 @@ Points disk_outline(const DrawnSpace& space, const mobb::Disk& disk, double time
 }
 
 Points outline_at_half_height(const DrawnSpace& space, const mobb::PlacedClip& clip, int sample) {
-    return disk_outline(space, clip.disk(sample), 0.5 * (clip.time(sample) + clip.time(sample + 1)));
+    const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
+    return disk_outline(space, mobb::swept(clip, sample).at(time), time);
 }
 
 std::vector<Points> outlines_of_ends(const DrawnSpace& space, const mobb::PlacedClip& clip) {
@@ -141,7 +143,7 @@ bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& par
             part.kind == AgentPart::Kind::sample ? part.index : sample_at(agent, *list.moment);
         // A node is no thing of one moment.
         if (!then || part.kind == AgentPart::Kind::node) return false;
-        add({disk_outline(list.space, clip.disk(*then), 0)});
+        add({disk_outline(list.space, mobb::swept(clip, *then).at(*list.moment), 0)});
     } else if (part.kind == AgentPart::Kind::node) {
         add(box_edges(node_box(agent, part.index, list.space)));
     } else if (part.kind == AgentPart::Kind::sample) {

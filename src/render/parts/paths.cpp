@@ -1,4 +1,5 @@
 #include <mobb/predicate.h>
+#include <mobb/traversal.h>
 #include <render/drawlist/palette.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/paths.h>
@@ -40,12 +41,19 @@ void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus) 
     const mobb::SampleRange shown = agent.samples();
     std::vector<DiskInstance>& disks = list.disks.edit();
     const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
+    const auto centre = [&](const mobb::Disk& disk, int i) { return list.space.point(disk.x, disk.y, clip.time(i)); };
     for (int i = shown.first; i < shown.end(); ++i) {
         const mobb::Disk disk = clip.disk(i);
         DiskInstance instance;
-        instance.base = list.space.point(disk.x, disk.y, clip.time(i));
+        instance.base = centre(disk, i);
         instance.radius = static_cast<float>(disk.r);
-        instance.height = height;
+        instance.stand_upright(height);
+        if (clip.is_linear()) {
+            // What the next one's base is computed from, too: the two faces are one to the last bit.
+            const mobb::Disk at_end = clip.disk_at_end(i);
+            instance.top = centre(at_end, i + 1);
+            instance.top_radius = static_cast<float>(at_end.r);
+        }
         instance.color = disk_color(list.palette, agent, focus, i);
         instance.id = {agent.index, ObjectId::Kind::disk, i};
         instance.order = {DrawLayer::surroundings, 0, order_index(agent, i)};
@@ -104,6 +112,18 @@ void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange 
 
 namespace {
 
+/// What the ring around a disk is drawn around.
+struct RingPlace {
+    mobb::Disk disk;
+    double time = 0;
+};
+
+RingPlace ring_place(const mobb::PlacedClip& clip, int sample, double time) {
+    // One that stays looks the same all along: the ring lies around its middle.
+    if (!clip.is_linear()) time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
+    return {mobb::swept(clip, sample).at(time), time};
+}
+
 struct RingLine {
     Rgba color;
     float width;
@@ -112,14 +132,12 @@ struct RingLine {
     int pieces = 48;
 };
 
-void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingLine& ring) {
-    const mobb::PlacedClip& clip = agent.clip();
-    const mobb::Disk disk = clip.disk(sample);
+void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingPlace& place, const RingLine& ring) {
+    const mobb::Disk& disk = place.disk;
     const double radius = disk.r * static_cast<double>(ring.radius);
-    const double time = 0.5 * (clip.time(sample) + clip.time(sample + 1));
     const auto point = [&](int i) {
         const glm::dvec2 rim = glm::dvec2(disk.x, disk.y) + radius * on_circle<double>(i, ring.pieces);
-        return list.space.point(rim.x, rim.y, time);
+        return list.space.point(rim.x, rim.y, place.time);
     };
     const auto index = (static_cast<std::int64_t>(agent.index) << 40) + sample * ring.pieces;
     Pen(list, {DrawLayer::rings, ring.order, index})
@@ -128,15 +146,17 @@ void add_ring(DrawList& list, const DrawnAgent& agent, int sample, const RingLin
 
 }  // namespace
 
-void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale, int pieces) {
-    add_ring(list, agent, sample, {line_color_of(agent, list.palette), 1.6f * scale, 1.04f, 0, pieces});
+void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, double time, float scale, int pieces) {
+    const RingPlace place = ring_place(agent.clip(), sample, time);
+    add_ring(list, agent, sample, place, {line_color_of(agent, list.palette), 1.6f * scale, 1.04f, 0, pieces});
 }
 
-void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale) {
+void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, double time, float scale) {
+    const RingPlace place = ring_place(agent.clip(), sample, time);
     // The ground's colour around it keeps it apart from disks of a like colour.
-    add_ring(list, agent, sample, {list.palette.background, 5.4f * scale, 1.04f, 1});
-    add_ring(list, agent, sample, {list.palette.hit, 3.2f * scale, 1.04f, 2});
-    add_ring(list, agent, sample, {list.palette.hit, 1.4f * scale, 1.4f, 2});
+    add_ring(list, agent, sample, place, {list.palette.background, 5.4f * scale, 1.04f, 1});
+    add_ring(list, agent, sample, place, {list.palette.hit, 3.2f * scale, 1.04f, 2});
+    add_ring(list, agent, sample, place, {list.palette.hit, 1.4f * scale, 1.4f, 2});
 }
 
 DiskOverlap disk_overlap(const mobb::Disk& a, const mobb::Disk& b, int rows) {

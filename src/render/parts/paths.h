@@ -37,7 +37,7 @@ struct PathFocus {
 /// The text's colour for lines of an agent, which dim with it.
 Rgba line_color_of(const DrawnAgent& agent, const Palette& palette);
 
-/// A disk for each sample.
+/// A disk for each sample; of a linear clip it leans to the next one.
 void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus);
 
 /// Gives the disks from `first` on, which add_disks made of this agent, the colours of another focus. Returns where the
@@ -55,10 +55,11 @@ Rgba floor_trace_color(const DrawnAgent& agent, const Palette& palette);
 void add_floor_trace(DrawList& list, const DrawnAgent& agent, mobb::SampleRange range, float floor, Rgba color,
                      float width);
 
-/// The outline of a sample's disk at half its height, seen through everything: one line for what the time cursor
-/// meets, a heavy and a fine one in the colour of hits for what collides.
-void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale, int pieces = 48);
-void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, float scale);
+/// The outline of a sample's disk, seen through everything: one line for what the time cursor meets, a heavy and a fine
+/// one in the colour of hits for what collides. Of a held clip at half the disk's height, of a linear one where and as
+/// wide as the disk is at a global time within the sample's.
+void add_cursor_ring(DrawList& list, const DrawnAgent& agent, int sample, double time, float scale, int pieces = 48);
+void add_hit_ring(DrawList& list, const DrawnAgent& agent, int sample, double time, float scale);
 
 struct DiskOverlap {
     /// Its two outlines from end to end, as many points in each; rows of points across it. World metres.

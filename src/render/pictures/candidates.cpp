@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <explain/query_sentence.h>
+#include <mobb/traversal.h>
 #include <render/drawlist/pen.h>
 #include <render/layout/caption.h>
 #include <render/layout/legend.h>
@@ -14,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -29,8 +31,11 @@ const std::string& agent_name(const Scene& run, int agent) {
     return run.crowd->agents[static_cast<std::size_t>(agent)].name;
 }
 
-const SceneClip& clip_of_move(const Scene& run, int move) {
-    return run.clips[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(move)].clip)];
+/// "walk, turned by 30°".
+std::string name_of(const Scene& run, const PlannedMove& move) {
+    const int clip = run.graph->moves[static_cast<std::size_t>(move.move)].clip;
+    const std::string& name = run.clips[static_cast<std::size_t>(clip)].name;
+    return move.turn_deg == 0 ? name : name + formatted(", turned by %.0f\u00B0", move.turn_deg);
 }
 
 /// Draws one choice.
@@ -84,7 +89,7 @@ class Drawer {
         const LineStyle style = seen_through(outcome_style_of(outcome, list_.palette));
         LineStyle beyond = style;
         beyond.color.a *= kWayBeyond;
-        const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
+        const mobb::PlacedClip way(*candidate.clip, candidate.placement);
         const int contact = outcome == CandidateOutcome::ruled_out ? candidate.blocker->contact.a_sample : way.count();
         // Pieces as long as a dash and its gap, or the pattern would be cut short.
         const float pixels = list_.projection.pixels_per_metre(point(way.disk(0), way.time(0)));
@@ -114,11 +119,10 @@ class Drawer {
         const Candidate& candidate = choice_.candidates[index];
         const Blocker& blocker = *candidate.blocker;
         const mobb::Contact& contact = blocker.contact;
-        const mobb::PlacedClip way(*clip_of_move(scene_, candidate.move).clip, candidate.placement);
-        const Play play = blocking_play(scene_, blocker);
-        const mobb::PlacedClip other(*clip_of_move(scene_, play.move).clip, play.placement);
-        const mobb::Disk a = way.disk(contact.a_sample);
-        const mobb::Disk b = other.disk(contact.b_sample);
+        const mobb::PlacedClip way(*candidate.clip, candidate.placement);
+        const mobb::PlacedClip other(*blocker.clip, blocker.placement);
+        const mobb::Disk a = mobb::swept(way, contact.a_sample).at(contact.time);
+        const mobb::Disk b = mobb::swept(other, contact.b_sample).at(contact.time);
         const Rgba color = outcome_style_of(CandidateOutcome::ruled_out, list_.palette).color;
         add_outline(a, contact.time, color);
         PlacedAgent who;
@@ -205,9 +209,7 @@ std::vector<std::size_t> shown_candidates(const Choice& choice) {
 
 std::string candidate_sentence(const Scene& run, const Choice& choice, std::size_t candidate) {
     const Candidate& asked = choice.candidates[candidate];
-    std::string text = clip_of_move(run, asked.move).name;
-    if (asked.turn_deg != 0) text += formatted(", turned by %.0f\u00B0", asked.turn_deg);
-    text += ": ";
+    std::string text = name_of(run, {asked.move, asked.turn_deg}) + ": ";
     const auto meets = [&] {
         const std::string who = agent_name(run, asked.blocker->agent);
         return "meets " + (asked.blocker->planned > 0 ? "what " + who + " plans" : who) +
@@ -277,15 +279,17 @@ std::string edited_run_warning(const Scene& run, const FollowedChoice& followed)
     const Choice& choice = followed.choice;
     const Play& play =
         run.crowd->agents[static_cast<std::size_t>(followed.agent)].plays[static_cast<std::size_t>(followed.play)];
-    const auto named = [&](int move, PlayKind kind) {
-        const std::string name = clip_of_move(run, move).name;
+    const auto named = [&](const PlannedMove& move, PlayKind kind) {
+        const std::string name = name_of(run, move);
         return kind == PlayKind::chosen ? name : name + " (" + std::string(mobbscope::name(kind)) + ')';
     };
+    const std::optional<TurnedMove>& turned = run.graph->moves[static_cast<std::size_t>(play.move)].turned;
+    const PlannedMove played = turned ? PlannedMove{turned->move, turned->deg} : PlannedMove{play.move, 0};
     const Candidate& taken = choice.candidates[choice.taken];
-    std::string text = agent_name(run, followed.agent) + " plays " + named(play.move, play.kind) +
-                       at_time(choice.time) + ", but made again the choice is " + named(taken.move, choice.kind);
-    if (taken.move == play.move && choice.kind == play.kind) text += ", elsewhere";
-    return text + ": seed, grace, plays or clips were edited since the simulation";
+    std::string text = agent_name(run, followed.agent) + " plays " + named(played, play.kind) + at_time(choice.time) +
+                       ", but made again the choice is " + named({taken.move, taken.turn_deg}, choice.kind);
+    if (taken.played == play.move && choice.kind == play.kind) text += ", elsewhere";
+    return text + ": seed, grace, plays or clips were edited since, or another version simulated it";
 }
 
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,
@@ -297,7 +301,7 @@ std::vector<LabelRequest> add_followed(DrawList& list, const DrawnAgent& followe
                                        const Metrics& metrics) {
     const std::optional<int> sample = sample_at(followed, time);
     if (!sample || followed.hidden) return {};
-    const mobb::Disk disk = followed.clip().disk(*sample);
+    const mobb::Disk disk = mobb::swept(followed.clip(), *sample).at(time);
     const double level = list.moment ? 0 : time;
     constexpr int kPieces = 48;
     Pen pen(list, {DrawLayer::candidates, 1});

@@ -141,7 +141,8 @@ class CrowdPicture final : public Picture {
             const float radius = static_cast<float>(disk.r) * list_.projection.pixels_per_metre(middle);
             const auto pixel = list_.projection.project(middle);
             if (radius < kLeastRing || !pixel || !picture.grown(2 * radius).contains({*pixel, *pixel})) continue;
-            add_cursor_ring(list_, agent, *sample, metrics_.scale, std::clamp(static_cast<int>(1.5f * radius), 10, 48));
+            const int pieces = std::clamp(static_cast<int>(1.5f * radius), 10, 48);
+            add_cursor_ring(list_, agent, *sample, time_, metrics_.scale, pieces);
         }
     }
 

@@ -80,10 +80,8 @@ class Diagram {
         add(tip, tip - along + across, color, width, kSolid);
         add(tip, tip - along - across, color, width, kSolid);
     }
-    void circle(glm::dvec3 middle, Rgba color, float width) {
-        const auto rim = [&](int i) {
-            return middle + extents_.radius * glm::dvec3(on_circle<double>(i, kCirclePieces), 0);
-        };
+    void circle(glm::dvec3 middle, double radius, Rgba color, float width) {
+        const auto rim = [&](int i) { return middle + radius * glm::dvec3(on_circle<double>(i, kCirclePieces), 0); };
         for (int i = 0; i < kCirclePieces; ++i) line(rim(i), rim(i + 1), color, width);
     }
     /// The way in the picture from a place outwards, unit; upwards where none is seen.
@@ -124,7 +122,9 @@ glm::dvec3 axis_end(const AxisExtent& axis, double radius) {
 
 /// Where the height is marked: left of the disk, its middle.
 glm::dvec3 beside_disk(const DiskExtents& extents) {
-    return -(1 + 1.6 * kAside) * extents.radius * extents.heading + glm::dvec3(0, 0, 0.5 * extents.height);
+    const double leans_left = extents.top_radius - glm::dot(extents.rise, extents.heading) - extents.radius;
+    const double aside = (1 + 1.6 * kAside) * extents.radius + std::max(leans_left, 0.0);
+    return -aside * extents.heading + glm::dvec3(0, 0, 0.5 * extents.rise.z);
 }
 
 /// From the mark on the axis to the disk's corner and a little beyond both; along the other axis where the two are one
@@ -143,9 +143,9 @@ Perpendicular perpendicular(const AxisExtent& axis, double value, glm::dvec3 cor
 std::vector<glm::vec3> projected_points(const Diagram& diagram, const DiskExtents& extents) {
     std::vector<glm::vec3> out;
     for (int i = 0; i < 16; ++i) {
-        const glm::dvec3 rim = extents.radius * glm::dvec3(on_circle<double>(i, 16), 0);
-        out.push_back(diagram.at(rim));
-        out.push_back(diagram.at(rim + glm::dvec3(0, 0, extents.height)));
+        const glm::dvec3 way(on_circle<double>(i, 16), 0);
+        out.push_back(diagram.at(extents.radius * way));
+        out.push_back(diagram.at(extents.rise + extents.top_radius * way));
     }
     for (std::size_t i = 0; i < 2; ++i) {
         const AxisExtent& axis = extents.along[i];
@@ -163,14 +163,15 @@ std::vector<glm::vec3> projected_points(const Diagram& diagram, const DiskExtent
 void draw(Diagram& diagram, const DiskExtents& extents, const ViewProjection& projection, const Palette& palette,
           Rgba disk) {
     const glm::dvec3 r = extents.radius * extents.heading;
-    const glm::dvec3 height(0, 0, extents.height);
+    const glm::dvec3 top_r = extents.top_radius * extents.heading;
+    const glm::dvec3 height(0, 0, extents.rise.z);
     const Rgba rim = outlining(disk, palette);
     if (!floor_on_edge(projection)) {
-        diagram.circle(glm::dvec3(0), rim, 1.2f);
-        diagram.circle(height, rim, 1.2f);
+        diagram.circle(glm::dvec3(0), extents.radius, rim, 1.2f);
+        diagram.circle(extents.rise, extents.top_radius, rim, 1.2f);
     }
-    // The upright section through p that the radius vector lies in.
-    const glm::dvec3 section[] = {-r, r, r + height, -r + height};
+    // The section through p that the radius vector lies in.
+    const glm::dvec3 section[] = {-r, r, extents.rise + top_r, extents.rise - top_r};
     for (std::size_t i = 0; i < 4; ++i) diagram.line(section[i], section[(i + 1) % 4], rim, 1.2f);
     for (std::size_t i = 0; i < 2; ++i) {
         const AxisExtent& axis = extents.along[i];
@@ -198,7 +199,9 @@ void draw(Diagram& diagram, const DiskExtents& extents, const ViewProjection& pr
 std::vector<LegendEntry> legend(const DiskExtents& extents, const Palette& palette, Rgba disk, int sample, double dt) {
     std::vector<LegendEntry> out;
     using Mark = LegendEntry::Mark;
-    const std::string lengths = ": r " + with_unit(extents.radius, "m") + ", dt " + with_unit(dt, "s");
+    std::string lengths = ": r " + with_unit(extents.radius, "m");
+    if (extents.top_radius != extents.radius) lengths += " to " + with_unit(extents.top_radius, "m");
+    lengths += ", dt " + with_unit(dt, "s");
     out.push_back({.mark = Mark::disk, .color = disk, .text = "sample " + std::to_string(sample) + lengths});
     for (const AxisExtent& axis : extents.along) {
         out.push_back(
@@ -259,11 +262,13 @@ DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample) {
     const mobb::Box box = world_box(agent.placed, node);
     const mobb::PlacedClip& clip = agent.clip();
     const mobb::Disk disk = clip.disk(sample);
+    const mobb::Disk at_end = clip.disk_at_end(sample);
     const double w = agent.placed.time_scale();
     DiskExtents out;
     out.base = {disk.x, disk.y, w * clip.time(sample)};
     out.radius = disk.r;
-    out.height = w * clip.clip().dt();
+    out.rise = {at_end.x - disk.x, at_end.y - disk.y, w * clip.clip().dt()};
+    out.top_radius = at_end.r;
     const auto on_floor = [](glm::dvec3 v) {
         const glm::dvec3 flat(v.x, v.y, 0);
         const double length = glm::length(flat);
@@ -276,14 +281,16 @@ DiskExtents disk_extents(const DrawnAgent& agent, int node, int sample) {
         AxisExtent& axis = out.along[i];
         axis.axis = axes[i];
         axis.direction = box.axes[static_cast<std::size_t>(axes[i])];
-        const glm::dvec3 rim = out.radius * on_floor(axis.direction);
-        const glm::dvec3 rise(0, 0, out.height);
-        // The height lies on the side that the axis leans to (Fig. 6; its signs hold for one orientation only).
-        const bool upwards = axis.direction.z > 0;
-        axis.min_corner = -rim + (upwards ? glm::dvec3(0) : rise);
-        axis.max_corner = rim + (upwards ? rise : glm::dvec3(0));
-        axis.min = glm::dot(axis.min_corner, axis.direction);
-        axis.max = glm::dot(axis.max_corner, axis.direction);
+        const glm::dvec3 way = on_floor(axis.direction);
+        const auto along = [&](glm::dvec3 corner) { return glm::dot(corner, axis.direction); };
+        // Of an upright disk the height lies on the side that the axis leans to (Fig. 6; its signs hold for one
+        // orientation only); one that leans may reach farther above on both.
+        const glm::dvec3 least = -out.radius * way, least_above = out.rise - out.top_radius * way;
+        const glm::dvec3 most = out.radius * way, most_above = out.rise + out.top_radius * way;
+        axis.min_corner = along(least_above) <= along(least) ? least_above : least;
+        axis.max_corner = along(most_above) > along(most) ? most_above : most;
+        axis.min = along(axis.min_corner);
+        axis.max = along(axis.max_corner);
     }
     return out;
 }
@@ -306,7 +313,9 @@ class DiskProjectionPicture final : public Picture {
         if (!view.disks) return;
         DiskInstance disk;
         disk.radius = static_cast<float>(extents_.radius);
-        disk.height = static_cast<float>(agent_.clip().clip().dt() * list_.space.time_height);
+        disk.stand_upright(static_cast<float>(agent_.clip().clip().dt() * list_.space.time_height));
+        disk.top += glm::vec3(glm::dvec3(extents_.rise.x, extents_.rise.y, 0));
+        disk.top_radius = static_cast<float>(extents_.top_radius);
         disk.color = with_alpha(agent_.color, 0.5f);
         disk.id = {agent_.index, ObjectId::Kind::disk, view.projection->sample};
         list_.disks.edit().push_back(disk);

@@ -23,10 +23,11 @@ struct AxisExtent {
 struct DiskExtents {
     glm::dvec3 base{0};     ///< centre of the base, world (x, y, w*t)
     glm::dvec3 heading{0};  ///< unit, on the floor: the way of the radius vector, along axis 0
-    double radius = 0;      ///< metres
-    double height = 0;      ///< w*dt, metres
-    /// Of a free box along its axes 0 and 2, as axis 1 lies on the floor, where the disk reaches its radius either way;
-    /// of any other box along the two on the floor.
+    double radius = 0;      ///< of the base, metres
+    glm::dvec3 rise{0};     ///< from there to the centre of the upper face, w*dt above: of a linear clip it leans
+    double top_radius = 0;  ///< of the upper face, metres
+    /// Of a free box along its axes 0 and 2, as axis 1 lies on the floor, where an upright disk reaches its radius
+    /// either way; of any other box along the two on the floor.
     std::array<AxisExtent, 2> along;
 };
 

@@ -30,7 +30,7 @@ void KeptPaths::add_places_of_all(const DrawList& list, std::span<const DrawnAge
     for (const DiskInstance& disk : scratch.disks) {
         for (const glm::vec3& way : rim_directions()) {
             points_.add(disk.base + disk.radius * way);
-            points_.add(disk.base + disk.radius * way + glm::vec3(0, 0, disk.height));
+            points_.add(disk.top + disk.top_radius * way);
         }
     }
 }

@@ -98,7 +98,7 @@ void add_body_disk(DrawList& list, const Figure& f, float height, Rgba color) {
     DiskInstance disk;
     disk.base = f.foot;
     disk.radius = f.radius;
-    disk.height = height;
+    disk.stand_upright(height);
     disk.color = color;
     disk.id = {f.agent.index, ObjectId::Kind::disk, f.body.sample};
     disk.order = {DrawLayer::subject, 0, f.agent.index};

@@ -1,4 +1,5 @@
 #include <explain/query_progress.h>
+#include <mobb/query.h>
 #include <render/drawlist/pen.h>
 #include <render/parts/node_boxes.h>
 #include <render/parts/paths.h>
@@ -138,8 +139,11 @@ Emphasis emphasis_of(const ViewState& view, std::span<const DrawnAgent> agents, 
     }
     if (!progress) return out;
     const mobb::Trace::Event& event = progress->event;
-    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty())
-        out.hits = {event.pairs.back().i, event.pairs.back().j};
+    if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {
+        const auto& pair = event.pairs.back();
+        out.hits = {pair.i, pair.j};
+        out.hit_time = mobb::contact_of(agents[0].clip(), pair.i, agents[1].clip(), pair.j).time;
+    }
     for (const DrawnAgent& agent : agents) {
         const mobb::Node& node = agent.placed.node(agent.index == 0 ? event.a : event.b);
         out.dims = out.dims || (view.disks && !agent.hidden && node.count < agent.clip().count());

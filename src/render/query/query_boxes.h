@@ -42,6 +42,7 @@ struct Emphasis {
     std::optional<double> cursor;               ///< global seconds, where the time cursor is drawn
     std::vector<std::optional<int>> at_cursor;  ///< by agent: the sample that holds then
     std::optional<std::array<int, 2>> hits;     ///< samples of A and B that collide
+    double hit_time = 0;                        ///< global seconds: when they begin to
     bool dims = false;                          ///< disks outside the nodes under test step back
 };
 

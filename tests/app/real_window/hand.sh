@@ -44,35 +44,29 @@ click() {
   sleep 0.2
   xdotool click "${5:-1}"
 }
-# move_until FILE RIGHT DOWN: step by step until the script has written the file.
-move_until() {
+# repeat FILE PAUSE COMMAND...: over and over, with so many seconds between, until the script has written the file.
+repeat() {
   for _ in $(seq 200); do
-    xdotool mousemove_relative -- "$2" "$3"
+    "${@:3}"
     watch
-    sleep 0.06
+    sleep "$2"
     [ -e "$1" ] && break
   done
+}
+# move_until FILE RIGHT DOWN: step by step until the script has written the file.
+move_until() {
+  repeat "$1" 0.06 xdotool mousemove_relative -- "$2" "$3"
   reached "$1"
 }
 # pull FILE RIGHT DOWN: with the button held, step by step until the script has written the file.
 pull() {
   xdotool mousedown 1
-  for _ in $(seq 200); do
-    xdotool mousemove_relative -- "$2" "$3"
-    watch
-    sleep 0.03
-    [ -e "$1" ] && break
-  done
+  repeat "$1" 0.03 xdotool mousemove_relative -- "$2" "$3"
   xdotool mouseup 1
   reached "$1"
 }
 # again FILE CHORD: the same key until the script has written the file.
 again() {
-  for _ in $(seq 200); do
-    xdotool key "$2"
-    watch
-    sleep 0.1
-    [ -e "$1" ] && break
-  done
+  repeat "$1" 0.1 xdotool key "$2"
   reached "$1"
 }

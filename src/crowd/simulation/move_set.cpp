@@ -1,0 +1,168 @@
+#include <base/text.h>
+#include <crowd/simulation/move_set.h>
+#include <scene/clip_turn.h>
+#include <scene/scene_edits.h>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr double kSpeedOver = 0.25;  // seconds: of a moment, as a walker's root is not equally fast within a step
+
+/// Place of a turn among all from -180 degrees on.
+std::size_t heading_index(double turn_deg) { return static_cast<std::size_t>(std::lround(turn_deg / kTurnStep) + 12); }
+
+double rate_of(const FittedScene& fitted, std::optional<double> turn_rate) {
+    if (!turn_rate) return fitted.scene().crowd ? fitted.scene().crowd->turn_rate : kDefaultTurnRate;
+    if ((*turn_rate >= 0 && *turn_rate <= kMaxTurnRate) || *turn_rate == kTurnsAtOnce) return *turn_rate;
+    throw std::invalid_argument("the turn rate is " + brief(*turn_rate) + "; give a number from 0 to " +
+                                brief(kMaxTurnRate));
+}
+
+}  // namespace
+
+MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate)
+    : fitted_(&fitted), turn_rate_(rate_of(fitted, turn_rate)), by_hub_(moves_by_hub(graph())) {
+    const std::vector<GraphMove>& moves = graph().moves;
+    for (int i = 0; i < static_cast<int>(moves.size()); ++i) {
+        const GraphMove& move = moves[static_cast<std::size_t>(i)];
+        const mobb::Tree& tree = fitted.tree(move.clip);
+        const PlannedMove origin = move.turned ? PlannedMove{move.turned->move, move.turned->deg} : PlannedMove{i, 0};
+        moves_.push_back({origin, nullptr, &tree, ClipBounds(tree.clip()), move.exit});
+        if (!move.turned) unturned_.push_back(i);
+    }
+    for (std::vector<int>& of_hub : by_hub_)
+        std::erase_if(of_hub, [&](int move) { return moves[static_cast<std::size_t>(move)].turned.has_value(); });
+    add_turned();
+    const auto room = [this](int move) {
+        const FloorRect rect = bounds(move).bounds({});
+        return (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y) * duration(move);
+    };
+    by_room_ = by_hub_;
+    for (std::vector<int>& of_hub : by_room_) std::ranges::stable_sort(of_hub, {}, room);
+}
+
+void MoveSet::add_turned() {
+    ByHeading none;
+    none.fill(-1);
+    turned_.assign(graph().moves.size(), none);
+    for (int i = 0; i < static_cast<int>(graph().moves.size()); ++i) {
+        const PlannedMove& origin = at(i).origin;
+        // Turns by other steps are played where a run says so, and not chosen.
+        if (std::remainder(origin.turn_deg, kTurnStep) != 0) continue;
+        int& place = turned_[static_cast<std::size_t>(origin.move)][heading_index(origin.turn_deg)];
+        if (place < 0) place = i;
+    }
+    if (turn_rate_ == 0 || turn_rate_ == kTurnsAtOnce) return;
+    std::vector<PlannedMove> wanted;
+    for (const int move : unturned_) {
+        for (const double turn : kTurns) {
+            if (turn != 0 && !turned({move, turn})) wanted.push_back({move, turn});
+        }
+    }
+    std::vector<std::optional<Move>> made(wanted.size());
+    tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) { made[i] = turned_move(wanted[i]); });
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (!made[i]) continue;
+        turned_[static_cast<std::size_t>(wanted[i].move)][heading_index(wanted[i].turn_deg)] =
+            static_cast<int>(moves_.size());
+        moves_.push_back(std::move(*made[i]));
+    }
+}
+
+std::optional<MoveSet::Move> MoveSet::turned_move(const PlannedMove& origin) const {
+    const GraphMove& move = this->move(origin.move);
+    const SceneClip& clip = fitted_->scene().clips[static_cast<std::size_t>(move.clip)];
+    const ClipTurn turn = turn_at_rate(origin.turn_deg, turn_rate_);
+    // A clip in a file has one turn.
+    if (clip.turn || turn.seconds > clip.clip->duration()) return std::nullopt;
+    try {
+        const auto tree = std::make_shared<const mobb::Tree>(bent(*clip.clip, turn), fitted_->options());
+        return Move{origin, tree, tree.get(), ClipBounds(tree->clip()),
+                    bent_exit(*clip.clip, tree->clip(), move.exit, turn)};
+    } catch (const std::invalid_argument&) {
+        return std::nullopt;  // it leads beyond what a clip holds
+    }
+}
+
+std::optional<int> MoveSet::turned(const PlannedMove& wanted) const {
+    if (turn_rate_ == kTurnsAtOnce) return wanted.move;
+    const int move = turned_[static_cast<std::size_t>(wanted.move)][heading_index(wanted.turn_deg)];
+    return move < 0 ? std::nullopt : std::optional(move);
+}
+
+std::optional<double> MoveSet::turning_radius(int move) const {
+    if (turn_rate_ == 0 || turn_rate_ == kTurnsAtOnce) return std::nullopt;
+    const mobb::Clip& clip = tree(move).clip();
+    const int steps = static_cast<int>(std::min<double>(clip.count(), std::ceil(kSpeedOver / clip.dt())));
+    const mobb::Disk& before = clip.samples()[static_cast<std::size_t>(clip.count() - steps)];
+    const glm::dvec2 way = exit(move).position - glm::dvec2(before.x, before.y);
+    // A turn by so many degrees lasts as long as one at a constant rate of two thirds.
+    const ClipTurn radian = turn_at_rate(180 / std::numbers::pi, turn_rate_);
+    return std::hypot(way.x, way.y) / (steps * clip.dt()) * radian.seconds;
+}
+
+mobb::Placement MoveSet::following(int before, const mobb::Placement& placed, const PlannedMove& next) const {
+    Stance exit = this->exit(before);
+    if (turn_rate_ == kTurnsAtOnce) exit.heading_deg += next.turn_deg;
+    return mobbscope::following(placed, exit, duration(before), move(next.move).entry);
+}
+
+std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play) const {
+    std::vector<PlayedMove> out;
+    int last = play.move;
+    mobb::Placement at = play.placement;
+    for (const PlannedMove& next : play.plan) {
+        const std::optional<int> move = turned(next);
+        // Where a clip was edited since, the rest of a plan may not be there any more.
+        if (!move) break;
+        at = following(last, at, next);
+        last = *move;
+        out.push_back(motion(agent, index, last, at));
+        out.back().planned = static_cast<int>(out.size());
+    }
+    return out;
+}
+
+MoveSet::Extended MoveSet::extended(std::span<const int> used) const {
+    Extended out{fitted_->scene(), std::vector<int>(moves_.size(), -1)};
+    out.scene.crowd = nullptr;
+    MotionGraph graph = this->graph();
+    UnusedNames names(out.scene.clips);
+    const int stored = static_cast<int>(graph.moves.size());
+    for (int i = 0; i < stored; ++i) out.index[static_cast<std::size_t>(i)] = i;
+    std::vector<int> added(used.begin(), used.end());
+    std::erase_if(added, [&](int move) { return move < stored; });
+    std::ranges::sort(added);
+    added.erase(std::unique(added.begin(), added.end()), added.end());
+    for (const int index : added) {
+        const PlannedMove& origin = this->origin(index);
+        GraphMove move = this->move(index);
+        SceneClip clip = out.scene.clips[static_cast<std::size_t>(move.clip)];
+        bend(clip, turn_at_rate(origin.turn_deg, turn_rate_));
+        clip.name = names.take(clip.name + formatted(" turned %+.0f", origin.turn_deg));
+        clip.clip = tree(index).shared_clip();
+        // Of samples in the scene those that are bent are kept.
+        if (!clip.source) clip.turn.reset();
+        move.clip = static_cast<int>(out.scene.clips.size());
+        move.exit = exit(index);
+        move.turned = {origin.move, origin.turn_deg};
+        out.index[static_cast<std::size_t>(index)] = static_cast<int>(graph.moves.size());
+        graph.moves.push_back(move);
+        out.scene.clips.push_back(std::move(clip));
+    }
+    out.scene.graph = std::make_shared<const MotionGraph>(std::move(graph));
+    return out;
+}
+
+}  // namespace mobbscope

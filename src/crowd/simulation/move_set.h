@@ -1,0 +1,103 @@
+/// The moves that a crowd can play: those of its motion graph, and each of them turned on the way.
+#pragma once
+
+#include <crowd/simulation/reservation_grid.h>
+#include <scene/crowd_run.h>
+#include <scene/fitted_scene.h>
+#include <scene/motion_graph.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace mobbscope {
+
+/// Degrees that an agent may turn on the way of a move, the least first: multiples of kTurnStep.
+inline constexpr std::array<double, 24> kTurns{0,   15,  -15,  30,  -30,  45,  -45,  60,  -60,  75,  -75,  90,
+                                               -90, 105, -105, 120, -120, 135, -135, 150, -150, 165, -165, 180};
+
+/// Degrees per second where nothing else is asked: a quick step aside, not a spin.
+inline constexpr double kDefaultTurnRate = 120;
+
+/// The moves of a motion graph, fitted, and behind them all that they become by turns: each move that is no variant of
+/// another, by each of kTurns that its duration allows, unless the graph has that variant. Moves are counted through
+/// both. Refers to the scene, which must outlive it and have a graph. Const calls are safe from any number of threads.
+class MoveSet {
+  public:
+    /// `turn_rate` as in CrowdRun; none: as in the scene's crowd, or without one kDefaultTurnRate. Throws
+    /// std::invalid_argument if it is out of range.
+    explicit MoveSet(const FittedScene& fitted, std::optional<double> turn_rate = {});
+
+    const FittedScene& fitted() const { return *fitted_; }
+    const MotionGraph& graph() const { return *fitted_->scene().graph; }
+    double turn_rate() const { return turn_rate_; }
+
+    std::size_t count() const { return moves_.size(); }
+    /// The moves that are no variants: indices into the graph's.
+    const std::vector<int>& unturned() const { return unturned_; }
+    /// Of which move it is a variant, or itself, and how far it is turned.
+    const PlannedMove& origin(int move) const { return at(move).origin; }
+    /// A move turned; none if it lasts too short for it. Where agents turn at once it is the move itself.
+    std::optional<int> turned(const PlannedMove& wanted) const;
+    /// The graph's move that this one is, or that it is a variant of: what has its hubs and its entry.
+    const GraphMove& move(int move) const { return graph().moves[static_cast<std::size_t>(origin(move).move)]; }
+    const mobb::Tree& tree(int move) const { return *at(move).tree; }
+    const ClipBounds& bounds(int move) const { return at(move).bounds; }
+    const Stance& exit(int move) const { return at(move).exit; }
+    /// Metres: of the circle that an agent walks who goes on as fast as the move ends and turns as fast as the turn
+    /// rate allows from move to move. None where agents turn at once, or never.
+    std::optional<double> turning_radius(int move) const;
+    double duration(int move) const { return tree(move).clip().duration(); }
+    /// The moves that begin in the hub where `move` ends, none of them turned.
+    const std::vector<int>& after(int move) const { return by_hub_[static_cast<std::size_t>(this->move(move).to)]; }
+    /// The same, those first that take least room: floor times seconds.
+    const std::vector<int>& after_by_room(int move) const {
+        return by_room_[static_cast<std::size_t>(this->move(move).to)];
+    }
+
+    /// Where `next` is placed after `before`.
+    mobb::Placement following(int before, const mobb::Placement& placed, const PlannedMove& next) const;
+    /// A move as an agent's play.
+    PlayedMove motion(int agent, int play, int move, const mobb::Placement& placement) const {
+        return {agent, play, &tree(move), &bounds(move), placement, 0, move};
+    }
+    /// The moves that are planned to follow an agent's play.
+    std::vector<PlayedMove> planned(int agent, int index, const Play& play) const;
+
+    /// The scene with those of `used` that its graph has not behind the graph's moves, in order, each with a clip of
+    /// its own; and without its crowd.
+    struct Extended {
+        Scene scene;
+        std::vector<int> index;  ///< of each move in that scene's graph; -1 of those that are not in it
+    };
+    Extended extended(std::span<const int> used) const;
+
+  private:
+    struct Move {
+        PlannedMove origin;
+        std::shared_ptr<const mobb::Tree> own_tree;  ///< null: the scene's
+        const mobb::Tree* tree;
+        ClipBounds bounds;
+        Stance exit;
+    };
+
+    static constexpr std::size_t kHeadings = 25;  ///< from -180 to 180 degrees
+    using ByHeading = std::array<int, kHeadings>;
+
+    const Move& at(int move) const { return moves_[static_cast<std::size_t>(move)]; }
+    void add_turned();
+    std::optional<Move> turned_move(const PlannedMove& origin) const;
+
+    const FittedScene* fitted_;
+    double turn_rate_;
+    std::vector<Move> moves_;
+    std::vector<ByHeading> turned_;  ///< by the graph's move: its variants; -1: there is none
+    std::vector<int> unturned_;
+    std::vector<std::vector<int>> by_hub_;
+    std::vector<std::vector<int>> by_room_;
+};
+
+}  // namespace mobbscope
