@@ -14,6 +14,8 @@ namespace {
 
 bool tries_world_axes(mobb::TestKind test) { return mobb::info(test.box()).axes == mobb::BoxAxes::world; }
 
+bool tries_line_of_centers(mobb::TestKind test) { return mobb::info(test.box()).axes == mobb::BoxAxes::centers; }
+
 /// A box along the axes of a frame, wrapped again along the world's.
 mobb::Box along_the_world(const mobb::Box& box, glm::dvec2 center, const mobb::Rotation& to_world) {
     mobb::Box out;
@@ -46,6 +48,7 @@ BoxPair boxes_of(std::span<const DrawnAgent> sides, const mobb::Trace::Event& ev
 
 std::string name_of(std::span<const DrawnAgent> sides, const BoxPair& boxes, mobb::TestKind test, int axis) {
     if (tries_world_axes(test)) return axis == 0 ? "x" : "y";
+    if (tries_line_of_centers(test)) return "centre to centre";
     const AxisOrigin origin = axis_origin(test, axis);
     const std::string a = origin.a < 0 ? "" : sides[0].label + ' ' + axis_word(boxes.a, test, origin.a);
     const std::string b = origin.b < 0 ? "" : sides[1].label + ' ' + axis_word(boxes.b, test, origin.b);
@@ -68,6 +71,37 @@ mobb::Box rectangle_at(mobb::Box box, double wt) {
     return box;
 }
 
+BoxPair at_time(const BoxPair& boxes, double wt) { return {rectangle_at(boxes.a, wt), rectangle_at(boxes.b, wt)}; }
+
+/// The two ends of the common time, of which the first is the earlier.
+std::array<double, 2> common_time(const BoxPair& boxes) {
+    const mobb::Box& a = boxes.a;
+    const mobb::Box& b = boxes.b;
+    const double begin = std::max(a.center.z - a.half.z, b.center.z - b.half.z);
+    return {begin, std::max(begin, std::min(a.center.z + a.half.z, b.center.z + b.half.z))};
+}
+
+glm::dvec2 between(const BoxPair& boxes) { return glm::dvec2(boxes.b.center - boxes.a.center); }
+
+/// Two that move, when their centres are nearest along an axis.
+BoxPair nearest_along(const BoxPair& boxes, glm::dvec3 axis) {
+    const auto [begin, end] = common_time(boxes);
+    const double first = glm::dot(between(at_time(boxes, begin)), glm::dvec2(axis));
+    const double last = glm::dot(between(at_time(boxes, end)), glm::dvec2(axis));
+    if ((first < 0) != (last < 0)) return at_time(boxes, begin + (end - begin) * (first / (first - last)));
+    return at_time(boxes, std::abs(first) <= std::abs(last) ? begin : end);
+}
+
+/// Two that move, when their centres are nearest.
+BoxPair nearest(const BoxPair& boxes) {
+    const auto [begin, end] = common_time(boxes);
+    const glm::dvec2 first = between(at_time(boxes, begin));
+    const glm::dvec2 way = between(at_time(boxes, end)) - first;
+    const double squared = glm::dot(way, way);
+    const double s = squared > 0 ? std::clamp(-glm::dot(first, way) / squared, 0.0, 1.0) : 0.0;
+    return at_time(boxes, begin + s * (end - begin));
+}
+
 }  // namespace
 
 std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
@@ -77,7 +111,7 @@ std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, cons
     for (int axis = 0; axis < mobb::axis_count(event.test); ++axis) {
         if (!is_tried(boxes.a, boxes.b, event.test, axis)) continue;
         const glm::dvec3 direction = test_axis(boxes.a, boxes.b, event.test, axis);
-        const BoxPair tested = event.test == mobb::BoxKind::moving ? at_nearest_moment(boxes, direction) : boxes;
+        const BoxPair tested = as_tested(boxes, event.test, direction);
         const double middle = glm::dot(tested.a.center, direction);
         const Projection on_a = project(tested.a, direction).minus(middle);
         const Projection on_b = project(tested.b, direction).minus(middle);
@@ -89,13 +123,18 @@ std::vector<AxisInterval> axis_intervals(std::span<const DrawnAgent> sides, cons
 
 Projection project(const mobb::Box& box, glm::dvec3 axis) {
     const double center = glm::dot(box.center, axis);
+    if (box.kind == mobb::BoxKind::block) {
+        const double disk = box.half.x * std::hypot(axis.x, axis.y);
+        const double leaning = std::abs(glm::dot(mobb::half_edges(box)[2], axis));
+        return {center - disk - leaning, center + disk + leaning};
+    }
     double reach = 0;
     for (const glm::dvec3& edge : mobb::half_edges(box)) reach += std::abs(glm::dot(edge, axis));
     return {center - reach, center + reach};
 }
 
 AxisOrigin axis_origin(mobb::TestKind test, int axis) {
-    if (tries_world_axes(test)) return {};
+    if (tries_world_axes(test) || tries_line_of_centers(test)) return {};
     const int own = own_axes(test);
     if (axis < own) return {axis, -1};
     if (axis < 2 * own) return {-1, axis - own};
@@ -110,6 +149,11 @@ bool is_tried(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int a
 }
 
 glm::dvec3 test_axis(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis) {
+    if (tries_line_of_centers(test)) {
+        const glm::dvec2 line = between(nearest({a, b}));
+        const double length = glm::length(line);
+        return length > 0 ? glm::dvec3(line / length, 0) : glm::dvec3(1, 0, 0);
+    }
     const AxisOrigin origin = axis_origin(test, axis);
     if (origin.a < 0 && origin.b < 0) return axis == 0 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     if (origin.b < 0) return axis_of(a, origin.a);
@@ -127,20 +171,9 @@ std::string axis_word(const mobb::Box& box, mobb::TestKind test, int axis) {
     return names[static_cast<std::size_t>(longer)];
 }
 
-BoxPair at_nearest_moment(const BoxPair& boxes, glm::dvec3 axis) {
-    const mobb::Box& a = boxes.a;
-    const mobb::Box& b = boxes.b;
-    const double begin = std::max(a.center.z - a.half.z, b.center.z - b.half.z);
-    const double end = std::max(begin, std::min(a.center.z + a.half.z, b.center.z + b.half.z));
-    const auto at = [&](double wt) { return BoxPair{rectangle_at(a, wt), rectangle_at(b, wt)}; };
-    const auto apart = [&](double wt) {
-        const BoxPair pair = at(wt);
-        return glm::dot(pair.b.center - pair.a.center, axis);
-    };
-    const double first = apart(begin);
-    const double last = apart(end);
-    if ((first < 0) != (last < 0)) return at(begin + (end - begin) * (first / (first - last)));
-    return at(std::abs(first) <= std::abs(last) ? begin : end);
+BoxPair as_tested(const BoxPair& boxes, mobb::TestKind test, glm::dvec3 axis) {
+    if (tries_line_of_centers(test)) return nearest(boxes);
+    return test == mobb::BoxKind::moving ? nearest_along(boxes, axis) : boxes;
 }
 
 }  // namespace mobbscope

@@ -41,10 +41,10 @@ Projection project(const mobb::Box& box, glm::dvec3 axis);
 bool is_tried(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis);
 
 /// The direction of axis number `axis` of a box test (see mobb::Separation), unit; of one that it tries. Both boxes in
-/// one frame; of an aabb test in the world's directions.
+/// one frame; of an aabb test in the world's directions, of a block test from centre to centre when they are nearest.
 glm::dvec3 test_axis(const mobb::Box& a, const mobb::Box& b, mobb::TestKind test, int axis);
 
-/// Where an axis comes from: an axis of A's box, one of B's, one of each, across both, or none: the world's. -1: none.
+/// Where an axis comes from: an axis of A's box, one of B's, one of each, across both, or neither's. -1: none.
 struct AxisOrigin {
     int a = -1;
     int b = -1;
@@ -59,8 +59,8 @@ struct BoxPair {
     mobb::Box a, b;
 };
 
-/// Two moving boxes at the moment of their common time when they are nearest along an axis: rectangles without extent
-/// in time. `axis`: unit, on the floor.
-BoxPair at_nearest_moment(const BoxPair& boxes, glm::dvec3 axis);
+/// The boxes as a test along an axis sees them. Those that move: at the moment of their common time when they are
+/// nearest, without extent in time. `axis`: unit.
+BoxPair as_tested(const BoxPair& boxes, mobb::TestKind test, glm::dvec3 axis);
 
 }  // namespace mobbscope

@@ -17,6 +17,7 @@ std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace
         return side.label + "'s " + axis_word(side.placed.node(node).box, event.test, axis) + " axis";
     };
     if (mobb::info(event.test.box()).axes == mobb::BoxAxes::world) return event.axis == 0 ? "along x" : "along y";
+    if (event.test == mobb::BoxKind::block) return "from centre to centre";
     const AxisOrigin origin = axis_origin(event.test, event.axis);
     if (origin.b < 0) return "along " + axis_of(sides[0], event.a, origin.a);
     if (origin.a < 0) return "along " + axis_of(sides[1], event.b, origin.b);
@@ -83,10 +84,12 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     if (event.test == mobb::TestKind::time) return time_outcome(sides, event);
     if (event.test == mobb::TestKind::samples) return sample_outcome(sides, event);
     if (event.outcome == mobb::Outcome::separated) {
-        const char* when = event.test == mobb::BoxKind::moving ? " at the nearest" : "";
+        const bool moves = event.test == mobb::BoxKind::moving || event.test == mobb::BoxKind::block;
+        const char* when = moves ? " at the nearest" : "";
         return "separated " + separating_axis(sides, event) + " by " + with_unit(event.gap, "m") + when;
     }
-    return "the boxes overlap, " + what_next(sides, event);
+    const char* what = event.test == mobb::BoxKind::block ? "the blocks may meet, " : "the boxes overlap, ";
+    return what + what_next(sides, event);
 }
 
 std::string step_of(int step, const mobb::Trace& trace) {

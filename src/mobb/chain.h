@@ -80,6 +80,8 @@ class Chain {
     /// 0 <= k < links(). The first sample of link k, and where it lies.
     int first_sample(int k) const { return links_[static_cast<std::size_t>(k)].first; }
     const ChainPart& part(int k) const { return *links_[static_cast<std::size_t>(k)].part; }
+    const Rotation& rotation(int k) const { return links_[static_cast<std::size_t>(k)].rotation; }
+    glm::dvec2 translate(int k) const { return links_[static_cast<std::size_t>(k)].translate; }
 
     int first() const { return links_.front().first; }  ///< the first sample that has not been dropped
     int end() const { return links_.back().end(); }     ///< one past the last sample

@@ -1,3 +1,4 @@
+#include <mobb/blocks.h>
 #include <mobb/fit.h>
 #include <mobb/principal_axes.h>
 
@@ -327,6 +328,9 @@ Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double tim
             return fit_moving(clip, range, axes, time_scale);
         case BoxKind::aabb:
             return fit_aabb(clip, range, time_scale);
+        case BoxKind::block:
+            return box_around(bounding_disk(clip, range.first, range.end()), time_scale * (range.first * clip.dt()),
+                              time_scale * (range.end() * clip.dt()));
     }
     return {};
 }

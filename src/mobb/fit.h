@@ -41,7 +41,8 @@ inline constexpr double kStandingStill = 1e-6;
 /// time (one sample, or first and last centre within kStandingStill) comes out as an obb2d: this is where the 2D tests
 /// in the paper's UMOBB rows come from. The centre of a moving box moves at (last centre - first)/((count - 1)*dt), 0
 /// for one sample, and the box holds each disk at both ends of the disk's hold interval; its axes are those of the
-/// disks as they drift in the moving frame, but endpoints keep the direction of travel. An aabb has no axes to choose.
+/// disks as they drift in the moving frame, but endpoints keep the direction of travel. An aabb has no axes to choose,
+/// nor has a block (see bounding_disk).
 Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double time_scale);
 
 }  // namespace mobb

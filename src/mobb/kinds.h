@@ -16,15 +16,17 @@ enum class BoxKind : std::uint8_t {
     moving,  ///< an oriented rectangle whose centre moves at a constant velocity, as in TPR-trees (Saltenis et al.
              ///< 2000)
     aabb,    ///< a rectangle along x and y, of the clip and again of the world, extruded in time
+    block,   ///< a disk whose centre moves at a constant velocity, around consecutive samples
 };
 
 enum class TreeKind : std::uint8_t {
-    mobb,     ///< 2D oriented boxes extruded in time
-    umobb,    ///< free boxes in space-time
-    hybrid1,  ///< MOBB root, UMOBB below (paper, Section 5)
-    hybrid2,  ///< UMOBB root, MOBB below
-    moving,   ///< 2D oriented boxes that move with the walk
-    aabb,     ///< boxes along the axes: the baseline of other fields
+    mobb,        ///< 2D oriented boxes extruded in time
+    umobb,       ///< free boxes in space-time
+    hybrid1,     ///< MOBB root, UMOBB below (paper, Section 5)
+    hybrid2,     ///< UMOBB root, MOBB below
+    moving,      ///< 2D oriented boxes that move with the walk
+    aabb,        ///< boxes along the axes: the baseline of other fields
+    production,  ///< blocks of 16 samples and of 8 blocks, tested several at a time (mobb/blocks.h)
 };
 
 /// The axes of a box, and so those that separate two of its kind.
@@ -32,6 +34,7 @@ enum class BoxAxes : std::uint8_t {
     floor,       ///< two of its own on the floor: a test tries both boxes' axes, 4
     space_time,  ///< three of its own: a test tries both boxes' axes and each pair's cross product, 15
     world,       ///< the world's x and y: a test tries these 2
+    centers,     ///< none of its own: a test tries the line between the centres, where they are nearest
 };
 
 struct BoxInfo {
@@ -94,6 +97,15 @@ constexpr BoxInfo of(BoxKind kind) {
                     .axes = BoxAxes::world,
                     .in_paper = false,
                     .looks = "boxes lie along the world's x and y"};
+        case BoxKind::block:
+            return {.name = "block",
+                    .title = "block",
+                    .plural = "blocks",
+                    .heading = "block",
+                    .test = "The line between the centres, where they are nearest",
+                    .axes = BoxAxes::centers,
+                    .in_paper = false,
+                    .looks = "a block is the leaning cylinder inside its box"};
     }
     return {};
 }
@@ -114,6 +126,10 @@ constexpr TreeInfo of(TreeKind kind) {
         case TreeKind::aabb:
             return {"aabb",        "AABB",       "AABB", "Boxes along x and y: the baseline of other fields",
                     BoxKind::aabb, BoxKind::aabb};
+        case TreeKind::production:
+            return {"production",   "production",
+                    "production",   "Blocks of samples, tested several at a time: the fastest",
+                    BoxKind::block, BoxKind::block};
     }
     return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mobb/chain.h>
+#include <mobb/production.h>
 
 namespace mobb {
 
@@ -44,6 +45,14 @@ class PlacedChain {
     /// The placed samples below a node of a link.
     ChainSamples samples(const ChainNode& node) const { return {*chain_, node.link, frame_}; }
     const PlacedChain& samples() const { return *this; }
+    /// Whether the traversal goes no further down: to blocks, or to samples.
+    bool is_leaf(const ChainNode& node) const { return has_blocks(node) || node.is_leaf(); }
+    bool has_blocks(const ChainNode& node) const { return node.link >= 0 && chain_->part(node.link).tree().blocks(); }
+    /// Those of a link whose tree has blocks. They refer to the place.
+    PlacedBlocks blocks(const ChainNode& node, LinkPlace& place) const {
+        place = {chain_->rotation(node.link), chain_->translate(node.link), chain_->first_sample(node.link), frame_};
+        return {*chain_->part(node.link).tree().blocks(), place};
+    }
     /// Global time, as the samples that bound the node have it.
     double begin(const ChainNode& node) const { return time(node.first); }
     double end(const ChainNode& node) const { return time(node.end()); }

@@ -1,6 +1,7 @@
 /// Trees where their clips are placed.
 #pragma once
 
+#include <mobb/production.h>
 #include <mobb/tree.h>
 
 namespace mobb {
@@ -10,7 +11,10 @@ namespace mobb {
 class PlacedTree {
   public:
     PlacedTree(const Tree& tree, const Placement& placement)
-        : nodes_(tree.nodes().data()), placed_(tree.clip(), placement), tree_(&tree) {}
+        : nodes_(tree.nodes().data()),
+          placed_(tree.clip(), placement),
+          tree_(&tree),
+          has_blocks_(tree.blocks() != nullptr) {}
     PlacedTree(const Tree&&, const Placement&) = delete;
 
     const Tree& tree() const { return *tree_; }
@@ -22,6 +26,13 @@ class PlacedTree {
     /// The placed samples below a node, with their indices in the clip.
     const PlacedClip& samples(const Node&) const { return placed_; }
     const PlacedClip& samples() const { return placed_; }
+    /// Whether the traversal goes no further down: to blocks, or to samples.
+    bool is_leaf(const Node& node) const { return has_blocks_ || node.is_leaf(); }
+    bool has_blocks(const Node&) const { return has_blocks_; }
+    /// Those of a tree that has blocks.
+    PlacedBlocks blocks(const Node&, LinkPlace&) const {
+        return {*tree_->blocks(), placed_.rotation(), placed_.frame().translate, placed_.frame().start};
+    }
     /// Global time, as the samples that bound the node have it: so a node is never apart from what its samples meet.
     double begin(const Node& node) const { return placed_.time(node.first); }
     double end(const Node& node) const { return placed_.time(node.end()); }
@@ -30,6 +41,7 @@ class PlacedTree {
     const Node* nodes_;
     PlacedClip placed_;
     const Tree* tree_;
+    bool has_blocks_;
 };
 
 }  // namespace mobb

@@ -3,6 +3,7 @@
 
 #include <mobb/observer.h>
 #include <mobb/placed_tree.h>
+#include <mobb/production.h>
 #include <mobb/traversal.h>
 
 #include <algorithm>
@@ -103,6 +104,21 @@ std::vector<Interval> contact_intervals(const A& a, const B& b) {
     NoObserver observer;
     IntervalCollector collector{a.samples(), b.samples(), {}};
     Traversal(a, b, observer, collector).run();
+    return std::move(collector.intervals);
+}
+
+/// The earliest contact of two clips by their blocks, or none: bit for bit that of trees and of direct_search.
+inline std::optional<Contact> query(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const std::optional<SamplePair> hit = first_hit(a, b);
+    return hit ? std::optional(contact_of(a, hit->a, b, hit->b)) : std::nullopt;
+}
+
+/// All intervals of contact, earliest first.
+inline std::vector<Interval> contact_intervals(const PlacedBlocks& a, const PlacedBlocks& b) {
+    using Collector = IntervalCollector<PlacedBlocks, PlacedBlocks>;
+    Collector collector{a, b, {}};
+    for_each_hit(a, b,
+                 {[](void* receiver, int i, int j) { return (*static_cast<Collector*>(receiver))(i, j); }, &collector});
     return std::move(collector.intervals);
 }
 

@@ -154,4 +154,22 @@ Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame)
     return {};
 }
 
+Separation separate_block(const Box& a, const Box& b, const RelativeFrame& frame) {
+    const glm::dvec3 center_b = frame.point(b.center);
+    const glm::dvec2 d{center_b.x - a.center.x, center_b.y - a.center.y};
+    // Times in w*t, counted from the middle of A's; velocities in metres per that.
+    const double middle_b = center_b.z - a.center.z;
+    const double begin = std::max(-a.half.z, middle_b - b.half.z);
+    const double end = std::max(begin, std::min(a.half.z, middle_b + b.half.z));
+    const glm::dvec2 velocity_a = a.drift / a.half.z;
+    const glm::dvec2 velocity_b = frame.direction(b.drift) / b.half.z;
+    const glm::dvec2 first = d + velocity_b * (begin - middle_b) - velocity_a * begin;
+    const glm::dvec2 way = (velocity_b - velocity_a) * (end - begin);
+    const double way_squared = glm::dot(way, way);
+    const double s = way_squared > 0 ? std::clamp(-glm::dot(first, way) / way_squared, 0.0, 1.0) : 0.0;
+    const double gap = glm::length(first + s * way) - (a.half.x + b.half.x);
+    const double slack = 4 * frame.slack2d() + frame.slack_time() * (manhattan(velocity_a) + manhattan(velocity_b));
+    return gap > slack ? Separation{0, gap} : Separation{};
+}
+
 }  // namespace mobb

@@ -16,7 +16,7 @@ namespace mobb {
 /// The result of a box test. axis < 0: no axis separates the boxes.
 struct Separation {
     /// 2D and moving: A0 A1 B0 B1 are 0..3. 3D: A0-2 are 0..2, B0-2 are 3..5, Ai x Bj is 6 + 3i + j. Along the axes:
-    /// the world's x and y are 0 and 1.
+    /// the world's x and y are 0 and 1. Blocks: the line between the centres is 0.
     int axis = -1;
     double gap = 0;  ///< metres along that unit axis, without slack; moving: the least over the common time
 
@@ -75,6 +75,9 @@ Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& fram
 /// Two boxes along x and y of their clips, each wrapped again along x and y of the world: two axes.
 Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame);
 
+/// Two blocks: one axis, from centre to centre where they are nearest in their common time. Both of one time scale.
+Separation separate_block(const Box& a, const Box& b, const RelativeFrame& frame);
+
 /// The test that two kinds of boxes get, in this order, and the kind it is counted as.
 struct PairTest {
     BoxKind a;
@@ -92,6 +95,7 @@ inline constexpr PairTest kPairTests[] = {
     {BoxKind::obb3d, BoxKind::obb2d, BoxKind::obb3d, true, separate_obb3d},
     {BoxKind::moving, BoxKind::moving, BoxKind::moving, true, separate_moving},
     {BoxKind::aabb, BoxKind::aabb, BoxKind::aabb, false, separate_aabb},
+    {BoxKind::block, BoxKind::block, BoxKind::block, true, separate_block},
 };
 
 static_assert(std::ranges::all_of(kBoxKinds,

@@ -3,6 +3,7 @@
 
 #include <mobb/observer.h>
 #include <mobb/predicate.h>
+#include <mobb/production.h>
 #include <mobb/separation.h>
 
 #include <algorithm>
@@ -39,7 +40,8 @@ concept SampleSource = PlacedSamples<S> && requires(const S& samples) {
 /// the root. A node may be a view that the source makes as it is asked for; so may its box.
 template <class S>
 concept NodeSource = requires(const S& source, int i) {
-    { source.node(i).is_leaf() } -> std::convertible_to<bool>;
+    { source.is_leaf(source.node(i)) } -> std::convertible_to<bool>;
+    { source.has_blocks(source.node(i)) } -> std::convertible_to<bool>;
     { source.node(i).children[0] } -> std::convertible_to<int>;
     { source.node(i).first } -> std::convertible_to<int>;
     { source.node(i).end() } -> std::convertible_to<int>;
@@ -64,6 +66,14 @@ int first_ending_after(const S& samples, int first, int last, double t) {
         }
     }
     return first;
+}
+
+/// Whether samples i and j share time and collide then.
+template <PlacedSamples A, PlacedSamples B>
+bool pair_collides(const A& a, int i, const B& b, int j) {
+    if (!overlap_in_time(a.time(i), a.time(i + 1), b.time(j), b.time(j + 1))) return false;
+    if (!a.is_linear() && !b.is_linear()) return collide(a.disk(i), b.disk(j));
+    return Approach(swept(a, i), swept(b, j)).collides();
 }
 
 /// What became of the pairs of two ranges of samples.
@@ -133,6 +143,24 @@ enum class WalkTests {
     time_and_boxes,  ///< as two inner nodes are: to measure the paper's claim that this gains nothing
 };
 
+/// Tells an observer of the blocks below two nodes: their roots are these nodes, the others follow in number.
+template <TraversalObserver Observer>
+class BlocksOfNodes final : public BlockObserver {
+  public:
+    BlocksOfNodes(Observer& observer, int a, int b) : observer_(observer), a_(a), b_(b) {}
+
+    void enter(int a, int b) override { observer_.enter(a_ + a, b_ + b); }
+    void leave() override { observer_.leave(); }
+    void time_test(bool overlap) override { observer_.time_test(overlap); }
+    void box_test(BoxKind test, const Separation& separation) override { observer_.box_test(test, separation); }
+    void sample_pair(int i, int j, double squared_distance) override { observer_.sample_pair(i, j, squared_distance); }
+    void sample_test(bool hit) override { observer_.sample_test(hit); }
+
+  private:
+    Observer& observer_;
+    int a_, b_;
+};
+
 /// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says
 /// whether to stop.
 template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit, WalkTests walk_tests = WalkTests::time>
@@ -165,9 +193,9 @@ class Traversal {
         if constexpr (Observer::watches) observer_.enter(ia, ib);
         bool stop = false;
         if (may_meet_in_time(na, nb) && may_meet_in_space(a_.box(na), b_.box(nb))) {
-            if (na.is_leaf()) {
-                stop = nb.is_leaf() ? test_samples<motion>(na, nb) : walk<motion, Side::b>(ia, nb);
-            } else if (nb.is_leaf()) {
+            if (a_.is_leaf(na)) {
+                stop = b_.is_leaf(nb) ? test_leaves<motion>(ia, na, ib, nb) : walk<motion, Side::b>(ia, nb);
+            } else if (b_.is_leaf(nb)) {
                 stop = walk<motion, Side::a>(ib, na);
             } else {
                 // In this order the traversal runs forward in time: one of the two mixed pairs is always apart in time.
@@ -192,9 +220,9 @@ class Traversal {
             if (may_meet_in_time(na, nb) &&
                 (walk_tests == WalkTests::time || may_meet_in_space(a_.box(na), b_.box(nb)))) {
                 if constexpr (inner_side == Side::a) {
-                    stop = na.is_leaf() ? test_samples<motion>(na, nb) : walk<motion, Side::a>(leaf, na);
+                    stop = a_.is_leaf(na) ? test_leaves<motion>(ia, na, ib, nb) : walk<motion, Side::a>(leaf, na);
                 } else {
-                    stop = nb.is_leaf() ? test_samples<motion>(na, nb) : walk<motion, Side::b>(leaf, nb);
+                    stop = b_.is_leaf(nb) ? test_leaves<motion>(ia, na, ib, nb) : walk<motion, Side::b>(leaf, nb);
                 }
             }
             if constexpr (Observer::watches) observer_.leave();
@@ -224,12 +252,27 @@ class Traversal {
         }
     }
 
+    /// Two leaves: their blocks if both have some, else their samples.
     template <Motion motion>
-    bool test_samples(const auto& na, const auto& nb) {
+    bool test_leaves(int ia, const auto& na, int ib, const auto& nb) {
+        if (a_.has_blocks(na) && b_.has_blocks(nb)) return test_blocks(ia, na, ib, nb);
         const PairVisit pairs = visit_pairs<motion>(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first,
                                                     nb.end(), observer_, on_hit_);
         if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
         return pairs.stopped;
+    }
+
+    bool test_blocks([[maybe_unused]] int ia, const auto& na, [[maybe_unused]] int ib, const auto& nb) {
+        LinkPlace place_a, place_b;
+        const PlacedBlocks blocks_a = a_.blocks(na, place_a), blocks_b = b_.blocks(nb, place_b);
+        const HitSink sink{[](void* receiver, int i, int j) -> bool { return (*static_cast<OnHit*>(receiver))(i, j); },
+                           &on_hit_};
+        if constexpr (Observer::watches) {
+            BlocksOfNodes<Observer> blocks(observer_, ia, ib);
+            return for_each_hit_below_roots(blocks_a, blocks_b, sink, &blocks);
+        } else {
+            return for_each_hit_below_roots(blocks_a, blocks_b, sink, nullptr);
+        }
     }
 
     const A& a_;

@@ -21,7 +21,11 @@ void check(const FitOptions& options) {
 Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), options_(options) {
     if (!clip_) throw std::invalid_argument("a tree needs a clip");
     check(options_);
-    build({0, clip_->count()}, -1, 0);
+    if (options_.tree == TreeKind::production) {
+        build_blocks();
+    } else {
+        build({0, clip_->count()}, -1, 0);
+    }
     // Depth-first order is within a level the order of time.
     std::vector<int> counts(static_cast<std::size_t>(depth_), 0);
     places_.reserve(nodes_.size());
@@ -49,6 +53,35 @@ int Tree::build(SampleRange range, int parent, int level) {
         nodes_[static_cast<std::size_t>(index)].children[1] = second_child;
     }
     return index;
+}
+
+void Tree::build_blocks() {
+    blocks_ = std::make_shared<const Blocks>(clip_);
+    const int count = blocks_->node_count();
+    const double w = options_.time_scale;
+    for (int i = 0; i < count; ++i) {
+        const Blocks::Node block = blocks_->node(i);
+        Node node;
+        node.first = block.first;
+        node.count = block.count;
+        node.box = box_around(block.bound, w * (node.first * clip_->dt()), w * (node.end() * clip_->dt()));
+        node.level = blocks_->node(0).level - block.level;
+        if (i > 0) {
+            node.parent = node.level == 1 ? 0 : blocks_->node_of(block.level + 1, block.block / Blocks::kFanOut);
+            int(&siblings)[2] = nodes_[static_cast<std::size_t>(node.parent)].children;
+            if (siblings[0] < 0) siblings[0] = i;
+            siblings[1] = i;
+        }
+        nodes_.push_back(node);
+        depth_ = std::max(depth_, node.level + 1);
+    }
+}
+
+int Tree::child_with(const Node& node, int sample) const {
+    int child = node.children[0];
+    while (nodes_[static_cast<std::size_t>(child)].end() <= sample)
+        child = options_.tree == TreeKind::production ? child + 1 : node.children[1];
+    return child;
 }
 
 }  // namespace mobb

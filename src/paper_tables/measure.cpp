@@ -2,16 +2,19 @@
 #include <base/text.h>
 #include <mobb/level_figures.h>
 #include <mobb/placed_tree.h>
+#include <mobb/production.h>
 #include <mobb/query.h>
 #include <mobb/traversal.h>
 #include <paper_tables/clock.h>
 #include <paper_tables/measure.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -102,6 +105,8 @@ TreeFigures tree_figures(const std::vector<mobb::Tree>& trees) {
     out.depth /= count;
     out.nodes /= count;
     out.bytes = sizeof(mobb::Tree) + out.nodes * (sizeof(mobb::Node) + sizeof(int));
+    for (const mobb::Tree& tree : trees)
+        out.bytes += tree.blocks() ? static_cast<double>(tree.blocks()->bytes()) / count : 0;
     return out;
 }
 
@@ -152,29 +157,69 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
     return row;
 }
 
+/// Trees of which the blocks are asked.
+struct BlocksOf {
+    const std::vector<mobb::Tree>& trees;
+};
+
+PlacedPair<mobb::PlacedBlocks> placed(const BlocksOf& of, const WorkloadQuery& query) {
+    const auto side = [&](int clip, const mobb::Placement& placement) {
+        return mobb::PlacedBlocks(*of.trees[static_cast<std::size_t>(clip)].blocks(), placement);
+    };
+    return {side(query.clip_a, query.a), side(query.clip_b, query.b)};
+}
+
+/// As many pairs as mobb::intersects_each says collide.
+int count_in_batches(std::span<const PlacedPair<mobb::PlacedBlocks>> pairs) {
+    constexpr std::size_t kBatch = 1000;
+    std::array<mobb::BlocksPair, kBatch> batch;
+    std::array<bool, kBatch> answers;
+    int hits = 0;
+    for (std::size_t first = 0; first < pairs.size(); first += kBatch) {
+        const std::size_t n = std::min(kBatch, pairs.size() - first);
+        for (std::size_t i = 0; i < n; ++i) batch[i] = {&pairs[first + i].a, &pairs[first + i].b};
+        mobb::intersects_each(std::span(batch).first(n), std::span(answers).first(n));
+        hits += static_cast<int>(std::count(answers.begin(), answers.begin() + static_cast<std::ptrdiff_t>(n), true));
+    }
+    return hits;
+}
+
 /// Nanoseconds for the queries [first, end), their placing left out. `hits` is what they answer.
 double time_block(const FittedMethod& fitted, const Workload& workload, std::size_t first, std::size_t end, int hits) {
-    const auto run = [&](const auto& placed_in, const auto& answer) {
+    const Method& method = *fitted.method;
+    const auto time = [&](const auto& placed_in, const auto& count_hits) {
         std::vector<decltype(placed(placed_in, workload.queries.front()))> pairs;
         pairs.reserve(end - first);
         for (std::size_t i = first; i < end; ++i) pairs.push_back(placed(placed_in, workload.queries[i]));
-        int found = 0;
         const auto begin = ThreadClock::now();
-        for (const auto& pair : pairs) found += answer(pair) ? 1 : 0;
+        const int found = count_hits(pairs);
         const auto finish = ThreadClock::now();
-        if (found != hits) throw DisagreementError(fitted.method->name + " and the direct search disagree");
+        if (found != hits) throw DisagreementError(method.name + " and the direct search disagree");
         return nanoseconds(finish - begin);
     };
+    const auto one_by_one = [&](const auto& placed_in, const auto& answer) {
+        return time(placed_in, [&](const auto& pairs) {
+            int found = 0;
+            for (const auto& pair : pairs) found += answer(pair) ? 1 : 0;
+            return found;
+        });
+    };
     if (fitted.trees.empty()) {
-        return run(workload, [](const auto& pair) { return mobb::direct_search(pair.a, pair.b).has_value(); });
+        return one_by_one(workload, [](const auto& pair) { return mobb::direct_search(pair.a, pair.b).has_value(); });
     }
-    if (fitted.method->boxes_in_walk) {
-        return run(fitted.trees, [&](const auto& pair) {
+    if (method.batch) {
+        return time(BlocksOf{fitted.trees}, [](const auto& pairs) { return count_in_batches(pairs); });
+    }
+    if (method.options->tree == mobb::TreeKind::production) {
+        return one_by_one(BlocksOf{fitted.trees}, [](const auto& pair) { return mobb::intersects(pair.a, pair.b); });
+    }
+    if (method.boxes_in_walk) {
+        return one_by_one(fitted.trees, [&](const auto& pair) {
             mobb::NoObserver observer;
-            return ask(*fitted.method, pair.a, pair.b, observer).has_value();
+            return ask(method, pair.a, pair.b, observer).has_value();
         });
     }
-    return run(fitted.trees, [](const auto& pair) { return mobb::query(pair.a, pair.b).has_value(); });
+    return one_by_one(fitted.trees, [](const auto& pair) { return mobb::query(pair.a, pair.b).has_value(); });
 }
 
 double quantile(const std::vector<double>& sorted, double share) {

@@ -13,12 +13,8 @@ using Layout = JsonWriter::Layout;
 
 // ---- fits and trees
 
-/// A tree of the contract that this version cannot build.
-bool is_planned(std::string_view tree) { return tree == "production"; }
-
 mobb::TreeKind read_tree_kind(const JsonPlace& place) {
     const std::string& name = place.string();
-    if (is_planned(name)) place.fail(in_quotes(name) + " trees are not in this version yet");
     if (const auto kind = mobb::tree_kind_from_name(name)) return *kind;
     place.fail(in_quotes(name) + " is no tree; give one of " + listed(mobb::tree_kind_names()));
 }
@@ -53,7 +49,14 @@ void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
     out.end_array();
     out.key("half");
     write_vector(out, box.half, dimensions);
-    if (box.kind == mobb::BoxKind::moving) {
+    if (box.kind == mobb::BoxKind::block) {
+        // Its disk at t0 and at t1: x, y, r.
+        out.begin_array("bounds");
+        for (const double side : {-1.0, 1.0})
+            out.numbers({box.center.x + side * box.drift.x, box.center.y + side * box.drift.y, box.half.x});
+        out.end_array();
+    }
+    if (box.kind == mobb::BoxKind::moving || box.kind == mobb::BoxKind::block) {
         const glm::dvec2 velocity = 2.0 * box.drift / (tree.t1(node) - tree.t0(node));
         out.member("velocity", {velocity.x, velocity.y});
     }

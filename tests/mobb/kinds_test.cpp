@@ -33,17 +33,19 @@ TEST(Kinds, NamesTellThemApartAndAreRead) {
         EXPECT_EQ(kTestKinds[test.index()], test);
     }
     EXPECT_EQ(tests.size(), kBoxKinds.size() + 2);
-    EXPECT_FALSE(test_from_name("block"));
+    EXPECT_FALSE(test_from_name("blocks"));
 }
 
-TEST(Kinds, OnlyFreeBoxesUseTheTimeScaleAndAabbsHaveNoAxesToChoose) {
+TEST(Kinds, OnlyFreeBoxesUseTheTimeScaleAndAabbsAndBlocksHaveNoAxesToChoose) {
     for (const TreeKind kind : {TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2}) {
         EXPECT_TRUE(info(kind).uses_time_scale() && info(kind).chooses_axes()) << name(kind);
     }
     for (const TreeKind kind : {TreeKind::mobb, TreeKind::moving}) {
         EXPECT_TRUE(!info(kind).uses_time_scale() && info(kind).chooses_axes()) << name(kind);
     }
-    EXPECT_TRUE(!info(TreeKind::aabb).uses_time_scale() && !info(TreeKind::aabb).chooses_axes());
+    for (const TreeKind kind : {TreeKind::aabb, TreeKind::production}) {
+        EXPECT_TRUE(!info(kind).uses_time_scale() && !info(kind).chooses_axes()) << name(kind);
+    }
 }
 
 TEST(Kinds, ATestHasAsManyAxesAsTheContractSays) {
@@ -51,6 +53,7 @@ TEST(Kinds, ATestHasAsManyAxesAsTheContractSays) {
     EXPECT_EQ(axis_count(BoxKind::obb3d), 15);
     EXPECT_EQ(axis_count(BoxKind::moving), 4);
     EXPECT_EQ(axis_count(BoxKind::aabb), 2);
+    EXPECT_EQ(axis_count(BoxKind::block), 1);
     EXPECT_EQ(axis_count(TestKind::time), 0);
     EXPECT_EQ(axis_count(TestKind::samples), 0);
 }

@@ -92,7 +92,7 @@ TEST(Query, EveryTreeGivesTheDirectSearchsAnswerAndContact) {
     while (asked < budget) {
         const ClipPtr a = test::random_motion(random, test::random_clip(random));
         const ClipPtr b = test::random_motion(random, test::random_partner(random, *a));
-        const FitOptions fit_a = test::random_fit(random);
+        const FitOptions fit_a = test::random_any_fit(random);
         FitOptions fit_b = test::random_partner_fit(random, fit_a);
         // Trees of different scales do not compare free boxes: mostly the same, so that they do.
         if (random.chance(0.9)) fit_b.time_scale = fit_a.time_scale;

@@ -117,6 +117,7 @@ inline ClipPtr random_partner(Random& random, const Clip& clip, int most = 2000)
     return random_clip(random, most, random.chance(0.4) ? clip.dt() : 0);
 }
 
+/// A tree of boxes.
 inline FitOptions random_fit(Random& random) {
     FitOptions fit;
     fit.tree = static_cast<TreeKind>(random.integer(0, 5));
@@ -125,6 +126,13 @@ inline FitOptions random_fit(Random& random) {
     fit.axes = static_cast<Axes>(random.integer(0, 2));
     // From 1e-3 to 1e3 m/s, evenly in orders of magnitude; mostly the paper's.
     if (random.chance(0.3)) fit.time_scale = std::pow(10, random.real(-3, 3));
+    return fit;
+}
+
+/// A tree of boxes, or of blocks.
+inline FitOptions random_any_fit(Random& random) {
+    FitOptions fit = random_fit(random);
+    if (random.chance(0.2)) fit.tree = TreeKind::production;
     return fit;
 }
 

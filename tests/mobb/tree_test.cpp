@@ -46,10 +46,36 @@ TEST(Tree, SplitsAtTheMiddleSample) {
     }
 }
 
+TEST(Tree, OfBlocksHasTheirNumbersAndParents) {
+    Random random(6);
+    for (int round = 0; round < 200; ++round) {
+        const ClipPtr clip = test::random_clip(random);
+        const Tree tree(clip, {.tree = TreeKind::production});
+        ASSERT_NE(tree.blocks(), nullptr);
+        ASSERT_EQ(static_cast<int>(tree.nodes().size()), tree.blocks()->node_count());
+        for (int i = 0; i < tree.blocks()->node_count(); ++i) {
+            const Node& node = tree.nodes()[static_cast<std::size_t>(i)];
+            EXPECT_EQ(node.box.kind, BoxKind::block);
+            EXPECT_EQ(node.is_leaf(), node.level == tree.depth() - 1);
+            if (node.is_leaf()) continue;
+            int next = node.first;
+            for (int child = node.children[0]; child <= node.children[1]; ++child) {
+                const Node& below = tree.nodes()[static_cast<std::size_t>(child)];
+                EXPECT_EQ(below.parent, i);
+                EXPECT_EQ(below.first, next);
+                EXPECT_EQ(tree.child_with(node, below.first), child);
+                EXPECT_EQ(tree.child_with(node, below.end() - 1), child);
+                next = below.end();
+            }
+            EXPECT_EQ(next, node.end());
+        }
+    }
+}
+
 TEST(Tree, PlacesInALevelCountThroughTime) {
     Random random(5);
     for (int round = 0; round < 50; ++round) {
-        const Tree tree(test::random_clip(random, 400), test::random_fit(random));
+        const Tree tree(test::random_clip(random, 400), test::random_any_fit(random));
         const auto nodes = tree.nodes();
         for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
             const Node& node = nodes[static_cast<std::size_t>(i)];

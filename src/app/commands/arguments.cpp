@@ -111,8 +111,7 @@ int leaf_of_sample(const mobb::Tree& tree, int sample) {
     while (true) {
         const mobb::Node& at = tree.nodes()[static_cast<std::size_t>(node)];
         if (at.is_leaf()) return node;
-        const int first = at.children[0];
-        node = sample < tree.nodes()[static_cast<std::size_t>(first)].end() ? first : at.children[1];
+        node = tree.child_with(at, sample);
     }
 }
 

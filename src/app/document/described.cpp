@@ -24,9 +24,13 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
                  {"samples", std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" +
                                  std::to_string(node.count) + ")"},
                  {"time", formatted("%.3f..%.3f s", tree.begin(node), tree.end(node))},
-                 {"centre", formatted("%.3f, %.3f m", world.center.x, world.center.y)},
-                 {upright ? "sides" : "sides 1, 2", formatted("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1])}};
-    if (world.kind == mobb::BoxKind::moving && world.half.z > 0) {
+                 {"centre", formatted("%.3f, %.3f m", world.center.x, world.center.y)}};
+    const bool is_block = world.kind == mobb::BoxKind::block;
+    if (is_block) out.facts.emplace_back("radius", formatted("%.3f m", world.half[0]));
+    if (!is_block)
+        out.facts.emplace_back(upright ? "sides" : "sides 1, 2",
+                               formatted("%.3f x %.3f m", 2 * world.half[0], 2 * world.half[1]));
+    if ((is_block || world.kind == mobb::BoxKind::moving) && world.half.z > 0) {
         const glm::dvec2 velocity = world.drift * (tree.time_scale() / world.half.z);
         out.facts.emplace_back("velocity", formatted("%.3f, %.3f m/s", velocity.x, velocity.y));
     }

@@ -26,7 +26,7 @@ std::optional<SeparationGap> separation_gap(std::span<const DrawnAgent> sides, c
     if (event.outcome != mobb::Outcome::separated) return std::nullopt;
     const BoxPair boxes{world_box(sides[0].placed, event.a), world_box(sides[1].placed, event.b)};
     const glm::dvec3 axis = test_axis(boxes.a, boxes.b, event.test, event.axis);
-    const auto [a, b] = event.test == mobb::BoxKind::moving ? at_nearest_moment(boxes, axis) : boxes;
+    const auto [a, b] = as_tested(boxes, event.test, axis);
     // One direction level with the floor where there is a choice, so that the rectangles stand upright.
     const bool upright_axis = std::abs(axis.z) > 0.999;
     const glm::dvec3 across = upright_axis ? glm::normalize(glm::cross(axis, glm::dvec3(0, 1, 0)))

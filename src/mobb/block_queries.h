@@ -1,0 +1,34 @@
+/// The queries of production.h, compiled for one set of instructions: what production.cpp chooses from. Not installed.
+#pragma once
+
+#include <mobb/production.h>
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace mobb {
+
+struct BlockQueries {
+    bool (*first_hit)(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair);
+    bool (*for_each_hit)(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink);
+    bool (*for_each_hit_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
+                                     BlockObserver* observer);
+    std::size_t (*first_colliding)(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count);
+    void (*intersects_each)(const BlocksPair* pairs, std::size_t count, bool* answers);
+};
+
+/// A set of instructions and the queries that are compiled for it.
+struct InstructionSet {
+    std::string_view name;
+    const BlockQueries* queries;
+};
+
+/// Those of this machine that Highway has, the best first.
+std::vector<InstructionSet> vector_instruction_sets();
+
+namespace scalar {
+const BlockQueries* queries();
+}
+
+}  // namespace mobb

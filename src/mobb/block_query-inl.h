@@ -1,0 +1,478 @@
+// The traversal of two clips' blocks: the only one, for answers, counts and traces alike. Included once for each set of
+// instructions, in a namespace MOBB_LANES of mobb in which hn has the operations. Every number that decides what is
+// pruned comes from the same operations in the same order on every machine, and none of them is fused.
+
+namespace mobb::MOBB_LANES {
+
+using Paths = Blocks::Paths;
+
+constexpr int kLanes = 8;  // pairs a test: a set of instructions with fewer takes several steps
+using Tag = hn::CappedTag<float, kLanes>;
+
+/// The placement of B's blocks against A's, and what their bounds must be apart by.
+struct Relation {
+    float c, s;    ///< rotation from B's frame to A's
+    float ox, oy;  ///< B's origin against A's, in A's frame
+    float slack;   ///< metres
+};
+
+/// When a pair of blocks shares time, as shares of the blocks' own.
+struct Common {
+    float begin_a, begin_b;    ///< of each since it began
+    float length_a, length_b;  ///< of the time that they share
+};
+
+/// Whether paths stay where they are.
+enum class Paced { still, moving };
+
+/// For n <= kLanes pairs (first_a + lane, first_b + lane): a bit is set where two disks may come within the sum of
+/// their radii in their common time.
+template <Paced paced_a, Paced paced_b>
+MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int first_b, int n, const Common& common,
+                              const Relation& relation) {
+    const Tag d;
+    const auto c = hn::Set(d, relation.c), s = hn::Set(d, relation.s);
+    const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
+    const auto slack = hn::Set(d, relation.slack);
+    unsigned out = 0;
+    for (int lane = 0; lane < n; lane += static_cast<int>(hn::Lanes(d))) {
+        const int i = first_a + lane, j = first_b + lane;
+        auto ax = hn::LoadU(d, a.x + i), ay = hn::LoadU(d, a.y + i);
+        auto bx = hn::LoadU(d, b.x + j), by = hn::LoadU(d, b.y + j);
+        const auto reach = hn::Add(hn::Add(hn::LoadU(d, a.r + i), hn::LoadU(d, b.r + j)), slack);
+        const auto reach2 = hn::Mul(reach, reach);
+        // How far each moves in the common time.
+        auto adx = hn::Set(d, 0.0F), ady = adx, bdx = adx, bdy = adx;
+        if constexpr (paced_a == Paced::moving) {
+            const auto dx = hn::LoadU(d, a.dx + i), dy = hn::LoadU(d, a.dy + i);
+            const auto begin = hn::Set(d, common.begin_a), length = hn::Set(d, common.length_a);
+            ax = hn::Add(ax, hn::Mul(begin, dx));
+            ay = hn::Add(ay, hn::Mul(begin, dy));
+            adx = hn::Mul(length, dx);
+            ady = hn::Mul(length, dy);
+        }
+        if constexpr (paced_b == Paced::moving) {
+            const auto dx = hn::LoadU(d, b.dx + j), dy = hn::LoadU(d, b.dy + j);
+            const auto begin = hn::Set(d, common.begin_b), length = hn::Set(d, common.length_b);
+            bx = hn::Add(bx, hn::Mul(begin, dx));
+            by = hn::Add(by, hn::Mul(begin, dy));
+            const auto mx = hn::Mul(length, dx), my = hn::Mul(length, dy);
+            bdx = hn::Sub(hn::Mul(c, mx), hn::Mul(s, my));
+            bdy = hn::Add(hn::Mul(s, mx), hn::Mul(c, my));
+        }
+        const auto px = hn::Sub(hn::Add(hn::Sub(hn::Mul(c, bx), hn::Mul(s, by)), ox), ax);
+        const auto py = hn::Sub(hn::Add(hn::Add(hn::Mul(s, bx), hn::Mul(c, by)), oy), ay);
+        auto meets = hn::Le(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), reach2);
+        if constexpr (paced_a == Paced::moving || paced_b == Paced::moving) {
+            const auto vx = hn::Sub(bdx, adx), vy = hn::Sub(bdy, ady);
+            const auto qx = hn::Add(px, vx), qy = hn::Add(py, vy);
+            meets = hn::Or(meets, hn::Le(hn::Add(hn::Mul(qx, qx), hn::Mul(qy, qy)), reach2));
+            // Nearest in between, and then near enough: |p x v| / |v| is the distance from the line through p and q.
+            const auto zero = hn::Set(d, 0.0F);
+            const auto pv = hn::Add(hn::Mul(px, vx), hn::Mul(py, vy));
+            const auto qv = hn::Add(hn::Mul(qx, vx), hn::Mul(qy, vy));
+            const auto cross = hn::Sub(hn::Mul(px, vy), hn::Mul(py, vx));
+            const auto vv = hn::Add(hn::Mul(vx, vx), hn::Mul(vy, vy));
+            const auto near_line = hn::Le(hn::Mul(cross, cross), hn::Mul(reach2, vv));
+            meets = hn::Or(meets, hn::And(near_line, hn::And(hn::Le(pv, zero), hn::Gt(qv, zero))));
+        }
+        std::uint8_t bits[8];
+        hn::StoreMaskBits(d, meets, bits);
+        out |= static_cast<unsigned>(bits[0]) << lane;
+    }
+    return out;
+}
+
+/// Pairs of blocks of which no two are as far apart as the next, copied side by side.
+struct Gathered {
+    float x[kLanes], y[kLanes], dx[kLanes], dy[kLanes], r[kLanes];
+
+    MOBB_INLINE void set(int lane, const Paths& from, int i, double begin, double length) {
+        const auto share = static_cast<float>(begin), part = static_cast<float>(length);
+        x[lane] = from.x[i] + share * from.dx[i];
+        y[lane] = from.y[i] + share * from.dy[i];
+        dx[lane] = part * from.dx[i];
+        dy[lane] = part * from.dy[i];
+        r[lane] = from.r[i];
+    }
+    Paths paths() const { return {x, y, dx, dy, r}; }
+};
+
+// What rounding adds at most, as a share of the numbers that go in, with a wide margin.
+constexpr double kSingle = 0x1p-17, kDouble = 0x1p-44;
+
+MOBB_INLINE double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
+
+/// From the origin of A's blocks to that of B's, metres in the world.
+MOBB_INLINE glm::dvec2 between_origins(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return (b.translate() - a.translate()) + (b.rotation()(b.blocks().origin()) - a.rotation()(a.blocks().origin()));
+}
+
+/// By how much placed disks may be elsewhere, metres.
+MOBB_INLINE double rounding_of_places(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return 1e-9 + kDouble * (manhattan(a.translate()) + manhattan(b.translate()) + a.reach() + b.reach());
+}
+
+/// Whether the roots share time and may meet. In double: they stand still.
+MOBB_INLINE bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const glm::dvec2 between = between_origins(a, b);
+    const double reach = a.blocks().radius() + b.blocks().radius() + rounding_of_places(a, b);
+    // Without a branch: which of the two parts them is anybody's guess.
+    return static_cast<int>(overlap_in_time(a.time(a.first()), a.time(a.end()), b.time(b.first()), b.time(b.end()))) &
+           static_cast<int>(between.x * between.x + between.y * between.y <= reach * reach);
+}
+
+/// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop.
+template <class Observer, class OnHit>
+class BlockTraversal {
+  public:
+    MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, [[maybe_unused]] Observer& observer,
+                               OnHit& on_hit)
+        : a_(a), b_(b), blocks_a_(a.blocks()), blocks_b_(b.blocks()), observer_(observer), on_hit_(on_hit) {}
+
+    /// Of roots that share time and may meet. Returns true if on_hit stopped it.
+    bool run() {
+        relate();
+        if (blocks_a_.node_count() == 1 && blocks_b_.node_count() == 1) return test_samples(0, 0);
+        const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
+        if (shifted_) {
+            const int level = std::min(top_a, top_b);
+            return visit_shifted(level, 0, blocks_a_.count(level), 0, blocks_b_.count(level));
+        }
+        return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
+    }
+
+  private:
+    /// Blocks (or samples) at which B's are shifted against A's by a constant: with k, pair (i, i - whole + k) shares
+    /// time.
+    struct Shift {
+        int k;
+        double begin_b;     ///< when B's begins, samples since A's begins
+        double begin, end;  ///< of the time that two whole blocks share, likewise
+        Common common;
+    };
+    static constexpr int kMostShifts = 4;
+    struct Shifts {
+        int whole;
+        int count = 0;
+        Shift shifts[kMostShifts];
+    };
+
+    /// Relates B's blocks to A's.
+    MOBB_INLINE void relate() {
+        const Rotation to_a = a_.rotation().inverse();
+        const Rotation turn = to_a * b_.rotation();
+        const glm::dvec2 offset = to_a(between_origins(a_, b_));
+        // Single precision is about the lengths that remain.
+        const double lengths = manhattan(offset) + blocks_a_.extent() + blocks_b_.extent();
+        const double time_error = kDouble * (a_.largest_time() + b_.largest_time());
+        const double slack =
+            rounding_of_places(a_, b_) + kSingle * lengths + time_error * (blocks_a_.speed() + blocks_b_.speed());
+        relation_ = {static_cast<float>(turn.c), static_cast<float>(turn.s), static_cast<float>(offset.x),
+                     static_cast<float>(offset.y), static_cast<float>(slack)};
+        const double per_dt = blocks_a_.per_dt();
+        shift_ = (b_.time(b_.first()) - a_.time(a_.first())) * per_dt;
+        // Less than this many samples in common are not tested; rounded times may overlap where exact ones do not.
+        least_common_ = (kMinOverlap - time_error) * per_dt;
+        constexpr double kMostError = 0.125;
+        shifted_ = a_.dt() == b_.dt() && time_error * per_dt < kMostError;
+    }
+
+    /// Which blocks of `span` samples share time, and when.
+    MOBB_INLINE Shifts shifts_of(int span) const {
+        // Spans are powers of two: this loses no digit.
+        const double size = span, per_size = 1 / size;
+        const double in_blocks = shift_ * per_size;
+        Shifts out;
+        out.whole = static_cast<int>(in_blocks);
+        if (in_blocks < out.whole) --out.whole;
+        const double rest = shift_ - out.whole * size;
+        // As a rule -1 and 0: the others share time only by rounding.
+        const int outer = least_common_ > 0 ? 0 : 1;
+        for (int k = -1 - outer; k <= outer; ++k) {
+            const double begin = k * size + rest;
+            const double from = std::max(begin, 0.0);
+            const double common = std::min(begin + size, size) - from;
+            if (common <= least_common_) continue;
+            const auto length = static_cast<float>(std::max(common, 0.0) * per_size);
+            out.shifts[out.count++] = {
+                k,
+                begin,
+                from,
+                from + common,
+                {static_cast<float>(from * per_size), static_cast<float>((from - begin) * per_size), length, length}};
+        }
+        return out;
+    }
+
+    /// Calls visit(i, j, shift, meet) for the pairs of [first_a, end_a) x [first_b, end_b) that may meet, in order of
+    /// time, until it returns true; if `all`, for all that share time.
+    template <bool all, Paced paced_a, Paced paced_b, class Visit>
+    MOBB_INLINE bool for_each_shifted(const Shifts& shifts, const Paths& a, int first_a, int end_a, const Paths& b,
+                                      int first_b, int end_b, const Visit& visit) {
+        if (shifts.count == 0) return false;
+        const int from = std::max(first_a, first_b + shifts.whole - shifts.shifts[shifts.count - 1].k);
+        const int to = std::min(end_a, end_b + shifts.whole - shifts.shifts[0].k);
+        for (int i = from; i < to; i += kLanes) {
+            const int n = std::min(kLanes, to - i);
+            unsigned there[kMostShifts], meet[kMostShifts];
+            unsigned any = 0;
+            for (int m = 0; m < shifts.count; ++m) {
+                const Shift& shift = shifts.shifts[m];
+                const int j = i - shifts.whole + shift.k;
+                const int low = std::max(0, first_b - j), high = std::min(n, end_b - j);
+                there[m] = low < high ? (1U << high) - (1U << low) : 0U;
+                meet[m] = there[m] & may_meet<paced_a, paced_b>(a, i, b, j, n, shift.common, relation_);
+                any |= all ? there[m] : meet[m];
+            }
+            for (; any != 0; any &= any - 1) {
+                const int lane = std::countr_zero(any);
+                for (int m = 0; m < shifts.count; ++m) {
+                    const bool is_meeting = ((meet[m] >> lane) & 1U) != 0;
+                    if (!(all ? ((there[m] >> lane) & 1U) != 0 : is_meeting)) continue;
+                    const Shift& shift = shifts.shifts[m];
+                    if (visit(i + lane, i + lane - shifts.whole + shift.k, shift, is_meeting)) return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    /// Pairs of blocks of one level of clips of one dt.
+    bool visit_shifted(int level, int first_a, int end_a, int first_b, int end_b) {
+        return for_each_shifted<Observer::watches, Paced::moving, Paced::moving>(
+            shifts_of(Blocks::span(level)), blocks_a_.paths(level), first_a, end_a, blocks_b_.paths(level), first_b,
+            end_b, [&](int i, int j, const Shift& shift, bool meet) {
+                const int last_a = blocks_a_.count(level) - 1, last_b = blocks_b_.count(level) - 1;
+                if ((i == last_a || j == last_b) && !shorten(level, i, j, shift, meet)) return false;
+                return visit_pair(level, i, level, j, meet);
+            });
+    }
+
+    /// The last block of a clip may have fewer samples than others: tests the pair again over the time that it shares.
+    /// False if it shares none.
+    bool shorten(int level, int i, int j, const Shift& shift, bool& meet) const {
+        const int size = Blocks::span(level);
+        const double until_a = std::min(size, blocks_a_.count() - i * size);
+        const double until_b = shift.begin_b + std::min(size, blocks_b_.count() - j * size);
+        const double end = std::min({shift.end, until_a, until_b});
+        if (end - shift.begin <= least_common_) return false;
+        if (end < shift.end && meet) {
+            Common common = shift.common;
+            common.length_a = common.length_b = static_cast<float>(std::max(end - shift.begin, 0.0) / size);
+            meet = (may_meet<Paced::moving, Paced::moving>(blocks_a_.paths(level), i, blocks_b_.paths(level), j, 1,
+                                                           common, relation_) &
+                    1U) != 0;
+        }
+        return true;
+    }
+
+    bool visit_pair(int level_a, int i, int level_b, int j, bool meet) {
+        if constexpr (Observer::watches) observer_.enter(blocks_a_.node_of(level_a, i), blocks_b_.node_of(level_b, j));
+        if constexpr (Observer::watches) observer_.box_test(BoxKind::block, separation(level_a, i, level_b, j, meet));
+        const bool stop = meet && below(level_a, i, level_b, j);
+        if constexpr (Observer::watches) observer_.leave();
+        return stop;
+    }
+
+    bool below(int level_a, int i, int level_b, int j) {
+        if (level_a == 0 && level_b == 0) return test_samples(i, j);
+        // Blocks that last about as long descend together; else the longer one, if it can.
+        constexpr double kAlike = 3;
+        const double seconds_a = Blocks::span(level_a) * a_.dt(), seconds_b = Blocks::span(level_b) * b_.dt();
+        const bool down_a = level_a > 0 && (level_b == 0 || seconds_a * kAlike >= seconds_b);
+        const bool down_b = level_b > 0 && (level_a == 0 || seconds_b * kAlike >= seconds_a);
+        const auto children = [](const Blocks& blocks, int level, int block, bool down, int& first, int& end) {
+            first = down ? block * Blocks::kFanOut : block;
+            end = down ? std::min(blocks.count(level - 1), first + Blocks::kFanOut) : block + 1;
+        };
+        int first_a, end_a, first_b, end_b;
+        children(blocks_a_, level_a, i, down_a, first_a, end_a);
+        children(blocks_b_, level_b, j, down_b, first_b, end_b);
+        if (shifted_) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
+        return visit_stepped(level_a - (down_a ? 1 : 0), first_a, end_a, level_b - (down_b ? 1 : 0), first_b, end_b);
+    }
+
+    /// Pairs of blocks of clips of any dt.
+    bool visit_stepped(int level_a, int i, int end_a, int level_b, int j, int end_b) {
+        const Paths paths_a = blocks_a_.paths(level_a), paths_b = blocks_b_.paths(level_b);
+        const auto time_of = [](const PlacedBlocks& placed, int level, int block) {
+            const std::int64_t sample = std::int64_t{block} * Blocks::span(level);
+            return placed.time(static_cast<int>(std::min<std::int64_t>(placed.first() + sample, placed.end())));
+        };
+        const double per_a = 1 / (Blocks::span(level_a) * a_.dt()), per_b = 1 / (Blocks::span(level_b) * b_.dt());
+        double begin_a = time_of(a_, level_a, i), until_a = time_of(a_, level_a, i + 1);
+        double begin_b = time_of(b_, level_b, j), until_b = time_of(b_, level_b, j + 1);
+        Gathered a, b;
+        int is[kLanes], js[kLanes];
+        int n = 0;
+        for (bool more = true; more;) {
+            if (overlap_in_time(begin_a, until_a, begin_b, until_b)) {
+                const double begin = std::max(begin_a, begin_b), length = std::min(until_a, until_b) - begin;
+                a.set(n, paths_a, i, (begin - begin_a) * per_a, length * per_a);
+                b.set(n, paths_b, j, (begin - begin_b) * per_b, length * per_b);
+                is[n] = i;
+                js[n] = j;
+                ++n;
+            }
+            if (until_a < until_b) {
+                more = ++i < end_a;
+                begin_a = until_a;
+                if (more) until_a = time_of(a_, level_a, i + 1);
+            } else {
+                more = ++j < end_b;
+                begin_b = until_b;
+                if (more) until_b = time_of(b_, level_b, j + 1);
+            }
+            if (n < kLanes && more) continue;
+            const unsigned meet =
+                may_meet<Paced::moving, Paced::moving>(a.paths(), 0, b.paths(), 0, n, {0, 0, 1, 1}, relation_);
+            for (int k = 0; k < n; ++k) {
+                const bool is_meeting = ((meet >> k) & 1U) != 0;
+                if (!Observer::watches && !is_meeting) continue;
+                if (visit_pair(level_a, is[k], level_b, js[k], is_meeting)) return true;
+            }
+            n = 0;
+        }
+        return false;
+    }
+
+    /// The samples of two blocks of level 0.
+    bool test_samples(int i, int j) {
+        const int first_a = i * Blocks::kSamples, end_a = std::min(blocks_a_.count(), first_a + Blocks::kSamples);
+        const int first_b = j * Blocks::kSamples, end_b = std::min(blocks_b_.count(), first_b + Blocks::kSamples);
+        if (Observer::watches || !shifted_) {
+            const int from_a = a_.first(), from_b = b_.first();
+            const PairVisit pairs = visit_sample_pairs(a_, from_a + first_a, from_a + end_a, b_, from_b + first_b,
+                                                       from_b + end_b, observer_, on_hit_);
+            if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
+            return pairs.stopped;
+        }
+        if (a_.is_linear()) {
+            return b_.is_linear() ? test_shifted<Paced::moving, Paced::moving>(first_a, end_a, first_b, end_b)
+                                  : test_shifted<Paced::moving, Paced::still>(first_a, end_a, first_b, end_b);
+        }
+        return b_.is_linear() ? test_shifted<Paced::still, Paced::moving>(first_a, end_a, first_b, end_b)
+                              : test_shifted<Paced::still, Paced::still>(first_a, end_a, first_b, end_b);
+    }
+
+    template <Paced paced_a, Paced paced_b>
+    bool test_shifted(int first_a, int end_a, int first_b, int end_b) {
+        return for_each_shifted<false, paced_a, paced_b>(
+            shifts_of(1), blocks_a_.sample_paths(), first_a, end_a, blocks_b_.sample_paths(), first_b, end_b,
+            [&](int i, int j, const Shift&, bool) { return decide(i, j); });
+    }
+
+    /// In double: what is near enough is not yet a hit.
+    bool decide(int i, int j) {
+        i += a_.first();
+        j += b_.first();
+        return pair_collides(a_, i, b_, j) && on_hit_(i, j);
+    }
+
+    /// In double, from the stored bounds: what is apart in single precision is so by far more than that test's slack.
+    Separation separation(int level_a, int i, int level_b, int j, bool meet) const {
+        if (meet) return {};
+        const auto box = [](const Blocks& blocks, int level, int block) {
+            const Blocks::Node node = blocks.node(blocks.node_of(level, block));
+            return box_around(node.bound, node.first * blocks.dt(), (node.first + node.count) * blocks.dt());
+        };
+        return separate_block(box(blocks_a_, level_a, i), box(blocks_b_, level_b, j),
+                              RelativeFrame(a_.frame(), b_.frame(), 1));
+    }
+
+    const PlacedBlocks& a_;
+    const PlacedBlocks& b_;
+    const Blocks& blocks_a_;
+    const Blocks& blocks_b_;
+    Relation relation_;
+    double shift_;         ///< B's first sample begins so many samples after A's
+    double least_common_;  ///< samples
+    bool shifted_;         ///< by a constant: of one dt
+    Observer& observer_;
+    OnHit& on_hit_;
+};
+
+struct KeepFirst {
+    SamplePair pair;
+    bool operator()(int i, int j) {
+        pair = {i, j};
+        return true;
+    }
+};
+
+bool first_hit(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
+    if (!roots_meet(a, b)) return false;
+    NoObserver observer;
+    KeepFirst keep;
+    const bool hit = BlockTraversal(a, b, observer, keep).run();
+    pair = keep.pair;
+    return hit;
+}
+
+bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink) {
+    if (!roots_meet(a, b)) return false;
+    NoObserver observer;
+    return BlockTraversal(a, b, observer, sink).run();
+}
+
+bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
+    if (observer) return BlockTraversal(a, b, *observer, sink).run();
+    NoObserver nobody;
+    return BlockTraversal(a, b, nobody, sink).run();
+}
+
+/// Calls visit(i, collides) for the pairs i of `count` whose roots meet, in order, until it returns true. Roots go
+/// first, many at a time: what ends there costs no mispredicted branch.
+template <class PairAt, class Visit>
+void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& visit) {
+    constexpr std::size_t kAtATime = 64;
+    for (std::size_t first = 0; first < count; first += kAtATime) {
+        const std::size_t end = std::min(count, first + kAtATime);
+        std::size_t left[kAtATime];
+        std::size_t n = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const auto [a, b] = pair_at(i);
+            left[n] = i;
+            n += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            const auto [a, b] = pair_at(left[k]);
+            NoObserver observer;
+            KeepFirst keep;
+            if (visit(left[k], BlockTraversal(*a, *b, observer, keep).run())) return;
+        }
+    }
+}
+
+std::size_t first_colliding(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count) {
+    std::size_t out = count;
+    visit_pairs_in_turn(
+        count,
+        [&](std::size_t i) {
+            return BlocksPair{&a, others[i]};
+        },
+        [&](std::size_t i, bool hit) {
+            if (hit) out = i;
+            return hit;
+        });
+    return out;
+}
+
+void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
+    std::fill_n(answers, count, false);
+    visit_pairs_in_turn(
+        count, [&](std::size_t i) { return pairs[i]; },
+        [&](std::size_t i, bool hit) {
+            answers[i] = hit;
+            return false;
+        });
+}
+
+const BlockQueries* queries() {
+    static constexpr BlockQueries all{first_hit, for_each_hit, for_each_hit_below_roots, first_colliding,
+                                      intersects_each};
+    return &all;
+}
+
+}  // namespace mobb::MOBB_LANES

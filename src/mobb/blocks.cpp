@@ -1,0 +1,229 @@
+#include <mobb/blocks.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace mobb {
+
+namespace {
+
+constexpr int kArrays = 5;  // x, y, dx, dy, r
+
+float rounded_up(double value) {
+    const auto nearest = static_cast<float>(value);
+    return static_cast<double>(nearest) >= value ? nearest
+                                                 : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+/// The middle of what is added.
+class Middle {
+  public:
+    void add(double x, double y, double r) {
+        low_x_ = std::min(low_x_, x - r);
+        high_x_ = std::max(high_x_, x + r);
+        low_y_ = std::min(low_y_, y - r);
+        high_y_ = std::max(high_y_, y + r);
+    }
+    glm::dvec2 get() const { return {(low_x_ + high_x_) / 2, (low_y_ + high_y_) / 2}; }
+
+  private:
+    static constexpr double kFar = std::numeric_limits<double>::infinity();
+    double low_x_ = kFar, high_x_ = -kFar, low_y_ = kFar, high_y_ = -kFar;
+};
+
+const Clip& checked(const ClipPtr& clip) {
+    if (!clip) throw std::invalid_argument("blocks need a clip");
+    return *clip;
+}
+
+std::size_t stride_of(int count) { return static_cast<std::size_t>(count) + Blocks::kPadBefore + Blocks::kPadBehind; }
+
+/// Samples [first, end) of a clip, as a bound sees them that moves by `per_sample` a sample.
+class Run {
+  public:
+    Run(const Clip& clip, glm::dvec2 origin, int first, int end)
+        : samples_(clip.samples().data()), origin_(origin), first_(first), end_(end) {
+        const bool runs = clip.motion() == Motion::linear;
+        // Of a linear clip the last disk of the run is the one that its last sample runs to, if any.
+        last_ = runs ? std::min(end, clip.count() - 1) : end - 1;
+        stays_ = !runs;
+        last_stays_ = last_ < end;
+    }
+
+    /// From the first centre to the last.
+    glm::dvec2 per_sample() const {
+        if (last_ == first_) return glm::dvec2(0);
+        const Disk& a = samples_[first_];
+        const Disk& b = samples_[last_];
+        return {(b.x - a.x) / (last_ - first_), (b.y - a.y) / (last_ - first_)};
+    }
+
+    /// visit(x, y, r) of each disk when it begins and, where it stays, when it ends, less what the bound has moved.
+    template <class Visit>
+    void for_each(glm::dvec2 per_sample, const Visit& visit) const {
+        for (int i = first_; i <= last_; ++i) {
+            const Disk& d = samples_[i];
+            const double at = i - first_;
+            const double x = (d.x - origin_.x) - at * per_sample.x;
+            const double y = (d.y - origin_.y) - at * per_sample.y;
+            visit(x, y, d.r);
+            if (stays_) visit(x - per_sample.x, y - per_sample.y, d.r);
+        }
+        if (stays_ || !last_stays_) return;
+        const Disk& d = samples_[last_];
+        const double at = end_ - first_;
+        visit((d.x - origin_.x) - at * per_sample.x, (d.y - origin_.y) - at * per_sample.y, d.r);
+    }
+
+  private:
+    const Disk* samples_;
+    glm::dvec2 origin_;
+    int first_, end_, last_;
+    bool stays_;       ///< each disk does
+    bool last_stays_;  ///< the last disk does
+};
+
+/// Around a run; `drift` is over `span` samples. Centre and drift are numbers of type Number.
+template <class Number>
+MovingDisk around(const Run& run, int span) {
+    const auto rounded = [](glm::dvec2 v) {
+        return glm::dvec2(static_cast<double>(static_cast<Number>(v.x)), static_cast<double>(static_cast<Number>(v.y)));
+    };
+    MovingDisk out;
+    out.drift = rounded(run.per_sample() * static_cast<double>(span));
+    const glm::dvec2 per_sample = out.drift / static_cast<double>(span);
+    Middle middle;
+    run.for_each(per_sample, [&](double x, double y, double r) { middle.add(x, y, r); });
+    out.from = rounded(middle.get());
+    run.for_each(per_sample, [&](double x, double y, double r) {
+        x -= out.from.x;
+        y -= out.from.y;
+        out.radius = std::max(out.radius, std::sqrt(x * x + y * y) + r);
+    });
+    return out;
+}
+
+}  // namespace
+
+Blocks::Blocks(ClipPtr clip)
+    : dt_(checked(clip).dt()),
+      per_dt_(1 / dt_),
+      reach_(clip->reach()),
+      count_(clip->count()),
+      linear_(clip->motion() == Motion::linear),
+      disks_(clip->samples().data()),
+      clip_(std::move(clip)) {
+    const int n = count_;
+    Middle middle;
+    for (const Disk& d : clip_->samples()) middle.add(d.x, d.y, d.r);
+    origin_ = middle.get();
+    for (const Disk& d : clip_->samples()) {
+        const double x = std::abs(d.x - origin_.x), y = std::abs(d.y - origin_.y);
+        extent_ = std::max(extent_, x + y + d.r);
+        radius_ = std::max(radius_, std::sqrt(x * x + y * y) + d.r);
+    }
+
+    const auto blocks_of = [n](int span) { return (n + span - 1) / span; };
+    std::size_t values = (linear_ ? kArrays : kArrays - 2) * stride_of(n);
+    for (int level = 0;; ++level) {
+        values += kArrays * stride_of(blocks_of(span(level)));
+        if (blocks_of(span(level)) <= kMostAtTop) break;
+    }
+    values_.reserve(values);
+
+    samples_ = {n, values_.size()};
+    values_.resize(values_.size() + (linear_ ? kArrays : kArrays - 2) * stride_of(n));
+    float* const x = values_.data() + samples_.at + kPadBefore;
+    float* const y = x + stride_of(n);
+    float* const r = y + (linear_ ? 3 : 1) * stride_of(n);
+    const std::span<const Disk> disks = clip_->samples();
+    for (int i = 0; i < n; ++i) {
+        const Disk& d = disks[static_cast<std::size_t>(i)];
+        x[i] = static_cast<float>(d.x - origin_.x);
+        y[i] = static_cast<float>(d.y - origin_.y);
+        r[i] = static_cast<float>(d.r);
+    }
+    if (linear_) {
+        float* const dx = y + stride_of(n);
+        float* const dy = dx + stride_of(n);
+        for (int i = 0; i + 1 < n; ++i) {
+            dx[i] = x[i + 1] - x[i];
+            dy[i] = y[i + 1] - y[i];
+            r[i] = std::max(r[i], r[i + 1]);
+            speed_ = std::max(speed_, std::hypot(dx[i], dy[i]) / dt_);
+        }
+    }
+    do {
+        levels_.push_back(add_level(span(levels())));
+    } while (levels_.back().count > kMostAtTop);
+}
+
+Blocks::Level Blocks::add_level(int span) {
+    const int n = count_;
+    const Level level{(n + span - 1) / span, values_.size()};
+    const std::size_t stride = stride_of(level.count);
+    values_.resize(values_.size() + kArrays * stride);
+    float* const values = values_.data() + level.at + kPadBefore;
+    for (int k = 0; k < level.count; ++k) {
+        const Run run(*clip_, origin_, k * span, std::min(n - k * span, span) + k * span);
+        const MovingDisk disk = around<float>(run, span);
+        float* const block = values + k;
+        block[0] = static_cast<float>(disk.from.x);
+        block[stride] = static_cast<float>(disk.from.y);
+        block[2 * stride] = static_cast<float>(disk.drift.x);
+        block[3 * stride] = static_cast<float>(disk.drift.y);
+        block[4 * stride] = rounded_up(disk.radius);
+        speed_ = std::max(speed_, glm::length(disk.drift) / (span * dt_));
+    }
+    return level;
+}
+
+MovingDisk bounding_disk(const Clip& clip, int first, int end) {
+    return around<double>(Run(clip, {0, 0}, first, end), end - first);
+}
+
+Blocks::Paths Blocks::paths_of(const Level& level) const {
+    const float* const x = values_.data() + level.at + kPadBefore;
+    const std::size_t stride = stride_of(level.count);
+    return {x, x + stride, x + 2 * stride, x + 3 * stride, x + 4 * stride};
+}
+
+Blocks::Paths Blocks::paths(int level) const { return paths_of(levels_[static_cast<std::size_t>(level)]); }
+
+Blocks::Paths Blocks::sample_paths() const {
+    const Paths all = paths_of(samples_);
+    return linear_ ? all : Paths{all.x, all.y, nullptr, nullptr, all.dx};
+}
+
+MovingDisk Blocks::bound(const Level& level, int block, int span) const {
+    const Paths p = paths_of(level);
+    const double part = static_cast<double>(std::min(count_ - block * span, span)) / span;
+    return {origin_ + glm::dvec2(p.x[block], p.y[block]), part * glm::dvec2(p.dx[block], p.dy[block]), p.r[block]};
+}
+
+int Blocks::node_count() const { return node_of(0, count(0) - 1) + 1; }
+
+int Blocks::node_of(int level, int block) const {
+    int before = has_root_above() ? 1 : 0;
+    for (int above = levels() - 1; above > level; --above) before += count(above);
+    return before + block;
+}
+
+Blocks::Node Blocks::node(int index) const {
+    if (index == 0) return {has_root_above() ? levels() : 0, 0, 0, count_, root()};
+    int level = levels() - 1;
+    int block = index - 1;
+    for (; block >= count(level); --level) block -= count(level);
+    const int first = block * span(level);
+    return {level, block, first, std::min(count_ - first, span(level)),
+            bound(levels_[static_cast<std::size_t>(level)], block, span(level))};
+}
+
+std::size_t Blocks::bytes() const { return sizeof(*this) + values_.capacity() * sizeof(float); }
+
+}  // namespace mobb

@@ -1,0 +1,131 @@
+/// The production structure: blocks of consecutive samples under bounds that move linearly, level over level, in arrays
+/// that are read several blocks at a time.
+#pragma once
+
+#include <mobb/box.h>
+#include <mobb/clip.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace mobb {
+
+/// A disk on the floor whose centre moves linearly: what bounds a block.
+struct MovingDisk {
+    glm::dvec2 from{0};   ///< centre when the block begins, metres
+    glm::dvec2 drift{0};  ///< what the centre moves by until the block ends, metres
+    double radius = 0;    ///< metres
+};
+
+/// Around the disks of samples [first, end) for as long as they last; of a linear clip as they run. It moves from the
+/// first centre to the last. Requires 0 <= first < end <= clip.count().
+MovingDisk bounding_disk(const Clip& clip, int first, int end);
+
+/// The box that stands for it from t0 to t1, in w*t.
+inline Box box_around(const MovingDisk& disk, double t0, double t1) {
+    Box box;
+    box.kind = BoxKind::block;
+    const glm::dvec2 middle = disk.from + disk.drift / 2.0;
+    box.center = {middle.x, middle.y, (t0 + t1) / 2};
+    box.half = {disk.radius, disk.radius, (t1 - t0) / 2};
+    box.drift = disk.drift / 2.0;
+    return box;
+}
+
+/// The blocks of one clip, in single precision about an origin near the clip. Immutable; safe to query from any number
+/// of threads.
+///
+/// A block of level 0 has kSamples samples, one of level l + 1 as many as kFanOut blocks of level l; the last of a
+/// level may have fewer. Levels are added until one has at most kMostAtTop blocks. A block's bound holds each of its
+/// disks for as long as it lasts; of a linear clip the disks as they run. The root's bound holds the whole clip and
+/// stands still.
+class Blocks {
+  public:
+    static constexpr int kSamples = 32;
+    static constexpr int kFanOut = 8;
+    static constexpr int kMostAtTop = 128;
+
+    /// Takes time in proportion to the samples times the levels. Throws std::invalid_argument if there is no clip.
+    explicit Blocks(ClipPtr clip);
+
+    const Clip& clip() const { return *clip_; }
+    const ClipPtr& shared_clip() const { return clip_; }
+
+    int count() const { return count_; }  ///< of samples
+    double dt() const { return dt_; }
+    double per_dt() const { return per_dt_; }  ///< 1 / dt()
+    bool is_linear() const { return linear_; }
+    const Disk* disks() const { return disks_; }  ///< of the clip
+    double reach() const { return reach_; }       ///< of the clip
+
+    int levels() const { return static_cast<int>(levels_.size()); }
+    /// Blocks of a level, 0 <= level < levels(); samples that each has, but for the last one.
+    int count(int level) const { return levels_[static_cast<std::size_t>(level)].count; }
+    static constexpr int span(int level) { return kSamples << (3 * level); }
+
+    /// A block as a node: 0 is the root, then come the levels from the top down, each in the order of time. Where level
+    /// 0 has one block, that is the root.
+    struct Node {
+        int level = 0;  ///< of blocks; levels() for a root above them
+        int block = 0;
+        int first = 0;  ///< samples
+        int count = 0;
+        MovingDisk bound;  ///< in the clip's frame, over these samples
+    };
+    int node_count() const;
+    int node_of(int level, int block) const;
+    Node node(int index) const;
+
+    /// Paths of disks as the query reads them, several at a time: block or sample i at [i]. Before the first one
+    /// kPadBefore more can be read and behind the last one kPadBehind, without meaning. Relative to origin(), metres.
+    struct Paths {
+        const float* x;
+        const float* y;
+        const float* dx;  ///< how far the centre moves over a whole block
+        const float* dy;
+        const float* r;
+    };
+    static constexpr int kPadBefore = 4;
+    static constexpr int kPadBehind = 12;
+    Paths paths(int level) const;
+    /// Samples stay (held): there is no dx and dy. Or they run to the next one (linear): dx and dy are those ways, and
+    /// r is the larger of both radii.
+    Paths sample_paths() const;
+    /// The middle of the root, in the clip's frame, and its radius.
+    glm::dvec2 origin() const { return origin_; }
+    double radius() const { return radius_; }
+    double extent() const { return extent_; }  ///< an upper bound in metres on |x| + |y| + r about the origin
+    double speed() const { return speed_; }    ///< at which no bound's centre moves faster, m/s
+    std::size_t bytes() const;                 ///< of memory, without the clip
+
+  private:
+    struct Level {
+        int count;
+        std::size_t at;  ///< of the first array in values_; the others follow
+    };
+    static_assert(kFanOut == 8 && kMostAtTop >= kFanOut);
+
+    Level add_level(int span);
+    MovingDisk bound(const Level& level, int block, int span) const;
+    MovingDisk root() const { return {origin_, glm::dvec2(0), radius_}; }
+    bool has_root_above() const { return levels_.size() > 1 || levels_[0].count > 1; }
+    Paths paths_of(const Level& level) const;
+
+    glm::dvec2 origin_{0};
+    double radius_ = 0;
+    double extent_ = 0;
+    double speed_ = 0;
+    double dt_, per_dt_;
+    double reach_;
+    int count_;
+    bool linear_;
+    const Disk* disks_;
+    ClipPtr clip_;
+    std::vector<Level> levels_;
+    Level samples_{};
+    std::vector<float> values_;
+};
+
+}  // namespace mobb

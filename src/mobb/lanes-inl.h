@@ -1,0 +1,24 @@
+// The operations of Highway that block_query-inl.h uses, on one float at a time: for builds without Highway, and for
+// tests of the others. Names and meanings are Highway's.
+#include <cstddef>
+#include <cstdint>
+
+namespace mobb::scalar::hn {
+
+struct OneLane {};
+template <class, std::size_t>
+using CappedTag = OneLane;
+
+constexpr std::size_t Lanes(OneLane) { return 1; }
+inline float LoadU(OneLane, const float* from) { return *from; }
+inline float Set(OneLane, float value) { return value; }
+inline float Add(float a, float b) { return a + b; }
+inline float Sub(float a, float b) { return a - b; }
+inline float Mul(float a, float b) { return a * b; }
+inline bool Le(float a, float b) { return a <= b; }
+inline bool Gt(float a, float b) { return a > b; }
+inline bool And(bool a, bool b) { return a && b; }
+inline bool Or(bool a, bool b) { return a || b; }
+inline void StoreMaskBits(OneLane, bool mask, std::uint8_t* bits) { bits[0] = mask ? 1 : 0; }
+
+}  // namespace mobb::scalar::hn

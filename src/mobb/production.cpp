@@ -1,0 +1,87 @@
+#include <mobb/block_queries.h>
+#include <mobb/predicate.h>
+#include <mobb/separation.h>
+#include <mobb/traversal.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+
+#include <mobb/lanes-inl.h>
+
+#define MOBB_LANES scalar
+#define MOBB_INLINE inline
+#include <mobb/block_query-inl.h>
+
+namespace mobb {
+
+namespace {
+
+const std::vector<InstructionSet>& all_instruction_sets() {
+    static const std::vector<InstructionSet> all = [] {
+#ifdef MOBB_HIGHWAY
+        std::vector<InstructionSet> sets = vector_instruction_sets();
+#else
+        std::vector<InstructionSet> sets;
+#endif
+        sets.push_back({"scalar", scalar::queries()});
+        return sets;
+    }();
+    return all;
+}
+
+std::atomic<const BlockQueries*> in_use{nullptr};
+
+const BlockQueries& queries() {
+    const BlockQueries* now = in_use.load(std::memory_order_relaxed);
+    if (now == nullptr) [[unlikely]] {
+        now = all_instruction_sets().front().queries;
+        in_use.store(now, std::memory_order_relaxed);
+    }
+    return *now;
+}
+
+}  // namespace
+
+std::optional<SamplePair> first_hit(const PlacedBlocks& a, const PlacedBlocks& b) {
+    SamplePair pair;
+    return queries().first_hit(a, b, pair) ? std::optional(pair) : std::nullopt;
+}
+
+bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink) {
+    return queries().for_each_hit(a, b, sink);
+}
+
+std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others) {
+    const std::size_t first = queries().first_colliding(a, others.data(), others.size());
+    return first < others.size() ? std::optional(first) : std::nullopt;
+}
+
+void intersects_each(std::span<const BlocksPair> pairs, std::span<bool> answers) {
+    assert(pairs.size() == answers.size());
+    queries().intersects_each(pairs.data(), pairs.size(), answers.data());
+}
+
+bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
+    return queries().for_each_hit_below_roots(a, b, sink, observer);
+}
+
+std::vector<std::string_view> instruction_sets() {
+    std::vector<std::string_view> names;
+    for (const InstructionSet& set : all_instruction_sets()) names.push_back(set.name);
+    return names;
+}
+
+bool use_instruction_set(std::string_view name) {
+    const std::vector<InstructionSet>& all = all_instruction_sets();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [name](const InstructionSet& set) { return set.name == name; });
+    if (found == all.end()) return false;
+    in_use.store(found->queries, std::memory_order_relaxed);
+    return true;
+}
+
+}  // namespace mobb

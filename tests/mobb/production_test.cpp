@@ -1,0 +1,287 @@
+// The production query: the direct search's answers on every set of instructions, and bounds that hold.
+#include <gtest/gtest.h>
+#include <mobb/blocks.h>
+#include <mobb/production.h>
+#include <mobb/query.h>
+#include <mobb/random_motion.h>
+#include <mobb/trace.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobb {
+namespace {
+
+using test::Random;
+
+/// Half of them under 64 samples, now and then linear.
+ClipPtr nasty_clip(Random& random, double dt = 0) {
+    return test::random_motion(random, test::random_clip(random, random.chance(0.5) ? 63 : 2000, dt));
+}
+
+/// Sets of instructions in turn; the fastest again at the end.
+class EachInstructionSet {
+  public:
+    EachInstructionSet() = default;
+    EachInstructionSet(const EachInstructionSet&) = delete;
+    EachInstructionSet& operator=(const EachInstructionSet&) = delete;
+    ~EachInstructionSet() { use_instruction_set(names_.front()); }
+
+    const std::vector<std::string_view>& names() const { return names_; }
+
+  private:
+    std::vector<std::string_view> names_ = instruction_sets();
+};
+
+TEST(Production, GivesTheDirectSearchsAnswersOnEveryInstructionSet) {
+    const EachInstructionSet sets;
+    Random random(71);
+    int hits = 0;
+    for (int query_count = test::query_budget() / 10; query_count > 0;) {
+        const ClipPtr clip_a = nasty_clip(random);
+        const ClipPtr clip_b = nasty_clip(random, random.chance(0.6) ? clip_a->dt() : 0);
+        const Blocks blocks_a(clip_a), blocks_b(clip_b);
+        for (int i = 0; i < 10; ++i, --query_count) {
+            Placement place_a, place_b;
+            test::random_placements(random, *clip_a, *clip_b, place_a, place_b);
+            const std::optional<Contact> expected =
+                direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
+            hits += expected ? 1 : 0;
+            const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
+            for (const std::string_view set : sets.names()) {
+                ASSERT_TRUE(use_instruction_set(set));
+                ASSERT_EQ(query(a, b), expected) << set << ", " << query_count << " queries before the end";
+                ASSERT_EQ(intersects(b, a), expected.has_value()) << set;
+            }
+        }
+    }
+    EXPECT_GT(hits, test::query_budget() / 100);
+}
+
+TEST(Production, FindsAllIntervalsOfContact) {
+    const EachInstructionSet sets;
+    Random random(72);
+    for (int round = 0; round < 3000; ++round) {
+        const ClipPtr clip_a = nasty_clip(random);
+        const ClipPtr clip_b = nasty_clip(random, random.chance(0.6) ? clip_a->dt() : 0);
+        const Blocks blocks_a(clip_a), blocks_b(clip_b);
+        Placement place_a, place_b;
+        test::random_placements(random, *clip_a, *clip_b, place_a, place_b);
+        ASSERT_TRUE(use_instruction_set(sets.names()[static_cast<std::size_t>(round) % sets.names().size()]));
+        EXPECT_EQ(contact_intervals(PlacedBlocks(blocks_a, place_a), PlacedBlocks(blocks_b, place_b)),
+                  direct_contact_intervals(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b)));
+    }
+}
+
+TEST(Production, DoesNotDependOnHowFarAwayOrHowUnlikeTwoClipsAre) {
+    Random random(73);
+    int hits = 0;
+    for (int round = 0; round < 4000; ++round) {
+        // One has up to 300 samples to each of the other's.
+        const double dt = random.real(0.01, 0.1);
+        const ClipPtr clip_a = nasty_clip(random, dt);
+        const ClipPtr clip_b = nasty_clip(random, random.chance(0.5) ? dt : dt * std::pow(10, random.real(0, 2.5)));
+        const Blocks blocks_a(clip_a), blocks_b(clip_b);
+        Placement place_a, place_b;
+        test::random_placements(random, *clip_a, *clip_b, place_a, place_b);
+        // Times of which a double holds a tenth of a microsecond to a tenth of a millisecond, and places likewise.
+        const double later = random.chance(0.5) ? std::pow(10, random.real(5, 12)) : 0;
+        const double away = random.chance(0.3) ? std::pow(10, random.real(4, 8.9)) : 0;
+        for (Placement* place : {&place_a, &place_b}) {
+            place->start += later;
+            place->translate += glm::dvec2(away, -away);
+        }
+        const auto expected = direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
+        ASSERT_EQ(query(PlacedBlocks(blocks_a, place_a), PlacedBlocks(blocks_b, place_b)), expected) << round;
+        hits += expected ? 1 : 0;
+    }
+    EXPECT_GT(hits, 400);
+}
+
+TEST(Production, TheFirstThatCollidesIsFoundAmongMany) {
+    Random random(74);
+    for (int round = 0; round < 300; ++round) {
+        const ClipPtr clip = nasty_clip(random);
+        const Blocks blocks(clip);
+        const PlacedBlocks a(blocks, Placement{});
+        std::vector<PlacedBlocks> others;
+        std::optional<std::size_t> expected;
+        for (std::size_t i = 0; i < 12; ++i) {
+            Placement mine, place;
+            test::random_placements(random, *clip, *clip, mine, place);
+            others.emplace_back(blocks, place);
+            if (!expected && direct_search(a, others.back())) expected = i;
+        }
+        std::vector<const PlacedBlocks*> pointers;
+        for (const PlacedBlocks& other : others) pointers.push_back(&other);
+        EXPECT_EQ(intersects_any(a, pointers), expected);
+        std::vector<BlocksPair> pairs;
+        for (const PlacedBlocks& other : others) pairs.push_back({&other, &a});
+        std::array<bool, 12> answers{};
+        intersects_each(pairs, answers);
+        for (std::size_t i = 0; i < others.size(); ++i)
+            EXPECT_EQ(answers[i], direct_search(others[i], a).has_value()) << i;
+    }
+}
+
+/// How far a disk reaches out of a bound, metres.
+double beyond(const Disk& disk, glm::dvec2 center, double radius) {
+    return std::hypot(disk.x - center.x, disk.y - center.y) + disk.r - radius;
+}
+
+TEST(Blocks, BoundsHoldEveryDiskAndNoMore) {
+    Random random(75);
+    for (int round = 0; round < 400; ++round) {
+        const ClipPtr clip = nasty_clip(random);
+        const bool linear = clip->motion() == Motion::linear;
+        const Blocks blocks(clip);
+        const Placement place;
+        const PlacedClip samples(*clip, place);
+        for (int i = 0; i < blocks.node_count(); ++i) {
+            const Blocks::Node node = blocks.node(i);
+            double most = -1e300;
+            for (int k = 0; k < node.count; ++k) {
+                const auto center = [&](int at) {
+                    return node.bound.from + node.bound.drift * (double(at) / node.count);
+                };
+                most = std::max(most, beyond(samples.disk(node.first + k), center(k), node.bound.radius));
+                most = std::max(most, beyond(samples.disk_at_end(node.first + k), center(k + 1), node.bound.radius));
+            }
+            EXPECT_LE(most, 1e-9 * (1 + clip->reach() * 1e-3)) << i << (linear ? " linear" : " held");
+            EXPECT_GE(most, -1e-6 * (1 + blocks.extent())) << i;
+        }
+    }
+}
+
+TEST(Blocks, LevelsCoverTheClip) {
+    Random random(76);
+    for (const int count : {1, 2, 31, 32, 33, 64, 1000, 4096, 4097, 40000}) {
+        const Blocks blocks(std::make_shared<const Clip>(0.1, std::vector<Disk>(static_cast<std::size_t>(count))));
+        EXPECT_EQ(blocks.node(0).first, 0);
+        EXPECT_EQ(blocks.node(0).count, count);
+        int next = blocks.node_count() == 1 ? 0 : 1;
+        for (int level = blocks.levels() - 1; level >= 0; --level) {
+            int first = 0;
+            for (int block = 0; block < blocks.count(level); ++block, ++next) {
+                EXPECT_EQ(blocks.node_of(level, block), next);
+                const Blocks::Node node = blocks.node(next);
+                EXPECT_EQ(node.block, block);
+                EXPECT_EQ(node.first, first);
+                first += node.count;
+            }
+            EXPECT_EQ(first, count);
+        }
+        EXPECT_EQ(next, blocks.node_count());
+        EXPECT_LE(blocks.count(blocks.levels() - 1), Blocks::kMostAtTop);
+    }
+    EXPECT_THROW(Blocks(nullptr), std::invalid_argument);
+}
+
+/// All that a trace says, as text.
+std::string text_of(const Trace& trace) {
+    std::string out;
+    for (int step = 0; step < trace.size(); ++step) {
+        const Trace::Event event = trace[step];
+        for (const double number : {double(event.parent), double(event.depth), double(event.a), double(event.b),
+                                    double(event.test.index()), double(event.outcome), double(event.axis), event.gap})
+            out += std::to_string(std::bit_cast<std::uint64_t>(number)) + ' ';
+        for (const MeasuredPair& pair : event.pairs) out += std::to_string(pair.i) + ',' + std::to_string(pair.j) + ' ';
+        out += '\n';
+    }
+    return out;
+}
+
+TEST(Production, TracesAreTheSameOnEveryInstructionSetAndCanBeWorkedOutAgain) {
+    const EachInstructionSet sets;
+    Random random(77);
+    int separated = 0, levels = 0;
+    for (int round = 0; round < 500; ++round) {
+        const ClipPtr clip_a = nasty_clip(random);
+        const ClipPtr clip_b = nasty_clip(random, random.chance(0.6) ? clip_a->dt() : 0);
+        const Tree tree_a(clip_a, {.tree = TreeKind::production}), tree_b(clip_b, {.tree = TreeKind::production});
+        Placement place_a, place_b;
+        test::random_placements(random, *clip_a, *clip_b, place_a, place_b);
+        const PlacedTree a(tree_a, place_a), b(tree_b, place_b);
+        const auto expected = direct_search(a.placed_clip(), b.placed_clip());
+        std::string first;
+        for (const std::string_view set : sets.names()) {
+            ASSERT_TRUE(use_instruction_set(set));
+            TraceRecorder recorder;
+            ASSERT_EQ(query(a, b, recorder), expected);
+            const Trace trace = recorder.take();
+            if (first.empty()) first = text_of(trace);
+            ASSERT_EQ(text_of(trace), first) << set;
+            Statistics statistics;
+            query(a, b, statistics);
+            EXPECT_EQ(trace.counts(), statistics.tests);
+            if (set != sets.names().front()) continue;
+            const RelativeFrame frame(a.frame(), b.frame(), a.time_scale());
+            for (int step = 0; step < trace.size(); ++step) {
+                const Trace::Event event = trace[step];
+                levels = std::max(levels, event.depth);
+                if (event.test != BoxKind::block) continue;
+                const Separation again = separate_block(a.node(event.a).box, b.node(event.b).box, frame);
+                if (event.outcome == Outcome::overlap) {
+                    // Apart by less than single precision can tell.
+                    EXPECT_LT(again.gap, 1e-4 * (10 + tree_a.blocks()->extent() + tree_b.blocks()->extent()));
+                    continue;
+                }
+                ++separated;
+                EXPECT_EQ(event.axis, 0);
+                EXPECT_NEAR(again.gap, event.gap, 1e-9 * (1 + std::abs(event.gap)));
+                EXPECT_GT(event.gap, 0);
+            }
+        }
+    }
+    EXPECT_GT(separated, 200);
+    EXPECT_GE(levels, 1);
+}
+
+TEST(Production, TestsGrowSlowerThanTheClips) {
+    // Walks over an area that grows with them: placed at random, most pairs meet nobody.
+    const auto tests_a_query = [](int samples) {
+        Random random(78);
+        std::vector<Disk> walk;
+        double x = 0, y = 0, heading = 0;
+        for (int i = 0; i < samples; ++i) {
+            walk.push_back({x, y, 0.4});
+            heading += random.real(-0.2, 0.2);
+            x += 0.04 * std::cos(heading), y += 0.04 * std::sin(heading);
+        }
+        const Tree tree(std::make_shared<const Clip>(1.0 / 30, walk), {.tree = TreeKind::production});
+        const double area = tree.blocks()->radius();
+        std::vector<std::int64_t> tests;
+        for (int i = 0; i < 101; ++i) {
+            const PlacedTree a(tree, {});
+            const PlacedTree b(tree, {.translate = {random.real(-area, area), random.real(-area, area)},
+                                      .rotate_deg = random.real(0, 360),
+                                      .start = random.real(-1, 1)});
+            Statistics statistics;
+            query(a, b, statistics);
+            tests.push_back(statistics.tests.all());
+        }
+        std::sort(tests.begin(), tests.end());
+        return tests[tests.size() / 2];
+    };
+    const std::int64_t minute = tests_a_query(1800), hour = tests_a_query(108000);
+    EXPECT_LT(hour, 8 * minute) << minute << " tests a minute";
+}
+
+TEST(InstructionSets, TheLastIsScalarAndOthersAreRefused) {
+    const EachInstructionSet sets;
+    ASSERT_FALSE(sets.names().empty());
+    EXPECT_EQ(sets.names().back(), "scalar");
+    EXPECT_FALSE(use_instruction_set("z80"));
+}
+
+}  // namespace
+}  // namespace mobb
