@@ -15,6 +15,10 @@ class ChainSamples {
     Disk disk_at_end(int i) const { return disk(link_->runs_to(i)); }
     double time(int i) const { return frame_->start + i * dt_; }
     bool is_linear() const { return link_->linear; }
+    StoredDisks stored() const {
+        return {link_->samples, link_->first, frame_->rotation * link_->rotation,
+                frame_->rotation(link_->translate) + frame_->translate};
+    }
 
   private:
     const Chain::Link* link_;
@@ -55,6 +59,7 @@ class PlacedChain {
     /// What sample i has become when it ends. The last of a link stays, also of a linear one.
     Disk disk_at_end(int i) const { return placed(chain_->disk_at_end(i), frame_.rotation, frame_.translate); }
     bool is_linear() const { return chain_->is_linear(); }
+    double dt() const { return dt_; }
     /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
     double time(int i) const { return frame_.start + i * dt_; }
 

@@ -3,6 +3,7 @@
 
 #include <mobb/observer.h>
 #include <mobb/predicate.h>
+#include <mobb/sample_pairs.h>
 #include <mobb/separation.h>
 
 #include <algorithm>
@@ -22,6 +23,12 @@ concept PlacedSamples = requires(const S& samples, int i) {
     { samples.is_linear() } -> std::convertible_to<bool>;
 };
 
+/// Placed samples whose disks lie one behind the other in memory.
+template <class S>
+concept StoredSamples = PlacedSamples<S> && requires(const S& samples) {
+    { samples.stored() } -> std::convertible_to<StoredDisks>;
+};
+
 /// Sample i as it runs.
 template <PlacedSamples S>
 SweptDisk swept(const S& samples, int i) {
@@ -33,6 +40,7 @@ template <class S>
 concept SampleSource = PlacedSamples<S> && requires(const S& samples) {
     { samples.first() } -> std::convertible_to<int>;
     { samples.end() } -> std::convertible_to<int>;
+    { samples.dt() } -> std::convertible_to<double>;
 };
 
 /// What the traversal reads: nodes (children, sample range), their boxes, and the placed samples below them. Node 0 is
@@ -46,7 +54,7 @@ concept NodeSource = requires(const S& source, int i) {
     { source.box(source.node(i)) } -> std::convertible_to<const Box&>;
     { source.begin(source.node(i)) } -> std::convertible_to<double>;
     { source.end(source.node(i)) } -> std::convertible_to<double>;
-    { source.samples(source.node(i)) } -> PlacedSamples;
+    { source.samples(source.node(i)) } -> StoredSamples;
     { source.samples() } -> SampleSource;
     { source.frame() } -> std::convertible_to<const PlacedFrame&>;
     { source.time_scale() } -> std::convertible_to<double>;
@@ -127,6 +135,59 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
                : visit_pairs<Motion::held>(a, first_a, end_a, b, first_b, end_b, observer, on_hit);
 }
 
+/// Tells the pairs of B's samples [first, end), as if each had been measured.
+template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer>
+void report_apart(const A& a, const B& b, int first, int end, const SampleShift& shift, Observer& observer) {
+    for (int j = first; j < end; ++j) {
+        const Disk disk_b = b.disk(j);
+        for (int i = j + shift.shift; i < j + shift.shift + shift.partners; ++i) {
+            observer.sample_pair(i, j, squared_distance(a.disk(i), disk_b));
+        }
+    }
+}
+
+/// visit_sample_pairs for held samples of equal dt: most pairs are passed over unmeasured, two at a time. `slack`
+/// (metres) covers the rounding of the samples' places.
+template <StoredSamples A, StoredSamples B, TraversalObserver Observer, class OnHit>
+PairVisit visit_shifted_pairs(const SampleShift& shift, double slack, const A& a, int first_a, int end_a, const B& b,
+                              int first_b, int end_b, [[maybe_unused]] Observer& observer, OnHit& on_hit) {
+    PairVisit visit;
+    const auto measure = [&](int i, int j) {
+        const Disk disk_a = a.disk(i), disk_b = b.disk(j);
+        if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
+        if (!collide(disk_a, disk_b)) return false;
+        visit.hit = true;
+        visit.stopped = on_hit(i, j);
+        return visit.stopped;
+    };
+    const int next = shift.partners - 1;  // how far the last partner of a sample is behind the first
+    int j = std::max(first_b, first_a - shift.shift - next);
+    // A sample whose first partner comes before the range may still have its second there; only the last of B can lack
+    // its second.
+    if (j < end_b && j + shift.shift < first_a) {
+        if (measure(j + shift.shift + 1, j)) return visit;
+        ++j;
+    }
+    const int end_whole = std::min(end_b, end_a - shift.shift - next);
+    if (j < end_whole) {
+        const StoredDisks stored_a = a.stored(), stored_b = b.stored();
+        const Rotation to_a = stored_a.rotation.inverse();
+        const StoredRelation relation{to_a * stored_b.rotation, to_a(stored_b.translate - stored_a.translate), slack};
+        for (;;) {
+            const int apart =
+                count_apart(stored_a.at(j + shift.shift), stored_b.at(j), end_whole - j, shift.partners, relation);
+            if constexpr (Observer::watches) report_apart(a, b, j, j + apart, shift, observer);
+            j += apart;
+            if (j == end_whole) break;
+            if (measure(j + shift.shift, j)) return visit;
+            if (next && measure(j + shift.shift + 1, j)) return visit;
+            ++j;
+        }
+    }
+    if (j < end_b && j + shift.shift < end_a) measure(j + shift.shift, j);
+    return visit;
+}
+
 /// How a leaf is tested against the nodes below the other side's inner node.
 enum class WalkTests {
     time,            ///< in time only (paper, Fig. 4)
@@ -143,6 +204,7 @@ class Traversal {
           b_(b),
           frame_(a.frame(), b.frame(), a.time_scale()),
           same_scale_(a.time_scale() == b.time_scale()),
+          shift_(a.frame(), a.samples().dt(), b.frame(), b.samples().dt()),
           observer_(observer),
           on_hit_(on_hit) {}
 
@@ -204,7 +266,8 @@ class Traversal {
     }
 
     bool may_meet_in_time(const auto& na, const auto& nb) {
-        const bool overlap = overlap_in_time(a_.begin(na), a_.end(na), b_.begin(nb), b_.end(nb));
+        const bool overlap = shift_.is_known() ? shift_.overlap(na.first, na.end(), nb.first, nb.end())
+                                               : overlap_in_time(a_.begin(na), a_.end(na), b_.begin(nb), b_.end(nb));
         if constexpr (Observer::watches) observer_.time_test(overlap);
         return overlap;
     }
@@ -226,8 +289,13 @@ class Traversal {
 
     template <Motion motion>
     bool test_samples(const auto& na, const auto& nb) {
-        const PairVisit pairs = visit_pairs<motion>(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first,
-                                                    nb.end(), observer_, on_hit_);
+        const auto& samples_a = a_.samples(na);
+        const auto& samples_b = b_.samples(nb);
+        const PairVisit pairs =
+            motion == Motion::held && shift_.is_known()
+                ? visit_shifted_pairs(shift_, frame_.slack2d(), samples_a, na.first, na.end(), samples_b, nb.first,
+                                      nb.end(), observer_, on_hit_)
+                : visit_pairs<motion>(samples_a, na.first, na.end(), samples_b, nb.first, nb.end(), observer_, on_hit_);
         if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
         return pairs.stopped;
     }
@@ -236,6 +304,7 @@ class Traversal {
     const B& b_;
     RelativeFrame frame_;
     bool same_scale_;
+    SampleShift shift_;
     Observer& observer_;
     OnHit& on_hit_;
 };
