@@ -3,6 +3,8 @@
 
 #include <mobb/chain.h>
 
+#include <array>
+
 namespace mobb {
 
 /// The placed samples of one link, with their indices in the chain.
@@ -42,7 +44,10 @@ class PlacedChain {
 
     const Chain& chain() const { return *chain_; }
     ChainNode node(int id) const { return chain_->node(id); }
-    Box box(const ChainNode& node) const { return chain_->box(node); }
+    std::array<int, 2> children(int, const ChainNode& node) const { return node.children; }
+    Rectangle rectangle(const ChainNode& node) const { return chain_->rectangle(node); }
+    Box box(int, const ChainNode& node) const { return chain_->box(node); }
+    Box stored_box(int, const ChainNode& node) const { return chain_->box(node); }
     double time_scale() const { return chain_->time_scale(); }
     const PlacedFrame& frame() const { return frame_; }
     /// The placed samples below a node of a link.

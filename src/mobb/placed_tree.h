@@ -3,6 +3,8 @@
 
 #include <mobb/tree.h>
 
+#include <array>
+
 namespace mobb {
 
 /// A tree seen through a placement: a node source of the traversal. It refers to the tree, which must outlive it and
@@ -18,7 +20,10 @@ class PlacedTree {
     double time_scale() const { return tree_->time_scale(); }
     const PlacedClip& placed_clip() const { return placed_; }
     const PlacedFrame& frame() const { return placed_.frame(); }
-    const Box& box(const Node& node) const { return node.box; }
+    std::array<int, 2> children(int i, const Node& node) const { return {i + 1, node.second_child}; }
+    const Rectangle& rectangle(const Node& node) const { return node.rectangle; }
+    Box box(int i, const Node&) const { return tree_->box(i); }
+    const Box& stored_box(int i, const Node&) const { return tree_->stored_box(i); }
     /// The placed samples below a node, with their indices in the clip.
     const PlacedClip& samples(const Node&) const { return placed_; }
     const PlacedClip& samples() const { return placed_; }

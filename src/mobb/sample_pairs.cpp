@@ -24,12 +24,12 @@ int count_apart_of(const Disk* a, const Disk* b, int count, const StoredRelation
         const TwoDoubles x = c * stored_x - s * stored_y + t.x;
         const TwoDoubles y = s * stored_x + c * stored_y + t.y;
         const TwoDoubles r = TwoDoubles{b[k].r, b[k + 1].r} + relation.slack;
-        const auto near = [&](const Disk* p) {
+        const auto nears = [&](const Disk* p) {
             return is_near(TwoDoubles{p[0].x, p[1].x}, TwoDoubles{p[0].y, p[1].y}, TwoDoubles{p[0].r, p[1].r}, x, y, r);
         };
-        TwoMasks any = near(a + k);
-        if constexpr (partners == 2) any |= near(a + k + 1);
-        if (any[0] | any[1]) return any[0] ? k : k + 1;
+        TwoMasks near = nears(a + k);
+        if constexpr (partners == 2) near |= nears(a + k + 1);
+        if (any(near)) return near[0] ? k : k + 1;
     }
     if (k < count) {
         const Disk d = placed(b[k], relation.rotation, t);

@@ -44,7 +44,7 @@ struct SampleShift {
     bool is_known() const { return partners > 0; }
     /// Whether two ranges of samples share time: what overlap_in_time says of their times.
     bool overlap(int first_a, int end_a, int first_b, int end_b) const {
-        return first_b + shift < end_a && end_b + shift + partners - 1 > first_a;
+        return (first_b + shift < end_a) & (end_b + shift + partners - 1 > first_a);
     }
 };
 

@@ -24,29 +24,37 @@ Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), op
     build({0, clip_->count()}, -1, 0);
     // Depth-first order is within a level the order of time.
     std::vector<int> counts(static_cast<std::size_t>(depth_), 0);
-    places_.reserve(nodes_.size());
-    for (const Node& node : nodes_) places_.push_back(counts[static_cast<std::size_t>(node.level)]++);
+    for (Place& place : places_) place.in_level = counts[static_cast<std::size_t>(place.level)]++;
+}
+
+std::size_t Tree::bytes() const {
+    return nodes_.size() * sizeof(Node) + places_.size() * sizeof(Place) + boxes_.size() * sizeof(Box);
+}
+
+Box Tree::box(int i) const {
+    const Node& n = node(i);
+    return is_upright(n.kind) ? over_time(n.kind, n.rectangle, time_scale() * t0(n), time_scale() * t1(n))
+                              : stored_box(i);
 }
 
 int Tree::build(SampleRange range, int parent, int level) {
     const int index = static_cast<int>(nodes_.size());
-    Node node;
     const TreeInfo& kinds = info(options_.tree);
-    node.box = fit(level == 0 ? kinds.root : kinds.below, *clip_, range, options_.axes, options_.time_scale);
-    node.first = range.first;
-    node.count = range.count;
-    node.parent = parent;
-    node.level = level;
-    nodes_.push_back(node);
+    const Box box = fit(level == 0 ? kinds.root : kinds.below, *clip_, range, options_.axes, options_.time_scale);
+    nodes_.push_back({rectangle_of(box), range.first, range.count, -1, box.kind});
+    places_.push_back({parent, level, 0});
+    if (!is_upright(box.kind)) {
+        boxes_.resize(nodes_.size());
+        boxes_.back() = box;
+    }
     depth_ = std::max(depth_, level + 1);
     const bool is_last_level = level + 1 == options_.levels;
     if (range.count > options_.leaf && !is_last_level) {
         // Split at the middle sample: the reading of "(t_max - t_min) / 2" in Section 3.
         const int half = (range.count + 1) / 2;
-        const int first_child = build({range.first, half}, index, level + 1);
+        build({range.first, half}, index, level + 1);
         const int second_child = build({range.first + half, range.count - half}, index, level + 1);
-        nodes_[static_cast<std::size_t>(index)].children[0] = first_child;
-        nodes_[static_cast<std::size_t>(index)].children[1] = second_child;
+        nodes_[static_cast<std::size_t>(index)].second_child = second_child;
     }
     return index;
 }
