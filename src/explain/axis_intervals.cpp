@@ -20,7 +20,7 @@ bool tries_line_of_centers(mobb::TestKind test) { return mobb::info(test.box()).
 mobb::Box along_the_world(const mobb::Box& box, glm::dvec2 center, const mobb::Rotation& to_world) {
     mobb::Box out;
     out.kind = box.kind;
-    const glm::dvec2 half = mobb::half_in_world(box, to_world);
+    const glm::dvec2 half = mobb::half_in_world(glm::dvec2(box.half), to_world);
     out.center = {center.x, center.y, 0};
     out.half = {half.x, half.y, box.half.z};
     return out;
@@ -32,7 +32,7 @@ BoxPair boxes_of(std::span<const DrawnAgent> sides, const mobb::Trace::Event& ev
     const mobb::PlacedTree& a = sides[0].placed;
     const mobb::PlacedTree& b = sides[1].placed;
     const mobb::RelativeFrame frame(a.frame(), b.frame(), a.time_scale());
-    BoxPair pair{a.node(event.a).box, b.node(event.b).box};
+    BoxPair pair{a.tree().box(event.a), b.tree().box(event.b)};
     pair.b.center = frame.point(pair.b.center) - pair.a.center;
     for (glm::dvec3& axis : pair.b.axes) axis = frame.direction(axis);
     pair.b.drift = frame.direction(pair.b.drift);

@@ -14,7 +14,7 @@ namespace {
 
 std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const auto axis_of = [&](const DrawnAgent& side, int node, int axis) {
-        return side.label + "'s " + axis_word(side.placed.node(node).box, event.test, axis) + " axis";
+        return side.label + "'s " + axis_word(side.placed.tree().box(node), event.test, axis) + " axis";
     };
     if (mobb::info(event.test.box()).axes == mobb::BoxAxes::world) return event.axis == 0 ? "along x" : "along y";
     if (event.test == mobb::BoxKind::block) return "from centre to centre";
@@ -25,8 +25,8 @@ std::string separating_axis(std::span<const DrawnAgent> sides, const mobb::Trace
 }
 
 std::string what_next(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
-    const bool leaf_a = sides[0].placed.node(event.a).is_leaf();
-    const bool leaf_b = sides[1].placed.node(event.b).is_leaf();
+    const bool leaf_a = sides[0].placed.tree().is_leaf(event.a);
+    const bool leaf_b = sides[1].placed.tree().is_leaf(event.b);
     return leaf_a && leaf_b ? "on to their samples" : "on to their children";
 }
 
@@ -76,7 +76,7 @@ std::string overlap_words(const mobb::PlacedClip& a, const mobb::PlacedClip& b, 
 
 std::string node_name(const DrawnAgent& agent, int node) {
     const mobb::Tree& tree = agent.placed.tree();
-    const int level = agent.placed.node(node).level;
+    const int level = agent.placed.tree().level(node);
     return agent.label + ' ' + std::to_string(level) + '.' + std::to_string(tree.place_in_level(node));
 }
 

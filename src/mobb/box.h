@@ -22,6 +22,35 @@ struct Box {
     glm::dvec2 drift{0};  ///< a moving box or block: how far it moves from the middle of its time to the end; else 0
 };
 
+/// The rectangle that an obb2d or an aabb is at any time, on the floor, metres.
+struct Rectangle {
+    glm::dvec2 center{0};
+    glm::dvec2 axis{1, 0};  ///< of unit length; the second one is perpendicular to it
+    glm::dvec2 half{0};     ///< half extents along the axis and across it, >= 0
+};
+
+/// Whether a box of this kind is a rectangle that stands still over its time.
+constexpr bool is_upright(BoxKind kind) { return kind == BoxKind::obb2d || kind == BoxKind::aabb; }
+
+/// A quarter turn, counter-clockwise.
+inline glm::dvec2 perpendicular(glm::dvec2 v) { return {-v.y, v.x}; }
+
+/// The upright box over a rectangle from t0 to t1 (w*t).
+inline Box over_time(BoxKind kind, const Rectangle& rectangle, double t0, double t1) {
+    const glm::dvec2 u = rectangle.axis, v = perpendicular(u);
+    Box box;
+    box.kind = kind;
+    box.center = {rectangle.center, (t0 + t1) / 2};
+    box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{v.x, v.y, 0}, glm::dvec3{0, 0, 1}};
+    box.half = {rectangle.half, (t1 - t0) / 2};
+    return box;
+}
+
+/// The rectangle of an upright box.
+inline Rectangle rectangle_of(const Box& box) {
+    return {glm::dvec2(box.center), glm::dvec2(box.axes[0]), glm::dvec2(box.half)};
+}
+
 /// From the centre to the middles of the faces on the positive sides: half the edges of the box.
 inline std::array<glm::dvec3, 3> half_edges(const Box& box) {
     return {box.half.x * box.axes[0], box.half.y * box.axes[1],

@@ -43,15 +43,9 @@ KDop outline_of(std::span<const Disk> disks) {
     return {disks, chain_axis(disks.front(), disks.back(), principal_axis(disks))};
 }
 
-/// The rectangle around an outline along its axis, a little wider for rounding errors, from t0 to t1 (w*t).
-Box chain_rectangle(const KDop& outline, double rounding, double t0, double t1) {
-    const glm::dvec2 u = outline.axis(), center = outline.center(), half = outline.half() + rounding;
-    Box box;
-    box.kind = BoxKind::obb2d;
-    box.center = {center.x, center.y, (t0 + t1) / 2};
-    box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{-u.y, u.x, 0}, glm::dvec3{0, 0, 1}};
-    box.half = {half.x, half.y, (t1 - t0) / 2};
-    return box;
+/// The rectangle around an outline along its axis, a little wider for rounding errors.
+Rectangle chain_rectangle(const KDop& outline, double rounding) {
+    return {outline.center(), outline.axis(), outline.half() + rounding};
 }
 
 [[noreturn]] void refuse(std::size_t link, const char* what) {
@@ -154,12 +148,10 @@ Chain::Peak Chain::joined(const Peak& left, const Peak& right) {
     const Link& last = links_[static_cast<std::size_t>(left.first_link + links - 1)];
     const glm::dvec2 axis = chain_axis(first.disk(first.first), last.disk(last.end() - 1), left.outline.axis());
     Peak peak{static_cast<int>(upper_.size()), left.first_link, links, {left.outline, right.outline, axis}};
-    const double w = time_scale_;
-    upper_.push_back(
-        {chain_rectangle(peak.outline, kKDopRounding * reach_, w * (first.first * dt_), w * (last.end() * dt_)),
-         first.first,
-         last.end() - first.first,
-         {left.child, right.child}});
+    upper_.push_back({chain_rectangle(peak.outline, kKDopRounding * reach_),
+                      first.first,
+                      last.end() - first.first,
+                      {left.child, right.child}});
     return peak;
 }
 

@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -43,9 +44,11 @@ struct ChainLink {
 struct ChainNode {
     int first = 0;  ///< sample of the chain
     int count = 0;
-    int children[2] = {-1, -1};  ///< in time order; -1 in a leaf
-    int link = -1;               ///< the link whose tree's node this is; -1: a node above the links
-    const Box* box = nullptr;    ///< in the frame of the link's clip; of a node above the links, in the chain's
+    std::array<int, 2> children{-1, -1};  ///< in time order; -1 in a leaf
+    BoxKind kind = BoxKind::obb2d;
+    int link = -1;                         ///< the link whose tree's node this is; -1: a node above the links
+    int node_of_link = -1;                 ///< ... and which one
+    const Rectangle* rectangle = nullptr;  ///< in the frame of the link's clip; of a node above the links, the chain's
 
     bool is_leaf() const { return children[0] < 0; }
     int end() const { return first + count; }
@@ -91,8 +94,9 @@ class Chain {
 
     /// Nodes are numbered anew whenever the chain changes, with gaps: 0 is the root, the others come from `children`.
     ChainNode node(int id) const;
-    /// The node's box in the chain's frame and time.
+    /// The node's box in the chain's frame and time, and the rectangle of an upright one.
     Box box(const ChainNode& node) const;
+    Rectangle rectangle(const ChainNode& node) const;
 
     /// Sample i in the chain's frame, first() <= i < end(), and what it has become when it ends; in O(log links).
     Disk disk(int i) const;
@@ -120,7 +124,7 @@ class Chain {
     };
     /// A box over several links. A child >= 0 is one of upper_; ~k is the root of link k.
     struct Upper {
-        Box box;
+        Rectangle rectangle;
         int first;
         int count;
         int children[2];
@@ -157,32 +161,44 @@ inline ChainNode Chain::node(int id) const {
     const int uppers = static_cast<int>(upper_.size());
     if (id < uppers) {
         const Upper& upper = upper_[static_cast<std::size_t>(uppers - 1 - id)];
-        return {upper.first, upper.count, {id_of(upper.children[0]), id_of(upper.children[1])}, -1, &upper.box};
+        return {upper.first, upper.count,     {id_of(upper.children[0]), id_of(upper.children[1])}, BoxKind::obb2d, -1,
+                -1,          &upper.rectangle};
     }
     const int k = (id - uppers) >> shift_;
     const int root = uppers + (k << shift_);
     const Link& link = links_[static_cast<std::size_t>(k)];
     const Node& node = link.nodes[id - root];
-    ChainNode out{link.first + node.first, node.count, {-1, -1}, k, &node.box};
-    if (!node.is_leaf()) {
-        out.children[0] = root + node.children[0];
-        out.children[1] = root + node.children[1];
-    }
+    // Turned, what lay along x and y no longer does.
+    const BoxKind kind = info(node.kind).axes == BoxAxes::world ? BoxKind::obb2d : node.kind;
+    ChainNode out{link.first + node.first, node.count, {-1, -1}, kind, k, id - root, &node.rectangle};
+    if (!node.is_leaf()) out.children = {id + 1, root + node.second_child};
+    return out;
+}
+
+inline Rectangle Chain::rectangle(const ChainNode& node) const {
+    Rectangle out = *node.rectangle;
+    if (node.link < 0) return out;
+    const Link& link = links_[static_cast<std::size_t>(node.link)];
+    out.center = link.rotation(out.center) + link.translate;
+    out.axis = link.rotation(out.axis);
     return out;
 }
 
 inline Box Chain::box(const ChainNode& node) const {
-    Box box = *node.box;
-    if (node.link < 0) return box;
+    if (node.link < 0) {
+        const double t0 = time_scale_ * (node.first * dt_), t1 = time_scale_ * (node.end() * dt_);
+        return over_time(node.kind, *node.rectangle, t0, t1);
+    }
     const Link& link = links_[static_cast<std::size_t>(node.link)];
+    Box box = link.part->tree().box(node.node_of_link);
     const auto turned = [&](glm::dvec3 v) {
         const glm::dvec2 on_floor = link.rotation(glm::dvec2{v.x, v.y});
         return glm::dvec3{on_floor.x, on_floor.y, v.z};
     };
+    box.kind = node.kind;
     box.center = turned(box.center) + glm::dvec3{link.translate, time_scale_ * (link.first * dt_)};
     for (glm::dvec3& axis : box.axes) axis = turned(axis);
     box.drift = link.rotation(box.drift);
-    if (info(box.kind).axes == BoxAxes::world) box.kind = BoxKind::obb2d;  // turned, it no longer lies along x and y
     return box;
 }
 

@@ -103,6 +103,16 @@ struct PlacedFrame {
     double duration = 0;         ///< seconds from the frame's time 0 to the end of the last disk
 };
 
+/// Consecutive disks as they are stored, and how they are placed in the world but for rounding.
+struct StoredDisks {
+    const Disk* disks;
+    int first;  ///< the sample that the first disk is
+    Rotation rotation;
+    glm::dvec2 translate{0, 0};  ///< metres
+
+    const Disk* at(int sample) const { return disks + (sample - first); }
+};
+
 /// A clip seen through a placement: samples in world metres and global seconds. It refers to the clip, which must
 /// outlive it and stay where it is. Requires is_valid(placement).
 class PlacedClip {
@@ -126,12 +136,14 @@ class PlacedClip {
     Placement placement() const { return {frame_.translate, rotate_deg_, frame_.start}; }
     const Rotation& rotation() const { return frame_.rotation; }
     const PlacedFrame& frame() const { return frame_; }
+    StoredDisks stored() const { return {samples_, 0, frame_.rotation, frame_.translate}; }
 
     /// Sample i in the world.
     Disk disk(int i) const { return placed(samples_[i], frame_.rotation, frame_.translate); }
     /// What sample i has become when it ends: of a linear clip the next sample, where there is one.
     Disk disk_at_end(int i) const { return disk(i < last_to_ ? i + 1 : i); }
     bool is_linear() const { return last_to_ >= 0; }
+    double dt() const { return dt_; }
     /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
     double time(int i) const { return frame_.start + i * dt_; }
 

@@ -29,8 +29,6 @@ std::span<const Disk> swept_disks(const Clip& clip, SampleRange range) {
     return disks(clip, {range.first, range.count + (runs_on ? 1 : 0)});
 }
 
-glm::dvec2 perpendicular(glm::dvec2 u) { return {-u.y, u.x}; }
-
 /// Extent of a set along one axis.
 struct Extent {
     double low = std::numeric_limits<double>::infinity();
@@ -60,16 +58,8 @@ std::array<Extent, 2> extents(std::span<const Disk> disks, glm::dvec2 u) {
 /// Around `disks`, over the time of the range.
 Box rectangle_over_time(const Clip& clip, SampleRange range, std::span<const Disk> disks, glm::dvec2 u, double w) {
     const std::array<Extent, 2> e = extents(disks, u);
-    const glm::dvec2 v = perpendicular(u);
-    const glm::dvec2 center = e[0].center() * u + e[1].center() * v;
-    const double t0 = w * (range.first * clip.dt());
-    const double t1 = w * (range.end() * clip.dt());
-    Box box;
-    box.kind = BoxKind::obb2d;
-    box.center = {center.x, center.y, (t0 + t1) / 2};
-    box.axes = {glm::dvec3{u.x, u.y, 0}, glm::dvec3{v.x, v.y, 0}, glm::dvec3{0, 0, 1}};
-    box.half = {e[0].half(), e[1].half(), (t1 - t0) / 2};
-    return box;
+    const Rectangle rectangle{e[0].center() * u + e[1].center() * perpendicular(u), u, {e[0].half(), e[1].half()}};
+    return over_time(BoxKind::obb2d, rectangle, w * (range.first * clip.dt()), w * (range.end() * clip.dt()));
 }
 
 Box rectangle_over_time(const Clip& clip, SampleRange range, glm::dvec2 u, double w) {

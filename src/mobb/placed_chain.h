@@ -4,6 +4,8 @@
 #include <mobb/chain.h>
 #include <mobb/production.h>
 
+#include <array>
+
 namespace mobb {
 
 /// The placed samples of one link, with their indices in the chain.
@@ -16,6 +18,10 @@ class ChainSamples {
     Disk disk_at_end(int i) const { return disk(link_->runs_to(i)); }
     double time(int i) const { return frame_->start + i * dt_; }
     bool is_linear() const { return link_->linear; }
+    StoredDisks stored() const {
+        return {link_->samples, link_->first, frame_->rotation * link_->rotation,
+                frame_->rotation(link_->translate) + frame_->translate};
+    }
 
   private:
     const Chain::Link* link_;
@@ -39,15 +45,16 @@ class PlacedChain {
 
     const Chain& chain() const { return *chain_; }
     ChainNode node(int id) const { return chain_->node(id); }
-    Box box(const ChainNode& node) const { return chain_->box(node); }
+    std::array<int, 2> children(int, const ChainNode& node) const { return node.children; }
+    Rectangle rectangle(const ChainNode& node) const { return chain_->rectangle(node); }
+    Box box(int, const ChainNode& node) const { return chain_->box(node); }
+    Box stored_box(int, const ChainNode& node) const { return chain_->box(node); }
     double time_scale() const { return chain_->time_scale(); }
     const PlacedFrame& frame() const { return frame_; }
     /// The placed samples below a node of a link.
     ChainSamples samples(const ChainNode& node) const { return {*chain_, node.link, frame_}; }
     const PlacedChain& samples() const { return *this; }
-    /// Whether the traversal goes no further down: to blocks, or to samples.
-    bool is_leaf(const ChainNode& node) const { return has_blocks(node) || node.is_leaf(); }
-    bool has_blocks(const ChainNode& node) const { return node.link >= 0 && chain_->part(node.link).tree().blocks(); }
+    bool has_blocks(const ChainNode& node) const { return node.kind == BoxKind::block; }
     /// Those of a link whose tree has blocks. They refer to the place.
     PlacedBlocks blocks(const ChainNode& node, LinkPlace& place) const {
         place = {chain_->rotation(node.link), chain_->translate(node.link), chain_->first_sample(node.link), frame_};
@@ -64,6 +71,7 @@ class PlacedChain {
     /// What sample i has become when it ends. The last of a link stays, also of a linear one.
     Disk disk_at_end(int i) const { return placed(chain_->disk_at_end(i), frame_.rotation, frame_.translate); }
     bool is_linear() const { return chain_->is_linear(); }
+    double dt() const { return dt_; }
     /// Global time at which sample i begins to hold; time(i + 1) is when it ends. Never decreases with i.
     double time(int i) const { return frame_.start + i * dt_; }
 

@@ -4,6 +4,8 @@
 #include <mobb/production.h>
 #include <mobb/tree.h>
 
+#include <array>
+
 namespace mobb {
 
 /// A tree seen through a placement: a node source of the traversal. It refers to the tree, which must outlive it and
@@ -11,10 +13,7 @@ namespace mobb {
 class PlacedTree {
   public:
     PlacedTree(const Tree& tree, const Placement& placement)
-        : nodes_(tree.nodes().data()),
-          placed_(tree.clip(), placement),
-          tree_(&tree),
-          has_blocks_(tree.blocks() != nullptr) {}
+        : nodes_(tree.nodes().data()), placed_(tree.clip(), placement), tree_(&tree) {}
     PlacedTree(const Tree&&, const Placement&) = delete;
 
     const Tree& tree() const { return *tree_; }
@@ -22,14 +21,15 @@ class PlacedTree {
     double time_scale() const { return tree_->time_scale(); }
     const PlacedClip& placed_clip() const { return placed_; }
     const PlacedFrame& frame() const { return placed_.frame(); }
-    const Box& box(const Node& node) const { return node.box; }
+    std::array<int, 2> children(int i, const Node& node) const { return {i + 1, node.second_child}; }
+    const Rectangle& rectangle(const Node& node) const { return node.rectangle; }
+    Box box(int i, const Node&) const { return tree_->box(i); }
+    const Box& stored_box(int i, const Node&) const { return tree_->stored_box(i); }
     /// The placed samples below a node, with their indices in the clip.
     const PlacedClip& samples(const Node&) const { return placed_; }
     const PlacedClip& samples() const { return placed_; }
-    /// Whether the traversal goes no further down: to blocks, or to samples.
-    bool is_leaf(const Node& node) const { return has_blocks_ || node.is_leaf(); }
-    bool has_blocks(const Node&) const { return has_blocks_; }
-    /// Those of a tree that has blocks.
+    bool has_blocks(const Node& node) const { return node.kind == BoxKind::block; }
+    /// Those below the root of a tree that has blocks.
     PlacedBlocks blocks(const Node&, LinkPlace&) const {
         return {*tree_->blocks(), placed_.rotation(), placed_.frame().translate, placed_.frame().start};
     }
@@ -41,7 +41,6 @@ class PlacedTree {
     const Node* nodes_;
     PlacedClip placed_;
     const Tree* tree_;
-    bool has_blocks_;
 };
 
 }  // namespace mobb

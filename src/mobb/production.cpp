@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <mobb/lanes-inl.h>
+#include <mobb/scalar_lanes-inl.h>
 
 #define MOBB_LANES scalar
 #define MOBB_INLINE inline

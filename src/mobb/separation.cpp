@@ -43,26 +43,6 @@ void RelativeFrame::cover_swept_disks(const PlacedFrame& a, const PlacedFrame& b
     slack3d_ = slack2d_ + slack_time_;
 }
 
-Separation separate_obb2d(const Box& a, const Box& b, const RelativeFrame& frame) {
-    const glm::dvec2 u{a.axes[0].x, a.axes[0].y};
-    const glm::dvec2 v = frame.direction(glm::dvec2{b.axes[0].x, b.axes[0].y});
-    const glm::dvec3 center_b = frame.point(b.center);
-    const glm::dvec2 d{center_b.x - a.center.x, center_b.y - a.center.y};
-    const double c = std::abs(u.x * v.x + u.y * v.y);
-    const double s = std::abs(u.x * v.y - u.y * v.x);
-    const double slack = frame.slack2d();
-
-    const double a0 = std::abs(d.x * u.x + d.y * u.y) - (a.half.x + b.half.x * c + b.half.y * s);
-    if (a0 > slack) return {0, a0};
-    const double a1 = std::abs(d.y * u.x - d.x * u.y) - (a.half.y + b.half.x * s + b.half.y * c);
-    if (a1 > slack) return {1, a1};
-    const double b0 = std::abs(d.x * v.x + d.y * v.y) - (b.half.x + a.half.x * c + a.half.y * s);
-    if (b0 > slack) return {2, b0};
-    const double b1 = std::abs(d.y * v.x - d.x * v.y) - (b.half.y + a.half.x * s + a.half.y * c);
-    if (b1 > slack) return {3, b1};
-    return {};
-}
-
 Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame) {
     const glm::dvec3 axes_b[3] = {frame.direction(b.axes[0]), frame.direction(b.axes[1]), frame.direction(b.axes[2])};
     const glm::dvec3 d = frame.point(b.center) - a.center;
@@ -142,11 +122,11 @@ Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& fram
     return {};
 }
 
-Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame) {
+Separation separate_aabb(const Rectangle& a, const Rectangle& b, const RelativeFrame& frame) {
     const Rotation& to_world = frame.to_world();
-    const glm::dvec3 center_b = frame.point(b.center);
-    const glm::dvec2 d = to_world(glm::dvec2{center_b.x - a.center.x, center_b.y - a.center.y});
-    const glm::dvec2 reach = half_in_world(a, to_world) + half_in_world(b, to_world * frame.rotation());
+    const TwoDoubles between = frame.point(lanes(b.center)) - lanes(a.center);
+    const glm::dvec2 d = to_world({between[0], between[1]});
+    const glm::dvec2 reach = half_in_world(a.half, to_world) + half_in_world(b.half, to_world * frame.rotation());
     for (int i = 0; i < 2; ++i) {
         const double gap = std::abs(d[i]) - reach[i];
         if (gap > frame.slack2d()) return {i, gap};

@@ -4,6 +4,7 @@
 
 #include <mobb/box.h>
 #include <mobb/clip.h>
+#include <mobb/lanes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,11 @@ class RelativeFrame {
         const glm::dvec3 d = direction(p);
         return {d.x + offset_.x, d.y + offset_.y, d.z + offset_.z};
     }
+    /// The same for two numbers in a register.
+    TwoDoubles direction(TwoDoubles v) const {
+        return rotation_.c * v + TwoDoubles{-rotation_.s, rotation_.s} * swapped(v);
+    }
+    TwoDoubles point(TwoDoubles p) const { return direction(p) + TwoDoubles{offset_.x, offset_.y}; }
     const Rotation& rotation() const { return rotation_; }
     /// From A's frame to the world's.
     const Rotation& to_world() const { return to_world_; }
@@ -60,8 +66,38 @@ class RelativeFrame {
 /// Edge-edge axes (cross products of unit axes) shorter than this are skipped.
 inline constexpr double kShortestEdgeAxis = 1e-3;
 
+/// The gaps of two rectangles along their axes, metres; below 0: how deep they overlap.
+struct FloorGaps {
+    TwoDoubles a;  ///< along A0 and A1
+    TwoDoubles b;  ///< along B0 and B1
+
+    FloorGaps(const Rectangle& of_a, const Rectangle& of_b, const RelativeFrame& frame) {
+        const TwoDoubles u = lanes(of_a.axis), v = frame.direction(lanes(of_b.axis));
+        const TwoDoubles d = frame.point(lanes(of_b.center)) - lanes(of_a.center);
+        const TwoDoubles u_x = both(u[0]), u_y{u[1], -u[1]}, v_x = both(v[0]), v_y{v[1], -v[1]};
+        const TwoDoubles half_a = lanes(of_a.half), half_b = lanes(of_b.half);
+        // The cosine and the sine of the angle between the two.
+        const TwoDoubles cs = magnitude(u_x * v + u_y * swapped(v)), sc = swapped(cs);
+        a = magnitude(u_x * d + u_y * swapped(d)) - (half_a + half_b[0] * cs + half_b[1] * sc);
+        b = magnitude(v_x * d + v_y * swapped(d)) - (half_b + half_a[0] * cs + half_a[1] * sc);
+    }
+
+    bool separated(double slack) const { return any((a > slack) | (b > slack)); }
+    Separation first_above(double slack) const {
+        for (int i = 0; i < 2; ++i) {
+            if (a[i] > slack) return {i, a[i]};
+        }
+        for (int i = 0; i < 2; ++i) {
+            if (b[i] > slack) return {2 + i, b[i]};
+        }
+        return {};
+    }
+};
+
 /// Two obb2d: four axes (paper, Section 3.2).
-Separation separate_obb2d(const Box& a, const Box& b, const RelativeFrame& frame);
+inline Separation separate_obb2d(const Rectangle& a, const Rectangle& b, const RelativeFrame& frame) {
+    return FloorGaps(a, b, frame).first_above(frame.slack2d());
+}
 
 /// Any two boxes as 3D boxes: fifteen axes at most (Gottschalk et al. 1996, the paper's [8]). An edge-edge axis shorter
 /// than kShortestEdgeAxis is skipped: its direction is poorly known and the face axes next to it decide almost the
@@ -73,7 +109,7 @@ Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame
 Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& frame);
 
 /// Two boxes along x and y of their clips, each wrapped again along x and y of the world: two axes.
-Separation separate_aabb(const Box& a, const Box& b, const RelativeFrame& frame);
+Separation separate_aabb(const Rectangle& a, const Rectangle& b, const RelativeFrame& frame);
 
 /// Two blocks: one axis, from centre to centre where they are nearest in their common time. Both of one time scale.
 Separation separate_block(const Box& a, const Box& b, const RelativeFrame& frame);
@@ -84,18 +120,24 @@ struct PairTest {
     BoxKind b;
     BoxKind test;
     bool mixes_time;  ///< boxes of trees of different time scales live in different spaces: they are not compared
-    Separation (*separate)(const Box&, const Box&, const RelativeFrame&);
+    /// One of these: of upright boxes it is what their rectangles need.
+    Separation (*rectangles)(const Rectangle&, const Rectangle&, const RelativeFrame&) = nullptr;
+    Separation (*boxes)(const Box&, const Box&, const RelativeFrame&) = nullptr;
+
+    Separation separate(const Box& of_a, const Box& of_b, const RelativeFrame& frame) const {
+        return rectangles ? rectangles(rectangle_of(of_a), rectangle_of(of_b), frame) : boxes(of_a, of_b, frame);
+    }
 };
 
 /// A pair that is not here has no test in common: it counts as overlapping.
 inline constexpr PairTest kPairTests[] = {
     {BoxKind::obb2d, BoxKind::obb2d, BoxKind::obb2d, false, separate_obb2d},
-    {BoxKind::obb3d, BoxKind::obb3d, BoxKind::obb3d, true, separate_obb3d},
-    {BoxKind::obb2d, BoxKind::obb3d, BoxKind::obb3d, true, separate_obb3d},
-    {BoxKind::obb3d, BoxKind::obb2d, BoxKind::obb3d, true, separate_obb3d},
-    {BoxKind::moving, BoxKind::moving, BoxKind::moving, true, separate_moving},
+    {BoxKind::obb3d, BoxKind::obb3d, BoxKind::obb3d, true, nullptr, separate_obb3d},
+    {BoxKind::obb2d, BoxKind::obb3d, BoxKind::obb3d, true, nullptr, separate_obb3d},
+    {BoxKind::obb3d, BoxKind::obb2d, BoxKind::obb3d, true, nullptr, separate_obb3d},
+    {BoxKind::moving, BoxKind::moving, BoxKind::moving, true, nullptr, separate_moving},
     {BoxKind::aabb, BoxKind::aabb, BoxKind::aabb, false, separate_aabb},
-    {BoxKind::block, BoxKind::block, BoxKind::block, true, separate_block},
+    {BoxKind::block, BoxKind::block, BoxKind::block, true, nullptr, separate_block},
 };
 
 static_assert(std::ranges::all_of(kBoxKinds,
@@ -107,10 +149,10 @@ static_assert(std::ranges::all_of(kBoxKinds,
               "a kind of box has no test against itself");
 
 /// Half extents along the world's x and y of a rectangle along x and y of a frame that `to_world` turns.
-inline glm::dvec2 half_in_world(const Box& box, const Rotation& to_world) {
+inline glm::dvec2 half_in_world(glm::dvec2 half, const Rotation& to_world) {
     const double c = std::abs(to_world.c);
     const double s = std::abs(to_world.s);
-    return {c * box.half.x + s * box.half.y, s * box.half.x + c * box.half.y};
+    return {c * half.x + s * half.y, s * half.x + c * half.y};
 }
 
 }  // namespace mobb

@@ -1,12 +1,16 @@
 /// The traversal of two trees (paper, Section 3.2): the only one, for answers, counts and traces alike.
 #pragma once
 
+#include <mobb/lanes.h>
 #include <mobb/observer.h>
 #include <mobb/predicate.h>
 #include <mobb/production.h>
+#include <mobb/sample_pairs.h>
 #include <mobb/separation.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <iterator>
@@ -23,6 +27,12 @@ concept PlacedSamples = requires(const S& samples, int i) {
     { samples.is_linear() } -> std::convertible_to<bool>;
 };
 
+/// Placed samples whose disks lie one behind the other in memory.
+template <class S>
+concept StoredSamples = PlacedSamples<S> && requires(const S& samples) {
+    { samples.stored() } -> std::convertible_to<StoredDisks>;
+};
+
 /// Sample i as it runs.
 template <PlacedSamples S>
 SweptDisk swept(const S& samples, int i) {
@@ -34,21 +44,25 @@ template <class S>
 concept SampleSource = PlacedSamples<S> && requires(const S& samples) {
     { samples.first() } -> std::convertible_to<int>;
     { samples.end() } -> std::convertible_to<int>;
+    { samples.dt() } -> std::convertible_to<double>;
 };
 
-/// What the traversal reads: nodes (children, sample range), their boxes, and the placed samples below them. Node 0 is
-/// the root. A node may be a view that the source makes as it is asked for; so may its box.
+/// What the traversal reads: nodes (kind, sample range), their children and boxes, and the placed samples below them.
+/// Node 0 is the root. A node may be a view that the source makes as it is asked for; so may its rectangle or box.
 template <class S>
 concept NodeSource = requires(const S& source, int i) {
-    { source.is_leaf(source.node(i)) } -> std::convertible_to<bool>;
+    { source.node(i).is_leaf() } -> std::convertible_to<bool>;
+    { source.node(i).kind } -> std::convertible_to<BoxKind>;
     { source.has_blocks(source.node(i)) } -> std::convertible_to<bool>;
-    { source.node(i).children[0] } -> std::convertible_to<int>;
     { source.node(i).first } -> std::convertible_to<int>;
     { source.node(i).end() } -> std::convertible_to<int>;
-    { source.box(source.node(i)) } -> std::convertible_to<const Box&>;
+    { source.children(i, source.node(i)) } -> std::convertible_to<std::array<int, 2>>;
+    { source.rectangle(source.node(i)) } -> std::convertible_to<const Rectangle&>;
+    { source.box(i, source.node(i)) } -> std::convertible_to<const Box&>;
+    { source.stored_box(i, source.node(i)) } -> std::convertible_to<const Box&>;
     { source.begin(source.node(i)) } -> std::convertible_to<double>;
     { source.end(source.node(i)) } -> std::convertible_to<double>;
-    { source.samples(source.node(i)) } -> PlacedSamples;
+    { source.samples(source.node(i)) } -> StoredSamples;
     { source.samples() } -> SampleSource;
     { source.frame() } -> std::convertible_to<const PlacedFrame&>;
     { source.time_scale() } -> std::convertible_to<double>;
@@ -137,6 +151,59 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
                : visit_pairs<Motion::held>(a, first_a, end_a, b, first_b, end_b, observer, on_hit);
 }
 
+/// Tells the pairs of B's samples [first, end), as if each had been measured.
+template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer>
+void report_apart(const A& a, const B& b, int first, int end, const SampleShift& shift, Observer& observer) {
+    for (int j = first; j < end; ++j) {
+        const Disk disk_b = b.disk(j);
+        for (int i = j + shift.shift; i < j + shift.shift + shift.partners; ++i) {
+            observer.sample_pair(i, j, squared_distance(a.disk(i), disk_b));
+        }
+    }
+}
+
+/// visit_sample_pairs for held samples of equal dt: most pairs are passed over unmeasured, two at a time. `slack`
+/// (metres) covers the rounding of the samples' places.
+template <StoredSamples A, StoredSamples B, TraversalObserver Observer, class OnHit>
+PairVisit visit_shifted_pairs(const SampleShift& shift, double slack, const A& a, int first_a, int end_a, const B& b,
+                              int first_b, int end_b, [[maybe_unused]] Observer& observer, OnHit& on_hit) {
+    PairVisit visit;
+    const auto measure = [&](int i, int j) {
+        const Disk disk_a = a.disk(i), disk_b = b.disk(j);
+        if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
+        if (!collide(disk_a, disk_b)) return false;
+        visit.hit = true;
+        visit.stopped = on_hit(i, j);
+        return visit.stopped;
+    };
+    const int next = shift.partners - 1;  // how far the last partner of a sample is behind the first
+    int j = std::max(first_b, first_a - shift.shift - next);
+    // A sample whose first partner comes before the range may still have its second there; only the last of B can lack
+    // its second.
+    if (j < end_b && j + shift.shift < first_a) {
+        if (measure(j + shift.shift + 1, j)) return visit;
+        ++j;
+    }
+    const int end_whole = std::min(end_b, end_a - shift.shift - next);
+    if (j < end_whole) {
+        const StoredDisks stored_a = a.stored(), stored_b = b.stored();
+        const Rotation to_a = stored_a.rotation.inverse();
+        const StoredRelation relation{to_a * stored_b.rotation, to_a(stored_b.translate - stored_a.translate), slack};
+        for (;;) {
+            const int apart =
+                count_apart(stored_a.at(j + shift.shift), stored_b.at(j), end_whole - j, shift.partners, relation);
+            if constexpr (Observer::watches) report_apart(a, b, j, j + apart, shift, observer);
+            j += apart;
+            if (j == end_whole) break;
+            if (measure(j + shift.shift, j)) return visit;
+            if (next && measure(j + shift.shift + 1, j)) return visit;
+            ++j;
+        }
+    }
+    if (j < end_b && j + shift.shift < end_a) measure(j + shift.shift, j);
+    return visit;
+}
+
 /// How a leaf is tested against the nodes below the other side's inner node.
 enum class WalkTests {
     time,            ///< in time only (paper, Fig. 4)
@@ -171,6 +238,7 @@ class Traversal {
           b_(b),
           frame_(a.frame(), b.frame(), a.time_scale()),
           same_scale_(a.time_scale() == b.time_scale()),
+          shift_(a.frame(), a.samples().dt(), b.frame(), b.samples().dt()),
           observer_(observer),
           on_hit_(on_hit) {}
 
@@ -178,73 +246,131 @@ class Traversal {
     bool run() {
         if (a_.samples().is_linear() || b_.samples().is_linear()) [[unlikely]] {
             frame_.cover_swept_disks(a_.frame(), b_.frame());
-            return visit<Motion::linear>(0, 0);
+            return visit_root<Mode::linear>();
         }
-        return visit<Motion::held>(0, 0);
+        return shift_.is_known() ? visit_root<Mode::shifted>() : visit_root<Mode::held>();
     }
 
   private:
     enum class Side { a, b };
+    /// How times and samples are compared: of held samples of which a shift is known, of others, of linear ones.
+    enum class Mode { shifted, held, linear };
 
-    template <Motion motion>
-    bool visit(int ia, int ib) {
-        const auto& na = a_.node(ia);
-        const auto& nb = b_.node(ib);
+    template <Mode mode>
+    bool visit_root() {
+        const auto& na = a_.node(0);
+        const auto& nb = b_.node(0);
+        if constexpr (Observer::watches) observer_.enter(0, 0);
+        const bool stop =
+            may_meet_in_time<mode>(na, nb) && may_meet_in_space(0, na, 0, nb) && visit_below<mode>(0, na, 0, nb);
+        if constexpr (Observer::watches) observer_.leave();
+        return stop;
+    }
+
+    /// What lies below two nodes whose boxes meet.
+    template <Mode mode>
+    bool visit_below(int ia, const auto& na, int ib, const auto& nb) {
+        if (na.is_leaf()) return nb.is_leaf() ? test_leaves<mode>(ia, na, ib, nb) : walk<mode, Side::b>(ia, na, ib, nb);
+        if (nb.is_leaf()) return walk<mode, Side::a>(ib, nb, ia, na);
+        return visit_children<mode>(ia, na, ib, nb);
+    }
+
+    /// The children of two inner nodes, each of one with each of the other.
+    template <Mode mode>
+    bool visit_children(int ia, const auto& na, int ib, const auto& nb) {
+        const std::array<int, 2> children_a = a_.children(ia, na), children_b = b_.children(ib, nb);
+        const auto& a0 = a_.node(children_a[0]);
+        const auto& a1 = a_.node(children_a[1]);
+        const auto& b0 = b_.node(children_b[0]);
+        const auto& b1 = b_.node(children_b[1]);
+        // In this order the traversal runs forward in time: one of the two mixed pairs is always apart in time.
+        unsigned meet = (meet_in_time<mode>(a0, b0) ? 1u : 0u) | (meet_in_time<mode>(a0, b1) ? 2u : 0u) |
+                        (meet_in_time<mode>(a1, b0) ? 4u : 0u) | (meet_in_time<mode>(a1, b1) ? 8u : 0u);
+        int told = 0;
+        while (meet) {
+            const int k = std::countr_zero(meet);
+            meet &= meet - 1;
+            const std::size_t i = static_cast<std::size_t>(k) >> 1, j = static_cast<std::size_t>(k) & 1;
+            const auto& child_a = i == 0 ? a0 : a1;
+            const auto& child_b = j == 0 ? b0 : b1;
+            if constexpr (Observer::watches) enter_next(children_a, children_b, told, k);
+            const bool stop = may_meet_in_space(children_a[i], child_a, children_b[j], child_b) &&
+                              visit_below<mode>(children_a[i], child_a, children_b[j], child_b);
+            if constexpr (Observer::watches) observer_.leave();
+            if (stop) return true;
+        }
+        if constexpr (Observer::watches) tell_apart(children_a, children_b, told, 4);
+        return false;
+    }
+
+    /// Enters child pair `next`, after telling those before it that are apart in time, from `told` on.
+    void enter_next(const std::array<int, 2>& children_a, const std::array<int, 2>& children_b, int& told, int next) {
+        tell_apart(children_a, children_b, told, next);
+        told = next + 1;
+        observer_.enter(children_a[static_cast<std::size_t>(next) >> 1],
+                        children_b[static_cast<std::size_t>(next) & 1]);
+        observer_.time_test(true);
+    }
+    void tell_apart(const std::array<int, 2>& children_a, const std::array<int, 2>& children_b, int from, int to) {
+        for (int k = from; k < to; ++k) {
+            observer_.enter(children_a[static_cast<std::size_t>(k) >> 1], children_b[static_cast<std::size_t>(k) & 1]);
+            observer_.time_test(false);
+            observer_.leave();
+        }
+    }
+
+    /// A leaf against the children of the other side's inner node (Fig. 4).
+    template <Mode mode, Side inner_side>
+    bool walk(int leaf_index, const auto& leaf, int inner_index, const auto& inner) {
+        if constexpr (inner_side == Side::a) {
+            for (const int ia : a_.children(inner_index, inner)) {
+                if (walk_pair<mode, inner_side>(ia, a_.node(ia), leaf_index, leaf)) return true;
+            }
+        } else {
+            for (const int ib : b_.children(inner_index, inner)) {
+                if (walk_pair<mode, inner_side>(leaf_index, leaf, ib, b_.node(ib))) return true;
+            }
+        }
+        return false;
+    }
+
+    template <Mode mode, Side inner_side>
+    bool walk_pair(int ia, const auto& na, int ib, const auto& nb) {
         if constexpr (Observer::watches) observer_.enter(ia, ib);
         bool stop = false;
-        if (may_meet_in_time(na, nb) && may_meet_in_space(a_.box(na), b_.box(nb))) {
-            if (a_.is_leaf(na)) {
-                stop = b_.is_leaf(nb) ? test_leaves<motion>(ia, na, ib, nb) : walk<motion, Side::b>(ia, nb);
-            } else if (b_.is_leaf(nb)) {
-                stop = walk<motion, Side::a>(ib, na);
+        if (may_meet_in_time<mode>(na, nb) && (walk_tests == WalkTests::time || may_meet_in_space(ia, na, ib, nb))) {
+            if constexpr (inner_side == Side::a) {
+                stop = na.is_leaf() ? test_leaves<mode>(ia, na, ib, nb) : walk<mode, inner_side>(ib, nb, ia, na);
             } else {
-                // In this order the traversal runs forward in time: one of the two mixed pairs is always apart in time.
-                stop = visit<motion>(na.children[0], nb.children[0]) || visit<motion>(na.children[0], nb.children[1]) ||
-                       visit<motion>(na.children[1], nb.children[0]) || visit<motion>(na.children[1], nb.children[1]);
+                stop = nb.is_leaf() ? test_leaves<mode>(ia, na, ib, nb) : walk<mode, inner_side>(ia, na, ib, nb);
             }
         }
         if constexpr (Observer::watches) observer_.leave();
         return stop;
     }
 
-    /// A leaf against the children of the other side's inner node (Fig. 4).
-    template <Motion motion, Side inner_side>
-    bool walk(int leaf, const auto& inner) {
-        for (const int child : inner.children) {
-            const int ia = inner_side == Side::a ? child : leaf;
-            const int ib = inner_side == Side::a ? leaf : child;
-            const auto& na = a_.node(ia);
-            const auto& nb = b_.node(ib);
-            if constexpr (Observer::watches) observer_.enter(ia, ib);
-            bool stop = false;
-            if (may_meet_in_time(na, nb) &&
-                (walk_tests == WalkTests::time || may_meet_in_space(a_.box(na), b_.box(nb)))) {
-                if constexpr (inner_side == Side::a) {
-                    stop = a_.is_leaf(na) ? test_leaves<motion>(ia, na, ib, nb) : walk<motion, Side::a>(leaf, na);
-                } else {
-                    stop = b_.is_leaf(nb) ? test_leaves<motion>(ia, na, ib, nb) : walk<motion, Side::b>(leaf, nb);
-                }
-            }
-            if constexpr (Observer::watches) observer_.leave();
-            if (stop) return true;
-        }
-        return false;
+    template <Mode mode>
+    bool meet_in_time(const auto& na, const auto& nb) const {
+        if constexpr (mode == Mode::shifted) return shift_.overlap(na.first, na.end(), nb.first, nb.end());
+        return overlap_in_time(a_.begin(na), a_.end(na), b_.begin(nb), b_.end(nb));
     }
 
+    template <Mode mode>
     bool may_meet_in_time(const auto& na, const auto& nb) {
-        const bool overlap = overlap_in_time(a_.begin(na), a_.end(na), b_.begin(nb), b_.end(nb));
+        const bool overlap = meet_in_time<mode>(na, nb);
         if constexpr (Observer::watches) observer_.time_test(overlap);
         return overlap;
     }
 
     /// Looks the test of two kinds up in kPairTests, unrolled at compile time: each is called directly.
     template <std::size_t i = 0>
-    bool may_meet_in_space(const Box& a, const Box& b) {
+    bool may_meet_in_space(int ia, const auto& na, int ib, const auto& nb) {
         if constexpr (i < std::size(kPairTests)) {
             constexpr PairTest pair = kPairTests[i];
-            if (a.kind != pair.a || b.kind != pair.b) return may_meet_in_space<i + 1>(a, b);
+            if (na.kind != pair.a || nb.kind != pair.b) return may_meet_in_space<i + 1>(ia, na, ib, nb);
             if (pair.mixes_time && !same_scale_) return true;
-            const Separation separation = pair.separate(a, b, frame_);
+            if constexpr (pair.test == BoxKind::obb2d) return may_meet_on_floor(a_.rectangle(na), b_.rectangle(nb));
+            const Separation separation = separate<i>(ia, na, ib, nb);
             if constexpr (Observer::watches) observer_.box_test(pair.test, separation);
             return !separation.separated();
         } else {
@@ -252,12 +378,39 @@ class Traversal {
         }
     }
 
+    /// All four axes are tried at once: a branch would cost more than the rest of them.
+    bool may_meet_on_floor(const Rectangle& a, const Rectangle& b) {
+        const FloorGaps gaps(a, b, frame_);
+        if constexpr (Observer::watches) observer_.box_test(BoxKind::obb2d, gaps.first_above(frame_.slack2d()));
+        return !gaps.separated(frame_.slack2d());
+    }
+
+    template <std::size_t i>
+    Separation separate(int ia, const auto& na, int ib, const auto& nb) {
+        constexpr PairTest pair = kPairTests[i];
+        if constexpr (is_upright(pair.a) && is_upright(pair.b)) {
+            return pair.rectangles(a_.rectangle(na), b_.rectangle(nb), frame_);
+        } else {
+            return pair.boxes(box<pair.a>(a_, ia, na), box<pair.b>(b_, ib, nb), frame_);
+        }
+    }
+
+    template <BoxKind kind>
+    static decltype(auto) box(const auto& source, int i, const auto& node) {
+        if constexpr (is_upright(kind)) {
+            return source.box(i, node);
+        } else {
+            return source.stored_box(i, node);
+        }
+    }
+
     /// Two leaves: their blocks if both have some, else their samples.
-    template <Motion motion>
+    template <Mode mode>
     bool test_leaves(int ia, const auto& na, int ib, const auto& nb) {
-        if (a_.has_blocks(na) && b_.has_blocks(nb)) return test_blocks(ia, na, ib, nb);
-        const PairVisit pairs = visit_pairs<motion>(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first,
-                                                    nb.end(), observer_, on_hit_);
+        if (a_.has_blocks(na) && b_.has_blocks(nb)) [[unlikely]]
+            return test_blocks(ia, na, ib, nb);
+        const PairVisit pairs =
+            visit_samples<mode>(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first, nb.end());
         if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
         return pairs.stopped;
     }
@@ -275,10 +428,22 @@ class Traversal {
         }
     }
 
+    template <Mode mode>
+    PairVisit visit_samples(const auto& a, int first_a, int end_a, const auto& b, int first_b, int end_b) {
+        if constexpr (mode == Mode::shifted) {
+            return visit_shifted_pairs(shift_, frame_.slack2d(), a, first_a, end_a, b, first_b, end_b, observer_,
+                                       on_hit_);
+        } else {
+            constexpr Motion motion = mode == Mode::linear ? Motion::linear : Motion::held;
+            return visit_pairs<motion>(a, first_a, end_a, b, first_b, end_b, observer_, on_hit_);
+        }
+    }
+
     const A& a_;
     const B& b_;
     RelativeFrame frame_;
     bool same_scale_;
+    SampleShift shift_;
     Observer& observer_;
     OnHit& on_hit_;
 };

@@ -28,59 +28,73 @@ Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), op
     }
     // Depth-first order is within a level the order of time.
     std::vector<int> counts(static_cast<std::size_t>(depth_), 0);
-    places_.reserve(nodes_.size());
-    for (const Node& node : nodes_) places_.push_back(counts[static_cast<std::size_t>(node.level)]++);
+    for (Place& place : places_) place.in_level = counts[static_cast<std::size_t>(place.level)]++;
+}
+
+std::size_t Tree::bytes() const {
+    return nodes_.size() * sizeof(Node) + places_.size() * sizeof(Place) + boxes_.size() * sizeof(Box);
+}
+
+Box Tree::box(int i) const {
+    const Node& n = node(i);
+    return is_upright(n.kind) ? over_time(n.kind, n.rectangle, time_scale() * t0(n), time_scale() * t1(n))
+                              : stored_box(i);
 }
 
 int Tree::build(SampleRange range, int parent, int level) {
     const int index = static_cast<int>(nodes_.size());
-    Node node;
     const TreeInfo& kinds = info(options_.tree);
-    node.box = fit(level == 0 ? kinds.root : kinds.below, *clip_, range, options_.axes, options_.time_scale);
-    node.first = range.first;
-    node.count = range.count;
-    node.parent = parent;
-    node.level = level;
-    nodes_.push_back(node);
+    const Box box = fit(level == 0 ? kinds.root : kinds.below, *clip_, range, options_.axes, options_.time_scale);
+    nodes_.push_back({rectangle_of(box), range.first, range.count, -1, box.kind});
+    places_.push_back({parent, level, 0});
+    if (!is_upright(box.kind)) {
+        boxes_.resize(nodes_.size());
+        boxes_.back() = box;
+    }
     depth_ = std::max(depth_, level + 1);
     const bool is_last_level = level + 1 == options_.levels;
     if (range.count > options_.leaf && !is_last_level) {
         // Split at the middle sample: the reading of "(t_max - t_min) / 2" in Section 3.
         const int half = (range.count + 1) / 2;
-        const int first_child = build({range.first, half}, index, level + 1);
+        build({range.first, half}, index, level + 1);
         const int second_child = build({range.first + half, range.count - half}, index, level + 1);
-        nodes_[static_cast<std::size_t>(index)].children[0] = first_child;
-        nodes_[static_cast<std::size_t>(index)].children[1] = second_child;
+        nodes_[static_cast<std::size_t>(index)].second_child = second_child;
     }
     return index;
 }
 
 void Tree::build_blocks() {
     blocks_ = std::make_shared<const Blocks>(clip_);
-    const int count = blocks_->node_count();
     const double w = options_.time_scale;
-    for (int i = 0; i < count; ++i) {
+    const int top = blocks_->node(0).level;
+    for (int i = 0; i < blocks_->node_count(); ++i) {
         const Blocks::Node block = blocks_->node(i);
-        Node node;
-        node.first = block.first;
-        node.count = block.count;
-        node.box = box_around(block.bound, w * (node.first * clip_->dt()), w * (node.end() * clip_->dt()));
-        node.level = blocks_->node(0).level - block.level;
-        if (i > 0) {
-            node.parent = node.level == 1 ? 0 : blocks_->node_of(block.level + 1, block.block / Blocks::kFanOut);
-            int(&siblings)[2] = nodes_[static_cast<std::size_t>(node.parent)].children;
-            if (siblings[0] < 0) siblings[0] = i;
-            siblings[1] = i;
-        }
-        nodes_.push_back(node);
-        depth_ = std::max(depth_, node.level + 1);
+        nodes_.push_back({{}, block.first, block.count, -1, BoxKind::block});
+        boxes_.push_back(box_around(block.bound, w * t0(nodes_.back()), w * t1(nodes_.back())));
+        const int level = top - block.level;
+        const int parent = level == 0   ? -1
+                           : level == 1 ? 0
+                                        : blocks_->node_of(block.level + 1, block.block / Blocks::kFanOut);
+        places_.push_back({parent, level, 0});
+        depth_ = level + 1;
     }
 }
 
-int Tree::child_with(const Node& node, int sample) const {
-    int child = node.children[0];
-    while (nodes_[static_cast<std::size_t>(child)].end() <= sample)
-        child = options_.tree == TreeKind::production ? child + 1 : node.children[1];
+std::array<int, 2> Tree::children(int i) const {
+    if (is_leaf(i)) return {-1, -1};
+    if (!blocks_) return {i + 1, node(i).second_child};
+    const Blocks::Node block = blocks_->node(i);
+    const int level = block.level - 1;
+    if (i == 0) return {blocks_->node_of(level, 0), blocks_->node_of(level, blocks_->count(level) - 1)};
+    const int first = block.block * Blocks::kFanOut;
+    return {blocks_->node_of(level, first),
+            blocks_->node_of(level, std::min(first + Blocks::kFanOut, blocks_->count(level)) - 1)};
+}
+
+int Tree::child_with(int i, int sample) const {
+    const auto [first, last] = children(i);
+    int child = first;
+    while (node(child).end() <= sample) child = blocks_ ? child + 1 : last;
     return child;
 }
 

@@ -6,6 +6,8 @@
 #include <mobb/clip.h>
 #include <mobb/fit.h>
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,17 +38,18 @@ std::span<const std::string_view> tree_kind_names();
 /// Throws std::invalid_argument, naming the option, if one is out of range.
 void check(const FitOptions& options);
 
-struct Node {
-    Box box;  ///< in the clip's own frame
+/// What a query reads of a node: one cache line.
+struct alignas(64) Node {
+    Rectangle rectangle;  ///< of an upright box, in the clip's own frame; of others see Tree::box
     int first = 0;
     int count = 0;
-    int parent = -1;             ///< -1 at the root
-    int children[2] = {-1, -1};  ///< in time order; -1 in a leaf. Of a production tree the first and the last child
-    int level = 0;               ///< 0 at the root
+    int second_child = -1;  ///< the first child is the next node; -1: a leaf, where blocks or samples are next
+    BoxKind kind = BoxKind::obb2d;
 
-    bool is_leaf() const { return children[0] < 0; }
+    bool is_leaf() const { return second_child < 0; }
     int end() const { return first + count; }
 };
+static_assert(sizeof(Node) == 64);
 
 /// A flat array of nodes, the root first: in depth-first order, or of a production tree level by level. Immutable; safe
 /// to query from any number of threads.
@@ -60,20 +63,41 @@ class Tree {
     const FitOptions& options() const { return options_; }
     double time_scale() const { return options_.time_scale; }
     std::span<const Node> nodes() const { return nodes_; }
+    const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
     int depth() const { return depth_; }  ///< number of levels, >= 1
-    /// What the nodes of a production tree are, by the same numbers; of another tree nothing.
+    /// What the nodes of a production tree are, by the same numbers; of another tree nothing. All of these are leaves
+    /// to a query, which goes on with the blocks.
     const Blocks* blocks() const { return blocks_.get(); }
-    /// The child of an inner node that holds a sample of it.
-    int child_with(const Node& node, int sample) const;
+    /// Of the nodes and what belongs to them, without the clip.
+    std::size_t bytes() const;
 
+    /// The node's box in the clip's own frame and time.
+    Box box(int i) const;
+    /// The same without a copy, of a box that is not upright.
+    const Box& stored_box(int i) const { return boxes_[static_cast<std::size_t>(i)]; }
+    /// The first and the last child, in time order; -1 of a leaf. A block has all between them, too.
+    std::array<int, 2> children(int i) const;
+    /// The child of an inner node that holds a sample of it.
+    int child_with(int i, int sample) const;
+    /// Whether a node has no children, blocks included.
+    bool is_leaf(int i) const { return blocks_ ? level(i) + 1 == depth_ : node(i).is_leaf(); }
+    int parent(int i) const { return places_[static_cast<std::size_t>(i)].parent; }  ///< -1 at the root
+    int level(int i) const { return places_[static_cast<std::size_t>(i)].level; }    ///< 0 at the root
     /// How many nodes of its level come before a node, in the order of time.
-    int place_in_level(int node) const { return places_[static_cast<std::size_t>(node)]; }
+    int place_in_level(int i) const { return places_[static_cast<std::size_t>(i)].in_level; }
 
     /// Clip time covered by a node, [t0, t1) in seconds.
     double t0(const Node& node) const { return node.first * clip_->dt(); }
     double t1(const Node& node) const { return node.end() * clip_->dt(); }
 
   private:
+    /// Where a node stands: no query asks for it.
+    struct Place {
+        int parent;
+        int level;
+        int in_level;
+    };
+
     int build(SampleRange range, int parent, int level);
     void build_blocks();
 
@@ -81,7 +105,8 @@ class Tree {
     FitOptions options_;
     std::shared_ptr<const Blocks> blocks_;
     std::vector<Node> nodes_;
-    std::vector<int> places_;  ///< by node, see place_in_level
+    std::vector<Place> places_;  ///< by node
+    std::vector<Box> boxes_;     ///< by node, up to the last whose box is not upright
     int depth_ = 0;
 };
 

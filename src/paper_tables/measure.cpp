@@ -93,6 +93,7 @@ TreeFigures tree_figures(const std::vector<mobb::Tree>& trees) {
     for (const mobb::Tree& tree : trees) {
         out.depth += tree.depth();
         out.nodes += static_cast<double>(tree.nodes().size());
+        out.bytes += static_cast<double>(sizeof(mobb::Tree) + tree.bytes());
         out.volumes.resize(std::max(out.volumes.size(), static_cast<std::size_t>(tree.depth())));
     }
     for (const mobb::Tree& tree : trees) {
@@ -104,9 +105,7 @@ TreeFigures tree_figures(const std::vector<mobb::Tree>& trees) {
     const double count = static_cast<double>(std::max<std::size_t>(trees.size(), 1));
     out.depth /= count;
     out.nodes /= count;
-    out.bytes = sizeof(mobb::Tree) + out.nodes * (sizeof(mobb::Node) + sizeof(int));
-    for (const mobb::Tree& tree : trees)
-        out.bytes += tree.blocks() ? static_cast<double>(tree.blocks()->bytes()) / count : 0;
+    out.bytes /= count;
     return out;
 }
 

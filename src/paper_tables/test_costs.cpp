@@ -19,8 +19,7 @@ constexpr double kLeastSeconds = 0.1;        // of measuring: long enough for th
 
 /// Two boxes as a query tested them.
 struct BoxPair {
-    const mobb::Box* a;
-    const mobb::Box* b;
+    mobb::Box a, b;
     std::size_t frame;  ///< index of the query's frame
 };
 
@@ -51,7 +50,7 @@ BoxPairs collect(const std::vector<mobb::Tree>& trees, const Workload& workload,
         mobb::query(a, b, collector);
         if (collector.tested.empty()) continue;
         for (const auto& [ia, ib] : collector.tested) {
-            out.pairs.push_back({&a.node(ia).box, &b.node(ib).box, out.frames.size()});
+            out.pairs.push_back({a.tree().box(ia), b.tree().box(ib), out.frames.size()});
         }
         out.frames.emplace_back(a.frame(), b.frame(), a.time_scale());
     }
@@ -76,7 +75,7 @@ std::optional<double> time_pairs(const BoxPairs& pairs, const mobb::PairTest& te
     return time_rounds(static_cast<std::int64_t>(pairs.pairs.size()), [&] {
         std::int64_t separated = 0;
         for (const BoxPair& pair : pairs.pairs) {
-            separated += test.separate(*pair.a, *pair.b, pairs.frames[pair.frame]).separated() ? 1 : 0;
+            separated += test.separate(pair.a, pair.b, pairs.frames[pair.frame]).separated() ? 1 : 0;
         }
         return separated;
     });

@@ -88,7 +88,7 @@ std::size_t FittedScene::bytes_beyond(const FittedScene& other) const {
     }
     for (const auto& fit : fits_) {
         for (const auto& tree : fit->trees) {
-            if (shared.insert(tree.get()).second) bytes += tree->nodes().size() * (sizeof(mobb::Node) + sizeof(int));
+            if (shared.insert(tree.get()).second) bytes += tree->bytes();
             if (shared.insert(&tree->clip()).second) bytes += tree->clip().samples().size_bytes();
         }
     }

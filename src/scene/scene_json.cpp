@@ -30,16 +30,16 @@ void write_vector(JsonWriter& out, const glm::dvec3& v, int count) {
 }
 
 void write_node(JsonWriter& out, const mobb::Tree& tree, int index) {
-    const mobb::Node& node = tree.nodes()[static_cast<std::size_t>(index)];
-    const mobb::Box& box = node.box;
+    const mobb::Node& node = tree.node(index);
+    const mobb::Box box = tree.box(index);
     const int dimensions = mobb::info(box.kind).axes == mobb::BoxAxes::space_time ? 3 : 2;
     out.begin_object(Layout::row);
     out.member("index", index);
-    out.member("parent", node.parent);
-    out.member("level", node.level);
+    out.member("parent", tree.parent(index));
+    out.member("level", tree.level(index));
     out.member("first", node.first);
     out.member("count", node.count);
-    out.member("leaf", node.is_leaf());
+    out.member("leaf", tree.is_leaf(index));
     out.member("kind", mobb::info(box.kind).name);
     out.key("center");
     // A moving box has its centre in the middle of its time; files give it at t0.

@@ -649,7 +649,7 @@ std::vector<Case> cases() {
         EXPECT_EQ(w.session.selection, (Selection{Selection::Kind::clip, {}, 1}));
     });
     look("go.node", "B 1.1", [](CommandWorld& w) {
-        expect_node(w, w.session.fitted().tree(0).nodes()[0].children[1]);
+        expect_node(w, w.session.fitted().tree(0).children(0)[1]);
         EXPECT_EQ(w.view().levels, (LevelRange{1, 1, false})) << "its level is shown";
     });
     look("go.node", "B 3", [](CommandWorld& w) { expect_node(w, 3); });
@@ -664,7 +664,7 @@ std::vector<Case> cases() {
     add({"go.child", "", {kSelectB}, [](CommandWorld& w) { expect_node(w, 0); }});
     add({"go.child", "", {{"go.node", "B 0"}}, [](CommandWorld& w) { expect_node(w, 1); }});
     add({"go.next_node", "", {{"go.node", "B 1.0"}}, [](CommandWorld& w) {
-             expect_node(w, w.session.fitted().tree(0).nodes()[0].children[1]);
+             expect_node(w, w.session.fitted().tree(0).children(0)[1]);
          }});
     add({"go.previous_node", "", {{"go.node", "B 1.1"}}, [](CommandWorld& w) { expect_node(w, 1); }});
     in_query("go.contact", "", [](CommandWorld& w) {

@@ -44,12 +44,13 @@ TEST(Fit, JsonIsTheTree) {
     ASSERT_EQ(printed["nodes"].size(), tree.nodes().size());
     for (std::size_t i = 0; i < tree.nodes().size(); ++i) {
         const mobb::Node& node = tree.nodes()[i];
+        const mobb::Box box = tree.box(static_cast<int>(i));
         const json& entry = printed["nodes"][i];
         EXPECT_EQ(keys(entry), (std::set<std::string>{"index", "parent", "level", "first", "count", "leaf", "kind",
                                                       "center", "axes", "half", "t0", "t1"}));
         EXPECT_EQ(entry["index"], i);
-        EXPECT_EQ(entry["parent"], node.parent);
-        EXPECT_EQ(entry["level"], node.level);
+        EXPECT_EQ(entry["parent"], tree.parent(static_cast<int>(i)));
+        EXPECT_EQ(entry["level"], tree.level(static_cast<int>(i)));
         EXPECT_EQ(entry["first"], node.first);
         EXPECT_EQ(entry["count"], node.count);
         EXPECT_EQ(entry["leaf"], node.is_leaf());
@@ -59,11 +60,11 @@ TEST(Fit, JsonIsTheTree) {
         ASSERT_EQ(entry["half"].size(), dimensions);
         for (int k = 0; k < static_cast<int>(dimensions); ++k) {
             const auto at = static_cast<std::size_t>(k);
-            EXPECT_EQ(entry["center"][at], node.box.center[k]);
-            EXPECT_EQ(entry["half"][at], node.box.half[k]);
+            EXPECT_EQ(entry["center"][at], box.center[k]);
+            EXPECT_EQ(entry["half"][at], box.half[k]);
             ASSERT_EQ(entry["axes"][at].size(), dimensions);
             for (int m = 0; m < static_cast<int>(dimensions); ++m) {
-                EXPECT_EQ(entry["axes"][at][static_cast<std::size_t>(m)], node.box.axes[at][m]);
+                EXPECT_EQ(entry["axes"][at][static_cast<std::size_t>(m)], box.axes[at][m]);
             }
         }
         EXPECT_EQ(entry["t0"], tree.t0(node));

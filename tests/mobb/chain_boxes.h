@@ -25,7 +25,10 @@ inline Boxes boxes_of(const Chain& chain, int id = 0) {
 }
 inline Boxes boxes_of(const Tree& tree) {
     Boxes boxes;
-    for (const Node& node : tree.nodes()) boxes.count += 1, boxes.volume += volume(node.box, tree.time_scale());
+    for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+        boxes.count += 1;
+        boxes.volume += volume(tree.box(i), tree.time_scale());
+    }
     return boxes;
 }
 

@@ -77,8 +77,8 @@ TEST(Fit, EveryBoxIsTightAndContainsItsCylinders) {
         const ClipPtr clip = test::random_motion(random, test::random_clip(random, 300));
         FitOptions options = test::random_fit(random);
         const Tree tree(clip, options);
-        for (const Node& node : tree.nodes()) {
-            expect_tight(*clip, {node.first, node.count}, node.box, options.time_scale);
+        for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+            expect_tight(*clip, {tree.node(i).first, tree.node(i).count}, tree.box(i), options.time_scale);
         }
         if (HasFailure()) FAIL() << "round " << round;
     }

@@ -229,7 +229,7 @@ TEST(Production, TracesAreTheSameOnEveryInstructionSetAndCanBeWorkedOutAgain) {
                 const Trace::Event event = trace[step];
                 levels = std::max(levels, event.depth);
                 if (event.test != BoxKind::block) continue;
-                const Separation again = separate_block(a.node(event.a).box, b.node(event.b).box, frame);
+                const Separation again = separate_block(a.tree().box(event.a), b.tree().box(event.b), frame);
                 if (event.outcome == Outcome::overlap) {
                     // Apart by less than single precision can tell.
                     EXPECT_LT(again.gap, 1e-4 * (10 + tree_a.blocks()->extent() + tree_b.blocks()->extent()));

@@ -395,6 +395,54 @@ TEST(Contacts, AllIntervalsAreFoundAndMaximal) {
     EXPECT_GT(several, 50);
 }
 
+/// Every pair of samples that was measured, and its squared distance.
+struct PairLog : ObserverBase {
+    struct Pair {
+        int i, j;
+        double squared_distance;
+        friend bool operator==(const Pair&, const Pair&) = default;
+    };
+    std::vector<Pair> pairs;
+
+    void sample_pair(int i, int j, double squared_distance) { pairs.push_back({i, j, squared_distance}); }
+};
+
+/// Starts whose distance in samples is whole, half, anything, or off a whole number by about kMinOverlap.
+double shifted_start(Random& random, double dt, int samples) {
+    constexpr double kOffsets[] = {0, 0, 0.5, 1e-9, -1e-9, 0.999999e-9, 1.000001e-9, 2e-9, 1e-13};
+    const int which = random.integer(0, 9);
+    const double whole = dt * random.integer(-samples, samples);
+    if (which == 9) return whole + random.real(-dt, dt);
+    return whole + kOffsets[which] * (which == 2 ? dt : 1);
+}
+
+TEST(Query, ClipsOfOneDtMeasureThePairsThatTheDirectSearchDoes) {
+    Random random(21);
+    constexpr double kSpacings[] = {1.0 / 30, 1.0, 0.1, 1.5e-9, 0.9e-9, 1e-12};
+    int measured = 0, known = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const double dt = kSpacings[std::max(0, random.integer(-20, 5))];
+        const ClipPtr a = test::random_clip(random, 40, dt), b = test::random_clip(random, 40, dt);
+        // 1 level, and never apart in space: what is measured is what shares time.
+        const Tree tree_a(a, {.tree = TreeKind::mobb, .levels = 1}), tree_b(b, {.tree = TreeKind::aabb, .levels = 1});
+        const double start = random.chance(0.2) ? random.real(-1e6, 1e6) : 0;
+        const Placement place_a{.translate = {random.real(-3, 3), 0}, .rotate_deg = 77, .start = start};
+        const Placement place_b{.start = start + shifted_start(random, dt, 50)};
+        const PlacedTree placed_a(tree_a, place_a), placed_b(tree_b, place_b);
+        const PlacedClip& samples_a = placed_a.placed_clip();
+        const PlacedClip& samples_b = placed_b.placed_clip();
+        PairLog of_tree, direct;
+        EXPECT_EQ(query(placed_a, placed_b, of_tree), direct_search(samples_a, samples_b, direct));
+        EXPECT_EQ(of_tree.pairs, direct.pairs);
+        EXPECT_EQ(contact_intervals(placed_a, placed_b), direct_contact_intervals(samples_a, samples_b));
+        measured += static_cast<int>(direct.pairs.size());
+        known += SampleShift(placed_a.frame(), a->dt(), placed_b.frame(), b->dt()).is_known() ? 1 : 0;
+    }
+    EXPECT_GT(measured, 100000);
+    EXPECT_GT(known, 8000);
+    EXPECT_LT(known, 19500);
+}
+
 TEST(Query, OneLevelTreeMeasuresTheCommonTimeOnly) {
     // The paper's "1 level": root boxes, then a binary search for the first pair and a walk through the overlap.
     const auto still = std::make_shared<const Clip>(0.01, std::vector<Disk>(1000, Disk{0, 0, 0.5}));

@@ -96,8 +96,8 @@ class Replay {
         if (na.is_leaf() && nb.is_leaf()) return samples(ia, ib, depth, parent);
         if (na.is_leaf()) return walk(ia, ib, false, depth, caller);
         if (nb.is_leaf()) return walk(ib, ia, true, depth, caller);
-        for (const int ca : na.children) {
-            for (const int cb : nb.children) {
+        for (const int ca : a_.tree().children(ia)) {
+            for (const int cb : b_.tree().children(ib)) {
                 if (visit(ca, cb, depth + 1, caller)) return true;
             }
         }
@@ -105,8 +105,7 @@ class Replay {
     }
 
     bool walk(int leaf, int inner, bool inner_is_a, int depth, int caller) {
-        const Node& node = inner_is_a ? a_.node(inner) : b_.node(inner);
-        for (const int child : node.children) {
+        for (const int child : (inner_is_a ? a_ : b_).tree().children(inner)) {
             const int ia = inner_is_a ? child : leaf, ib = inner_is_a ? leaf : child;
             if (!time(ia, ib, depth + 1, caller)) continue;
             const Node& child_node = inner_is_a ? a_.node(child) : b_.node(child);
@@ -142,8 +141,8 @@ class Replay {
     }
 
     bool box(int ia, int ib, int depth, int parent) {
-        const Box& box_a = a_.node(ia).box;
-        const Box& box_b = b_.node(ib).box;
+        const Box box_a = a_.tree().box(ia);
+        const Box box_b = b_.tree().box(ib);
         const auto free_or_not = [](BoxKind kind) { return kind == BoxKind::obb2d || kind == BoxKind::obb3d; };
         if (box_a.kind != box_b.kind && !(free_or_not(box_a.kind) && free_or_not(box_b.kind))) return true;
         const Trace::Event event = next(ia, ib, depth, parent);

@@ -4,6 +4,8 @@
 #include <mobb/tree.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
 
@@ -19,24 +21,24 @@ TEST(Tree, SplitsAtTheMiddleSample) {
         const FitOptions options = test::random_fit(random);
         const Tree tree(clip, options);
         ASSERT_FALSE(tree.nodes().empty());
-        EXPECT_EQ(tree.nodes()[0].parent, -1);
+        EXPECT_EQ(tree.parent(0), -1);
         EXPECT_EQ(tree.nodes()[0].count, clip->count());
         int depth = 0;
         for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
             const Node& node = tree.nodes()[static_cast<std::size_t>(i)];
-            depth = std::max(depth, node.level + 1);
-            const bool last_level = options.levels > 0 && node.level == options.levels - 1;
+            depth = std::max(depth, tree.level(i) + 1);
+            const bool last_level = options.levels > 0 && tree.level(i) == options.levels - 1;
             EXPECT_EQ(node.is_leaf(), node.count <= options.leaf || last_level);
             if (node.is_leaf()) continue;
-            const Node& first = tree.nodes()[static_cast<std::size_t>(node.children[0])];
-            const Node& second = tree.nodes()[static_cast<std::size_t>(node.children[1])];
+            const Node& first = tree.node(tree.children(i)[0]);
+            const Node& second = tree.node(tree.children(i)[1]);
             EXPECT_EQ(first.first, node.first);
             EXPECT_EQ(first.count, (node.count + 1) / 2);
             EXPECT_EQ(second.first, first.end());
             EXPECT_EQ(second.end(), node.end());
-            for (const Node* child : {&first, &second}) {
-                EXPECT_EQ(child->parent, i);
-                EXPECT_EQ(child->level, node.level + 1);
+            for (const int child : tree.children(i)) {
+                EXPECT_EQ(tree.parent(child), i);
+                EXPECT_EQ(tree.level(child), tree.level(i) + 1);
             }
         }
         EXPECT_EQ(depth, tree.depth());
@@ -54,17 +56,21 @@ TEST(Tree, OfBlocksHasTheirNumbersAndParents) {
         ASSERT_NE(tree.blocks(), nullptr);
         ASSERT_EQ(static_cast<int>(tree.nodes().size()), tree.blocks()->node_count());
         for (int i = 0; i < tree.blocks()->node_count(); ++i) {
-            const Node& node = tree.nodes()[static_cast<std::size_t>(i)];
-            EXPECT_EQ(node.box.kind, BoxKind::block);
-            EXPECT_EQ(node.is_leaf(), node.level == tree.depth() - 1);
-            if (node.is_leaf()) continue;
+            const Node& node = tree.node(i);
+            EXPECT_EQ(tree.box(i).kind, BoxKind::block);
+            EXPECT_EQ(tree.is_leaf(i), tree.level(i) == tree.depth() - 1);
+            const auto [first, last] = tree.children(i);
+            if (tree.is_leaf(i)) {
+                EXPECT_EQ(first, -1);
+                continue;
+            }
             int next = node.first;
-            for (int child = node.children[0]; child <= node.children[1]; ++child) {
-                const Node& below = tree.nodes()[static_cast<std::size_t>(child)];
-                EXPECT_EQ(below.parent, i);
+            for (int child = first; child <= last; ++child) {
+                const Node& below = tree.node(child);
+                EXPECT_EQ(tree.parent(child), i);
                 EXPECT_EQ(below.first, next);
-                EXPECT_EQ(tree.child_with(node, below.first), child);
-                EXPECT_EQ(tree.child_with(node, below.end() - 1), child);
+                EXPECT_EQ(tree.child_with(i, below.first), child);
+                EXPECT_EQ(tree.child_with(i, below.end() - 1), child);
                 next = below.end();
             }
             EXPECT_EQ(next, node.end());
@@ -79,9 +85,11 @@ TEST(Tree, PlacesInALevelCountThroughTime) {
         const auto nodes = tree.nodes();
         for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
             const Node& node = nodes[static_cast<std::size_t>(i)];
-            EXPECT_EQ(tree.place_in_level(i), std::count_if(nodes.begin(), nodes.end(), [&](const Node& other) {
-                          return other.level == node.level && other.first < node.first;
-                      }));
+            int before = 0;
+            for (int other = 0; other < static_cast<int>(nodes.size()); ++other) {
+                before += tree.level(other) == tree.level(i) && tree.node(other).first < node.first ? 1 : 0;
+            }
+            EXPECT_EQ(tree.place_in_level(i), before);
         }
     }
 }
@@ -93,16 +101,93 @@ TEST(Tree, KindsSayWhichBoxesStandWhere) {
     for (const TreeKind kind :
          {TreeKind::mobb, TreeKind::umobb, TreeKind::hybrid1, TreeKind::hybrid2, TreeKind::moving, TreeKind::aabb}) {
         const Tree tree(clip, {.tree = kind});
-        for (const Node& node : tree.nodes()) {
-            const bool root = node.level == 0;
+        for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+            const bool root = i == 0;
             const bool free =
                 kind == TreeKind::umobb || (kind == TreeKind::hybrid1 && !root) || (kind == TreeKind::hybrid2 && root);
             const BoxKind expected = kind == TreeKind::moving ? BoxKind::moving
                                      : kind == TreeKind::aabb ? BoxKind::aabb
                                      : free                   ? BoxKind::obb3d
                                                               : BoxKind::obb2d;
-            EXPECT_EQ(node.box.kind, expected) << name(kind);
+            EXPECT_EQ(tree.box(i).kind, expected) << name(kind);
         }
+    }
+}
+
+std::vector<double> numbers_of(const Box& box) {
+    std::vector<double> out{static_cast<double>(box.kind), box.drift.x, box.drift.y};
+    for (const glm::dvec3& v : {box.center, box.half, box.axes[0], box.axes[1], box.axes[2]}) {
+        out.insert(out.end(), {v.x, v.y, v.z});
+    }
+    return out;
+}
+
+/// To the last bit, also of the sign of a zero.
+bool same_bits(const Box& a, const Box& b) {
+    const std::vector<double> x = numbers_of(a), y = numbers_of(b);
+    return std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
+}
+
+void expect_boxes_of_fit(const ClipPtr& clip, const FitOptions& options) {
+    const Tree tree(clip, options);
+    for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+        const BoxKind kind = i == 0 ? info(options.tree).root : info(options.tree).below;
+        const Node& node = tree.node(i);
+        const Box expected = fit(kind, *clip, {node.first, node.count}, options.axes, options.time_scale);
+        EXPECT_TRUE(same_bits(tree.box(i), expected))
+            << name(options.tree) << ' ' << name(options.axes) << ", leaf " << options.leaf << ", node " << i << " of "
+            << clip->count() << " samples";
+    }
+}
+
+/// Zero radii, walks along an axis, coordinates from tiny to huge: what makes zeros of both signs and flat boxes.
+ClipPtr odd_clip(Random& random) {
+    const int n = random.integer(1, 1500);
+    const double unit = std::pow(10, random.integer(-160, 8));
+    const double step_x = random.integer(-1, 1) * unit, step_y = random.integer(-1, 1) * unit;
+    const bool is_grid = random.chance(0.5), has_radius = random.chance(0.3);
+    std::vector<Disk> samples;
+    double x = random.integer(-3, 3) * step_x, y = random.integer(-3, 3) * step_y;
+    for (int i = 0; i < n; ++i) {
+        const double r = has_radius ? random.integer(0, 2) * unit : 0;
+        samples.push_back({std::clamp(x, -1e9, 1e9), std::clamp(y, -1e9, 1e9), std::min(r, 1e9)});
+        x += is_grid ? random.integer(-1, 1) * step_x : step_x;
+        y += is_grid ? random.integer(-1, 1) * step_y : step_y;
+    }
+    const Motion motion = random.chance(0.3) ? Motion::linear : Motion::held;
+    return std::make_shared<const Clip>(random.chance(0.5) ? 1.0 : 1.0 / 30, std::move(samples), motion);
+}
+
+TEST(Tree, EveryNodesBoxIsTheOneFittedToItsRange) {
+    Random random(31);
+    for (int round = 0; round < 1200; ++round) {
+        const ClipPtr clip =
+            random.chance(0.4) ? odd_clip(random) : test::random_motion(random, test::random_clip(random));
+        FitOptions options = test::random_fit(random);
+        // The smallest boxes are dear to find.
+        if (options.axes == Axes::minarea && clip->count() > 60) options.axes = Axes::endpoints;
+        expect_boxes_of_fit(clip, options);
+        if (HasFailure()) FAIL() << "round " << round;
+    }
+}
+
+TEST(Tree, BoxesOfLongClipsAreThoseFittedToTheirRanges) {
+    Random random(32);
+    std::vector<Disk> walk;
+    double x = 0, y = 0, heading = 0;
+    for (int i = 0; i < 30000; ++i) {
+        walk.push_back({x, y, random.real(0.2, 0.5)});
+        heading += random.real(-0.3, 0.3);
+        x += 0.04 * std::cos(heading), y += 0.04 * std::sin(heading);
+    }
+    for (const Motion motion : {Motion::held, Motion::linear}) {
+        const auto clip = std::make_shared<const Clip>(1.0 / 30, walk, motion);
+        for (const TreeKind kind : kTreeKinds) expect_boxes_of_fit(clip, {.tree = kind});
+        expect_boxes_of_fit(clip, {.leaf = 1});
+    }
+    const std::vector<Disk> start(walk.begin(), walk.begin() + 700);
+    for (const TreeKind kind : {TreeKind::mobb, TreeKind::moving}) {
+        expect_boxes_of_fit(std::make_shared<const Clip>(0.1, start), {.tree = kind, .axes = Axes::minarea});
     }
 }
 

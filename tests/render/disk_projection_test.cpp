@@ -97,7 +97,7 @@ TEST(DiskProjection, OfASingleSampleTheMarksAreTheBoxesSides) {
     EXPECT_EQ(extents.along[0].axis, 0);
     EXPECT_EQ(extents.along[1].axis, 1) << "one sample has no way through time: its box is upright";
     for (const AxisExtent& axis : extents.along) {
-        EXPECT_NEAR(axis.max, agent.placed.node(0).box.half[axis.axis], 1e-12);
+        EXPECT_NEAR(axis.max, agent.placed.tree().box(0).half[axis.axis], 1e-12);
         EXPECT_NEAR(axis.min, -axis.max, 1e-12);
     }
 }

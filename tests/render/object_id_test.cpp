@@ -44,7 +44,7 @@ TEST_P(ObjectIdTest, TheNearestBoxHidesTheDisksInIt) {
     const IdImage ids = renderer().draw_ids(list);
     // The later box of each path is the upper one.
     for (int agent = 0; agent < 2; ++agent) {
-        const int node = fitted.tree(0).nodes()[0].children[1];
+        const int node = fitted.tree(0).children(0)[1];
         const auto box = std::find_if(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& b) {
             return b.id == ObjectId{agent, ObjectId::Kind::box, node};
         });

@@ -100,7 +100,7 @@ int node_at(const mobb::Tree& tree, std::string_view text) {
     // Nodes lie depth first, so those of a level are in order of time.
     std::vector<int> on_level;
     for (int node = 0; node < count; ++node) {
-        if (tree.nodes()[static_cast<std::size_t>(node)].level == level) on_level.push_back(node);
+        if (tree.level(node) == level) on_level.push_back(node);
     }
     const int last = static_cast<int>(on_level.size()) - 1;
     return on_level[static_cast<std::size_t>(whole_number_in(text.substr(dot + 1), "the place on the level", 0, last))];
@@ -109,17 +109,16 @@ int node_at(const mobb::Tree& tree, std::string_view text) {
 int leaf_of_sample(const mobb::Tree& tree, int sample) {
     int node = 0;
     while (true) {
-        const mobb::Node& at = tree.nodes()[static_cast<std::size_t>(node)];
-        if (at.is_leaf()) return node;
-        node = tree.child_with(at, sample);
+        if (tree.is_leaf(node)) return node;
+        node = tree.child_with(node, sample);
     }
 }
 
 int neighbour_on_level(const mobb::Tree& tree, int node, int direction) {
-    const int level = tree.nodes()[static_cast<std::size_t>(node)].level;
+    const int level = tree.level(node);
     const int count = static_cast<int>(tree.nodes().size());
     for (int next = node + direction; next >= 0 && next < count; next += direction) {
-        if (tree.nodes()[static_cast<std::size_t>(next)].level == level) return next;
+        if (tree.level(next) == level) return next;
     }
     return -1;
 }

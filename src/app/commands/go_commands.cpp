@@ -52,7 +52,7 @@ void go_to(Session& session, const Selection& selected) {
         if (selected.kind != Selection::Kind::node || view.query) return;
         const std::vector<int> shown = shown_nodes(tree, view.levels);
         if (std::find(shown.begin(), shown.end(), selected.index) != shown.end()) return;
-        const int level = tree.nodes()[static_cast<std::size_t>(selected.index)].level;
+        const int level = tree.level(selected.index);
         view.levels = {level, level, false};
     });
     session.select(selected);
@@ -84,7 +84,7 @@ int parent(const Session& session) {
     const Selection& selected = session.selection;
     if (selected.kind == Selection::Kind::sample) return leaf_of_sample(selected_tree(session), selected.index);
     if (selected.kind != Selection::Kind::node) return -1;
-    return selected_tree(session).nodes()[static_cast<std::size_t>(selected.index)].parent;
+    return selected_tree(session).parent(selected.index);
 }
 
 /// A node's first child, or a path's root; -1 if there is none.
@@ -92,7 +92,7 @@ int child(const Session& session) {
     const Selection& selected = session.selection;
     if (selected.kind == Selection::Kind::path) return 0;
     if (selected.kind != Selection::Kind::node) return -1;
-    return selected_tree(session).nodes()[static_cast<std::size_t>(selected.index)].children[0];
+    return selected_tree(session).children(selected.index)[0];
 }
 
 /// The node before or after on the same level; -1 if there is none.

@@ -18,9 +18,9 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
     out.name = node_name(agent, index);
     const mobb::Box world = world_box(tree, index);
     const bool upright = mobb::info(world.kind).axes != mobb::BoxAxes::space_time;
-    out.facts = {{"node", std::to_string(index) + (node.is_leaf() ? ", leaf" : "") + ", " +
+    out.facts = {{"node", std::to_string(index) + (tree.tree().is_leaf(index) ? ", leaf" : "") + ", " +
                               std::string(mobb::info(world.kind).title)},
-                 {"level", std::to_string(node.level)},
+                 {"level", std::to_string(tree.tree().level(index))},
                  {"samples", std::to_string(node.first) + ".." + std::to_string(node.end() - 1) + " (" +
                                  std::to_string(node.count) + ")"},
                  {"time", formatted("%.3f..%.3f s", tree.begin(node), tree.end(node))},
@@ -35,7 +35,7 @@ void describe_node(Described& out, const DrawnAgent& agent, int index) {
         out.facts.emplace_back("velocity", formatted("%.3f, %.3f m/s", velocity.x, velocity.y));
     }
     if (!upright) out.facts.emplace_back("side 3", formatted("%.3f m", 2 * world.half[2]));
-    const double volume = mobb::volume(node.box, tree.time_scale());
+    const double volume = mobb::volume(tree.tree().box(index), tree.time_scale());
     const double cylinders = mobb::cylinder_volume(tree.tree().clip(), {node.first, node.count});
     out.facts.emplace_back("volume", formatted("%.4g m\u00B2\u00B7s", volume));
     if (volume > 0) out.facts.emplace_back("tightness", formatted("%.1f %%", 100 * cylinders / volume));

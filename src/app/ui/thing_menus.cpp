@@ -85,9 +85,7 @@ std::vector<MenuEntry> node_menu(const Session& session) {
     std::vector<MenuEntry> menu = entries_of(kNode);
     const auto who = placed_agent_of(session.fitted(), session.selection.path);
     if (who) {
-        const mobb::Node& node =
-            session.fitted().tree(who->clip).nodes()[static_cast<std::size_t>(session.selection.index)];
-        const std::string level = std::to_string(node.level);
+        const std::string level = std::to_string(session.fitted().tree(who->clip).level(session.selection.index));
         menu.push_back({"view.level", level, "Show level " + level + " alone"});
     }
     append_agent(menu, session);

@@ -54,7 +54,7 @@ std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& lev
         const mobb::Tree& tree = agent.placed.tree();
         last = std::max(last, last_shown_level(tree, levels));
         for (const int node : shown_nodes(tree, levels)) {
-            total += mobb::volume(agent.placed.node(node).box, tree.time_scale());
+            total += mobb::volume(tree.box(node), tree.time_scale());
             ++count;
         }
     }

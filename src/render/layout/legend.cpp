@@ -165,7 +165,7 @@ bool has_sheared_boxes(const DrawList& list, std::span<const DrawnAgent> agents)
     return std::any_of(list.boxes.begin(), list.boxes.end(), [&](const BoxInstance& box) {
         if (!box.pickable) return false;
         const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.agent)].placed;
-        return mobb::info(tree.node(box.id.index).box.kind).axes == mobb::BoxAxes::space_time &&
+        return mobb::info(tree.node(box.id.index).kind).axes == mobb::BoxAxes::space_time &&
                std::abs(list.space.time_height / tree.time_scale() - 1) > 0.01;
     });
 }
@@ -175,7 +175,7 @@ std::optional<std::string> beyond_the_paper(const DrawList& list, std::span<cons
     for (const BoxInstance& box : list.boxes) {
         if (!box.pickable) continue;
         const mobb::PlacedTree& tree = agents[static_cast<std::size_t>(box.id.agent)].placed;
-        const std::string_view looks = mobb::info(tree.node(box.id.index).box.kind).looks;
+        const std::string_view looks = mobb::info(tree.node(box.id.index).kind).looks;
         if (!looks.empty()) return std::string(looks);
     }
     return std::nullopt;

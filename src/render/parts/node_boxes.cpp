@@ -87,12 +87,11 @@ float diagonal(const BoxInstance& box, const ViewProjection& projection) {
 
 std::vector<int> shown_nodes(const mobb::Tree& tree, const LevelRange& levels) {
     std::vector<int> out;
-    const auto nodes = tree.nodes();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const mobb::Node& node = nodes[i];
-        const bool on_level = node.level >= levels.first && node.level <= levels.last;
-        const bool above = node.level < levels.first && node.is_leaf();
-        if (levels.leaves ? node.is_leaf() : on_level || above) out.push_back(static_cast<int>(i));
+    for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
+        const int level = tree.level(i);
+        const bool on_level = level >= levels.first && level <= levels.last;
+        const bool above = level < levels.first && tree.is_leaf(i);
+        if (levels.leaves ? tree.is_leaf(i) : on_level || above) out.push_back(i);
     }
     return out;
 }
@@ -154,7 +153,7 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
         const mobb::Tree& tree = agent.placed.tree();
         const int last = last_shown_level(tree, levels);
         for (const int node : shown_nodes(tree, levels)) {
-            const int level = agent.placed.node(node).level;
+            const int level = tree.level(node);
             const LevelStyle style = levels.leaves ? level_style(0, 0, 0) : level_style(level, levels.first, last);
             const Rgba color = color_by == ColorBy::level ? level_color(level, deepest, list.palette)
                                                           : level_tint(agent.color, style, list.palette);
@@ -169,7 +168,7 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
 }
 
 mobb::Box world_box(const mobb::PlacedTree& tree, int node) {
-    mobb::Box box = tree.node(node).box;
+    mobb::Box box = tree.tree().box(node);
     const mobb::PlacedClip& clip = tree.placed_clip();
     const auto turn = [&](glm::dvec3 v) {
         const glm::dvec2 turned = clip.rotation()(glm::dvec2(v.x, v.y));
@@ -177,7 +176,7 @@ mobb::Box world_box(const mobb::PlacedTree& tree, int node) {
     };
     if (mobb::info(box.kind).axes == mobb::BoxAxes::world) {
         // Its test wraps it again along the world's axes.
-        const glm::dvec2 half = mobb::half_in_world(box, clip.rotation());
+        const glm::dvec2 half = mobb::half_in_world(glm::dvec2(box.half), clip.rotation());
         box.half = {half.x, half.y, box.half.z};
     } else {
         for (glm::dvec3& axis : box.axes) axis = turn(axis);
@@ -198,7 +197,7 @@ BoxInstance node_box(const DrawnAgent& agent, int node, const DrawnSpace& space)
     for (std::size_t i = 0; i < 3; ++i) out.extents[i] = space.extent(edges[i], w);
     out.id = {agent.index, ObjectId::Kind::box, node};
     // Participants side by side at each level: 2^32 leaves room for every node index.
-    out.order = {DrawLayer::nodes, agent.placed.node(node).level,
+    out.order = {DrawLayer::nodes, agent.placed.tree().level(node),
                  (static_cast<std::int64_t>(agent.index) << 32) + node};
     return out;
 }
