@@ -91,6 +91,7 @@ class Tree {
     };
 
     int build(SampleRange range, int parent, int level);
+    void fit_box(int index, int level);
 
     ClipPtr clip_;
     FitOptions options_;
