@@ -101,22 +101,20 @@ struct Gathered {
 // What rounding adds at most, as a share of the numbers that go in, with a wide margin.
 constexpr double kSingle = 0x1p-17, kDouble = 0x1p-44;
 
-MOBB_INLINE double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
-
 /// From the origin of A's blocks to that of B's, metres in the world.
 MOBB_INLINE glm::dvec2 between_origins(const PlacedBlocks& a, const PlacedBlocks& b) {
     return (b.translate() - a.translate()) + (b.rotation()(b.blocks().origin()) - a.rotation()(a.blocks().origin()));
 }
 
-/// By how much placed disks may be elsewhere, metres.
-MOBB_INLINE double rounding_of_places(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return 1e-9 + kDouble * (manhattan(a.translate()) + manhattan(b.translate()) + a.reach() + b.reach());
+/// Bounds that are nearer than this may touch, metres: placed disks are rounded.
+MOBB_INLINE double least_gap(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return 1e-9 + a.rounding() + b.rounding();
 }
 
 /// Whether the roots share time and may meet. In double: they stand still.
 MOBB_INLINE bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
     const glm::dvec2 between = between_origins(a, b);
-    const double reach = a.blocks().radius() + b.blocks().radius() + rounding_of_places(a, b);
+    const double reach = a.blocks().radius() + b.blocks().radius() + least_gap(a, b);
     // Without a branch: which of the two parts them is anybody's guess.
     return static_cast<int>(overlap_in_time(a.time(a.first()), a.time(a.end()), b.time(b.first()), b.time(b.end()))) &
            static_cast<int>(between.x * between.x + between.y * between.y <= reach * reach);
@@ -164,10 +162,10 @@ class BlockTraversal {
         const Rotation turn = to_a * b_.rotation();
         const glm::dvec2 offset = to_a(between_origins(a_, b_));
         // Single precision is about the lengths that remain.
-        const double lengths = manhattan(offset) + blocks_a_.extent() + blocks_b_.extent();
+        const double lengths = std::abs(offset.x) + std::abs(offset.y) + blocks_a_.extent() + blocks_b_.extent();
         const double time_error = kDouble * (a_.largest_time() + b_.largest_time());
         const double slack =
-            rounding_of_places(a_, b_) + kSingle * lengths + time_error * (blocks_a_.speed() + blocks_b_.speed());
+            least_gap(a_, b_) + kSingle * lengths + time_error * (blocks_a_.speed() + blocks_b_.speed());
         relation_ = {static_cast<float>(turn.c), static_cast<float>(turn.s), static_cast<float>(offset.x),
                      static_cast<float>(offset.y), static_cast<float>(slack)};
         const double per_dt = blocks_a_.per_dt();

@@ -1,5 +1,8 @@
 #include <mobb/blocks.h>
+#include <mobb/extents.h>
 #include <mobb/fit.h>
+#include <mobb/fit_node.h>
+#include <mobb/lanes.h>
 #include <mobb/principal_axes.h>
 
 #include <glm/geometric.hpp>
@@ -23,73 +26,96 @@ std::span<const Disk> disks(const Clip& clip, SampleRange range) {
     return clip.samples().subspan(static_cast<std::size_t>(range.first), static_cast<std::size_t>(range.count));
 }
 
-/// What a box around a range must hold: of a linear clip also the disk that the range's last one runs to.
-std::span<const Disk> swept_disks(const Clip& clip, SampleRange range) {
-    const bool runs_on = clip.motion() == Motion::linear && range.end() < clip.count();
-    return disks(clip, {range.first, range.count + (runs_on ? 1 : 0)});
+Rectangle rectangle_around(const BoundedDisks& bounded, glm::dvec2 u) {
+    const std::array<Extent, 2> e = bounded.extents(u);
+    return {e[0].center() * u + e[1].center() * perpendicular(u), u, {e[0].half(), e[1].half()}};
 }
 
-/// Extent of a set along one axis.
-struct Extent {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
+/// Over the time of the range.
+Box box_over_time(BoxKind kind, const Clip& clip, SampleRange range, const Rectangle& rectangle, double w) {
+    return over_time(kind, rectangle, w * (range.first * clip.dt()), w * (range.end() * clip.dt()));
+}
 
-    void add(double from, double to) {
-        low = std::min(low, from);
-        high = std::max(high, to);
-    }
-    double length() const { return high - low; }
-    double center() const { return (low + high) / 2; }
-    double half() const { return (high - low) / 2; }
-};
-
-/// Extents of the disks along u and its perpendicular (paper, Section 3.1: add and subtract r).
-std::array<Extent, 2> extents(std::span<const Disk> disks, glm::dvec2 u) {
-    std::array<Extent, 2> e;
-    for (const Disk& d : disks) {
-        const double along = d.x * u.x + d.y * u.y;
-        const double across = d.y * u.x - d.x * u.y;
-        e[0].add(along - d.r, along + d.r);
-        e[1].add(across - d.r, across + d.r);
+/// Extents of the cylinders along one axis of space-time. A cylinder spans p.a -/+ r*|a_xy|, and its height w*dt shifts
+/// one side by w*dt*a_t: Fig. 6, whose signs hold for one orientation only. A slanted one lies between the disks at its
+/// ends.
+Extent extent_in_order(const Clip& clip, SampleRange range, double height, glm::dvec3 a) {
+    const bool runs = clip.motion() == Motion::linear;
+    const double in_plane = std::hypot(a.x, a.y);
+    const double below = std::min(0.0, height * a.z);
+    const double above = std::max(0.0, height * a.z);
+    Extent e;
+    int i = range.first;
+    for (const Disk& d : swept_disks(clip, range)) {
+        const double p = d.x * a.x + d.y * a.y + (height * i) * a.z;
+        const bool stays = i < range.end() && (!runs || i + 1 == clip.count());
+        e.add(p - d.r * in_plane + (stays ? below : 0), p + d.r * in_plane + (stays ? above : 0));
+        ++i;
     }
     return e;
 }
 
-/// Around `disks`, over the time of the range.
-Box rectangle_over_time(const Clip& clip, SampleRange range, std::span<const Disk> disks, glm::dvec2 u, double w) {
-    const std::array<Extent, 2> e = extents(disks, u);
-    const Rectangle rectangle{e[0].center() * u + e[1].center() * perpendicular(u), u, {e[0].half(), e[1].half()}};
-    return over_time(BoxKind::obb2d, rectangle, w * (range.first * clip.dt()), w * (range.end() * clip.dt()));
+/// extent_in_order along two axes at once, of which none may come out as zero.
+class TwoExtents {
+  public:
+    TwoExtents(double height, glm::dvec3 a, glm::dvec3 b)
+        : x_{a.x, b.x},
+          y_{a.y, b.y},
+          z_{a.z, b.z},
+          in_plane_{std::hypot(a.x, a.y), std::hypot(b.x, b.y)},
+          below_(least(height * z_, both(0))),
+          above_(greatest(height * z_, both(0))) {}
+
+    /// A disk at a time in w*t, which stays for the height or not.
+    void add(const Disk& d, double time, bool stays) {
+        const TwoDoubles p = d.x * x_ + d.y * y_ + time * z_;
+        const TwoDoubles reach = d.r * in_plane_;
+        low_ = least(p - reach + (stays ? below_ : both(0)), low_);
+        high_ = greatest(p + reach + (stays ? above_ : both(0)), high_);
+    }
+    Extent operator[](int i) const { return {low_[i], high_[i]}; }
+
+  private:
+    TwoDoubles x_, y_, z_, in_plane_, below_, above_;
+    TwoDoubles low_ = both(std::numeric_limits<double>::infinity());
+    TwoDoubles high_ = both(-std::numeric_limits<double>::infinity());
+};
+
+/// Along three axes in one pass.
+std::array<Extent, 3> extents_3d(const Clip& clip, SampleRange range, double height, const Axes3& axes) {
+    TwoExtents first_two(height, axes[0], axes[1]), third(height, axes[2], axes[2]);
+    int i = range.first;
+    const auto add = [&](const Disk& d, bool stays) {
+        const double time = height * i++;
+        first_two.add(d, time, stays);
+        third.add(d, time, stays);
+    };
+    // Held disks stay; of a linear clip only the last does.
+    const std::span<const Disk> bounded = swept_disks(clip, range);
+    if (clip.motion() == Motion::held) {
+        for (const Disk& d : bounded) add(d, true);
+    } else {
+        for (const Disk& d : bounded.first(bounded.size() - 1)) add(d, false);
+        add(bounded.back(), range.end() == clip.count());
+    }
+    std::array<Extent, 3> e{first_two[0], first_two[1], third[0]};
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (has_zero(e[k])) e[k] = extent_in_order(clip, range, height, axes[k]);
+    }
+    return e;
 }
 
-Box rectangle_over_time(const Clip& clip, SampleRange range, glm::dvec2 u, double w) {
-    return rectangle_over_time(clip, range, swept_disks(clip, range), u, w);
-}
-
-/// The box along given axes. A cylinder spans p.a -/+ r*|a_xy|, and its height w*dt shifts one side by w*dt*a_t: Fig.
-/// 6, whose signs hold for one orientation only. A slanted one lies between the disks at its ends.
+/// The box along given axes.
 Box box_along(const Clip& clip, SampleRange range, const Axes3& axes, double w) {
-    const double height = w * clip.dt();
-    const bool runs = clip.motion() == Motion::linear;
+    const std::array<Extent, 3> e = extents_3d(clip, range, w * clip.dt(), axes);
     Box box;
     box.kind = BoxKind::obb3d;
     box.axes = axes;
     box.center = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 a = axes[static_cast<std::size_t>(k)];
-        const double in_plane = std::hypot(a.x, a.y);
-        const double below = std::min(0.0, height * a.z);
-        const double above = std::max(0.0, height * a.z);
-        Extent e;
-        int i = range.first;
-        for (const Disk& d : swept_disks(clip, range)) {
-            const double p = d.x * a.x + d.y * a.y + (height * i) * a.z;
-            const bool stays = i < range.end() && (!runs || i + 1 == clip.count());
-            e.add(p - d.r * in_plane + (stays ? below : 0), p + d.r * in_plane + (stays ? above : 0));
-            ++i;
-        }
-        box.center += e.center() * a;
-        box.half[k] = e.half();
+        const auto i = static_cast<std::size_t>(k);
+        box.center += e[i].center() * axes[i];
+        box.half[k] = e[i].half();
     }
     return box;
 }
@@ -109,13 +135,13 @@ glm::dvec2 travel_axis(std::span<const Disk> disks) {
 
 /// The direction of the smallest rectangle around the disks, over 1,800 angles in a quarter turn and the two other
 /// axes, `along` and `principal`.
-glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along, glm::dvec2 principal) {
+glm::dvec2 smallest_rectangle_axis(const BoundedDisks& bounded, glm::dvec2 along, glm::dvec2 principal) {
     constexpr int kCells = 90;
     constexpr int kAnglesPerCell = 20;
     constexpr double kCellAngle = std::numbers::pi / 2 / kCells;
 
     const auto sides = [&](glm::dvec2 u) {
-        const std::array<Extent, 2> e = extents(disks, u);
+        const std::array<Extent, 2> e = bounded.extents(u);
         return glm::dvec2{e[0].length(), e[1].length()};
     };
     const auto direction = [](double angle) { return glm::dvec2{std::cos(angle), std::sin(angle)}; };
@@ -133,6 +159,7 @@ glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along
 
     // A side changes by at most the diameter of the centres per radian: a whole cell of angles can be ruled out at
     // once.
+    const std::span<const Disk> disks = bounded.disks();
     double reach = 0;
     for (const Disk& d : disks) reach = std::max(reach, std::hypot(d.x - disks[0].x, d.y - disks[0].y));
     const double most_change = 2 * reach * kCellAngle / 2;
@@ -156,7 +183,7 @@ glm::dvec2 smallest_rectangle_axis(std::span<const Disk> disks, glm::dvec2 along
 }
 
 /// Of a rectangle around `bounded`, the disks of a walk along `along` and the one that it runs to, if any.
-glm::dvec2 axis_2d(std::span<const Disk> disks, std::span<const Disk> bounded, glm::dvec2 along, Axes axes) {
+glm::dvec2 axis_2d(std::span<const Disk> disks, const BoundedDisks& bounded, glm::dvec2 along, Axes axes) {
     switch (axes) {
         case Axes::endpoints:
             return along;
@@ -224,7 +251,9 @@ Box box_along_or_upright(const Clip& clip, SampleRange range, const Axes3& axes,
     for (std::size_t k = 0; k < 3; ++k) {
         if (!is_along_time(axes[k])) continue;
         const glm::dvec3 u = axes[(k + 1) % 3];
-        return rectangle_over_time(clip, range, positive(glm::normalize(glm::dvec2{u.x, u.y})), w);
+        const glm::dvec2 axis = positive(glm::normalize(glm::dvec2{u.x, u.y}));
+        const BoundedDisks bounded(swept_disks(clip, range));
+        return box_over_time(BoxKind::obb2d, clip, range, rectangle_around(bounded, axis), w);
     }
     return box_along(clip, range, axes, w);
 }
@@ -268,9 +297,13 @@ Box smallest_box(const Clip& clip, SampleRange range, double w) {
     return shrink_by_turning(clip, range, best, w);
 }
 
-Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
-    const std::span<const Disk> all = disks(clip, range);
-    return rectangle_over_time(clip, range, axis_2d(all, swept_disks(clip, range), travel_axis(all), axes), time_scale);
+Rectangle rectangle_along(std::span<const Disk> own, const BoundedDisks& bounded, Axes axes) {
+    return rectangle_around(bounded, axis_2d(own, bounded, travel_axis(own), axes));
+}
+
+Box fit_obb2d(const Clip& clip, SampleRange range, Axes axes, double w) {
+    const Rectangle rectangle = rectangle_along(disks(clip, range), BoundedDisks(swept_disks(clip, range)), axes);
+    return box_over_time(BoxKind::obb2d, clip, range, rectangle, w);
 }
 
 Box fit_obb3d(const Clip& clip, SampleRange range, Axes axes, double time_scale) {
@@ -293,16 +326,16 @@ Box fit_moving(const Clip& clip, SampleRange range, Axes axes, double time_scale
     const std::vector<Disk> seen = drifting(clip, range, per_sample);
     const std::span<const Disk> own =
         clip.motion() == Motion::linear ? std::span(seen).first(all.size()) : std::span(seen);
-    Box box = rectangle_over_time(clip, range, seen, axis_2d(own, seen, travel_axis(all), axes), time_scale);
-    box.kind = BoxKind::moving;
+    const BoundedDisks bounded{seen};
+    const Rectangle rectangle = rectangle_around(bounded, axis_2d(own, bounded, travel_axis(all), axes));
+    Box box = box_over_time(BoxKind::moving, clip, range, rectangle, time_scale);
     box.drift = 0.5 * range.count * per_sample;
     return box;
 }
 
 Box fit_aabb(const Clip& clip, SampleRange range, double time_scale) {
-    Box box = rectangle_over_time(clip, range, {1, 0}, time_scale);
-    box.kind = BoxKind::aabb;
-    return box;
+    const Rectangle rectangle = rectangle_around(BoundedDisks(swept_disks(clip, range)), {1, 0});
+    return box_over_time(BoxKind::aabb, clip, range, rectangle, time_scale);
 }
 
 }  // namespace
@@ -323,6 +356,14 @@ Box fit(BoxKind kind, const Clip& clip, SampleRange range, Axes axes, double tim
                               time_scale * (range.end() * clip.dt()));
     }
     return {};
+}
+
+Rectangle fit_node(BoxKind kind, const Clip& clip, std::span<const Node> nodes, int node, Axes axes) {
+    assert(is_upright(kind));
+    const Node& n = nodes[static_cast<std::size_t>(node)];
+    const BoundedDisks bounded(clip, nodes, node);
+    if (kind == BoxKind::aabb) return rectangle_around(bounded, {1, 0});
+    return rectangle_along(disks(clip, {n.first, n.count}), bounded, axes);
 }
 
 }  // namespace mobb

@@ -19,6 +19,9 @@ inline TwoDoubles swapped(TwoDoubles v) { return TwoDoubles{v[1], v[0]}; }
 inline TwoDoubles magnitude(TwoDoubles v) {
     return std::bit_cast<TwoDoubles>(std::bit_cast<TwoMasks>(v) & std::numeric_limits<std::int64_t>::max());
 }
+/// The second where neither is less (greater), as std::min and std::max do of numbers in that order.
+inline TwoDoubles least(TwoDoubles v, TwoDoubles w) { return v < w ? v : w; }
+inline TwoDoubles greatest(TwoDoubles v, TwoDoubles w) { return v > w ? v : w; }
 inline bool any(TwoMasks mask) { return (mask[0] | mask[1]) != 0; }
 
 }  // namespace mobb

@@ -34,7 +34,11 @@ class alignas(64) PlacedBlocks {
     }
     /// As a Placement, with a rotation that is known.
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start)
-        : blocks_(&blocks), rotation_(rotation), translate_(translate), start_(start) {}
+        : blocks_(&blocks),
+          rotation_(rotation),
+          translate_(translate),
+          start_(start),
+          rounding_(rounding_of(translate, blocks.reach())) {}
     PlacedBlocks(const Blocks&&, const Placement&) = delete;
     /// As a link of a chain. The place must outlive it, too.
     PlacedBlocks(const Blocks& blocks, const LinkPlace& link)
@@ -43,7 +47,8 @@ class alignas(64) PlacedBlocks {
           rotation_(link.chain.rotation * link.rotation),
           translate_(link.chain.rotation(link.translate) + link.chain.translate),
           start_(link.chain.start),
-          first_(link.first) {}
+          first_(link.first),
+          rounding_(rounding_of(translate_, link.chain.reach)) {}
 
     const Blocks& blocks() const { return *blocks_; }
     /// From the clip's frame to the world's.
@@ -66,18 +71,25 @@ class alignas(64) PlacedBlocks {
     }
     Disk disk_at_end(int i) const { return disk(is_linear() && i + 1 < end() ? i + 1 : i); }
     bool is_linear() const { return blocks_->is_linear(); }
+    /// By how much the disks may be elsewhere for having been placed, metres.
+    double rounding() const { return static_cast<double>(rounding_); }
     /// Global time at which sample i begins; time(i + 1) is when it ends.
     double time(int i) const { return start_ + i * dt(); }
     /// No number that times are computed from is larger, seconds: what their rounding is measured by.
     double largest_time() const { return std::abs(start_) + end() * dt(); }
 
   private:
+    static float rounding_of(glm::dvec2 translate, double reach) {
+        return static_cast<float>(0x1p-43 * (std::abs(translate.x) + std::abs(translate.y) + reach));
+    }
+
     const Blocks* blocks_;
     const LinkPlace* link_ = nullptr;
     Rotation rotation_;
     glm::dvec2 translate_;
     double start_;  ///< of sample 0: of the clip, or of the chain
     int first_ = 0;
+    float rounding_;
 };
 static_assert(sizeof(PlacedBlocks) == 64);
 

@@ -1,6 +1,8 @@
+#include <mobb/fit_node.h>
 #include <mobb/tree.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -18,13 +20,39 @@ void check(const FitOptions& options) {
     }
 }
 
+namespace {
+
+/// Of a tree over so many samples: a level's nodes hold one of two numbers of samples, of which one is the next.
+std::size_t node_count(int samples, const FitOptions& options) {
+    std::size_t nodes = 0, smaller = 1, larger = 0;  // on the level: nodes of `samples` and of `samples` + 1
+    for (int level = 1;; ++level) {
+        nodes += smaller + larger;
+        const bool smaller_split = samples > options.leaf, larger_split = samples + 1 > options.leaf;
+        if (level == options.levels || !(larger ? larger_split : smaller_split)) return nodes;
+        if (!smaller_split) smaller = 0;
+        // 2k splits into k and k; 2k + 1 into k + 1 and k.
+        const bool is_even = samples % 2 == 0;
+        const std::size_t next_smaller = is_even ? 2 * smaller + larger : smaller;
+        const std::size_t next_larger = is_even ? larger : smaller + 2 * larger;
+        samples /= 2;
+        smaller = next_smaller;
+        larger = next_larger;
+    }
+}
+
+}  // namespace
+
 Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), options_(options) {
     if (!clip_) throw std::invalid_argument("a tree needs a clip");
     check(options_);
     if (options_.tree == TreeKind::production) {
         build_blocks();
     } else {
+        const std::size_t nodes = node_count(clip_->count(), options_);
+        nodes_.reserve(nodes);
+        places_.reserve(nodes);
         build({0, clip_->count()}, -1, 0);
+        assert(nodes_.size() == nodes);
     }
     // Depth-first order is within a level the order of time.
     std::vector<int> counts(static_cast<std::size_t>(depth_), 0);
@@ -43,14 +71,8 @@ Box Tree::box(int i) const {
 
 int Tree::build(SampleRange range, int parent, int level) {
     const int index = static_cast<int>(nodes_.size());
-    const TreeInfo& kinds = info(options_.tree);
-    const Box box = fit(level == 0 ? kinds.root : kinds.below, *clip_, range, options_.axes, options_.time_scale);
-    nodes_.push_back({rectangle_of(box), range.first, range.count, -1, box.kind});
+    nodes_.push_back({{}, range.first, range.count});
     places_.push_back({parent, level, 0});
-    if (!is_upright(box.kind)) {
-        boxes_.resize(nodes_.size());
-        boxes_.back() = box;
-    }
     depth_ = std::max(depth_, level + 1);
     const bool is_last_level = level + 1 == options_.levels;
     if (range.count > options_.leaf && !is_last_level) {
@@ -60,6 +82,7 @@ int Tree::build(SampleRange range, int parent, int level) {
         const int second_child = build({range.first + half, range.count - half}, index, level + 1);
         nodes_[static_cast<std::size_t>(index)].second_child = second_child;
     }
+    fit_box(index, level);
     return index;
 }
 
@@ -96,6 +119,23 @@ int Tree::child_with(int i, int sample) const {
     int child = first;
     while (node(child).end() <= sample) child = blocks_ ? child + 1 : last;
     return child;
+}
+
+void Tree::fit_box(int index, int level) {
+    const TreeInfo& kinds = info(options_.tree);
+    const BoxKind kind = level == 0 ? kinds.root : kinds.below;
+    Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (is_upright(kind) && is_upright(kinds.below)) {
+        node.kind = kind;
+        node.rectangle = fit_node(kind, *clip_, nodes_, index, options_.axes);
+        return;
+    }
+    const Box box = fit(kind, *clip_, {node.first, node.count}, options_.axes, options_.time_scale);
+    node.kind = box.kind;
+    node.rectangle = rectangle_of(box);
+    if (is_upright(box.kind)) return;
+    boxes_.resize(std::max(boxes_.size(), static_cast<std::size_t>(index) + 1));
+    boxes_[static_cast<std::size_t>(index)] = box;
 }
 
 }  // namespace mobb

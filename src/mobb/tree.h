@@ -100,6 +100,7 @@ class Tree {
 
     int build(SampleRange range, int parent, int level);
     void build_blocks();
+    void fit_box(int index, int level);
 
     ClipPtr clip_;
     FitOptions options_;

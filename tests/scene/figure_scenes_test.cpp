@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -23,8 +25,10 @@ struct Figure {
         const mobb::FitOptions fit = scene.fit;
         return {std::move(scene), fit};
     }
-    const mobb::Node& a(int step) const { return fitted.placed(fitted.queries()[0].a).node(trace[step].a); }
-    const mobb::Node& b(int step) const { return fitted.placed(fitted.queries()[0].b).node(trace[step].b); }
+    const mobb::Tree& tree_a() const { return fitted.tree(fitted.queries()[0].a.clip); }
+    const mobb::Tree& tree_b() const { return fitted.tree(fitted.queries()[0].b.clip); }
+    std::array<int, 2> children_a(int step) const { return tree_a().children(trace[step].a); }
+    std::array<int, 2> children_b(int step) const { return tree_b().children(trace[step].b); }
 
     FittedScene fitted;
     RecordedQuery recorded;
@@ -39,10 +43,10 @@ TEST(FigureScenes, OfFourPairsOfChildrenTwoAreSeparatedOneIsApartInTimeAndOneGoe
     const mobb::Trace& trace = figure.trace;
     EXPECT_EQ(trace[1].outcome, Outcome::overlap);
     ASSERT_EQ(trace[1].test, mobb::BoxKind::obb2d);
-    ASSERT_FALSE(figure.a(1).is_leaf() || figure.b(1).is_leaf());
+    ASSERT_FALSE(figure.tree_a().is_leaf(trace[1].a) || figure.tree_b().is_leaf(trace[1].b));
     const struct {
         int step;
-        int a, b;  // which child
+        std::size_t a, b;  // which child
         TestKind test;
         Outcome outcome;
     } steps[] = {{3, 0, 0, mobb::BoxKind::obb2d, Outcome::separated},
@@ -51,8 +55,8 @@ TEST(FigureScenes, OfFourPairsOfChildrenTwoAreSeparatedOneIsApartInTimeAndOneGoe
                  {8, 1, 1, mobb::BoxKind::obb2d, Outcome::overlap}};
     for (const auto& step : steps) {
         EXPECT_EQ(trace[step.step].parent, 1);
-        EXPECT_EQ(trace[step.step].a, figure.a(1).children[step.a]);
-        EXPECT_EQ(trace[step.step].b, figure.b(1).children[step.b]);
+        EXPECT_EQ(trace[step.step].a, figure.children_a(1)[step.a]);
+        EXPECT_EQ(trace[step.step].b, figure.children_b(1)[step.b]);
         EXPECT_EQ(trace[step.step].test, step.test);
         EXPECT_EQ(trace[step.step].outcome, step.outcome);
     }
@@ -65,13 +69,13 @@ TEST(FigureScenes, OfAnInnerNodesChildrenOneIsOverWhenTheLeafBegins) {
     const Figure figure("leaf.json");
     const mobb::Trace& trace = figure.trace;
     ASSERT_EQ(trace[15].outcome, Outcome::overlap);
-    EXPECT_FALSE(figure.a(15).is_leaf());
-    EXPECT_GE(figure.a(15).parent, 0) << "not the root";
-    EXPECT_TRUE(figure.b(15).is_leaf());
+    EXPECT_FALSE(figure.tree_a().is_leaf(trace[15].a));
+    EXPECT_GE(figure.tree_a().parent(trace[15].a), 0) << "not the root";
+    EXPECT_TRUE(figure.tree_b().is_leaf(trace[15].b));
     const Outcome outcomes[] = {Outcome::disjoint_in_time, Outcome::overlap};
     for (int child = 0; child < 2; ++child) {
         EXPECT_EQ(trace[16 + child].parent, 15);
-        EXPECT_EQ(trace[16 + child].a, figure.a(15).children[child]);
+        EXPECT_EQ(trace[16 + child].a, figure.children_a(15)[static_cast<std::size_t>(child)]);
         EXPECT_EQ(trace[16 + child].b, trace[15].b);
         EXPECT_EQ(trace[16 + child].test, TestKind::time) << "no boxes are tested here";
         EXPECT_EQ(trace[16 + child].outcome, outcomes[child]);
