@@ -23,7 +23,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -35,6 +34,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "../clip_csv.h"
 
 namespace {
 
@@ -118,7 +119,7 @@ int g_found = 0;  // what is counted here, the compiler cannot leave out
 }  // namespace
 
 /// callgrind collects inside this function only. It neither is copied nor ends in a jump.
-extern "C" [[gnu::noipa]] void compare_counted(const std::function<void()>& asked) {
+extern "C" [[gnu::noinline, gnu::noipa]] void compare_counted(const std::function<void()>& asked) {
     asked();
     ++g_found;
 }
@@ -309,29 +310,6 @@ std::vector<Row> rows_of(const Workload& w) {
     return rows;
 }
 
-/// A clip as `mobbscope convert` writes it: t,x,y,r.
-ClipPtr read_clip(const std::string& path) {
-    std::ifstream file(path);
-    std::string line;
-    std::getline(file, line);
-    if (line != "t,x,y,r") throw std::runtime_error(path + ": the first line is not t,x,y,r");
-    std::vector<Disk> samples;
-    double first = 0, last = 0;
-    while (std::getline(file, line)) {
-        Disk disk;
-        char comma = 0;
-        std::istringstream in(line);
-        if (!(in >> last >> comma >> disk.x >> comma >> disk.y >> comma >> disk.r)) {
-            throw std::runtime_error(path + ": cannot read " + line);
-        }
-        if (samples.empty()) first = last;
-        samples.push_back(disk);
-    }
-    if (samples.size() < 2) throw std::runtime_error(path + ": fewer than two samples");
-    const double dt = (last - first) / static_cast<double>(samples.size() - 1);
-    return std::make_shared<const Clip>(dt, std::move(samples));
-}
-
 Row& row_named(std::vector<Row>& rows, const std::string& name) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.name == name; });
     if (row == rows.end()) throw std::runtime_error("no row " + name);
@@ -346,7 +324,7 @@ void run(int argc, char** argv) {
     int next = 7;
     std::string counted;
     if (next + 1 < argc && std::string_view(argv[next]) == "--count") counted = argv[next + 1], next += 2;
-    for (; next < argc; ++next) w.clips.push_back(read_clip(argv[next]));
+    for (; next < argc; ++next) w.clips.push_back(bench::clip_from_csv(argv[next]));
     if (w.clips.empty()) {
         w.clips = std::string_view(argv[1]) == "long" ? mobbscope::walks_in_a_volume(14, 42, seed)
                                                       : mobbscope::short_moves(51, 2.1, seed);
