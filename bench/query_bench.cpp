@@ -295,18 +295,21 @@ void add_queries(const std::string& length, const MakeWorkload& workload) {
     }
 }
 
-/// Its counter `per_sample`: seconds.
+/// Builds a tree over the first clip. Its counter `per_sample`: seconds.
+void add_fit(const std::string& name, const FitOptions& options, const MakeWorkload& workload) {
+    add(name, [=](benchmark::State& state) {
+        const ClipPtr clip = workload()->clips.front();
+        for (auto _ : state) benchmark::DoNotOptimize(Tree(clip, options));
+        state.counters["per_sample"] = benchmark::Counter(
+            clip->count(), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    });
+}
+
 void add_fits(const std::string& length, const MakeWorkload& workload) {
     for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
         for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb}) {
             const std::string label = std::string(name(kind)) + "/" + std::string(name(axes)) + "/" + length;
-            add("fit/" + label, [=](benchmark::State& state) {
-                const ClipPtr clip = workload()->clips.front();
-                const FitOptions options{.tree = kind, .axes = axes};
-                for (auto _ : state) benchmark::DoNotOptimize(Tree(clip, options));
-                state.counters["per_sample"] = benchmark::Counter(
-                    clip->count(), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-            });
+            add_fit("fit/" + label, {.tree = kind, .axes = axes}, workload);
         }
     }
 }
@@ -323,7 +326,11 @@ const bool registered = [] {
     }
     for (const int seconds : {1, 4, 15, 60, 240, 900, 3600}) {
         const std::string label = std::to_string(seconds) + "s";
-        add_methods("grow/random", label, once([=] { return at_random(seconds); }), true);
+        const MakeWorkload random = once([=] { return at_random(seconds); });
+        add_methods("grow/random", label, random, true);
+        for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb}) {
+            add_fit("grow/fit/" + std::string(name(kind)) + "/" + label, {.tree = kind}, random);
+        }
         add_methods("grow/side_by_side", label, once([=] { return side_by_side(seconds); }), false);
     }
     for (const int clips : {16, 256, 4096, 32768}) {
