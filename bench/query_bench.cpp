@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,12 @@ struct Trees {
     static bool ask(const Placed& a, const Placed& b, Observer& observer) {
         return query(a, b, observer).has_value();
     }
+    /// The first that collides, or how many there are.
+    static std::size_t any(const Placed& a, std::span<const Placed> others) {
+        std::size_t i = 0;
+        while (i < others.size() && !query(a, others[i])) ++i;
+        return i;
+    }
 };
 
 template <class Method>
@@ -91,6 +98,26 @@ void ask_all(benchmark::State& state, const Method& method, const Workload& w) {
         benchmark::DoNotOptimize(Method::ask(sides[i], sides[i + 1], nobody));
         i = i + 2 < sides.size() ? i + 2 : 0;
     }
+}
+
+/// Does A collide with any of 32 B's? Asked in turn up to the first that does. Its counter: how many that were.
+template <class Method>
+void ask_any(benchmark::State& state, const Method& method, const Workload& w) {
+    constexpr std::size_t kOthers = 32;
+    std::vector<typename Method::Placed> first, others;
+    for (std::size_t i = 0; i < w.sides.size(); ++i) {
+        const auto& [clip, placement] = w.sides[i];
+        (i % 2 == 0 ? first : others).emplace_back(*method.made[clip], placement);
+    }
+    const std::size_t batches = others.size() / kOthers;
+    std::size_t i = 0;
+    std::int64_t asked = 0;
+    for (auto _ : state) {
+        const std::size_t hit = Method::any(first[i], std::span(others).subspan(i % batches * kOthers, kOthers));
+        asked += static_cast<std::int64_t>(std::min(hit + 1, kOthers));
+        i = (i + 1) % first.size();
+    }
+    state.counters["asked"] = benchmark::Counter(static_cast<double>(asked), benchmark::Counter::kAvgIterations);
 }
 
 /// Of the queries' times, in ns.
@@ -277,6 +304,10 @@ void add_queries(const std::string& length, const MakeWorkload& workload) {
                 ask_all(state, Trees(w->clips, options), *w);
             });
         }
+        add("any/" + std::string(name(kind)) + "/" + length, [=](benchmark::State& state) {
+            const WorkloadPtr w = workload();
+            ask_any(state, Trees(w->clips, {.tree = kind}), *w);
+        });
         add("trace/" + std::string(name(kind)) + "/" + length, [=](benchmark::State& state) {
             const WorkloadPtr w = workload();
             const Trees trees(w->clips, {.tree = kind});
