@@ -45,6 +45,12 @@ struct DirectSearch {
     static bool ask(const Placed& a, const Placed& b, Observer& observer) {
         return direct_search(a, b, observer).has_value();
     }
+    /// The first that collides, or how many there are.
+    static std::size_t any(const Placed& a, std::span<const Placed> others) {
+        std::size_t i = 0;
+        while (i < others.size() && !direct_search(a, others[i])) ++i;
+        return i;
+    }
 };
 
 struct Trees {
@@ -290,57 +296,64 @@ void add_methods(const std::string& name, const std::string& label, const MakeWo
     add_one("mobb_leaf50", trees({.leaf = 50}));
 }
 
-void add_queries(const std::string& length, const MakeWorkload& workload) {
-    add("query/direct/" + length, [=](benchmark::State& state) {
+/// Queries one by one, about one against many, and recorded, by what make(clips) makes.
+template <class Make>
+void add_asked(const std::string& label, const MakeWorkload& workload, Make make) {
+    add("query/" + label, [=](benchmark::State& state) {
         const WorkloadPtr w = workload();
-        ask_all(state, DirectSearch(w->clips), *w);
+        ask_all(state, make(w->clips), *w);
     });
+    add("any/" + label, [=](benchmark::State& state) {
+        const WorkloadPtr w = workload();
+        ask_any(state, make(w->clips), *w);
+    });
+    add("trace/" + label, [=](benchmark::State& state) {
+        const WorkloadPtr w = workload();
+        const auto method = make(w->clips);
+        const auto sides = placed(method, *w);
+        TraceRecorder recorder;
+        std::int64_t events = 0;
+        std::size_t i = 0;
+        for (auto _ : state) {
+            method.ask(sides[i], sides[i + 1], recorder);
+            events += recorder.take().size();
+            i = (i + 2) % sides.size();
+        }
+        state.counters["events"] = benchmark::Counter(static_cast<double>(events), benchmark::Counter::kAvgIterations);
+    });
+}
+
+void add_queries(const std::string& length, const MakeWorkload& workload) {
+    add_asked("direct/" + length, workload, [](const std::vector<ClipPtr>& clips) { return DirectSearch(clips); });
     for (const TreeKind kind : kTreeKinds) {
         for (const int levels : {1, 0}) {
             const FitOptions options{.tree = kind, .levels = levels};
-            const std::string label = std::string(name(kind)) + (levels ? "_1level/" : "/") + length;
-            add("query/" + label, [=](benchmark::State& state) {
-                const WorkloadPtr w = workload();
-                ask_all(state, Trees(w->clips, options), *w);
-            });
+            add_asked(std::string(name(kind)) + (levels ? "_1level/" : "/") + length, workload,
+                      [options](const std::vector<ClipPtr>& clips) { return Trees(clips, options); });
         }
-        add("any/" + std::string(name(kind)) + "/" + length, [=](benchmark::State& state) {
-            const WorkloadPtr w = workload();
-            ask_any(state, Trees(w->clips, {.tree = kind}), *w);
-        });
-        add("trace/" + std::string(name(kind)) + "/" + length, [=](benchmark::State& state) {
-            const WorkloadPtr w = workload();
-            const Trees trees(w->clips, {.tree = kind});
-            const auto sides = placed(trees, *w);
-            TraceRecorder recorder;
-            std::int64_t events = 0;
-            std::size_t i = 0;
-            for (auto _ : state) {
-                Trees::ask(sides[i], sides[i + 1], recorder);
-                events += recorder.take().size();
-                i = (i + 2) % sides.size();
-            }
-            state.counters["events"] =
-                benchmark::Counter(static_cast<double>(events), benchmark::Counter::kAvgIterations);
-        });
     }
 }
 
-/// Builds a tree over the first clip. Its counter `per_sample`: seconds.
-void add_fit(const std::string& name, const FitOptions& options, const MakeWorkload& workload) {
+/// Builds what make(clip) makes over the first clip. Its counter `per_sample`: seconds.
+template <class Make>
+void add_fit(const std::string& name, const MakeWorkload& workload, Make make) {
     add(name, [=](benchmark::State& state) {
         const ClipPtr clip = workload()->clips.front();
-        for (auto _ : state) benchmark::DoNotOptimize(Tree(clip, options));
+        for (auto _ : state) benchmark::DoNotOptimize(make(clip));
         state.counters["per_sample"] = benchmark::Counter(
             clip->count(), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     });
+}
+
+auto tree_of(const FitOptions& options) {
+    return [options](const ClipPtr& clip) { return Tree(clip, options); };
 }
 
 void add_fits(const std::string& length, const MakeWorkload& workload) {
     for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
         for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb, TreeKind::moving, TreeKind::aabb}) {
             const std::string label = std::string(name(kind)) + "/" + std::string(name(axes)) + "/" + length;
-            add_fit("fit/" + label, {.tree = kind, .axes = axes}, workload);
+            add_fit("fit/" + label, workload, tree_of({.tree = kind, .axes = axes}));
         }
     }
 }
@@ -360,7 +373,7 @@ const bool registered = [] {
         const MakeWorkload random = once([=] { return at_random(seconds); });
         add_methods("grow/random", label, random, true);
         for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb}) {
-            add_fit("grow/fit/" + std::string(name(kind)) + "/" + label, {.tree = kind}, random);
+            add_fit("grow/fit/" + std::string(name(kind)) + "/" + label, random, tree_of({.tree = kind}));
         }
         add_methods("grow/side_by_side", label, once([=] { return side_by_side(seconds); }), false);
     }
