@@ -3,6 +3,7 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
+#include <paper_tables/built_in_clips.h>
 #include <paper_tables/measure.h>
 #include <paper_tables/methods.h>
 #include <paper_tables/table_report.h>

@@ -1,5 +1,5 @@
 #include <base/random.h>
-#include <paper_tables/workload.h>
+#include <paper_tables/built_in_clips.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <crowd/simulation/simulate.h>
 #include <mobb/clip.h>
 #include <mobb/placed_tree.h>
+#include <paper_tables/random_queries.h>
 #include <scene/scene.h>
 
 #include <cstdint>
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace mobbscope {
-
-struct WorkloadQuery {
-    int clip_a = 0;  ///< index into Workload::clips
-    int clip_b = 0;
-    mobb::Placement a, b;
-};
 
 struct Workload {
     std::string name;                  ///< "table1" or "table2"
@@ -59,26 +54,5 @@ struct CrowdDraw {
 /// and takes a sample of `count` of the pairs of a candidate and another agent's reserved motion (0: all of them). The
 /// agents plan nothing and turn on the spot in no time, as the paper's. Throws InputError as simulate does.
 Workload crowd_queries(Scene scene, int count, const CrowdDraw& draw);
-
-/// Made-up walks for those who have no motion capture at hand, about as fast, as wide and as winding as people's:
-/// `count` of them at 30 samples a second that last `mean_seconds` on average, each within a third of it more or less.
-/// They stay within about 3 m of the middle of a capture volume.
-std::vector<mobb::ClipPtr> walks_in_a_volume(int count, double mean_seconds, std::uint64_t seed);
-
-/// Likewise short clips: straight and curved walks, runs, quarter turns, steps to the side and back, as sets for motion
-/// graphs have them.
-std::vector<mobb::ClipPtr> short_moves(int count, double mean_seconds, std::uint64_t seed);
-
-/// How far apart the two clips of a query may be. The defaults give the paper's 0.83 box tests of the roots a query:
-/// with offsets of up to `offset` clip lengths, 1 / offset of the queries overlap in time.
-struct QueryDraw {
-    double range = 3.5;   ///< metres > 0: each coordinate within +-this; of real long clips some 28 % then collide
-    double offset = 1.2;  ///< clip lengths, >= 1: B begins within this many of its own before A, or of A's after
-    std::uint64_t seed = 1;
-};
-
-/// `count` queries: A is at the origin from time 0; B is turned by any angle about the middle of the rectangle that its
-/// path spans, which then is within `range` of the middle of A's. The same for the same seed on every machine.
-std::vector<WorkloadQuery> random_queries(const std::vector<mobb::ClipPtr>& clips, int count, const QueryDraw& draw);
 
 }  // namespace mobbscope

@@ -1,4 +1,4 @@
-#include <paper_tables/workload.h>
+#include <paper_tables/built_in_clips.h>
 
 #include <gtest/gtest.h>
 

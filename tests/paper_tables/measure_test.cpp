@@ -1,5 +1,6 @@
 #include <mobb/level_figures.h>
 #include <mobb/query.h>
+#include <paper_tables/built_in_clips.h>
 #include <paper_tables/measure.h>
 #include <paper_tables/methods.h>
 #include <paper_tables/test_costs.h>

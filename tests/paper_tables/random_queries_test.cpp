@@ -1,5 +1,6 @@
 #include <mobb/predicate.h>
-#include <paper_tables/workload.h>
+#include <paper_tables/built_in_clips.h>
+#include <paper_tables/random_queries.h>
 
 #include <gtest/gtest.h>
 
