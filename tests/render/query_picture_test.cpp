@@ -414,8 +414,7 @@ TEST(QuerySentence, SaysWhenAndHowDeepAHitIs) {
 TEST(QuerySentence, NodesAreNamedByLevelAndPlace) {
     const Query query(testing::miss_scene());
     EXPECT_EQ(node_name(query.sides[0], 0), "A 0.0");
-    const auto nodes = query.fitted.tree(0).nodes();
-    EXPECT_EQ(node_name(query.sides[1], nodes[0].children[1]), "B 1.1");
+    EXPECT_EQ(node_name(query.sides[1], query.fitted.tree(0).children(0)[1]), "B 1.1");
 }
 
 TEST(QuerySentence, NumbersKeepTheirMeaning) {
