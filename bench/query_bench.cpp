@@ -1,6 +1,7 @@
 /// Time and tests per query, each kind of tree beside the direct search, on long and short walks; what building and
 /// recording cost; and how cost grows. --benchmark_filter=grow/ asks for the last alone.
 #include <benchmark/benchmark.h>
+#include <mobb/production.h>
 #include <mobb/query.h>
 #include <mobb/trace.h>
 
@@ -69,6 +70,26 @@ struct Trees {
         std::size_t i = 0;
         while (i < others.size() && !query(a, others[i])) ++i;
         return i;
+    }
+};
+
+struct Production {
+    using Placed = PlacedBlocks;
+    std::vector<std::unique_ptr<const Blocks>> made;
+
+    explicit Production(const std::vector<ClipPtr>& clips) {
+        for (const ClipPtr& clip : clips) made.push_back(std::make_unique<const Blocks>(clip));
+    }
+    template <class Observer>
+    static bool ask(const Placed& a, const Placed& b, Observer& observer) {
+        if constexpr (Observer::watches) {
+            return query(a, b, observer).has_value();
+        } else {
+            return intersects(a, b);
+        }
+    }
+    static std::size_t any(const Placed& a, std::span<const Placed> others) {
+        return intersects_any(a, others).value_or(others.size());
     }
 };
 
@@ -291,6 +312,7 @@ void add_methods(const std::string& name, const std::string& label, const MakeWo
         return [options](const std::vector<ClipPtr>& clips) { return Trees(clips, options); };
     };
     add_one("direct", [](const std::vector<ClipPtr>& clips) { return DirectSearch(clips); });
+    add_one("production", [](const std::vector<ClipPtr>& clips) { return Production(clips); });
     add_one("mobb_1level", trees({.levels = 1}));
     add_one("mobb_leaf10", trees({.leaf = 10}));
     add_one("mobb_leaf50", trees({.leaf = 50}));
@@ -325,6 +347,7 @@ void add_asked(const std::string& label, const MakeWorkload& workload, Make make
 
 void add_queries(const std::string& length, const MakeWorkload& workload) {
     add_asked("direct/" + length, workload, [](const std::vector<ClipPtr>& clips) { return DirectSearch(clips); });
+    add_asked("production/" + length, workload, [](const std::vector<ClipPtr>& clips) { return Production(clips); });
     for (const TreeKind kind : kTreeKinds) {
         for (const int levels : {1, 0}) {
             const FitOptions options{.tree = kind, .levels = levels};
@@ -348,6 +371,7 @@ void add_fit(const std::string& name, const MakeWorkload& workload, Make make) {
 auto tree_of(const FitOptions& options) {
     return [options](const ClipPtr& clip) { return Tree(clip, options); };
 }
+Blocks blocks_of(const ClipPtr& clip) { return Blocks(clip); }
 
 void add_fits(const std::string& length, const MakeWorkload& workload) {
     for (const Axes axes : {Axes::endpoints, Axes::covariance, Axes::minarea}) {
@@ -356,6 +380,7 @@ void add_fits(const std::string& length, const MakeWorkload& workload) {
             add_fit("fit/" + label, workload, tree_of({.tree = kind, .axes = axes}));
         }
     }
+    add_fit("fit/production/" + length, workload, blocks_of);
 }
 
 const bool registered = [] {
@@ -375,6 +400,7 @@ const bool registered = [] {
         for (const TreeKind kind : {TreeKind::mobb, TreeKind::umobb}) {
             add_fit("grow/fit/" + std::string(name(kind)) + "/" + label, random, tree_of({.tree = kind}));
         }
+        add_fit("grow/fit/production/" + label, random, blocks_of);
         add_methods("grow/side_by_side", label, once([=] { return side_by_side(seconds); }), false);
     }
     for (const int clips : {16, 256, 4096, 32768}) {

@@ -206,44 +206,19 @@ void add_tree(std::vector<Row>& rows, const Workload& w, const std::string& name
 }
 
 #ifdef COMPARE_PRODUCTION
-/// Every query of a clip A has A at the same place, so those of one A are asked together: so many at a time.
-constexpr std::size_t kBatch = 64;
+/// The pairs of a slice, asked at once.
+struct Batch {
+    std::vector<Pair<PlacedBlocks>> placed;
+    std::vector<BlocksPair> pairs;
+    std::vector<char> hits;
 
-/// Of a slice: A's that are asked about, each with its B's one behind the other.
-struct Batches {
-    struct Batch {
-        PlacedBlocks a;
-        std::size_t first, end;
-    };
-    std::vector<Batch> batches;
-    std::vector<PlacedBlocks> others;
-    std::vector<std::size_t> query;  ///< by other: its index in the slice
-
-    Batches(const std::vector<std::unique_ptr<const Blocks>>& blocks, std::span<const WorkloadQuery> queries) {
-        query.resize(queries.size());
-        std::iota(query.begin(), query.end(), std::size_t{0});
-        std::stable_sort(query.begin(), query.end(),
-                         [&](std::size_t i, std::size_t j) { return queries[i].clip_a < queries[j].clip_a; });
-        for (const std::size_t i : query) {
-            const WorkloadQuery& q = queries[i];
-            if (batches.empty() || queries[query[batches.back().first]].clip_a != q.clip_a ||
-                batches.back().end - batches.back().first == kBatch) {
-                batches.push_back({{*blocks[static_cast<std::size_t>(q.clip_a)], q.a}, others.size(), others.size()});
-            }
-            others.emplace_back(*blocks[static_cast<std::size_t>(q.clip_b)], q.b);
-            ++batches.back().end;
-        }
+    Batch(const std::vector<std::unique_ptr<const Blocks>>& blocks, std::span<const WorkloadQuery> queries)
+        : placed(place<PlacedBlocks>(blocks, queries)), hits(queries.size()) {
+        for (const Pair<PlacedBlocks>& pair : placed) pairs.push_back({&pair.a, &pair.b});
     }
-    /// on_hit(i): of the query i.
-    template <class OnHit>
-    void ask(const OnHit& on_hit) const {
-        for (const Batch& batch : batches) {
-            std::size_t from = batch.first;
-            while (const auto hit = intersects_any(batch.a, std::span(others).subspan(from, batch.end - from))) {
-                on_hit(query[from + *hit]);
-                from += *hit + 1;
-            }
-        }
+    std::ptrdiff_t ask() {
+        intersects_each(pairs, {reinterpret_cast<bool*>(hits.data()), hits.size()});
+        return std::count(hits.begin(), hits.end(), 1);
     }
 };
 
@@ -253,33 +228,28 @@ void add_production(std::vector<Row>& rows, const Workload& w) {
     using Source = std::unique_ptr<const Blocks>;
     const auto ask = [](const Pair<PlacedBlocks>& pair, auto&) { return intersects(pair.a, pair.b); };
     rows.push_back(pair_row<PlacedBlocks, Source>("production", w, blocks, ask));
-    const auto contact = [](const Pair<PlacedBlocks>& pair, auto& observer) { return query(pair.a, pair.b, observer); };
+    const auto contact = [](const Pair<PlacedBlocks>& pair, auto&) { return query(pair.a, pair.b); };
     rows.push_back(pair_row<PlacedBlocks, Source>("production contact", w, blocks, contact));
-    const auto ask_batches = [](const Batches& batches) {
-        int found = 0;
-        batches.ask([&](std::size_t) { ++found; });
-        g_found += found;
-    };
     Row batch = rows.back();
     batch.name = "production batch";
-    batch.time = [&w, blocks, ask_batches](std::size_t slice) {
-        const Batches batches(*blocks, w.slice(slice));
+    batch.time = [&w, blocks](std::size_t slice) {
+        Batch of_slice(*blocks, w.slice(slice));
         const auto begin = ThreadClock::now();
-        ask_batches(batches);
+        g_found += static_cast<int>(of_slice.ask());
         return mobbscope::nanoseconds(ThreadClock::now() - begin);
     };
     batch.answers = [&w, blocks] {
         Answers out;
         for (std::size_t slice = 0; slice < w.slices; ++slice) {
-            std::vector<char> hits(w.slice(slice).size(), 0);
-            Batches(*blocks, w.slice(slice)).ask([&](std::size_t i) { hits[i] = 1; });
-            for (const char hit : hits) out.add(hit != 0);
+            Batch of_slice(*blocks, w.slice(slice));
+            of_slice.ask();
+            for (const char hit : of_slice.hits) out.add(hit != 0);
         }
         return out;
     };
-    batch.count = [&w, blocks, ask_batches] {
-        const Batches batches(*blocks, w.slice(0));
-        compare_counted([&] { ask_batches(batches); });
+    batch.count = [&w, blocks] {
+        Batch of_slice(*blocks, w.slice(0));
+        compare_counted([&] { g_found += static_cast<int>(of_slice.ask()); });
     };
     rows.push_back(std::move(batch));
     rows.push_back(fit_row("fit production", w, [](const ClipPtr& clip) { return Blocks(clip).clip().count() > 0; }));

@@ -101,25 +101,6 @@ struct Gathered {
 // What rounding adds at most, as a share of the numbers that go in, with a wide margin.
 constexpr double kSingle = 0x1p-17, kDouble = 0x1p-44;
 
-/// From the origin of A's blocks to that of B's, metres in the world.
-MOBB_INLINE glm::dvec2 between_origins(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return (b.translate() - a.translate()) + (b.rotation()(b.blocks().origin()) - a.rotation()(a.blocks().origin()));
-}
-
-/// Bounds that are nearer than this may touch, metres: placed disks are rounded.
-MOBB_INLINE double least_gap(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return 1e-9 + a.rounding() + b.rounding();
-}
-
-/// Whether the roots share time and may meet. In double: they stand still.
-MOBB_INLINE bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
-    const glm::dvec2 between = between_origins(a, b);
-    const double reach = a.blocks().radius() + b.blocks().radius() + least_gap(a, b);
-    // Without a branch: which of the two parts them is anybody's guess.
-    return static_cast<int>(overlap_in_time(a.time(a.first()), a.time(a.end()), b.time(b.first()), b.time(b.end()))) &
-           static_cast<int>(between.x * between.x + between.y * between.y <= reach * reach);
-}
-
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop.
 template <class Observer, class OnHit>
 class BlockTraversal {
@@ -160,16 +141,16 @@ class BlockTraversal {
     MOBB_INLINE void relate() {
         const Rotation to_a = a_.rotation().inverse();
         const Rotation turn = to_a * b_.rotation();
-        const glm::dvec2 offset = to_a(between_origins(a_, b_));
+        const glm::dvec2 offset = to_a(b_.center() - a_.center());
         // Single precision is about the lengths that remain.
         const double lengths = std::abs(offset.x) + std::abs(offset.y) + blocks_a_.extent() + blocks_b_.extent();
         const double time_error = kDouble * (a_.largest_time() + b_.largest_time());
         const double slack =
-            least_gap(a_, b_) + kSingle * lengths + time_error * (blocks_a_.speed() + blocks_b_.speed());
+            a_.rounding() + b_.rounding() + kSingle * lengths + time_error * (blocks_a_.speed() + blocks_b_.speed());
         relation_ = {static_cast<float>(turn.c), static_cast<float>(turn.s), static_cast<float>(offset.x),
                      static_cast<float>(offset.y), static_cast<float>(slack)};
         const double per_dt = blocks_a_.per_dt();
-        shift_ = (b_.time(b_.first()) - a_.time(a_.first())) * per_dt;
+        shift_ = (b_.begin() - a_.begin()) * per_dt;
         // Less than this many samples in common are not tested; rounded times may overlap where exact ones do not.
         least_common_ = (kMinOverlap - time_error) * per_dt;
         constexpr double kMostError = 0.125;
@@ -399,19 +380,12 @@ struct KeepFirst {
     }
 };
 
-bool first_hit(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
-    if (!roots_meet(a, b)) return false;
+bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
     NoObserver observer;
     KeepFirst keep;
     const bool hit = BlockTraversal(a, b, observer, keep).run();
     pair = keep.pair;
     return hit;
-}
-
-bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink) {
-    if (!roots_meet(a, b)) return false;
-    NoObserver observer;
-    return BlockTraversal(a, b, observer, sink).run();
 }
 
 bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
@@ -468,7 +442,7 @@ void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) 
 }
 
 const BlockQueries* queries() {
-    static constexpr BlockQueries all{first_hit, for_each_hit, for_each_hit_below_roots, first_colliding,
+    static constexpr BlockQueries all{first_hit_below_roots, for_each_hit_below_roots, first_colliding,
                                       intersects_each};
     return &all;
 }

@@ -46,13 +46,9 @@ const BlockQueries& queries() {
 
 }  // namespace
 
-std::optional<SamplePair> first_hit(const PlacedBlocks& a, const PlacedBlocks& b) {
+std::optional<SamplePair> first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
     SamplePair pair;
-    return queries().first_hit(a, b, pair) ? std::optional(pair) : std::nullopt;
-}
-
-bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink) {
-    return queries().for_each_hit(a, b, sink);
+    return queries().first_hit_below_roots(a, b, pair) ? std::optional(pair) : std::nullopt;
 }
 
 std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others) {

@@ -3,6 +3,7 @@
 
 #include <mobb/blocks.h>
 #include <mobb/kinds.h>
+#include <mobb/predicate.h>
 #include <mobb/separation.h>
 
 #include <cassert>
@@ -24,7 +25,7 @@ struct LinkPlace {
 };
 
 /// Blocks where their clip is placed: in the world, or by a link of a chain that is placed there. A sample source of
-/// the direct search. It refers to the blocks, which must outlive it and stay where they are. As large as a cache line.
+/// the direct search. It refers to the blocks, which must outlive it and stay where they are.
 class alignas(64) PlacedBlocks {
   public:
     /// Requires is_valid(placement).
@@ -34,31 +35,28 @@ class alignas(64) PlacedBlocks {
     }
     /// As a Placement, with a rotation that is known.
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start)
-        : blocks_(&blocks),
-          rotation_(rotation),
-          translate_(translate),
-          start_(start),
-          rounding_(rounding_of(translate, blocks.reach())) {}
+        : PlacedBlocks(blocks, rotation, translate, start, 0, nullptr) {}
     PlacedBlocks(const Blocks&&, const Placement&) = delete;
     /// As a link of a chain. The place must outlive it, too.
     PlacedBlocks(const Blocks& blocks, const LinkPlace& link)
-        : blocks_(&blocks),
-          link_(&link),
-          rotation_(link.chain.rotation * link.rotation),
-          translate_(link.chain.rotation(link.translate) + link.chain.translate),
-          start_(link.chain.start),
-          first_(link.first),
-          rounding_(rounding_of(translate_, link.chain.reach)) {}
+        : PlacedBlocks(blocks, link.chain.rotation * link.rotation,
+                       link.chain.rotation(link.translate) + link.chain.translate, link.chain.start, link.first,
+                       &link) {}
 
     const Blocks& blocks() const { return *blocks_; }
     /// From the clip's frame to the world's.
     const Rotation& rotation() const { return rotation_; }
-    glm::dvec2 translate() const { return translate_; }
+    /// Where the origin of the blocks lies in the world, and how far their disks reach from there, metres.
+    glm::dvec2 center() const { return center_; }
+    double radius() const { return radius_; }
+    /// Global times at which the first sample begins and the last one ends.
+    double begin() const { return begin_; }
+    double end_time() const { return end_; }
     /// Of the clip, from when its first sample begins.
     PlacedFrame frame() const {
-        return {rotation_, translate_, time(first_), reach(), blocks_->count() * blocks_->dt()};
+        return {rotation_, translate_, begin_, link_ ? link_->chain.reach : blocks_->reach(),
+                blocks_->count() * blocks_->dt()};
     }
-    double reach() const { return link_ ? link_->chain.reach : blocks_->reach(); }
 
     int first() const { return first_; }
     int end() const { return first_ + blocks_->count(); }
@@ -71,27 +69,51 @@ class alignas(64) PlacedBlocks {
     }
     Disk disk_at_end(int i) const { return disk(is_linear() && i + 1 < end() ? i + 1 : i); }
     bool is_linear() const { return blocks_->is_linear(); }
-    /// By how much the disks may be elsewhere for having been placed, metres.
-    double rounding() const { return static_cast<double>(rounding_); }
     /// Global time at which sample i begins; time(i + 1) is when it ends.
     double time(int i) const { return start_ + i * dt(); }
     /// No number that times are computed from is larger, seconds: what their rounding is measured by.
     double largest_time() const { return std::abs(start_) + end() * dt(); }
+    /// By how much the disks may be elsewhere for having been placed, metres; part of radius(), too.
+    double rounding() const { return rounding_; }
 
   private:
-    static float rounding_of(glm::dvec2 translate, double reach) {
-        return static_cast<float>(0x1p-43 * (std::abs(translate.x) + std::abs(translate.y) + reach));
+    PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start, int first,
+                 const LinkPlace* link)
+        : center_(rotation(blocks.origin()) + translate),
+          begin_(start + first * blocks.dt()),
+          end_(start + (first + blocks.count()) * blocks.dt()),
+          rotation_(rotation),
+          blocks_(&blocks),
+          translate_(translate),
+          start_(start),
+          link_(link),
+          first_(first) {
+        const double reach = link ? link->chain.reach : blocks.reach();
+        rounding_ = 1e-9 + 0x1p-44 * (std::abs(translate.x) + std::abs(translate.y) + reach);
+        radius_ = blocks.radius() + rounding_;
     }
 
-    const Blocks* blocks_;
-    const LinkPlace* link_ = nullptr;
+    // One cache line for what most queries end with, one for the others.
+    glm::dvec2 center_;
+    double radius_;
+    double begin_, end_;
     Rotation rotation_;
+    const Blocks* blocks_;
     glm::dvec2 translate_;
+    double rounding_;
     double start_;  ///< of sample 0: of the clip, or of the chain
-    int first_ = 0;
-    float rounding_;
+    const LinkPlace* link_;
+    int first_;
 };
-static_assert(sizeof(PlacedBlocks) == 64);
+
+/// Whether two share time and their roots may meet: without that they do not collide.
+inline bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const glm::dvec2 between = b.center() - a.center();
+    const double reach = a.radius() + b.radius();
+    // Without a branch: which of the two parts them is anybody's guess.
+    return static_cast<bool>(static_cast<unsigned>(overlap_in_time(a.begin(), a.end_time(), b.begin(), b.end_time())) &
+                             static_cast<unsigned>(between.x * between.x + between.y * between.y <= reach * reach));
+}
 
 /// Is told of the pairs of samples that collide, in order of time; says whether to stop.
 struct HitSink {
@@ -107,13 +129,12 @@ struct SamplePair {
     int b = 0;
 };
 
-/// The earliest pair, or none.
-std::optional<SamplePair> first_hit(const PlacedBlocks& a, const PlacedBlocks& b);
-/// All pairs. Returns whether the sink stopped it.
-bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink);
-
+/// The earliest pair, or none, of two whose roots meet.
+std::optional<SamplePair> first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b);
 /// Whether two ever collide: as direct_search finds, on every machine.
-inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) { return first_hit(a, b).has_value(); }
+inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return roots_meet(a, b) && first_hit_below_roots(a, b).has_value();
+}
 
 /// The first of `others` that collides with `a`: its index, or none.
 std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others);
@@ -144,8 +165,12 @@ class BlockObserver {
     ~BlockObserver() = default;
 };
 
-/// What for_each_hit does once it has found that the roots share time and may meet; with an observer if there is one.
+/// All pairs, of two whose roots meet; with an observer if there is one. Returns whether the sink stopped it.
 bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer);
+/// All pairs, earliest first. Returns whether the sink stopped it.
+inline bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink) {
+    return roots_meet(a, b) && for_each_hit_below_roots(a, b, sink, nullptr);
+}
 
 /// The sets of instructions that this machine can run queries with, the fastest first; "scalar" is always the last.
 std::vector<std::string_view> instruction_sets();
