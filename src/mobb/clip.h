@@ -136,6 +136,7 @@ class PlacedClip {
     Placement placement() const { return {frame_.translate, rotate_deg_, frame_.start}; }
     const Rotation& rotation() const { return frame_.rotation; }
     const PlacedFrame& frame() const { return frame_; }
+    static constexpr bool kStoredInFrame = true;
     StoredDisks stored() const { return {samples_, 0, frame_.rotation, frame_.translate}; }
 
     /// Sample i in the world.

@@ -18,6 +18,7 @@ class ChainSamples {
     Disk disk_at_end(int i) const { return disk(link_->runs_to(i)); }
     double time(int i) const { return frame_->start + i * dt_; }
     bool is_linear() const { return link_->linear; }
+    static constexpr bool kStoredInFrame = false;  // but in that of the link's clip
     StoredDisks stored() const {
         return {link_->samples, link_->first, frame_->rotation * link_->rotation,
                 frame_->rotation(link_->translate) + frame_->translate};

@@ -28,6 +28,8 @@ double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
     : rotation_(a.rotation.inverse() * b.rotation), to_world_(a.rotation) {
+    cosines_ = both(rotation_.c);
+    sines_ = TwoDoubles{-rotation_.s, rotation_.s};
     const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
     offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
     const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;

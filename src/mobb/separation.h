@@ -42,11 +42,11 @@ class RelativeFrame {
         return {d.x + offset_.x, d.y + offset_.y, d.z + offset_.z};
     }
     /// The same for two numbers in a register.
-    TwoDoubles direction(TwoDoubles v) const {
-        return rotation_.c * v + TwoDoubles{-rotation_.s, rotation_.s} * swapped(v);
-    }
-    TwoDoubles point(TwoDoubles p) const { return direction(p) + TwoDoubles{offset_.x, offset_.y}; }
+    TwoDoubles direction(TwoDoubles v) const { return cosines_ * v + sines_ * swapped(v); }
+    TwoDoubles point(TwoDoubles p) const { return direction(p) + lanes(offset()); }
     const Rotation& rotation() const { return rotation_; }
+    /// B's origin, metres.
+    glm::dvec2 offset() const { return {offset_.x, offset_.y}; }
     /// From A's frame to the world's.
     const Rotation& to_world() const { return to_world_; }
     double slack2d() const { return slack2d_; }
@@ -55,7 +55,8 @@ class RelativeFrame {
     double slack_time() const { return slack_time_; }
 
   private:
-    Rotation rotation_;  ///< from B's frame to A's
+    TwoDoubles cosines_, sines_;  ///< of rotation_: (c, c) and (-s, s)
+    Rotation rotation_;           ///< from B's frame to A's
     Rotation to_world_;
     glm::dvec3 offset_;  ///< B's origin in A's frame, (x, y, w*t)
     double slack2d_;
@@ -71,7 +72,7 @@ struct FloorGaps {
     TwoDoubles a;  ///< along A0 and A1
     TwoDoubles b;  ///< along B0 and B1
 
-    FloorGaps(const Rectangle& of_a, const Rectangle& of_b, const RelativeFrame& frame) {
+    [[gnu::always_inline]] FloorGaps(const Rectangle& of_a, const Rectangle& of_b, const RelativeFrame& frame) {
         const TwoDoubles u = lanes(of_a.axis), v = frame.direction(lanes(of_b.axis));
         const TwoDoubles d = frame.point(lanes(of_b.center)) - lanes(of_a.center);
         const TwoDoubles u_x = both(u[0]), u_y{u[1], -u[1]}, v_x = both(v[0]), v_y{v[1], -v[1]};

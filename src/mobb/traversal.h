@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <iterator>
@@ -27,10 +26,12 @@ concept PlacedSamples = requires(const S& samples, int i) {
     { samples.is_linear() } -> std::convertible_to<bool>;
 };
 
-/// Placed samples whose disks lie one behind the other in memory.
+/// Placed samples whose disks lie one behind the other in memory: all in the source's own frame, or each range in its
+/// own.
 template <class S>
 concept StoredSamples = PlacedSamples<S> && requires(const S& samples) {
     { samples.stored() } -> std::convertible_to<StoredDisks>;
+    { samples.kStoredInFrame } -> std::convertible_to<bool>;
 };
 
 /// Sample i as it runs.
@@ -151,6 +152,18 @@ PairVisit visit_sample_pairs(const A& a, int first_a, int end_a, const B& b, int
                : visit_pairs<Motion::held>(a, first_a, end_a, b, first_b, end_b, observer, on_hit);
 }
 
+/// Measures the held pair (i, j). Returns whether to stop.
+template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer, class OnHit>
+bool measure_pair(const A& a, int i, const B& b, int j, [[maybe_unused]] Observer& observer, OnHit& on_hit,
+                  PairVisit& visit) {
+    const Disk disk_a = a.disk(i), disk_b = b.disk(j);
+    if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
+    if (!collide(disk_a, disk_b)) return false;
+    visit.hit = true;
+    visit.stopped = on_hit(i, j);
+    return visit.stopped;
+}
+
 /// Tells the pairs of B's samples [first, end), as if each had been measured.
 template <PlacedSamples A, PlacedSamples B, TraversalObserver Observer>
 void report_apart(const A& a, const B& b, int first, int end, const SampleShift& shift, Observer& observer) {
@@ -162,45 +175,36 @@ void report_apart(const A& a, const B& b, int first, int end, const SampleShift&
     }
 }
 
-/// visit_sample_pairs for held samples of equal dt: most pairs are passed over unmeasured, two at a time. `slack`
-/// (metres) covers the rounding of the samples' places.
+/// visit_sample_pairs for held samples of equal dt: most pairs are passed over unmeasured, two at a time.
+/// `relation` is that of the two as they are stored.
 template <StoredSamples A, StoredSamples B, TraversalObserver Observer, class OnHit>
-PairVisit visit_shifted_pairs(const SampleShift& shift, double slack, const A& a, int first_a, int end_a, const B& b,
-                              int first_b, int end_b, [[maybe_unused]] Observer& observer, OnHit& on_hit) {
+[[gnu::noinline]] PairVisit visit_shifted_pairs(const SampleShift& shift, const StoredRelation& relation, const A& a,
+                                                int first_a, int end_a, const B& b, int first_b, int end_b,
+                                                [[maybe_unused]] Observer& observer, OnHit& on_hit) {
     PairVisit visit;
-    const auto measure = [&](int i, int j) {
-        const Disk disk_a = a.disk(i), disk_b = b.disk(j);
-        if constexpr (Observer::watches) observer.sample_pair(i, j, squared_distance(disk_a, disk_b));
-        if (!collide(disk_a, disk_b)) return false;
-        visit.hit = true;
-        visit.stopped = on_hit(i, j);
-        return visit.stopped;
-    };
     const int next = shift.partners - 1;  // how far the last partner of a sample is behind the first
     int j = std::max(first_b, first_a - shift.shift - next);
     // A sample whose first partner comes before the range may still have its second there; only the last of B can lack
     // its second.
     if (j < end_b && j + shift.shift < first_a) {
-        if (measure(j + shift.shift + 1, j)) return visit;
+        if (measure_pair(a, j + shift.shift + 1, b, j, observer, on_hit, visit)) return visit;
         ++j;
     }
     const int end_whole = std::min(end_b, end_a - shift.shift - next);
     if (j < end_whole) {
         const StoredDisks stored_a = a.stored(), stored_b = b.stored();
-        const Rotation to_a = stored_a.rotation.inverse();
-        const StoredRelation relation{to_a * stored_b.rotation, to_a(stored_b.translate - stored_a.translate), slack};
         for (;;) {
             const int apart =
                 count_apart(stored_a.at(j + shift.shift), stored_b.at(j), end_whole - j, shift.partners, relation);
             if constexpr (Observer::watches) report_apart(a, b, j, j + apart, shift, observer);
             j += apart;
             if (j == end_whole) break;
-            if (measure(j + shift.shift, j)) return visit;
-            if (next && measure(j + shift.shift + 1, j)) return visit;
+            if (measure_pair(a, j + shift.shift, b, j, observer, on_hit, visit)) return visit;
+            if (next && measure_pair(a, j + shift.shift + 1, b, j, observer, on_hit, visit)) return visit;
             ++j;
         }
     }
-    if (j < end_b && j + shift.shift < end_a) measure(j + shift.shift, j);
+    if (j < end_b && j + shift.shift < end_a) measure_pair(a, j + shift.shift, b, j, observer, on_hit, visit);
     return visit;
 }
 
@@ -216,6 +220,7 @@ class BlocksOfNodes final : public BlockObserver {
   public:
     BlocksOfNodes(Observer& observer, int a, int b) : observer_(observer), a_(a), b_(b) {}
 
+    BlockObserver* observer() { return this; }
     void enter(int a, int b) override { observer_.enter(a_ + a, b_ + b); }
     void leave() override { observer_.leave(); }
     void time_test(bool overlap) override { observer_.time_test(overlap); }
@@ -226,6 +231,13 @@ class BlocksOfNodes final : public BlockObserver {
   private:
     Observer& observer_;
     int a_, b_;
+};
+
+template <>
+class BlocksOfNodes<NoObserver> {
+  public:
+    BlocksOfNodes(NoObserver&, int, int) {}
+    BlockObserver* observer() { return nullptr; }
 };
 
 /// One traversal of two node sources. OnHit is called with the sample pairs that collide, earliest first, and says
@@ -284,39 +296,21 @@ class Traversal {
         const auto& b0 = b_.node(children_b[0]);
         const auto& b1 = b_.node(children_b[1]);
         // In this order the traversal runs forward in time: one of the two mixed pairs is always apart in time.
-        unsigned meet = (meet_in_time<mode>(a0, b0) ? 1u : 0u) | (meet_in_time<mode>(a0, b1) ? 2u : 0u) |
-                        (meet_in_time<mode>(a1, b0) ? 4u : 0u) | (meet_in_time<mode>(a1, b1) ? 8u : 0u);
-        int told = 0;
-        while (meet) {
-            const int k = std::countr_zero(meet);
-            meet &= meet - 1;
-            const std::size_t i = static_cast<std::size_t>(k) >> 1, j = static_cast<std::size_t>(k) & 1;
-            const auto& child_a = i == 0 ? a0 : a1;
-            const auto& child_b = j == 0 ? b0 : b1;
-            if constexpr (Observer::watches) enter_next(children_a, children_b, told, k);
-            const bool stop = may_meet_in_space(children_a[i], child_a, children_b[j], child_b) &&
-                              visit_below<mode>(children_a[i], child_a, children_b[j], child_b);
+        const unsigned meet = (meet_in_time<mode>(a0, b0) ? 1u : 0u) | (meet_in_time<mode>(a0, b1) ? 2u : 0u) |
+                              (meet_in_time<mode>(a1, b0) ? 4u : 0u) | (meet_in_time<mode>(a1, b1) ? 8u : 0u);
+        for (unsigned k = 0; k < 4; ++k) {
+            const bool meet_in_time = (meet >> k & 1) != 0;
+            const auto& child_a = k < 2 ? a0 : a1;
+            const auto& child_b = k % 2 == 0 ? b0 : b1;
+            const int index_a = children_a[k / 2], index_b = children_b[k % 2];
+            if constexpr (Observer::watches) observer_.enter(index_a, index_b);
+            if constexpr (Observer::watches) observer_.time_test(meet_in_time);
+            const bool stop = meet_in_time && may_meet_in_space(index_a, child_a, index_b, child_b) &&
+                              visit_below<mode>(index_a, child_a, index_b, child_b);
             if constexpr (Observer::watches) observer_.leave();
             if (stop) return true;
         }
-        if constexpr (Observer::watches) tell_apart(children_a, children_b, told, 4);
         return false;
-    }
-
-    /// Enters child pair `next`, after telling those before it that are apart in time, from `told` on.
-    void enter_next(const std::array<int, 2>& children_a, const std::array<int, 2>& children_b, int& told, int next) {
-        tell_apart(children_a, children_b, told, next);
-        told = next + 1;
-        observer_.enter(children_a[static_cast<std::size_t>(next) >> 1],
-                        children_b[static_cast<std::size_t>(next) & 1]);
-        observer_.time_test(true);
-    }
-    void tell_apart(const std::array<int, 2>& children_a, const std::array<int, 2>& children_b, int from, int to) {
-        for (int k = from; k < to; ++k) {
-            observer_.enter(children_a[static_cast<std::size_t>(k) >> 1], children_b[static_cast<std::size_t>(k) & 1]);
-            observer_.time_test(false);
-            observer_.leave();
-        }
     }
 
     /// A leaf against the children of the other side's inner node (Fig. 4).
@@ -415,23 +409,30 @@ class Traversal {
         return pairs.stopped;
     }
 
-    bool test_blocks([[maybe_unused]] int ia, const auto& na, [[maybe_unused]] int ib, const auto& nb) {
+    bool test_blocks(int ia, const auto& na, int ib, const auto& nb) {
         LinkPlace place_a, place_b;
         const PlacedBlocks blocks_a = a_.blocks(na, place_a), blocks_b = b_.blocks(nb, place_b);
         const HitSink sink{[](void* receiver, int i, int j) -> bool { return (*static_cast<OnHit*>(receiver))(i, j); },
                            &on_hit_};
-        if constexpr (Observer::watches) {
-            BlocksOfNodes<Observer> blocks(observer_, ia, ib);
-            return for_each_hit_below_roots(blocks_a, blocks_b, sink, &blocks);
+        BlocksOfNodes<Observer> watched(observer_, ia, ib);
+        return for_each_hit_below_roots(blocks_a, blocks_b, sink, watched.observer());
+    }
+
+    template <StoredSamples SamplesA, StoredSamples SamplesB>
+    StoredRelation relation_of(const SamplesA& a, const SamplesB& b) const {
+        if constexpr (SamplesA::kStoredInFrame && SamplesB::kStoredInFrame) {
+            return {frame_.rotation(), frame_.offset(), frame_.slack2d()};
         } else {
-            return for_each_hit_below_roots(blocks_a, blocks_b, sink, nullptr);
+            const StoredDisks stored_a = a.stored(), stored_b = b.stored();
+            const Rotation to_a = stored_a.rotation.inverse();
+            return {to_a * stored_b.rotation, to_a(stored_b.translate - stored_a.translate), frame_.slack2d()};
         }
     }
 
     template <Mode mode>
     PairVisit visit_samples(const auto& a, int first_a, int end_a, const auto& b, int first_b, int end_b) {
         if constexpr (mode == Mode::shifted) {
-            return visit_shifted_pairs(shift_, frame_.slack2d(), a, first_a, end_a, b, first_b, end_b, observer_,
+            return visit_shifted_pairs(shift_, relation_of(a, b), a, first_a, end_a, b, first_b, end_b, observer_,
                                        on_hit_);
         } else {
             constexpr Motion motion = mode == Mode::linear ? Motion::linear : Motion::held;
