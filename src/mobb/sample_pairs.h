@@ -25,9 +25,11 @@ struct SampleShift {
         if (dt_a != dt_b) return;
         const double dt = dt_a;
         const double later = b.start - a.start;
-        const double whole = std::floor(later / dt);
+        const double samples = later / dt;
         constexpr double kFarthest = 1e9;  // twice as many samples as a clip may have: int still holds the sums
-        if (std::abs(whole) > kFarthest) return;
+        if (!(std::abs(samples) < kFarthest)) return;
+        const int rounded = static_cast<int>(samples);
+        const int whole = rounded - (rounded > samples ? 1 : 0);
         // Each time is rounded twice, and so are `later` and what is left of it.
         const double times = std::abs(a.start) + std::abs(b.start) + a.duration + b.duration;
         const double rounding = 4 * std::numeric_limits<double>::epsilon() * times;
@@ -37,7 +39,7 @@ struct SampleShift {
         if (!is_known(with_first) || !is_known(with_next)) return;
         const bool first = with_first > kMinOverlap;
         const bool next = with_next > kMinOverlap;
-        shift = static_cast<int>(whole) + (first ? 0 : 1);
+        shift = whole + (first ? 0 : 1);
         partners = (first ? 1 : 0) + (next ? 1 : 0);
     }
 

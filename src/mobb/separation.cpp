@@ -60,8 +60,6 @@ Separation separate_obb3d(const Box& a, const Box& b, const RelativeFrame& frame
             abs_r[i][j] = std::abs(r[i][j]);
         }
         t[i] = glm::dot(d, axis_a);
-    }
-    for (int i = 0; i < 3; ++i) {
         const double reach_b = b.half[0] * abs_r[i][0] + b.half[1] * abs_r[i][1] + b.half[2] * abs_r[i][2];
         const double gap = std::abs(t[i]) - (a.half[i] + reach_b);
         if (gap > slack) return {i, gap};
