@@ -51,6 +51,7 @@ Tree::Tree(ClipPtr clip, const FitOptions& options) : clip_(std::move(clip)), op
         const std::size_t nodes = node_count(clip_->count(), options_);
         nodes_.reserve(nodes);
         places_.reserve(nodes);
+        if (!is_upright(info(options_.tree).below)) boxes_.reserve(nodes);
         build({0, clip_->count()}, -1, 0);
         assert(nodes_.size() == nodes);
     }
