@@ -1,7 +1,7 @@
 /// The moves that a crowd can play: those of its motion graph, and each of them turned on the way.
 #pragma once
 
-#include <crowd/simulation/reservation_grid.h>
+#include <crowd/simulation/played_move.h>
 #include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
@@ -44,13 +44,14 @@ class MoveSet {
     std::optional<int> turned(const PlannedMove& wanted) const;
     /// The graph's move that this one is, or that it is a variant of: what has its hubs and its entry.
     const GraphMove& move(int move) const { return graph().moves[static_cast<std::size_t>(origin(move).move)]; }
-    const mobb::Tree& tree(int move) const { return *at(move).tree; }
-    const ClipBounds& bounds(int move) const { return at(move).bounds; }
+    const PlayableClip& clip(int move) const { return at(move).clip; }
     const Stance& exit(int move) const { return at(move).exit; }
+    /// Of the heading at the exit.
+    const mobb::Rotation& exit_rotation(int move) const { return at(move).exit_rotation; }
     /// Metres: of the circle that an agent walks who goes on as fast as the move ends and turns as fast as the turn
     /// rate allows from move to move. None where agents turn at once, or never.
-    std::optional<double> turning_radius(int move) const;
-    double duration(int move) const { return tree(move).clip().duration(); }
+    std::optional<double> turning_radius(int move) const { return at(move).turning_radius; }
+    double duration(int move) const { return clip(move).clip().duration(); }
     /// The moves that begin in the hub where `move` ends, none of them turned.
     const std::vector<int>& after(int move) const { return by_hub_[static_cast<std::size_t>(this->move(move).to)]; }
     /// The same, those first that take least room: floor times seconds.
@@ -59,10 +60,12 @@ class MoveSet {
     }
 
     /// Where `next` is placed after `before`.
-    mobb::Placement following(int before, const mobb::Placement& placed, const PlannedMove& next) const;
+    OrientedPlacement following(int before, const OrientedPlacement& placed, const PlannedMove& next) const;
+    /// Whether that depends on how far `next` turns: where agents turn at once.
+    bool turns_at_once() const { return turn_rate_ == kTurnsAtOnce; }
     /// A move as an agent's play.
-    PlayedMove motion(int agent, int play, int move, const mobb::Placement& placement) const {
-        return {agent, play, &tree(move), &bounds(move), placement, 0, move};
+    PlayedMove motion(int agent, int play, int move, const OrientedPlacement& placed) const {
+        return {agent, play, move, clip(move), placed};
     }
     /// The moves that are planned to follow an agent's play.
     std::vector<PlayedMove> planned(int agent, int index, const Play& play) const;
@@ -77,11 +80,13 @@ class MoveSet {
 
   private:
     struct Move {
+        Move(const PlannedMove& of, std::shared_ptr<const mobb::Tree> tree, const Stance& end, double turn_rate);
+
         PlannedMove origin;
-        std::shared_ptr<const mobb::Tree> own_tree;  ///< null: the scene's
-        const mobb::Tree* tree;
-        ClipBounds bounds;
+        PlayableClip clip;
         Stance exit;
+        mobb::Rotation exit_rotation;
+        std::optional<double> turning_radius;
     };
 
     static constexpr std::size_t kHeadings = 25;  ///< from -180 to 180 degrees

@@ -1,0 +1,89 @@
+/// A motion where somebody plays it, or may play it.
+#pragma once
+
+#include <mobb/clip.h>
+#include <mobb/kdop.h>
+#include <mobb/placed_tree.h>
+#include <scene/motion_graph.h>
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace mobbscope {
+
+/// A rectangle along the axes of the floor, in metres.
+struct FloorRect {
+    glm::dvec2 low{0};
+    glm::dvec2 high{0};
+
+    bool meets(const FloorRect& other) const {
+        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
+    }
+};
+
+/// A polygon around all disks of a clip. Where a run's agents first stand is drawn by these bounds: with others the
+/// same seed would give another run.
+class ClipBounds {
+  public:
+    explicit ClipBounds(const mobb::Clip& clip)
+        : corners_(mobb::KDop(clip.samples()).coarse_corners()), reach_(clip.reach()) {}
+
+    /// Holds every disk of the clip where it is placed (metres), rounding included.
+    FloorRect bounds(const OrientedPlacement& at) const;
+
+  private:
+    std::array<glm::dvec2, mobb::KDop::kDirections / 2> corners_;  ///< in the clip's frame
+    double reach_;                                                 ///< of the clip: what rounding is measured by
+};
+
+/// A clip with all that is asked of it wherever it is played.
+struct PlayableClip {
+    explicit PlayableClip(std::shared_ptr<const mobb::Tree> fitted) : tree(std::move(fitted)), bounds(tree->clip()) {}
+
+    const mobb::Clip& clip() const { return tree->clip(); }
+
+    std::shared_ptr<const mobb::Tree> tree;
+    ClipBounds bounds;
+};
+
+/// Whether some disk of a placed clip reaches over a wall of the floor, which goes from -area/2 to area/2 (metres).
+/// Touching a wall is allowed. The bounds must be the clip's where it is placed; they only save time.
+bool leaves_floor(const mobb::Clip& clip, const OrientedPlacement& at, const FloorRect& bounds, glm::dvec2 area);
+
+/// A clip that an agent plays, or may play. What queries need of the place is worked out once, as it is made. Refers to
+/// the clip, which must outlive it.
+struct PlayedMove {
+    /// `play_index`: among the agent's plays; `move_index`: among those of the MoveSet, -1: somebody who stands.
+    /// Requires is_valid(where.placement).
+    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip,
+               const OrientedPlacement& where)
+        : PlayedMove(agent_index, play_index, move_index, clip, where, clip.bounds.bounds(where)) {}
+    /// The same with the clip's bounds where it is placed.
+    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip,
+               const OrientedPlacement& where, const FloorRect& placed_bounds)
+        : agent(agent_index),
+          play(play_index),
+          move(move_index),
+          playable(&clip),
+          at(where),
+          placed(*clip.tree, where.placement),
+          bounds(placed_bounds) {}
+
+    const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
+    double begin() const { return clip().time(0); }  ///< global seconds
+    double end() const { return clip().time(clip().count()); }
+
+    int agent;
+    int play;         ///< a Blocker repeats it
+    int move;         ///< likewise
+    int planned = 0;  ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
+    const PlayableClip* playable;
+    OrientedPlacement at;
+    mobb::PlacedTree placed;
+    FloorRect bounds;  ///< holds every disk
+};
+
+}  // namespace mobbscope
