@@ -187,8 +187,8 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
         EXPECT_LT(wide.y, least.y + most);
         // A wall exactly at the tight bound is touched, one just inside is crossed.
         const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
-        EXPECT_FALSE(leaves_floor(motion.playable->clip(), motion.at, bounds, {2 * (reach + 1e-9), 1e6}));
-        EXPECT_TRUE(leaves_floor(motion.playable->clip(), motion.at, bounds, {2 * (reach - 1e-9), 1e6}));
+        EXPECT_TRUE(bounds_on_floor(*motion.playable, motion.at, {2 * (reach + 1e-9), 1e6}));
+        EXPECT_FALSE(bounds_on_floor(*motion.playable, motion.at, {2 * (reach - 1e-9), 1e6}));
     }
 }
 

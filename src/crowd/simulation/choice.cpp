@@ -42,6 +42,10 @@ class Chooser {
           asked_(asked),
           search_(moves, reservations, run, point.agent, point.play, asked) {
         choice_.time = point.time;
+        // Both ways of one turn: more is seldom needed.
+        const std::size_t usually = 3 * moves.after(point.before.move).size();
+        choice_.candidates.reserve(usually);
+        motions_.reserve(usually);
     }
 
     Choice choose() {
@@ -69,11 +73,14 @@ class Chooser {
             const OrientedPlacement at = moves_.following(point_.before.move, before_, {move, turn});
             // A graph whose moves lead far away would in the end leave what can be placed.
             if (!mobb::is_valid(at.placement)) continue;
-            const PlayedMove& motion = motions_.emplace_back(moves_.motion(point_.agent, point_.play, *played, at));
+            const PlayableClip& clip = moves_.clip(*played);
+            const std::optional<FloorRect> on_floor = bounds_on_floor(clip, at, run_.area);
+            motions_.emplace_back(point_.agent, point_.play, *played, clip, at,
+                                  on_floor ? *on_floor : clip.bounds.bounds(at));
             Candidate& candidate = choice_.candidates.emplace_back(candidate_of(moves_, *played));
             candidate.turn_deg = turn;
             candidate.placement = at.placement;
-            candidate.leaves_floor = leaves_floor(motion.playable->clip(), at, motion.bounds, run_.area);
+            candidate.leaves_floor = !on_floor;
         }
     }
 
@@ -209,16 +216,20 @@ class Chooser {
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
         const bool some_stay = std::ranges::any_of(choice_.candidates, stays);
         if (!some_stay) find_blockers(0, true);
+        std::vector<std::size_t> of = those(0, [&](const Candidate& c) { return c.leaves_floor != some_stay; });
+        // Who meets somebody late is likely not to harm for long, and the rest is then measured no farther than that.
+        std::ranges::sort(of, std::greater<>(), [&](std::size_t i) { return std::pair(first_contact(i), i); });
         std::vector<std::size_t> best;
-        Harm least;
-        for (const std::size_t i : those(0, [&](const Candidate& c) { return c.leaves_floor != some_stay; })) {
-            const Harm harm = harm_of(i);
+        Harm least{std::numeric_limits<double>::infinity(), 0, 0};
+        for (const std::size_t i : of) {
+            const Harm harm = harm_of(i, std::get<0>(least));
             if (best.empty() || harm < least) {
                 best.clear();
                 least = harm;
             }
             if (harm == least) best.push_back(i);
         }
+        std::ranges::sort(best);
         choice_.taken = best[draws().below(static_cast<std::uint32_t>(best.size()))];
     }
 
@@ -226,13 +237,20 @@ class Chooser {
     /// the first contact is.
     using Harm = std::tuple<double, double, double>;
 
-    Harm harm_of(std::size_t index) const {
-        const Candidate& candidate = choice_.candidates[index];
+    /// Global seconds of the first contact with what another plays; never: infinite.
+    double first_contact(std::size_t index) const {
+        const std::optional<Blocker>& blocker = choice_.candidates[index].blocker;
+        return blocker && blocker->planned == 0 ? blocker->contact.time : std::numeric_limits<double>::infinity();
+    }
+
+    /// Seconds that are more than `most` may be counted in part.
+    Harm harm_of(std::size_t index, double most) const {
         const mobb::PlacedClip& way = motions_[index].clip();
         const double beyond = beyond_wall(way.disk(way.count() - 1), run_.area);
-        if (!candidate.blocker || candidate.blocker->planned > 0)
-            return {0, beyond, -std::numeric_limits<double>::infinity()};
-        return {reservations_.motions().seconds_of_contact(motions_[index]), beyond, -candidate.blocker->contact.time};
+        const double first = first_contact(index);
+        const double seconds =
+            std::isinf(first) ? 0 : reservations_.motions().seconds_of_contact(motions_[index], most);
+        return {seconds, beyond, -first};
     }
 
     CounterRandom draws() const {

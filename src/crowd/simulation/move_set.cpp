@@ -20,7 +20,7 @@ namespace {
 constexpr double kSpeedOver = 0.25;  // seconds: of a moment, as a walker's root is not equally fast within a step
 
 /// Place of a turn among all from -180 degrees on.
-std::size_t heading_index(double turn_deg) { return static_cast<std::size_t>(std::lround(turn_deg / kTurnStep) + 12); }
+std::size_t heading_index(double turn_deg) { return static_cast<std::size_t>(turn_deg / kTurnStep + 12.5); }
 
 double rate_of(const FittedScene& fitted, std::optional<double> turn_rate) {
     if (!turn_rate) return fitted.scene().crowd ? fitted.scene().crowd->turn_rate : kDefaultTurnRate;

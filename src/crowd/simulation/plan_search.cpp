@@ -56,10 +56,10 @@ bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seco
             const std::optional<int> turned = moves_.turned(next);
             if (!turned || !mobb::is_valid(at.placement)) continue;
             const PlayableClip& clip = moves_.clip(*turned);
-            const FloorRect bounds = clip.bounds.bounds(at);
-            if (leaves_floor(clip.clip(), at, bounds, run_.area)) continue;
+            const std::optional<FloorRect> bounds = bounds_on_floor(clip, at, run_.area);
+            if (!bounds) continue;
             if (--left_ < 0) return false;
-            if (!is_free({agent_, play_, *turned, clip, at, bounds})) continue;
+            if (!is_free({agent_, play_, *turned, clip, at, *bounds})) continue;
             const double end = seconds + moves_.duration(*turned);
             add(next, end);
             if (extend(*turned, at, end)) return true;

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace mobbscope {
@@ -28,15 +29,16 @@ struct FloorRect {
 /// same seed would give another run.
 class ClipBounds {
   public:
-    explicit ClipBounds(const mobb::Clip& clip)
-        : corners_(mobb::KDop(clip.samples()).coarse_corners()), reach_(clip.reach()) {}
+    explicit ClipBounds(const mobb::Clip& clip);
 
     /// Holds every disk of the clip where it is placed (metres), rounding included.
     FloorRect bounds(const OrientedPlacement& at) const;
 
   private:
-    std::array<glm::dvec2, mobb::KDop::kDirections / 2> corners_;  ///< in the clip's frame
-    double reach_;                                                 ///< of the clip: what rounding is measured by
+    static constexpr std::size_t kCorners = mobb::KDop::kDirections / 2;
+
+    std::array<double, kCorners> x_, y_;  ///< of the corners, in the clip's frame
+    double reach_;                        ///< of the clip: what rounding is measured by
 };
 
 /// A clip with all that is asked of it wherever it is played.
@@ -49,9 +51,9 @@ struct PlayableClip {
     ClipBounds bounds;
 };
 
-/// Whether some disk of a placed clip reaches over a wall of the floor, which goes from -area/2 to area/2 (metres).
-/// Touching a wall is allowed. The bounds must be the clip's where it is placed; they only save time.
-bool leaves_floor(const mobb::Clip& clip, const OrientedPlacement& at, const FloorRect& bounds, glm::dvec2 area);
+/// The bounds of a clip where it is placed, or none if some disk reaches over a wall of the floor, which goes from
+/// -area/2 to area/2 (metres). Touching a wall is allowed.
+std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const OrientedPlacement& at, glm::dvec2 area);
 
 /// A clip that an agent plays, or may play. What queries need of the place is worked out once, as it is made. Refers to
 /// the clip, which must outlive it.

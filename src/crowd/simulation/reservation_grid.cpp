@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCell = 4;         // metres: about what a clip of two seconds covers
 constexpr int kMostCells = 1024;    // in a row or column: a huge floor gets larger cells
-constexpr std::size_t kGrain = 16;  // candidates a task: fewer are not worth a thread
+constexpr std::size_t kGrain = 64;  // candidates a task: fewer are not worth a thread
 constexpr std::size_t kUsuallyNear = 32;
 
 int cells_along(double length) {
@@ -34,15 +34,15 @@ ReservationGrid::ReservationGrid(glm::dvec2 area)
       columns_(cells_along(area.x)),
       rows_(cells_along(area.y)),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
-    cell_size_ = area / glm::dvec2(columns_, rows_);
+    per_metre_ = glm::dvec2(columns_, rows_) / area;
 }
 
 ReservationGrid::CellRange ReservationGrid::cells_of(const FloorRect& rect) const {
-    const auto along = [](double at, double low, double size, int count) {
-        return static_cast<int>(std::clamp(std::floor((at - low) / size), 0.0, count - 1.0));
+    const auto along = [](double at, double low, double per_metre, int count) {
+        return static_cast<int>(std::clamp((at - low) * per_metre, 0.0, count - 1.0));
     };
-    return {along(rect.low.x, low_.x, cell_size_.x, columns_), along(rect.low.y, low_.y, cell_size_.y, rows_),
-            along(rect.high.x, low_.x, cell_size_.x, columns_), along(rect.high.y, low_.y, cell_size_.y, rows_)};
+    return {along(rect.low.x, low_.x, per_metre_.x, columns_), along(rect.low.y, low_.y, per_metre_.y, rows_),
+            along(rect.high.x, low_.x, per_metre_.x, columns_), along(rect.high.y, low_.y, per_metre_.y, rows_)};
 }
 
 std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
@@ -154,9 +154,10 @@ bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
     return is_clear(candidate, queries);
 }
 
-double ReservationGrid::seconds_of_contact(const PlayedMove& candidate) const {
+double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, double most) const {
     double seconds = 0;
     for (const Near& other : find_near(candidate)) {
+        if (seconds > most) break;
         for (const mobb::Interval& interval : mobb::contact_intervals(candidate.placed, other.motion->placed))
             seconds += interval.t1 - interval.t0;
     }

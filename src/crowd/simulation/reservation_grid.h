@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <span>
@@ -69,8 +70,8 @@ class ReservationGrid {
     bool is_clear(const PlayedMove& candidate) const;
 
     /// How long the candidate collides with the motions of the other agents, in seconds: with two at a time it counts
-    /// twice.
-    double seconds_of_contact(const PlayedMove& candidate) const;
+    /// twice. What is more than `most` may be counted in part.
+    double seconds_of_contact(const PlayedMove& candidate, double most = std::numeric_limits<double>::infinity()) const;
 
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
     /// metres of the candidate's, at any time: the pairs that would be queried if times were not compared first, and
@@ -116,7 +117,7 @@ class ReservationGrid {
     std::vector<Near> find_near(const PlayedMove& candidate) const;
 
     glm::dvec2 low_;
-    glm::dvec2 cell_size_;
+    glm::dvec2 per_metre_;  ///< cells
     int columns_;
     int rows_;
     std::vector<std::vector<Entry>> cells_;  ///< motions whose bounds reach into the cell

@@ -97,8 +97,8 @@ class Simulator {
             const double across = random.unit(), along = random.unit();
             if (room.x < 0 || room.y < 0) continue;
             at.placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
+            if (!bounds_on_floor(moves_.clip(move), at, options_.area)) continue;
             const PlayedMove motion = moves_.motion(agent, 0, move, at);
-            if (leaves_floor(motion.playable->clip(), at, motion.bounds, options_.area)) continue;
             if (!reservations_.motions().is_clear(motion) || !reservations_.plans().is_clear(motion)) continue;
             Play play{move, at.placement, at.placement.start, PlayKind::chosen};
             PlanSearch search(moves_, reservations_, simulation_.run, agent, 0);
