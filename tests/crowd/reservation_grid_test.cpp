@@ -45,7 +45,7 @@ class WorldTest : public ::testing::Test {
             const auto contact = mobb::direct_search(a, b);
             if (!contact) continue;
             if (!first || std::tuple(contact->time, other.agent) < std::tuple(first->contact.time, first->agent)) {
-                first = {other.agent,       other.play, *contact, 0, other.move, other.playable->tree->shared_clip(),
+                first = {other.agent,       other.play, *contact, 0, other.move, other.playable->blocks.shared_clip(),
                          other.at.placement};
             }
         }

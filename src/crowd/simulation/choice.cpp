@@ -23,7 +23,7 @@ constexpr double kSamePlace = 1e-6;  // metres, degrees: as precisely as plays m
 /// A move of the set, not placed yet.
 Candidate candidate_of(const MoveSet& moves, int move) {
     const PlannedMove& origin = moves.origin(move);
-    return {origin.move, origin.turn_deg, move, moves.clip(move).tree->shared_clip(), {}, false, {}, false, false};
+    return {origin.move, origin.turn_deg, move, moves.clip(move).blocks.shared_clip(), {}, false, {}, false, false};
 }
 
 /// Metres by which a disk reaches over a wall.
@@ -245,8 +245,8 @@ class Chooser {
 
     /// Seconds that are more than `most` may be counted in part.
     Harm harm_of(std::size_t index, double most) const {
-        const mobb::PlacedClip& way = motions_[index].clip();
-        const double beyond = beyond_wall(way.disk(way.count() - 1), run_.area);
+        const mobb::PlacedBlocks& way = motions_[index].placed;
+        const double beyond = beyond_wall(way.disk(way.end() - 1), run_.area);
         const double first = first_contact(index);
         const double seconds =
             std::isinf(first) ? 0 : reservations_.motions().seconds_of_contact(motions_[index], most);

@@ -41,20 +41,25 @@ std::optional<double> turning_radius_of(const mobb::Clip& clip, const Stance& ex
 
 }  // namespace
 
-MoveSet::Move::Move(const PlannedMove& of, std::shared_ptr<const mobb::Tree> tree, const Stance& end, double turn_rate)
+MoveSet::Move::Move(const PlannedMove& of, PlayableClip playable, const Stance& end, double turn_rate)
     : origin(of),
-      clip(std::move(tree)),
+      clip(std::move(playable)),
       exit(end),
       exit_rotation(mobb::Rotation::from_degrees(end.heading_deg)),
       turning_radius(turning_radius_of(clip.clip(), end, turn_rate)) {}
 
-MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate)
-    : fitted_(&fitted), turn_rate_(rate_of(fitted, turn_rate)), by_hub_(moves_by_hub(graph())) {
+MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate, QueriedBy queried_by)
+    : fitted_(&fitted),
+      turn_rate_(rate_of(fitted, turn_rate)),
+      queried_by_(queried_by),
+      by_hub_(moves_by_hub(graph())) {
     const std::vector<GraphMove>& moves = graph().moves;
     for (int i = 0; i < static_cast<int>(moves.size()); ++i) {
         const GraphMove& move = moves[static_cast<std::size_t>(i)];
         const PlannedMove origin = move.turned ? PlannedMove{move.turned->move, move.turned->deg} : PlannedMove{i, 0};
-        moves_.emplace_back(origin, fitted.shared_tree(move.clip), move.exit, turn_rate_);
+        const std::shared_ptr<const mobb::Tree>& tree = fitted.shared_tree(move.clip);
+        moves_.emplace_back(origin, PlayableClip(tree->shared_clip(), queried_by == QueriedBy::trees ? tree : nullptr),
+                            move.exit, turn_rate_);
         if (!move.turned) unturned_.push_back(i);
     }
     for (std::vector<int>& of_hub : by_hub_)
@@ -103,11 +108,16 @@ std::optional<MoveSet::Move> MoveSet::turned_move(const PlannedMove& origin) con
     // A clip in a file has one turn.
     if (clip.turn || turn.seconds > clip.clip->duration()) return std::nullopt;
     try {
-        const auto tree = std::make_shared<const mobb::Tree>(bent(*clip.clip, turn), fitted_->options());
-        return Move(origin, tree, bent_exit(*clip.clip, tree->clip(), move.exit, turn), turn_rate_);
+        const mobb::ClipPtr turned = bent(*clip.clip, turn);
+        return Move(origin, playable(turned), bent_exit(*clip.clip, *turned, move.exit, turn), turn_rate_);
     } catch (const std::invalid_argument&) {
         return std::nullopt;  // it leads beyond what a clip holds
     }
+}
+
+PlayableClip MoveSet::playable(const mobb::ClipPtr& clip) const {
+    if (queried_by_ == QueriedBy::blocks) return PlayableClip(clip);
+    return PlayableClip(clip, std::make_shared<const mobb::Tree>(clip, fitted_->options()));
 }
 
 std::optional<int> MoveSet::turned(const PlannedMove& wanted) const {
@@ -155,7 +165,7 @@ MoveSet::Extended MoveSet::extended(std::span<const int> used) const {
         SceneClip clip = out.scene.clips[static_cast<std::size_t>(move.clip)];
         bend(clip, turn_at_rate(origin.turn_deg, turn_rate_));
         clip.name = names.take(clip.name + formatted(" turned %+.0f", origin.turn_deg));
-        clip.clip = this->clip(index).tree->shared_clip();
+        clip.clip = this->clip(index).blocks.shared_clip();
         // Of samples in the scene those that are bent are kept.
         if (!clip.source) clip.turn.reset();
         move.clip = static_cast<int>(out.scene.clips.size());

@@ -22,18 +22,27 @@ inline constexpr std::array<double, 24> kTurns{0,   15,  -15,  30,  -30,  45,  -
 /// Degrees per second where nothing else is asked: a quick step aside, not a spin.
 inline constexpr double kDefaultTurnRate = 120;
 
-/// The moves of a motion graph, fitted, and behind them all that they become by turns: each move that is no variant of
+/// What queries go through: the answers are the same.
+enum class QueriedBy {
+    blocks,  ///< the fastest (mobb/production.h)
+    trees,   ///< those of the fit in use
+};
+
+/// The moves of a motion graph, and behind them all that they become by turns: each move that is no variant of
 /// another, by each of kTurns that its duration allows, unless the graph has that variant. Moves are counted through
 /// both. Refers to the scene, which must outlive it and have a graph. Const calls are safe from any number of threads.
 class MoveSet {
   public:
     /// `turn_rate` as in CrowdRun; none: as in the scene's crowd, or without one kDefaultTurnRate. Throws
     /// std::invalid_argument if it is out of range.
-    explicit MoveSet(const FittedScene& fitted, std::optional<double> turn_rate = {});
+    explicit MoveSet(const FittedScene& fitted, std::optional<double> turn_rate = {},
+                     QueriedBy queried_by = QueriedBy::blocks);
 
     const FittedScene& fitted() const { return *fitted_; }
     const MotionGraph& graph() const { return *fitted_->scene().graph; }
     double turn_rate() const { return turn_rate_; }
+    /// A clip that is none of the moves', as it is asked in a crowd of these.
+    PlayableClip playable(const mobb::ClipPtr& clip) const;
 
     std::size_t count() const { return moves_.size(); }
     /// The moves that are no variants: indices into the graph's.
@@ -80,7 +89,7 @@ class MoveSet {
 
   private:
     struct Move {
-        Move(const PlannedMove& of, std::shared_ptr<const mobb::Tree> tree, const Stance& end, double turn_rate);
+        Move(const PlannedMove& of, PlayableClip playable, const Stance& end, double turn_rate);
 
         PlannedMove origin;
         PlayableClip clip;
@@ -98,6 +107,7 @@ class MoveSet {
 
     const FittedScene* fitted_;
     double turn_rate_;
+    QueriedBy queried_by_;
     std::vector<Move> moves_;
     std::vector<ByHeading> turned_;  ///< by the graph's move: its variants; -1: there is none
     std::vector<int> unturned_;

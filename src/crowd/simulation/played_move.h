@@ -1,9 +1,12 @@
 /// A motion where somebody plays it, or may play it.
 #pragma once
 
+#include <mobb/blocks.h>
 #include <mobb/clip.h>
 #include <mobb/kdop.h>
 #include <mobb/placed_tree.h>
+#include <mobb/production.h>
+#include <mobb/tree.h>
 #include <scene/motion_graph.h>
 
 #include <glm/vec2.hpp>
@@ -43,10 +46,13 @@ class ClipBounds {
 
 /// A clip with all that is asked of it wherever it is played.
 struct PlayableClip {
-    explicit PlayableClip(std::shared_ptr<const mobb::Tree> fitted) : tree(std::move(fitted)), bounds(tree->clip()) {}
+    /// `asked`: a tree over the clip that queries go through instead of the blocks; null: none.
+    explicit PlayableClip(mobb::ClipPtr clip, std::shared_ptr<const mobb::Tree> asked = nullptr)
+        : blocks(std::move(clip)), tree(std::move(asked)), bounds(blocks.clip()) {}
 
-    const mobb::Clip& clip() const { return tree->clip(); }
+    const mobb::Clip& clip() const { return blocks.clip(); }
 
+    mobb::Blocks blocks;
     std::shared_ptr<const mobb::Tree> tree;
     ClipBounds bounds;
 };
@@ -71,12 +77,13 @@ struct PlayedMove {
           move(move_index),
           playable(&clip),
           at(where),
-          placed(*clip.tree, where.placement),
+          placed(clip.blocks, where.rotation, where.placement.translate, where.placement.start),
           bounds(placed_bounds) {}
 
-    const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
-    double begin() const { return clip().time(0); }  ///< global seconds
-    double end() const { return clip().time(clip().count()); }
+    double begin() const { return placed.time(placed.first()); }  ///< global seconds
+    double end() const { return placed.time(placed.end()); }
+    /// Of a clip that has a tree.
+    mobb::PlacedTree placed_tree() const { return {*playable->tree, at.placement}; }
 
     int agent;
     int play;         ///< a Blocker repeats it
@@ -84,7 +91,7 @@ struct PlayedMove {
     int planned = 0;  ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
     const PlayableClip* playable;
     OrientedPlacement at;
-    mobb::PlacedTree placed;
+    mobb::PlacedBlocks placed;
     FloorRect bounds;  ///< holds every disk
 };
 

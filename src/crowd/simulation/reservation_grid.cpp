@@ -1,10 +1,13 @@
 #include <crowd/simulation/reservation_grid.h>
+#include <mobb/production.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace mobbscope {
@@ -25,6 +28,15 @@ void for_each_cell(const auto& range, const auto& visit) {
     for (int y = range.y0; y <= range.y1; ++y) {
         for (int x = range.x0; x <= range.x1; ++x) visit(x, y);
     }
+}
+
+std::optional<mobb::Contact> contact_of(const PlayedMove& a, const PlayedMove& b) {
+    return a.playable->tree ? mobb::query(a.placed_tree(), b.placed_tree()) : mobb::query(a.placed, b.placed);
+}
+
+std::vector<mobb::Interval> contact_intervals(const PlayedMove& a, const PlayedMove& b) {
+    return a.playable->tree ? mobb::contact_intervals(a.placed_tree(), b.placed_tree())
+                            : mobb::contact_intervals(a.placed, b.placed);
 }
 
 }  // namespace
@@ -108,6 +120,21 @@ std::vector<ReservationGrid::Near> ReservationGrid::find_near(const PlayedMove& 
     return near;
 }
 
+std::size_t ReservationGrid::first_met(const PlayedMove& candidate, std::span<const Near> near) {
+    if (candidate.playable->tree) {
+        const auto meets = [&](const Near& other) { return contact_of(candidate, *other.motion).has_value(); };
+        return static_cast<std::size_t>(std::ranges::find_if(near, meets) - near.begin());
+    }
+    std::array<const mobb::PlacedBlocks*, kUsuallyNear> others;
+    for (std::size_t begin = 0; begin < near.size(); begin += kUsuallyNear) {
+        const std::size_t count = std::min(kUsuallyNear, near.size() - begin);
+        for (std::size_t i = 0; i < count; ++i) others[i] = &near[begin + i].motion->placed;
+        const auto met = mobb::intersects_any(candidate.placed, std::span(others).first(count));
+        if (met) return begin + *met;
+    }
+    return near.size();
+}
+
 CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
     CandidateCheck check;
     for (const auto& [begin, other] : find_near(candidate)) {
@@ -115,12 +142,12 @@ CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<A
         if (check.blocker && begin > check.blocker->contact.time) break;
         ++check.asked;
         if (asked) asked->push_back({candidate, *other});
-        const auto contact = mobb::query(candidate.placed, other->placed);
+        const auto contact = contact_of(candidate, *other);
         if (!contact) continue;
         if (!check.blocker ||
             std::tuple(contact->time, other->agent) < std::tuple(check.blocker->contact.time, check.blocker->agent)) {
             check.blocker = {other->agent,       other->play, *contact,
-                             other->planned,     other->move, other->playable->tree->shared_clip(),
+                             other->planned,     other->move, other->playable->blocks.shared_clip(),
                              other->at.placement};
         }
     }
@@ -142,11 +169,14 @@ std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMov
 
 bool ReservationGrid::is_clear(const PlayedMove& candidate, std::int64_t& queries,
                                std::vector<AskedPair>* asked) const {
-    return std::ranges::none_of(find_near(candidate), [&](const Near& other) {
-        ++queries;
-        if (asked) asked->push_back({candidate, *other.motion});
-        return mobb::query(candidate.placed, other.motion->placed).has_value();
-    });
+    const std::vector<Near> near = find_near(candidate);
+    const std::size_t first = first_met(candidate, near);
+    const std::size_t count = std::min(first + 1, near.size());
+    queries += static_cast<std::int64_t>(count);
+    if (asked) {
+        for (std::size_t i = 0; i < count; ++i) asked->push_back({candidate, *near[i].motion});
+    }
+    return first == near.size();
 }
 
 bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
@@ -158,7 +188,7 @@ double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, double m
     double seconds = 0;
     for (const Near& other : find_near(candidate)) {
         if (seconds > most) break;
-        for (const mobb::Interval& interval : mobb::contact_intervals(candidate.placed, other.motion->placed))
+        for (const mobb::Interval& interval : contact_intervals(candidate, *other.motion))
             seconds += interval.t1 - interval.t0;
     }
     return seconds;

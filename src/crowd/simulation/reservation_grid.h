@@ -115,6 +115,8 @@ class ReservationGrid {
     void visit_cells(const CellRange& range, const Visit& visit) const;
     /// The motions of other agents whose bounds and times meet the candidate's, earliest first.
     std::vector<Near> find_near(const PlayedMove& candidate) const;
+    /// The index of the first of them that the candidate collides with; their number if there is none.
+    static std::size_t first_met(const PlayedMove& candidate, std::span<const Near> near);
 
     glm::dvec2 low_;
     glm::dvec2 per_metre_;  ///< cells

@@ -29,7 +29,7 @@ ReservationTable::ReservationTable(const MoveSet& moves, glm::dvec2 area, double
     for (const SceneClip& clip : moves.fitted().scene().clips) {
         const std::vector<mobb::Disk> disk{{0, 0, clip.clip->samples().back().r}};
         const auto standing = std::make_shared<const mobb::Clip>(grace, disk);
-        stand_of_clip_.emplace_back(std::make_shared<const mobb::Tree>(standing, moves.fitted().options()));
+        stand_of_clip_.push_back(moves.playable(standing));
     }
 }
 
