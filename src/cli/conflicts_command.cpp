@@ -215,7 +215,9 @@ void print_text(const Findings& findings) {
 }
 
 void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
-    const FittedScene scene = fitted(load_crowd(arguments), arguments.fit);
+    FitArguments fit = arguments.fit;
+    if (!fit.tree) fit.tree = mobb::TreeKind::production;
+    const FittedScene scene = fitted(load_crowd(arguments), fit);
     std::vector<mobb::PlacedTree> crowd;
     for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
     const People people(scene.scene());

@@ -177,12 +177,18 @@ void print_run_text(const Summary& summary) {
     print_continuity(std::cout, summary.continuity);
 }
 
+/// Trees are asked where one of the paper's kinds is named.
+QueriedBy queried_by(const FitArguments& fit) {
+    return fit.tree.value_or(mobb::TreeKind::production) == mobb::TreeKind::production ? QueriedBy::blocks
+                                                                                       : QueriedBy::trees;
+}
+
 void run_simulate(const SimulateCommandArguments& arguments) {
     check_run_outputs(arguments);
     Scene scene = load_moves(arguments);
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
-    const MoveSet moves(fitted, arguments.turn_rate);
+    const MoveSet moves(fitted, arguments.turn_rate, queried_by(arguments.fit));
     std::optional<QuerySample> sample;
     if (!arguments.record.empty()) {
         const bool all = arguments.record_all_pairs || arguments.record_within;

@@ -62,7 +62,10 @@ class FittedScene {
 
     const Scene& scene() const { return *scene_; }
     const mobb::FitOptions& options() const { return fits_[in_use_]->options; }
-    const mobb::Tree& tree(int clip) const { return *fits_[in_use_]->trees[static_cast<std::size_t>(clip)]; }
+    const mobb::Tree& tree(int clip) const { return *shared_tree(clip); }
+    const std::shared_ptr<const mobb::Tree>& shared_tree(int clip) const {
+        return fits_[in_use_]->trees[static_cast<std::size_t>(clip)];
+    }
     QueryList queries() const { return QueryList(*scene_); }  ///< what is asked; valid as long as this or a copy
     const std::vector<PlacedAgent>& placed_agents() const { return *placed_agents_; }  ///< what is drawn
 

@@ -121,14 +121,20 @@ void write_stance(JsonWriter& out, const char* key, const Stance& stance) {
 
 double heading_of(glm::dvec2 way) { return std::atan2(way.y, way.x) * 180 / std::numbers::pi; }
 
-mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry) {
-    mobb::Placement next;
+MoveEnd end_of(const OrientedPlacement& placed, const Stance& exit, double duration) {
+    const mobb::Placement& at = placed.placement;
+    return {placed.rotation(exit.position) + at.translate, at.rotate_deg + exit.heading_deg, at.start + duration};
+}
+
+OrientedPlacement beginning_at(const MoveEnd& end, const Stance& entry) {
     // Headings add up over a long walk: kept within a turn, they stay exact.
-    next.rotate_deg = std::remainder(before.rotate_deg + exit.heading_deg - entry.heading_deg, 360.0);
-    const glm::dvec2 joint = mobb::Rotation::from_degrees(before.rotate_deg)(exit.position) + before.translate;
-    next.translate = joint - mobb::Rotation::from_degrees(next.rotate_deg)(entry.position);
-    next.start = before.start + duration;
+    OrientedPlacement next({{}, std::remainder(end.heading_deg - entry.heading_deg, 360.0), end.time});
+    next.placement.translate = end.position - next.rotation(entry.position);
     return next;
+}
+
+mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry) {
+    return beginning_at(end_of(OrientedPlacement(before), exit, duration), entry).placement;
 }
 
 std::vector<int> strong_components(int nodes, const std::vector<std::pair<int, int>>& edges) {

@@ -78,6 +78,28 @@ struct MotionGraph {
 /// Degrees from +x, counter-clockwise.
 double heading_of(glm::dvec2 way);
 
+/// A placement with the cosine and sine of its rotation, made once for all that is placed so.
+struct OrientedPlacement {
+    OrientedPlacement() = default;
+    /// `at.rotate_deg` must be finite and within 1e9.
+    explicit OrientedPlacement(const mobb::Placement& at)
+        : placement(at), rotation(mobb::Rotation::from_degrees(at.rotate_deg)) {}
+
+    mobb::Placement placement;
+    mobb::Rotation rotation;
+};
+
+/// Where and when a placed move has ended: what follows begins there.
+struct MoveEnd {
+    glm::dvec2 position{0};  ///< metres
+    double heading_deg = 0;
+    double time = 0;  ///< global seconds
+};
+/// `duration`: of the move, seconds.
+MoveEnd end_of(const OrientedPlacement& placed, const Stance& exit, double duration);
+/// The placement of a move that begins there.
+OrientedPlacement beginning_at(const MoveEnd& end, const Stance& entry);
+
 /// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and the clip's
 /// duration later. `duration` is that of the move before, in seconds.
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry);

@@ -194,7 +194,7 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     crowd.grace = 0;
     ReservationTable alone(moves, crowd.area, 0);
     PlanSearch search(moves, alone, crowd, 0, 1);
-    EXPECT_FALSE(search.look(0, {{50, 50}, 0, 0}));
+    EXPECT_FALSE(search.look(0, OrientedPlacement({{50, 50}, 0, 0})));
     EXPECT_TRUE(search.plan().empty());
 }
 
@@ -270,7 +270,8 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLeastContactIsForcedAndTheFloorKept) {
     EXPECT_FALSE(taken.leaves_floor);
     ASSERT_TRUE(taken.blocker);
     const auto seconds = [&](const Candidate& candidate) {
-        return reservations.motions().seconds_of_contact(moves.motion(0, 1, candidate.played, candidate.placement));
+        return reservations.motions().seconds_of_contact(
+            moves.motion(0, 1, candidate.played, OrientedPlacement(candidate.placement)));
     };
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_FALSE(candidate.is_free());

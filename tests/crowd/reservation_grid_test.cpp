@@ -23,22 +23,30 @@ class WorldTest : public ::testing::Test {
     CounterRandom random{1, 2, 3};
 
     /// Some lie over the edge of a floor of `area`.
-    PlayedMove random_motion(int agent, int play, glm::dvec2 area, double seconds) {
+    PlayedMove random_motion(int agent, int play, glm::dvec2 area, double seconds, double begin = 0) {
         const int move = static_cast<int>(random.below(static_cast<std::uint32_t>(moves.count())));
         const glm::dvec2 at{1.2 * area.x * (random.unit() - 0.5), 1.2 * area.y * (random.unit() - 0.5)};
-        return moves.motion(agent, play, move, {at, 360 * random.unit(), seconds * random.unit()});
+        const mobb::Placement placement{at, 360 * random.unit(), begin + seconds * random.unit()};
+        return moves.motion(agent, play, move, OrientedPlacement(placement));
+    }
+
+    static std::vector<const PlayedMove*> pointers(const std::vector<PlayedMove>& motions) {
+        std::vector<const PlayedMove*> out;
+        for (const PlayedMove& motion : motions) out.push_back(&motion);
+        return out;
     }
 
     static std::optional<Blocker> direct(const PlayedMove& candidate, const std::vector<PlayedMove>& reserved) {
         std::optional<Blocker> first;
         for (const PlayedMove& other : reserved) {
             if (other.agent == candidate.agent) continue;
-            const mobb::PlacedClip a(candidate.tree->clip(), candidate.placement);
-            const mobb::PlacedClip b(other.tree->clip(), other.placement);
+            const mobb::PlacedClip a(candidate.playable->clip(), candidate.at.placement);
+            const mobb::PlacedClip b(other.playable->clip(), other.at.placement);
             const auto contact = mobb::direct_search(a, b);
             if (!contact) continue;
             if (!first || std::tuple(contact->time, other.agent) < std::tuple(first->contact.time, first->agent)) {
-                first = {other.agent, other.play, *contact, 0, other.move, other.tree->shared_clip(), other.placement};
+                first = {other.agent,       other.play, *contact, 0, other.move, other.playable->blocks.shared_clip(),
+                         other.at.placement};
             }
         }
         return first;
@@ -59,7 +67,7 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     std::vector<PlayedMove> candidates;
     for (int i = 0; i < 1500; ++i) candidates.push_back(random_motion(i % 60, 9, area, 8));
     std::vector<AskedPair> asked;
-    const std::vector<CandidateCheck> checks = reservations.check_all(candidates, &asked);
+    const std::vector<CandidateCheck> checks = reservations.check_all(pointers(candidates), &asked);
     int ruled_out = 0, all_asked = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         EXPECT_EQ(checks[i].blocker, direct(candidates[i], reserved)) << i;
@@ -74,7 +82,8 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     // On one thread and on many.
     for (const int threads : {1, 5}) {
         tbb::task_arena arena(threads);
-        const std::vector<CandidateCheck> again = arena.execute([&] { return reservations.check_all(candidates); });
+        const std::vector<CandidateCheck> again =
+            arena.execute([&] { return reservations.check_all(pointers(candidates)); });
         for (std::size_t i = 0; i < checks.size(); ++i) {
             EXPECT_EQ(again[i].blocker, checks[i].blocker);
             EXPECT_EQ(again[i].asked, checks[i].asked);
@@ -84,10 +93,10 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
 
 TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
     ReservationGrid reservations({20, 20});
-    const mobb::Placement placement{{1, 2}, 30, 0};
+    const OrientedPlacement placement({{1, 2}, 30, 0});
     for (const int agent : {7, 3, 5}) reservations.reserve(moves.motion(agent, agent, 0, placement));
     const PlayedMove candidate = moves.motion(3, 0, 1, placement);
-    const CandidateCheck check = reservations.check_all({&candidate, 1}).front();
+    const CandidateCheck check = reservations.check(candidate);
     ASSERT_TRUE(check.blocker);
     EXPECT_EQ(check.blocker->agent, 5);
     EXPECT_EQ(check.blocker->play, 5);
@@ -105,21 +114,19 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     for (const double now : {4.0, 9.0, 15.0}) {
         reservations.forget_before(now);
         std::erase_if(reserved, [&](const PlayedMove& motion) {
-            const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
+            const mobb::PlacedClip clip(motion.playable->clip(), motion.at.placement);
             return clip.time(clip.count()) <= now;
         });
         EXPECT_EQ(reservations.size(), reserved.size());
         for (int i = 0; i < 30; ++i) {
-            reserved.push_back(random_motion(i, 9, area, 20));
-            reserved.back().placement.start += now;
+            reserved.push_back(random_motion(i, 9, area, 20, now));
             reservations.reserve(reserved.back());
         }
         std::vector<PlayedMove> candidates;
         for (int i = 0; i < 200; ++i) {
-            candidates.push_back(random_motion(99, 0, area, 20));
-            candidates.back().placement.start += now;
+            candidates.push_back(random_motion(99, 0, area, 20, now));
         }
-        const std::vector<CandidateCheck> checks = reservations.check_all(candidates);
+        const std::vector<CandidateCheck> checks = reservations.check_all(pointers(candidates));
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             EXPECT_EQ(checks[i].blocker, direct(candidates[i], reserved));
         }
@@ -128,24 +135,26 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
 
 TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     ReservationGrid reservations({20, 20});
-    const mobb::Placement placement{{1, 2}, 30, 0};
+    const OrientedPlacement placement({{1, 2}, 30, 0});
     const std::size_t first = reservations.reserve(moves.motion(1, 0, 0, placement));
     reservations.reserve(moves.motion(2, 0, 0, placement));
     const PlayedMove candidate = moves.motion(0, 0, 0, placement);
-    EXPECT_EQ(reservations.check_all({&candidate, 1}).front().blocker->agent, 1);
+    EXPECT_EQ(reservations.check(candidate).blocker->agent, 1);
     reservations.withdraw(first);
-    EXPECT_EQ(reservations.check_all({&candidate, 1}).front().blocker->agent, 2);
+    EXPECT_EQ(reservations.check(candidate).blocker->agent, 2);
     std::vector<AskedPair> pairs;
     reservations.all_pairs(candidate, 0, pairs);
     EXPECT_EQ(pairs.size(), 1u);
     reservations.forget_before(1000);
     EXPECT_EQ(reservations.size(), 0u);
-    EXPECT_FALSE(reservations.check_all({&candidate, 1}).front().blocker);
+    EXPECT_FALSE(reservations.check(candidate).blocker);
 }
 
 TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
     ReservationGrid reservations({40, 20});
-    const auto at = [&](int agent, double x, double start) { return moves.motion(agent, 0, 0, {{x, 0}, 90, start}); };
+    const auto at = [&](int agent, double x, double start) {
+        return moves.motion(agent, 0, 0, OrientedPlacement({{x, 0}, 90, start}));
+    };
     for (int agent = 0; agent < 5; ++agent) reservations.reserve(at(agent, 4.0 * agent - 8, 100.0 * agent));
     const auto others = [&](double range) {
         std::vector<AskedPair> pairs;
@@ -162,8 +171,8 @@ TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
 TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
     for (int i = 0; i < 500; ++i) {
         const PlayedMove motion = random_motion(0, 0, {1000, 10}, 1);
-        const FloorRect bounds = motion.clip_bounds->bounds(motion.placement);
-        const mobb::PlacedClip clip(motion.tree->clip(), motion.placement);
+        const FloorRect& bounds = motion.bounds;
+        const mobb::PlacedClip clip(motion.playable->clip(), motion.at.placement);
         FloorRect tight{glm::dvec2(1e9), glm::dvec2(-1e9)};
         for (int k = 0; k < clip.count(); ++k) {
             const mobb::Disk disk = clip.disk(k);
@@ -178,8 +187,8 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
         EXPECT_LT(wide.y, least.y + most);
         // A wall exactly at the tight bound is touched, one just inside is crossed.
         const double reach = std::max(std::abs(tight.low.x), std::abs(tight.high.x));
-        EXPECT_FALSE(leaves_floor(clip, *motion.clip_bounds, {2 * (reach + 1e-9), 1e6}));
-        EXPECT_TRUE(leaves_floor(clip, *motion.clip_bounds, {2 * (reach - 1e-9), 1e6}));
+        EXPECT_TRUE(bounds_on_floor(*motion.playable, motion.at, {2 * (reach + 1e-9), 1e6}));
+        EXPECT_FALSE(bounds_on_floor(*motion.playable, motion.at, {2 * (reach - 1e-9), 1e6}));
     }
 }
 

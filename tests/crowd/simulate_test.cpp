@@ -25,7 +25,7 @@ class Simulate : public ::testing::Test {
     const FittedScene fitted{walker_scene(), {}};
     const MoveSet moves{fitted};
 
-    mobb::PlacedClip placed(const Play& play) const { return {moves.tree(play.move).clip(), play.placement}; }
+    mobb::PlacedClip placed(const Play& play) const { return {moves.clip(play.move).clip(), play.placement}; }
     double end(const Play& play) const { return play.placement.start + moves.duration(play.move); }
 
     /// Asks all pairs of plays of different agents that overlap in time; those that collide.
@@ -125,8 +125,10 @@ TEST_F(Simulate, MovesAreBackToBackFromBeforeTheBeginToTheEnd) {
             forced += play.kind == PlayKind::forced;
             EXPECT_TRUE(play.kind != PlayKind::chosen || moves.origin(play.move).turn_deg == 0);
             // Nobody faces another way all at once.
-            EXPECT_EQ(play.placement,
-                      moves.following(before.move, before.placement, {moves.origin(play.move).move, 0}));
+            EXPECT_EQ(
+                play.placement,
+                moves.following(before.move, OrientedPlacement(before.placement), {moves.origin(play.move).move, 0})
+                    .placement);
         }
     }
     EXPECT_EQ(phases.size(), 24u);

@@ -45,8 +45,8 @@ TEST(TurnedMoves, NoneIsFasterThanTheRateAllows) {
         EXPECT_GT(moves.count(), moves.unturned().size());
         for (int move = 0; move < static_cast<int>(moves.count()); ++move) {
             const PlannedMove& origin = moves.origin(move);
-            const mobb::Clip& clip = moves.tree(move).clip();
-            const mobb::Clip& from = moves.tree(origin.move).clip();
+            const mobb::Clip& clip = moves.clip(move).clip();
+            const mobb::Clip& from = moves.clip(origin.move).clip();
             ASSERT_EQ(clip.count(), from.count());
             double last = 0;
             for (std::size_t i = 0; i + 1 < clip.samples().size(); ++i) {

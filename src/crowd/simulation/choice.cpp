@@ -23,7 +23,7 @@ constexpr double kSamePlace = 1e-6;  // metres, degrees: as precisely as plays m
 /// A move of the set, not placed yet.
 Candidate candidate_of(const MoveSet& moves, int move) {
     const PlannedMove& origin = moves.origin(move);
-    return {origin.move, origin.turn_deg, move, moves.tree(move).shared_clip(), {}, false, {}, false, false};
+    return {origin.move, origin.turn_deg, move, moves.clip(move).blocks.shared_clip(), {}, false, {}, false, false};
 }
 
 /// Metres by which a disk reaches over a wall.
@@ -42,6 +42,10 @@ class Chooser {
           asked_(asked),
           search_(moves, reservations, run, point.agent, point.play, asked) {
         choice_.time = point.time;
+        // Both ways of one turn: more is seldom needed.
+        const std::size_t usually = 3 * moves.after(point.before.move).size();
+        choice_.candidates.reserve(usually);
+        motions_.reserve(usually);
     }
 
     Choice choose() {
@@ -53,7 +57,7 @@ class Chooser {
             check_candidates(first);
             if (take_clear(first)) return done();
         }
-        if ((stood_ && take_with_way_on(0, is_clear)) || take_in_the_way() || take_longest_plan() ||
+        if ((stood_ && take_with_way_on(those(0, is_clear))) || take_in_the_way() || take_longest_plan() ||
             take_against_plans())
             return done();
         take_least_harm();
@@ -63,23 +67,21 @@ class Chooser {
 
   private:
     void add_candidates(double turn) {
-        const Play& before = point_.before;
-        for (const int move : moves_.after(before.move)) {
+        for (const int move : moves_.after(point_.before.move)) {
             const std::optional<int> played = moves_.turned({move, turn});
             if (!played) continue;
-            Candidate candidate = candidate_of(moves_, *played);
-            candidate.turn_deg = turn;
-            candidate.placement = moves_.following(before.move, before.placement, {move, turn});
+            const OrientedPlacement at = moves_.following(point_.before.move, before_, {move, turn});
             // A graph whose moves lead far away would in the end leave what can be placed.
-            if (!mobb::is_valid(candidate.placement)) continue;
-            const mobb::PlacedClip placed(*candidate.clip, candidate.placement);
-            candidate.leaves_floor = leaves_floor(placed, moves_.bounds(*played), run_.area);
-            choice_.candidates.push_back(candidate);
+            if (!mobb::is_valid(at.placement)) continue;
+            const PlayableClip& clip = moves_.clip(*played);
+            const std::optional<FloorRect> on_floor = bounds_on_floor(clip, at, run_.area);
+            motions_.emplace_back(point_.agent, point_.play, *played, clip, at,
+                                  on_floor ? *on_floor : clip.bounds.bounds(at));
+            Candidate& candidate = choice_.candidates.emplace_back(candidate_of(moves_, *played));
+            candidate.turn_deg = turn;
+            candidate.placement = at.placement;
+            candidate.leaves_floor = !on_floor;
         }
-    }
-
-    PlayedMove motion_of(const Candidate& candidate) const {
-        return moves_.motion(point_.agent, point_.play, candidate.played, candidate.placement);
     }
 
     /// Indices of the candidates from `first` on that meet a condition.
@@ -100,22 +102,16 @@ class Chooser {
     /// Those from `first` on.
     void check_candidates(std::size_t first) {
         find_blockers(first, false);
-        const std::vector<std::size_t> of = those(first, &Candidate::is_free);
-        std::vector<Play> plays;
-        for (const std::size_t i : of) {
-            const Candidate& candidate = choice_.candidates[i];
-            plays.push_back({candidate.played, candidate.placement, point_.time, PlayKind::chosen});
-        }
-        const std::vector<bool> in_the_way = reservations_.in_the_way(point_.agent, point_.play, plays);
-        for (std::size_t i = 0; i < of.size(); ++i) choice_.candidates[of[i]].in_the_way = in_the_way[i];
+        for (const std::size_t i : those(first, &Candidate::is_free))
+            choice_.candidates[i].in_the_way = reservations_.in_the_way(motions_[i]);
     }
 
     /// Of the candidates from `first` on that leave the floor, or of those that do not.
     void find_blockers(std::size_t first, bool off_floor) {
         const auto against = [&](const ReservationGrid& grid, const auto& condition) {
             const std::vector<std::size_t> of = those(first, condition);
-            std::vector<PlayedMove> motions;
-            for (const std::size_t i : of) motions.push_back(motion_of(choice_.candidates[i]));
+            std::vector<const PlayedMove*> motions;
+            for (const std::size_t i : of) motions.push_back(&motions_[i]);
             const std::vector<CandidateCheck> checks = grid.check_all(motions, asked_);
             for (std::size_t i = 0; i < of.size(); ++i) {
                 choice_.candidates[of[i]].blocker = checks[i].blocker;
@@ -131,9 +127,9 @@ class Chooser {
     /// One of the free candidates that are in nobody's way and have a way on. At most one turn either way has any: the
     /// last.
     bool take_clear(std::size_t first) {
-        return take_with_way_on(first, [this](const Candidate& candidate) {
+        return take_with_way_on(those(first, [this](const Candidate& candidate) {
             return is_clear(candidate) && (!stood_ || travels(candidate.move));
-        });
+        }));
     }
 
     static bool is_clear(const Candidate& candidate) {
@@ -167,19 +163,21 @@ class Chooser {
                take_longest_plan();
     }
 
+    /// Of the candidates that meet a condition, one that turns least and has a way on.
     template <class Allowed>
     bool take_at_least_turn(const Allowed& allowed) {
-        return std::ranges::any_of(kTurns, [&](double turn) {
-            return turn >= 0 && take_with_way_on(0, [&](const Candidate& candidate) {
-                       return std::abs(candidate.turn_deg) == turn && allowed(candidate);
-                   });
-        });
+        const std::vector<std::size_t> indices = those(0, allowed);
+        const auto turn = [this](std::size_t index) { return std::abs(choice_.candidates[index].turn_deg); };
+        for (auto begin = indices.begin(); begin != indices.end();) {
+            const auto end = std::find_if(begin, indices.end(), [&](std::size_t i) { return turn(i) != turn(*begin); });
+            if (take_with_way_on({begin, end})) return true;
+            begin = end;
+        }
+        return false;
     }
 
-    /// Draws from the candidates from `first` on that meet a condition until one has a way on, and takes it.
-    template <class Allowed>
-    bool take_with_way_on(std::size_t first, const Allowed& allowed) {
-        std::vector<std::size_t> indices = those(first, allowed);
+    /// Draws from candidates until one has a way on, and takes it.
+    bool take_with_way_on(std::vector<std::size_t> indices) {
         CounterRandom random = draws();
         while (!indices.empty()) {
             const auto drawn = indices.begin() + random.below(static_cast<std::uint32_t>(indices.size()));
@@ -200,7 +198,7 @@ class Chooser {
             !kept.empty() && kept[0].move == candidate.move && kept[0].turn_deg == candidate.turn_deg;
         kept = was_planned ? kept.subspan(1) : kept.first(0);
         const std::int64_t before = search_.queries();
-        candidate.no_way_on = !search_.look(candidate.played, candidate.placement, kept);
+        candidate.no_way_on = !search_.look(candidate.played, motions_[index].at, kept);
         choice_.queries += search_.queries() - before;
         if (candidate.no_way_on && (!longest_ || search_.seconds() > longest_seconds_)) {
             longest_ = index;
@@ -218,16 +216,20 @@ class Chooser {
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
         const bool some_stay = std::ranges::any_of(choice_.candidates, stays);
         if (!some_stay) find_blockers(0, true);
+        std::vector<std::size_t> of = those(0, [&](const Candidate& c) { return c.leaves_floor != some_stay; });
+        // Who meets somebody late is likely not to harm for long, and the rest is then measured no farther than that.
+        std::ranges::sort(of, std::greater<>(), [&](std::size_t i) { return std::pair(first_contact(i), i); });
         std::vector<std::size_t> best;
-        Harm least;
-        for (const std::size_t i : those(0, [&](const Candidate& c) { return c.leaves_floor != some_stay; })) {
-            const Harm harm = harm_of(choice_.candidates[i]);
+        Harm least{std::numeric_limits<double>::infinity(), 0, 0};
+        for (const std::size_t i : of) {
+            const Harm harm = harm_of(i, std::get<0>(least));
             if (best.empty() || harm < least) {
                 best.clear();
                 least = harm;
             }
             if (harm == least) best.push_back(i);
         }
+        std::ranges::sort(best);
         choice_.taken = best[draws().below(static_cast<std::uint32_t>(best.size()))];
     }
 
@@ -235,13 +237,20 @@ class Chooser {
     /// the first contact is.
     using Harm = std::tuple<double, double, double>;
 
-    Harm harm_of(const Candidate& candidate) const {
-        const mobb::PlacedClip way(*candidate.clip, candidate.placement);
-        const double beyond = beyond_wall(way.disk(way.count() - 1), run_.area);
-        if (!candidate.blocker || candidate.blocker->planned > 0)
-            return {0, beyond, -std::numeric_limits<double>::infinity()};
-        return {reservations_.motions().seconds_of_contact(motion_of(candidate)), beyond,
-                -candidate.blocker->contact.time};
+    /// Global seconds of the first contact with what another plays; never: infinite.
+    double first_contact(std::size_t index) const {
+        const std::optional<Blocker>& blocker = choice_.candidates[index].blocker;
+        return blocker && blocker->planned == 0 ? blocker->contact.time : std::numeric_limits<double>::infinity();
+    }
+
+    /// Seconds that are more than `most` may be counted in part.
+    Harm harm_of(std::size_t index, double most) const {
+        const mobb::PlacedBlocks& way = motions_[index].placed;
+        const double beyond = beyond_wall(way.disk(way.end() - 1), run_.area);
+        const double first = first_contact(index);
+        const double seconds =
+            std::isinf(first) ? 0 : reservations_.motions().seconds_of_contact(motions_[index], most);
+        return {seconds, beyond, -first};
     }
 
     CounterRandom draws() const {
@@ -253,8 +262,10 @@ class Chooser {
     const CrowdRun& run_;
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
+    OrientedPlacement before_{point_.before.placement};
     PlanSearch search_;
     Choice choice_;
+    std::vector<PlayedMove> motions_;  ///< by candidate
     /// Who stands has a way on nearly always, in front of a wall too: nobody would leave it again.
     bool stood_ = run_.plan > 0 && !travels(point_.before.move);
     std::optional<std::size_t> longest_;  ///< of the candidates without a way on, the one whose plan is longest

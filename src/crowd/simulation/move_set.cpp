@@ -20,7 +20,7 @@ namespace {
 constexpr double kSpeedOver = 0.25;  // seconds: of a moment, as a walker's root is not equally fast within a step
 
 /// Place of a turn among all from -180 degrees on.
-std::size_t heading_index(double turn_deg) { return static_cast<std::size_t>(std::lround(turn_deg / kTurnStep) + 12); }
+std::size_t heading_index(double turn_deg) { return static_cast<std::size_t>(turn_deg / kTurnStep + 12.5); }
 
 double rate_of(const FittedScene& fitted, std::optional<double> turn_rate) {
     if (!turn_rate) return fitted.scene().crowd ? fitted.scene().crowd->turn_rate : kDefaultTurnRate;
@@ -29,23 +29,44 @@ double rate_of(const FittedScene& fitted, std::optional<double> turn_rate) {
                                 brief(kMaxTurnRate));
 }
 
+std::optional<double> turning_radius_of(const mobb::Clip& clip, const Stance& exit, double turn_rate) {
+    if (turn_rate == 0 || turn_rate == kTurnsAtOnce) return std::nullopt;
+    const int steps = static_cast<int>(std::min<double>(clip.count(), std::ceil(kSpeedOver / clip.dt())));
+    const mobb::Disk& before = clip.samples()[static_cast<std::size_t>(clip.count() - steps)];
+    const glm::dvec2 way = exit.position - glm::dvec2(before.x, before.y);
+    // A turn by so many degrees lasts as long as one at a constant rate of two thirds.
+    const ClipTurn radian = turn_at_rate(180 / std::numbers::pi, turn_rate);
+    return std::hypot(way.x, way.y) / (steps * clip.dt()) * radian.seconds;
+}
+
 }  // namespace
 
-MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate)
-    : fitted_(&fitted), turn_rate_(rate_of(fitted, turn_rate)), by_hub_(moves_by_hub(graph())) {
+MoveSet::Move::Move(const PlannedMove& of, PlayableClip playable, const Stance& end, double turn_rate)
+    : origin(of),
+      clip(std::move(playable)),
+      exit(end),
+      exit_rotation(mobb::Rotation::from_degrees(end.heading_deg)),
+      turning_radius(turning_radius_of(clip.clip(), end, turn_rate)) {}
+
+MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate, QueriedBy queried_by)
+    : fitted_(&fitted),
+      turn_rate_(rate_of(fitted, turn_rate)),
+      queried_by_(queried_by),
+      by_hub_(moves_by_hub(graph())) {
     const std::vector<GraphMove>& moves = graph().moves;
     for (int i = 0; i < static_cast<int>(moves.size()); ++i) {
         const GraphMove& move = moves[static_cast<std::size_t>(i)];
-        const mobb::Tree& tree = fitted.tree(move.clip);
         const PlannedMove origin = move.turned ? PlannedMove{move.turned->move, move.turned->deg} : PlannedMove{i, 0};
-        moves_.push_back({origin, nullptr, &tree, ClipBounds(tree.clip()), move.exit});
+        const std::shared_ptr<const mobb::Tree>& tree = fitted.shared_tree(move.clip);
+        moves_.emplace_back(origin, PlayableClip(tree->shared_clip(), queried_by == QueriedBy::trees ? tree : nullptr),
+                            move.exit, turn_rate_);
         if (!move.turned) unturned_.push_back(i);
     }
     for (std::vector<int>& of_hub : by_hub_)
         std::erase_if(of_hub, [&](int move) { return moves[static_cast<std::size_t>(move)].turned.has_value(); });
     add_turned();
     const auto room = [this](int move) {
-        const FloorRect rect = bounds(move).bounds({});
+        const FloorRect rect = clip(move).bounds.bounds({});
         return (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y) * duration(move);
     };
     by_room_ = by_hub_;
@@ -87,41 +108,34 @@ std::optional<MoveSet::Move> MoveSet::turned_move(const PlannedMove& origin) con
     // A clip in a file has one turn.
     if (clip.turn || turn.seconds > clip.clip->duration()) return std::nullopt;
     try {
-        const auto tree = std::make_shared<const mobb::Tree>(bent(*clip.clip, turn), fitted_->options());
-        return Move{origin, tree, tree.get(), ClipBounds(tree->clip()),
-                    bent_exit(*clip.clip, tree->clip(), move.exit, turn)};
+        const mobb::ClipPtr turned = bent(*clip.clip, turn);
+        return Move(origin, playable(turned), bent_exit(*clip.clip, *turned, move.exit, turn), turn_rate_);
     } catch (const std::invalid_argument&) {
         return std::nullopt;  // it leads beyond what a clip holds
     }
 }
 
+PlayableClip MoveSet::playable(const mobb::ClipPtr& clip) const {
+    if (queried_by_ == QueriedBy::blocks) return PlayableClip(clip);
+    return PlayableClip(clip, std::make_shared<const mobb::Tree>(clip, fitted_->options()));
+}
+
 std::optional<int> MoveSet::turned(const PlannedMove& wanted) const {
-    if (turn_rate_ == kTurnsAtOnce) return wanted.move;
+    if (turns_at_once()) return wanted.move;
     const int move = turned_[static_cast<std::size_t>(wanted.move)][heading_index(wanted.turn_deg)];
     return move < 0 ? std::nullopt : std::optional(move);
 }
 
-std::optional<double> MoveSet::turning_radius(int move) const {
-    if (turn_rate_ == 0 || turn_rate_ == kTurnsAtOnce) return std::nullopt;
-    const mobb::Clip& clip = tree(move).clip();
-    const int steps = static_cast<int>(std::min<double>(clip.count(), std::ceil(kSpeedOver / clip.dt())));
-    const mobb::Disk& before = clip.samples()[static_cast<std::size_t>(clip.count() - steps)];
-    const glm::dvec2 way = exit(move).position - glm::dvec2(before.x, before.y);
-    // A turn by so many degrees lasts as long as one at a constant rate of two thirds.
-    const ClipTurn radian = turn_at_rate(180 / std::numbers::pi, turn_rate_);
-    return std::hypot(way.x, way.y) / (steps * clip.dt()) * radian.seconds;
-}
-
-mobb::Placement MoveSet::following(int before, const mobb::Placement& placed, const PlannedMove& next) const {
+OrientedPlacement MoveSet::following(int before, const OrientedPlacement& placed, const PlannedMove& next) const {
     Stance exit = this->exit(before);
-    if (turn_rate_ == kTurnsAtOnce) exit.heading_deg += next.turn_deg;
-    return mobbscope::following(placed, exit, duration(before), move(next.move).entry);
+    if (turns_at_once()) exit.heading_deg += next.turn_deg;
+    return beginning_at(end_of(placed, exit, duration(before)), move(next.move).entry);
 }
 
 std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play) const {
     std::vector<PlayedMove> out;
     int last = play.move;
-    mobb::Placement at = play.placement;
+    OrientedPlacement at(play.placement);
     for (const PlannedMove& next : play.plan) {
         const std::optional<int> move = turned(next);
         // Where a clip was edited since, the rest of a plan may not be there any more.
@@ -151,7 +165,7 @@ MoveSet::Extended MoveSet::extended(std::span<const int> used) const {
         SceneClip clip = out.scene.clips[static_cast<std::size_t>(move.clip)];
         bend(clip, turn_at_rate(origin.turn_deg, turn_rate_));
         clip.name = names.take(clip.name + formatted(" turned %+.0f", origin.turn_deg));
-        clip.clip = tree(index).shared_clip();
+        clip.clip = this->clip(index).blocks.shared_clip();
         // Of samples in the scene those that are bent are kept.
         if (!clip.source) clip.turn.reset();
         move.clip = static_cast<int>(out.scene.clips.size());

@@ -1,7 +1,7 @@
 /// The moves that a crowd can play: those of its motion graph, and each of them turned on the way.
 #pragma once
 
-#include <crowd/simulation/reservation_grid.h>
+#include <crowd/simulation/played_move.h>
 #include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
@@ -22,18 +22,27 @@ inline constexpr std::array<double, 24> kTurns{0,   15,  -15,  30,  -30,  45,  -
 /// Degrees per second where nothing else is asked: a quick step aside, not a spin.
 inline constexpr double kDefaultTurnRate = 120;
 
-/// The moves of a motion graph, fitted, and behind them all that they become by turns: each move that is no variant of
+/// What queries go through: the answers are the same.
+enum class QueriedBy {
+    blocks,  ///< the fastest (mobb/production.h)
+    trees,   ///< those of the fit in use
+};
+
+/// The moves of a motion graph, and behind them all that they become by turns: each move that is no variant of
 /// another, by each of kTurns that its duration allows, unless the graph has that variant. Moves are counted through
 /// both. Refers to the scene, which must outlive it and have a graph. Const calls are safe from any number of threads.
 class MoveSet {
   public:
     /// `turn_rate` as in CrowdRun; none: as in the scene's crowd, or without one kDefaultTurnRate. Throws
     /// std::invalid_argument if it is out of range.
-    explicit MoveSet(const FittedScene& fitted, std::optional<double> turn_rate = {});
+    explicit MoveSet(const FittedScene& fitted, std::optional<double> turn_rate = {},
+                     QueriedBy queried_by = QueriedBy::blocks);
 
     const FittedScene& fitted() const { return *fitted_; }
     const MotionGraph& graph() const { return *fitted_->scene().graph; }
     double turn_rate() const { return turn_rate_; }
+    /// A clip that is none of the moves', as it is asked in a crowd of these.
+    PlayableClip playable(const mobb::ClipPtr& clip) const;
 
     std::size_t count() const { return moves_.size(); }
     /// The moves that are no variants: indices into the graph's.
@@ -44,13 +53,14 @@ class MoveSet {
     std::optional<int> turned(const PlannedMove& wanted) const;
     /// The graph's move that this one is, or that it is a variant of: what has its hubs and its entry.
     const GraphMove& move(int move) const { return graph().moves[static_cast<std::size_t>(origin(move).move)]; }
-    const mobb::Tree& tree(int move) const { return *at(move).tree; }
-    const ClipBounds& bounds(int move) const { return at(move).bounds; }
+    const PlayableClip& clip(int move) const { return at(move).clip; }
     const Stance& exit(int move) const { return at(move).exit; }
+    /// Of the heading at the exit.
+    const mobb::Rotation& exit_rotation(int move) const { return at(move).exit_rotation; }
     /// Metres: of the circle that an agent walks who goes on as fast as the move ends and turns as fast as the turn
     /// rate allows from move to move. None where agents turn at once, or never.
-    std::optional<double> turning_radius(int move) const;
-    double duration(int move) const { return tree(move).clip().duration(); }
+    std::optional<double> turning_radius(int move) const { return at(move).turning_radius; }
+    double duration(int move) const { return clip(move).clip().duration(); }
     /// The moves that begin in the hub where `move` ends, none of them turned.
     const std::vector<int>& after(int move) const { return by_hub_[static_cast<std::size_t>(this->move(move).to)]; }
     /// The same, those first that take least room: floor times seconds.
@@ -59,10 +69,12 @@ class MoveSet {
     }
 
     /// Where `next` is placed after `before`.
-    mobb::Placement following(int before, const mobb::Placement& placed, const PlannedMove& next) const;
+    OrientedPlacement following(int before, const OrientedPlacement& placed, const PlannedMove& next) const;
+    /// Whether that depends on how far `next` turns: where agents turn at once.
+    bool turns_at_once() const { return turn_rate_ == kTurnsAtOnce; }
     /// A move as an agent's play.
-    PlayedMove motion(int agent, int play, int move, const mobb::Placement& placement) const {
-        return {agent, play, &tree(move), &bounds(move), placement, 0, move};
+    PlayedMove motion(int agent, int play, int move, const OrientedPlacement& placed) const {
+        return {agent, play, move, clip(move), placed};
     }
     /// The moves that are planned to follow an agent's play.
     std::vector<PlayedMove> planned(int agent, int index, const Play& play) const;
@@ -77,11 +89,13 @@ class MoveSet {
 
   private:
     struct Move {
+        Move(const PlannedMove& of, PlayableClip playable, const Stance& end, double turn_rate);
+
         PlannedMove origin;
-        std::shared_ptr<const mobb::Tree> own_tree;  ///< null: the scene's
-        const mobb::Tree* tree;
-        ClipBounds bounds;
+        PlayableClip clip;
         Stance exit;
+        mobb::Rotation exit_rotation;
+        std::optional<double> turning_radius;
     };
 
     static constexpr std::size_t kHeadings = 25;  ///< from -180 to 180 degrees
@@ -93,6 +107,7 @@ class MoveSet {
 
     const FittedScene* fitted_;
     double turn_rate_;
+    QueriedBy queried_by_;
     std::vector<Move> moves_;
     std::vector<ByHeading> turned_;  ///< by the graph's move: its variants; -1: there is none
     std::vector<int> unturned_;

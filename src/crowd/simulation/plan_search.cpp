@@ -12,7 +12,7 @@ constexpr int kMostLookedAt = 100;  // moves: what has no way on among those tha
 
 }  // namespace
 
-bool PlanSearch::look(int move, const mobb::Placement& placement, std::span<const PlannedMove> kept) {
+bool PlanSearch::look(int move, const OrientedPlacement& placed, std::span<const PlannedMove> kept) {
     plan_.clear();
     longest_.clear();
     reach_ = 0;
@@ -20,7 +20,7 @@ bool PlanSearch::look(int move, const mobb::Placement& placement, std::span<cons
     if (run_.plan == 0) return true;
     if (!kept.empty()) {
         int last = move;
-        mobb::Placement at = placement;
+        OrientedPlacement at = placed;
         for (const PlannedMove& next : kept) {
             const std::optional<int> turned = moves_.turned(next);
             if (!turned) break;
@@ -31,7 +31,7 @@ bool PlanSearch::look(int move, const mobb::Placement& placement, std::span<cons
         if (extend(last, at, reach_)) return true;
         plan_.clear();
     }
-    return extend(move, placement, 0);
+    return extend(move, placed, 0);
 }
 
 void PlanSearch::add(const PlannedMove& next, double seconds) {
@@ -41,19 +41,25 @@ void PlanSearch::add(const PlannedMove& next, double seconds) {
     longest_ = plan_;
 }
 
-bool PlanSearch::extend(int before, const mobb::Placement& placed, double seconds) {
+bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seconds) {
     if (seconds >= run_.plan && (run_.grace == 0 || !reservations_.faces_wall(before, placed))) return true;
     if (seconds >= kLongest * run_.plan) return false;
+    const std::vector<int>& moves = moves_.after_by_room(before);
+    std::vector<OrientedPlacement> placements;  // by move: the same however far it turns
+    placements.reserve(moves.size());
     for (const double turn : kTurns) {
-        for (const int move : moves_.after_by_room(before)) {
-            const PlannedMove next{move, turn};
+        if (moves_.turns_at_once()) placements.clear();
+        for (std::size_t i = 0; i < moves.size(); ++i) {
+            const PlannedMove next{moves[i], turn};
+            if (i == placements.size()) placements.push_back(moves_.following(before, placed, next));
+            const OrientedPlacement& at = placements[i];
             const std::optional<int> turned = moves_.turned(next);
-            if (!turned) continue;
-            const mobb::Placement at = moves_.following(before, placed, next);
-            if (!mobb::is_valid(at)) continue;
-            if (leaves_floor({moves_.tree(*turned).clip(), at}, moves_.bounds(*turned), run_.area)) continue;
+            if (!turned || !mobb::is_valid(at.placement)) continue;
+            const PlayableClip& clip = moves_.clip(*turned);
+            const std::optional<FloorRect> bounds = bounds_on_floor(clip, at, run_.area);
+            if (!bounds) continue;
             if (--left_ < 0) return false;
-            if (!is_free(*turned, at)) continue;
+            if (!is_free({agent_, play_, *turned, clip, at, *bounds})) continue;
             const double end = seconds + moves_.duration(*turned);
             add(next, end);
             if (extend(*turned, at, end)) return true;
@@ -63,8 +69,7 @@ bool PlanSearch::extend(int before, const mobb::Placement& placed, double second
     return false;
 }
 
-bool PlanSearch::is_free(int move, const mobb::Placement& placement) {
-    const PlayedMove motion = moves_.motion(agent_, play_, move, placement);
+bool PlanSearch::is_free(const PlayedMove& motion) {
     return reservations_.motions().is_clear(motion, queries_, asked_) &&
            reservations_.plans().is_clear(motion, queries_, asked_);
 }

@@ -1,14 +1,13 @@
 #include <crowd/simulation/reservation_grid.h>
-
-#include <glm/common.hpp>
+#include <mobb/production.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <tuple>
 
 namespace mobbscope {
@@ -17,7 +16,8 @@ namespace {
 
 constexpr double kCell = 4;         // metres: about what a clip of two seconds covers
 constexpr int kMostCells = 1024;    // in a row or column: a huge floor gets larger cells
-constexpr std::size_t kGrain = 16;  // candidates a task: fewer are not worth a thread
+constexpr std::size_t kGrain = 64;  // candidates a task: fewer are not worth a thread
+constexpr std::size_t kUsuallyNear = 32;
 
 int cells_along(double length) {
     return static_cast<int>(std::clamp(std::ceil(length / kCell), 1.0, static_cast<double>(kMostCells)));
@@ -30,87 +30,66 @@ void for_each_cell(const auto& range, const auto& visit) {
     }
 }
 
-bool other_and_overlapping(const auto& a, const auto& b) {
-    return a.motion.agent != b.motion.agent && mobb::overlap_in_time(a.begin, a.end, b.begin, b.end);
+std::optional<mobb::Contact> contact_of(const PlayedMove& a, const PlayedMove& b) {
+    return a.playable->tree ? mobb::query(a.placed_tree(), b.placed_tree()) : mobb::query(a.placed, b.placed);
+}
+
+std::vector<mobb::Interval> contact_intervals(const PlayedMove& a, const PlayedMove& b) {
+    return a.playable->tree ? mobb::contact_intervals(a.placed_tree(), b.placed_tree())
+                            : mobb::contact_intervals(a.placed, b.placed);
 }
 
 }  // namespace
-
-FloorRect ClipBounds::bounds(const mobb::Placement& placement) const {
-    const mobb::Rotation rotation = mobb::Rotation::from_degrees(placement.rotate_deg);
-    FloorRect rect{glm::dvec2(std::numeric_limits<double>::infinity()),
-                   glm::dvec2(-std::numeric_limits<double>::infinity())};
-    for (const glm::dvec2 corner : corners_) {
-        const glm::dvec2 at = rotation(corner) + placement.translate;
-        rect.low = glm::min(rect.low, at);
-        rect.high = glm::max(rect.high, at);
-    }
-    // Far more than all rounding made here and where disks are placed.
-    const double margin = 1e-12 * (reach_ + std::abs(placement.translate.x) + std::abs(placement.translate.y));
-    rect.low -= margin;
-    rect.high += margin;
-    return rect;
-}
-
-bool leaves_floor(const mobb::PlacedClip& clip, const ClipBounds& clip_bounds, glm::dvec2 area) {
-    const glm::dvec2 wall = area / 2.0;
-    const FloorRect rect = clip_bounds.bounds(clip.placement());
-    if (rect.low.x >= -wall.x && rect.low.y >= -wall.y && rect.high.x <= wall.x && rect.high.y <= wall.y) return false;
-    for (int i = 0; i < clip.count(); ++i) {
-        const mobb::Disk disk = clip.disk(i);
-        if (std::abs(disk.x) + disk.r > wall.x || std::abs(disk.y) + disk.r > wall.y) return true;
-    }
-    return false;
-}
 
 ReservationGrid::ReservationGrid(glm::dvec2 area)
     : low_(-area / 2.0),
       columns_(cells_along(area.x)),
       rows_(cells_along(area.y)),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
-    cell_size_ = area / glm::dvec2(columns_, rows_);
+    per_metre_ = glm::dvec2(columns_, rows_) / area;
 }
 
 ReservationGrid::CellRange ReservationGrid::cells_of(const FloorRect& rect) const {
-    const auto along = [](double at, double low, double size, int count) {
-        return static_cast<int>(std::clamp(std::floor((at - low) / size), 0.0, count - 1.0));
+    const auto along = [](double at, double low, double per_metre, int count) {
+        return static_cast<int>(std::clamp((at - low) * per_metre, 0.0, count - 1.0));
     };
-    return {along(rect.low.x, low_.x, cell_size_.x, columns_), along(rect.low.y, low_.y, cell_size_.y, rows_),
-            along(rect.high.x, low_.x, cell_size_.x, columns_), along(rect.high.y, low_.y, cell_size_.y, rows_)};
-}
-
-ReservationGrid::Held ReservationGrid::held(const PlayedMove& motion) const {
-    const mobb::PlacedClip placed(motion.tree->clip(), motion.placement);
-    const FloorRect bounds = motion.clip_bounds->bounds(motion.placement);
-    return {motion, bounds, cells_of(bounds), placed.time(0), placed.time(placed.count())};
+    return {along(rect.low.x, low_.x, per_metre_.x, columns_), along(rect.low.y, low_.y, per_metre_.y, rows_),
+            along(rect.high.x, low_.x, per_metre_.x, columns_), along(rect.high.y, low_.y, per_metre_.y, rows_)};
 }
 
 std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
     auto slot = static_cast<std::uint32_t>(motions_.size());
+    const Held held{motion, cells_of(motion.bounds), false};
     if (free_.empty()) {
-        motions_.push_back(held(motion));
+        motions_.push_back(held);
     } else {
         slot = free_.back();
         free_.pop_back();
-        motions_[slot] = held(motion);
+        motions_[slot] = held;
     }
-    for_each_cell(motions_[slot].cells, [&](int x, int y) { cells_[index(x, y)].push_back(slot); });
-    endings_.push({motions_[slot].end, slot});
+    const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, held.cells.x0, held.cells.y0};
+    for_each_cell(held.cells, [&](int x, int y) { cells_[index(x, y)].push_back(entry); });
+    endings_.push({entry.end, slot});
     return slot;
 }
 
 void ReservationGrid::withdraw(std::size_t reservation) {
     // Its slot is used again when it would have ended.
-    const auto slot = static_cast<std::uint32_t>(reservation);
-    for_each_cell(motions_[slot].cells, [&](int x, int y) { std::erase(cells_[index(x, y)], slot); });
-    motions_[slot].motion.tree = nullptr;
+    Held& held = motions_[reservation];
+    for_each_cell(held.cells, [&](int x, int y) {
+        std::vector<Entry>& cell = cells_[index(x, y)];
+        const auto entry = std::ranges::find(cell, reservation, &Entry::slot);
+        *entry = cell.back();
+        cell.pop_back();
+    });
+    held.withdrawn = true;
 }
 
 void ReservationGrid::forget_before(double now) {
     while (!endings_.empty() && endings_.top().end <= now) {
         const std::uint32_t slot = endings_.top().slot;
         endings_.pop();
-        if (motions_[slot].motion.tree) withdraw(slot);
+        if (!motions_[slot].withdrawn) withdraw(slot);
         free_.push_back(slot);
     }
 }
@@ -118,58 +97,70 @@ void ReservationGrid::forget_before(double now) {
 template <class Visit>
 void ReservationGrid::visit_cells(const CellRange& range, const Visit& visit) const {
     for_each_cell(range, [&](int x, int y) {
-        for (const std::uint32_t slot : cells_[index(x, y)]) {
+        for (const Entry& entry : cells_[index(x, y)]) {
             // Of the cells of the range that a motion reaches into, the first one reports it.
-            const CellRange& cells = motions_[slot].cells;
-            if (x == std::max(range.x0, cells.x0) && y == std::max(range.y0, cells.y0)) visit(slot);
+            if (x == std::max(range.x0, entry.x0) && y == std::max(range.y0, entry.y0)) visit(entry);
         }
     });
 }
 
-void ReservationGrid::find_near(const Held& candidate, std::vector<std::uint32_t>& slots) const {
-    visit_cells(candidate.cells, [&](std::uint32_t slot) {
-        const Held& other = motions_[slot];
-        if (other_and_overlapping(candidate, other) && candidate.bounds.meets(other.bounds)) slots.push_back(slot);
+std::vector<ReservationGrid::Near> ReservationGrid::find_near(const PlayedMove& candidate) const {
+    std::vector<Near> near;
+    near.reserve(kUsuallyNear);
+    const double begin = candidate.begin(), end = candidate.end();
+    visit_cells(cells_of(candidate.bounds), [&](const Entry& other) {
+        if (other.agent != candidate.agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
+            candidate.bounds.meets(other.bounds))
+            near.push_back({other.begin, &motions_[other.slot].motion});
     });
-    std::sort(slots.begin(), slots.end(), [this](std::uint32_t a, std::uint32_t b) {
-        const auto order = [this](std::uint32_t slot) {
-            const Held& held = motions_[slot];
-            return std::tuple(held.begin, held.motion.agent, held.motion.play);
-        };
-        return order(a) < order(b);
+    std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
+        if (a.begin != b.begin) return a.begin < b.begin;
+        return std::tie(a.motion->agent, a.motion->play) < std::tie(b.motion->agent, b.motion->play);
     });
+    return near;
+}
+
+std::size_t ReservationGrid::first_met(const PlayedMove& candidate, std::span<const Near> near) {
+    if (candidate.playable->tree) {
+        const auto meets = [&](const Near& other) { return contact_of(candidate, *other.motion).has_value(); };
+        return static_cast<std::size_t>(std::ranges::find_if(near, meets) - near.begin());
+    }
+    std::array<const mobb::PlacedBlocks*, kUsuallyNear> others;
+    for (std::size_t begin = 0; begin < near.size(); begin += kUsuallyNear) {
+        const std::size_t count = std::min(kUsuallyNear, near.size() - begin);
+        for (std::size_t i = 0; i < count; ++i) others[i] = &near[begin + i].motion->placed;
+        const auto met = mobb::intersects_any(candidate.placed, std::span(others).first(count));
+        if (met) return begin + *met;
+    }
+    return near.size();
 }
 
 CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
     CandidateCheck check;
-    std::vector<std::uint32_t> slots;
-    find_near(held(candidate), slots);
-    const mobb::PlacedTree placed(*candidate.tree, candidate.placement);
-    for (const std::uint32_t slot : slots) {
-        const Held& other = motions_[slot];
+    for (const auto& [begin, other] : find_near(candidate)) {
         // What begins after the first contact cannot be met before it.
-        if (check.blocker && other.begin > check.blocker->contact.time) break;
+        if (check.blocker && begin > check.blocker->contact.time) break;
         ++check.asked;
-        if (asked) asked->push_back({candidate, other.motion});
-        const auto contact = mobb::query(placed, mobb::PlacedTree(*other.motion.tree, other.motion.placement));
+        if (asked) asked->push_back({candidate, *other});
+        const auto contact = contact_of(candidate, *other);
         if (!contact) continue;
-        if (!check.blocker || std::tuple(contact->time, other.motion.agent) <
-                                  std::tuple(check.blocker->contact.time, check.blocker->agent)) {
-            const PlayedMove& met = other.motion;
-            check.blocker = {met.agent,    met.play, *contact, met.planned, met.move, met.tree->shared_clip(),
-                             met.placement};
+        if (!check.blocker ||
+            std::tuple(contact->time, other->agent) < std::tuple(check.blocker->contact.time, check.blocker->agent)) {
+            check.blocker = {other->agent,       other->play, *contact,
+                             other->planned,     other->move, other->playable->blocks.shared_clip(),
+                             other->at.placement};
         }
     }
     return check;
 }
 
-std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMove> candidates,
+std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMove* const> candidates,
                                                        std::vector<AskedPair>* asked) const {
     std::vector<CandidateCheck> out(candidates.size());
     std::vector<std::vector<AskedPair>> pairs(asked ? candidates.size() : 0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), kGrain), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            out[i] = check(candidates[i], asked ? &pairs[i] : nullptr);
+            out[i] = check(*candidates[i], asked ? &pairs[i] : nullptr);
         }
     });
     for (const std::vector<AskedPair>& of_one : pairs) asked->insert(asked->end(), of_one.begin(), of_one.end());
@@ -178,39 +169,38 @@ std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMov
 
 bool ReservationGrid::is_clear(const PlayedMove& candidate, std::int64_t& queries,
                                std::vector<AskedPair>* asked) const {
-    std::vector<std::uint32_t> slots;
-    find_near(held(candidate), slots);
-    const mobb::PlacedTree placed(*candidate.tree, candidate.placement);
-    return std::ranges::none_of(slots, [&](std::uint32_t slot) {
-        const PlayedMove& other = motions_[slot].motion;
-        ++queries;
-        if (asked) asked->push_back({candidate, other});
-        return mobb::query(placed, mobb::PlacedTree(*other.tree, other.placement)).has_value();
-    });
+    const std::vector<Near> near = find_near(candidate);
+    const std::size_t first = first_met(candidate, near);
+    const std::size_t count = std::min(first + 1, near.size());
+    queries += static_cast<std::int64_t>(count);
+    if (asked) {
+        for (std::size_t i = 0; i < count; ++i) asked->push_back({candidate, *near[i].motion});
+    }
+    return first == near.size();
 }
 
-double ReservationGrid::seconds_of_contact(const PlayedMove& candidate) const {
-    std::vector<std::uint32_t> slots;
-    find_near(held(candidate), slots);
-    const mobb::PlacedTree placed(*candidate.tree, candidate.placement);
+bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
+    std::int64_t queries = 0;
+    return is_clear(candidate, queries);
+}
+
+double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, double most) const {
     double seconds = 0;
-    for (const std::uint32_t slot : slots) {
-        const PlayedMove& other = motions_[slot].motion;
-        for (const mobb::Interval& interval :
-             mobb::contact_intervals(placed, mobb::PlacedTree(*other.tree, other.placement)))
+    for (const Near& other : find_near(candidate)) {
+        if (seconds > most) break;
+        for (const mobb::Interval& interval : contact_intervals(candidate, *other.motion))
             seconds += interval.t1 - interval.t0;
     }
     return seconds;
 }
 
 void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const {
-    FloorRect reach = candidate.clip_bounds->bounds(candidate.placement);
+    FloorRect reach = candidate.bounds;
     reach.low -= range;
     reach.high += range;
     std::vector<std::uint32_t> slots;
-    visit_cells(cells_of(reach), [&](std::uint32_t slot) {
-        const Held& other = motions_[slot];
-        if (other.motion.agent != candidate.agent && reach.meets(other.bounds)) slots.push_back(slot);
+    visit_cells(cells_of(reach), [&](const Entry& other) {
+        if (other.agent != candidate.agent && reach.meets(other.bounds)) slots.push_back(other.slot);
     });
     std::sort(slots.begin(), slots.end());
     for (const std::uint32_t slot : slots) pairs.push_back({candidate, motions_[slot].motion});

@@ -29,33 +29,35 @@ ReservationTable::ReservationTable(const MoveSet& moves, glm::dvec2 area, double
     for (const SceneClip& clip : moves.fitted().scene().clips) {
         const std::vector<mobb::Disk> disk{{0, 0, clip.clip->samples().back().r}};
         const auto standing = std::make_shared<const mobb::Clip>(grace, disk);
-        stand_of_clip_.push_back({mobb::Tree(standing, moves.fitted().options()), ClipBounds(*standing)});
+        stand_of_clip_.push_back(moves.playable(standing));
     }
 }
 
-PlayedMove ReservationTable::stand(int agent, int index, const Play& play) const {
+PlayedMove ReservationTable::stand(const PlayedMove& motion) const {
     // A turned clip's last disk is as large as the clip's itself.
-    const Stand& stand = stand_of_clip_[static_cast<std::size_t>(moves_.move(play.move).clip)];
-    const mobb::Placement& placed = play.placement;
-    const glm::dvec2 exit = moves_.exit(play.move).position;
-    const glm::dvec2 at = mobb::Rotation::from_degrees(placed.rotate_deg)(exit) + placed.translate;
-    return {agent, index, &stand.tree, &stand.clip_bounds, {at, 0, placed.start + moves_.duration(play.move)}};
+    const PlayableClip& standing = stand_of_clip_[static_cast<std::size_t>(moves_.move(motion.move).clip)];
+    const MoveEnd end = end_of(motion.at, moves_.exit(motion.move), moves_.duration(motion.move));
+    OrientedPlacement at;
+    at.placement.translate = end.position;
+    at.placement.start = end.time;
+    return {motion.agent, motion.play, -1, standing, at};
 }
 
 void ReservationTable::reserve(int agent, int index, const Play& play) {
-    motions_.reserve(moves_.motion(agent, index, play.move, play.placement));
+    const PlayedMove motion = moves_.motion(agent, index, play.move, OrientedPlacement(play.placement));
+    motions_.reserve(motion);
     const auto place = static_cast<std::size_t>(agent);
     if (place >= plan_of_agent_.size()) plan_of_agent_.resize(place + 1);
     // A plan begins with the play that takes its place, and is not yet forgotten.
     for (const std::size_t planned : plan_of_agent_[place]) plans_.withdraw(planned);
     plan_of_agent_[place].clear();
-    for (PlayedMove& planned : moves_.planned(agent, index, play))
+    for (const PlayedMove& planned : moves_.planned(agent, index, play))
         plan_of_agent_[place].push_back(plans_.reserve(planned));
     if (stand_of_clip_.empty()) return;
     if (place >= stand_of_agent_.size()) stand_of_agent_.resize(place + 1);
     // The stand after the play before begins with this play, and is not yet forgotten.
     if (stand_of_agent_[place]) stands_.withdraw(*stand_of_agent_[place]);
-    stand_of_agent_[place] = stands_.reserve(stand(agent, index, play));
+    stand_of_agent_[place] = stands_.reserve(stand(motion));
 }
 
 void ReservationTable::forget_before(double now) {
@@ -64,11 +66,10 @@ void ReservationTable::forget_before(double now) {
     stands_.forget_before(now);
 }
 
-bool ReservationTable::faces_wall(int move, const mobb::Placement& placement) const {
-    const mobb::Rotation rotation = mobb::Rotation::from_degrees(placement.rotate_deg);
-    const glm::dvec2 at = rotation(moves_.exit(move).position) + placement.translate;
-    const mobb::Rotation heading = rotation * mobb::Rotation::from_degrees(moves_.exit(move).heading_deg);
-    const double radius = moves_.tree(move).clip().samples().back().r;
+bool ReservationTable::faces_wall(int move, const OrientedPlacement& placed) const {
+    const glm::dvec2 at = placed.rotation(moves_.exit(move).position) + placed.placement.translate;
+    const mobb::Rotation heading = placed.rotation * moves_.exit_rotation(move);
+    const double radius = moves_.clip(move).clip().samples().back().r;
     const auto is_on_floor = [&](glm::dvec2 ahead) {
         const glm::dvec2 point = at + heading(ahead);
         return std::abs(point.x) + radius <= area_.x / 2 && std::abs(point.y) + radius <= area_.y / 2;
@@ -82,22 +83,11 @@ bool ReservationTable::faces_wall(int move, const mobb::Placement& placement) co
     });
 }
 
-std::vector<bool> ReservationTable::in_the_way(int agent, int index, std::span<const Play> plays) const {
-    std::vector<bool> out(plays.size(), false);
-    if (stand_of_clip_.empty()) return out;
-    std::vector<PlayedMove> bodies, stands;
-    for (const Play& play : plays) {
-        bodies.push_back(moves_.motion(agent, index, play.move, play.placement));
-        stands.push_back(stand(agent, index, play));
-    }
-    const std::vector<CandidateCheck> through = stands_.check_all(bodies);
-    const std::vector<CandidateCheck> beside = stands_.check_all(stands);
-    const std::vector<CandidateCheck> before = motions_.check_all(stands);
-    for (std::size_t i = 0; i < plays.size(); ++i) {
-        out[i] = through[i].blocker || beside[i].blocker || before[i].blocker ||
-                 faces_wall(plays[i].move, plays[i].placement);
-    }
-    return out;
+bool ReservationTable::in_the_way(const PlayedMove& motion) const {
+    if (stand_of_clip_.empty()) return false;
+    if (faces_wall(motion.move, motion.at) || !stands_.is_clear(motion)) return true;
+    const PlayedMove standing = stand(motion);
+    return !stands_.is_clear(standing) || !motions_.is_clear(standing);
 }
 
 }  // namespace mobbscope

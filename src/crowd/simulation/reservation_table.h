@@ -27,28 +27,23 @@ class ReservationTable {
     const ReservationGrid& motions() const { return motions_; }  ///< that are played
     const ReservationGrid& plans() const { return plans_; }      ///< that are planned to follow
 
-    /// For each play that might follow, whether it would leave some agent, perhaps this one, without a free choice: it
+    /// Whether a move of the set that might follow would leave some agent, perhaps its own, without a free choice: it
     /// runs through the place where another agent's moves end, within the grace after that; or it ends where another
-    /// agent passes or stands within the grace; or it faces a wall. Without a grace all are false.
-    std::vector<bool> in_the_way(int agent, int index, std::span<const Play> plays) const;
+    /// agent passes or stands within the grace; or it faces a wall. Without a grace it is false.
+    bool in_the_way(const PlayedMove& motion) const;
 
     /// Whether a move, where it is placed, ends too near a wall to turn round before it: neither half circle to the
     /// left nor to the right lies on the floor, at the speed with which the move ends and the set's turn rate. Of
     /// agents that turn at once, or never, whether a wall is within a metre straight ahead.
-    bool faces_wall(int move, const mobb::Placement& placement) const;
+    bool faces_wall(int move, const OrientedPlacement& placed) const;
 
   private:
-    /// A disk that stands, for the grace, where a play ends.
-    PlayedMove stand(int agent, int index, const Play& play) const;
-
-    struct Stand {
-        mobb::Tree tree;
-        ClipBounds clip_bounds;
-    };
+    /// A disk that stands, for the grace, where a move of the set ends.
+    PlayedMove stand(const PlayedMove& motion) const;
 
     const MoveSet& moves_;
     glm::dvec2 area_;
-    std::vector<Stand> stand_of_clip_;  ///< as large as the clip's last disk; empty without a grace
+    std::vector<PlayableClip> stand_of_clip_;  ///< as large as the clip's last disk; empty without a grace
     ReservationGrid motions_;
     ReservationGrid plans_;
     ReservationGrid stands_;

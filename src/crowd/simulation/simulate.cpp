@@ -91,21 +91,21 @@ class Simulator {
             placement.rotate_deg = 360 * random.unit() - 180;
             placement.start = -moves_.duration(move) * random.unit();
             // The clip's bounds, wherever its own origin is, come to lie anywhere on the floor.
-            const FloorRect bounds = moves_.bounds(move).bounds(placement);
+            OrientedPlacement at(placement);
+            const FloorRect bounds = moves_.clip(move).bounds.bounds(at);
             const glm::dvec2 room = options_.area - (bounds.high - bounds.low);
             const double across = random.unit(), along = random.unit();
             if (room.x < 0 || room.y < 0) continue;
-            placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
-            const PlayedMove motion = moves_.motion(agent, 0, move, placement);
-            if (leaves_floor({motion.tree->clip(), placement}, *motion.clip_bounds, options_.area)) continue;
-            if (reservations_.motions().check_all({&motion, 1}).front().blocker) continue;
-            if (reservations_.plans().check_all({&motion, 1}).front().blocker) continue;
-            Play play{move, placement, placement.start, PlayKind::chosen};
+            at.placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
+            if (!bounds_on_floor(moves_.clip(move), at, options_.area)) continue;
+            const PlayedMove motion = moves_.motion(agent, 0, move, at);
+            if (!reservations_.motions().is_clear(motion) || !reservations_.plans().is_clear(motion)) continue;
+            Play play{move, at.placement, at.placement.start, PlayKind::chosen};
             PlanSearch search(moves_, reservations_, simulation_.run, agent, 0);
-            const bool has_way_on = search.look(move, placement);
+            const bool has_way_on = search.look(move, at);
             play.plan = search.plan();
             // Where the floor is nearly full, any place will do.
-            if (i < kTries / 2 && (!has_way_on || reservations_.in_the_way(agent, 0, {&play, 1}).front())) continue;
+            if (i < kTries / 2 && (!has_way_on || reservations_.in_the_way(motion))) continue;
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
             ++counts().agents;
             commit(agent, play);
@@ -131,7 +131,8 @@ class Simulator {
     void record(const Choice& choice, const ChoicePoint& point) {
         if (sample_->recorded() == Recorded::all) {
             for (const Candidate& candidate : choice.candidates) {
-                const PlayedMove motion = moves_.motion(point.agent, point.play, candidate.played, candidate.placement);
+                const PlayedMove motion =
+                    moves_.motion(point.agent, point.play, candidate.played, OrientedPlacement(candidate.placement));
                 reservations_.motions().all_pairs(motion, sample_->range(), asked_);
                 reservations_.plans().all_pairs(motion, sample_->range(), asked_);
             }
@@ -231,7 +232,7 @@ Scene QuerySample::workload(const MoveSet& moves) const {
     const auto agent = [&](const PlayedMove& motion) {
         const int move = extended.index[static_cast<std::size_t>(motion.move)];
         const int clip = out.graph->moves[static_cast<std::size_t>(move)].clip;
-        return PlacedAgent{out.clips[static_cast<std::size_t>(clip)].name, clip, motion.placement, -1};
+        return PlacedAgent{out.clips[static_cast<std::size_t>(clip)].name, clip, motion.at.placement, -1};
     };
     out.queries.reserve(ordered.size());
     for (const Kept& kept : ordered)

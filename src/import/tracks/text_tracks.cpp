@@ -42,14 +42,20 @@ const Columns kSdd{"sdd", 10, 0, kSddFrame};
 
 /// Words between blanks; one in double quotes may hold blanks. More than `limit` + 1 are not looked for.
 void split(std::string_view line, std::size_t limit, std::vector<std::string_view>& words) {
+    const auto parts_words = [](char c) { return c == ' ' || c == '\t'; };
+    const auto is_blank = [&](char c) { return parts_words(c) || c == '\r'; };
     words.clear();
-    while (words.size() <= limit) {
-        line = trimmed(line);
-        if (line.empty()) return;
-        std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-        if (line[0] == '"') end = std::min(line.find('"', 1), line.size() - 1) + 1;
-        words.push_back(line.substr(0, end));
-        line.remove_prefix(end);
+    line = trimmed(line);
+    for (auto at = line.begin(); words.size() <= limit;) {
+        at = std::find_if_not(at, line.end(), is_blank);
+        if (at == line.end()) return;
+        auto end = std::find_if(at, line.end(), parts_words);
+        if (*at == '"') {
+            end = std::find(at + 1, line.end(), '"');
+            if (end != line.end()) ++end;
+        }
+        words.emplace_back(at, end);
+        at = end;
     }
 }
 

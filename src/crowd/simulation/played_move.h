@@ -1,0 +1,98 @@
+/// A motion where somebody plays it, or may play it.
+#pragma once
+
+#include <mobb/blocks.h>
+#include <mobb/clip.h>
+#include <mobb/kdop.h>
+#include <mobb/placed_tree.h>
+#include <mobb/production.h>
+#include <mobb/tree.h>
+#include <scene/motion_graph.h>
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace mobbscope {
+
+/// A rectangle along the axes of the floor, in metres.
+struct FloorRect {
+    glm::dvec2 low{0};
+    glm::dvec2 high{0};
+
+    bool meets(const FloorRect& other) const {
+        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
+    }
+};
+
+/// A polygon around all disks of a clip. Where a run's agents first stand is drawn by these bounds: with others the
+/// same seed would give another run.
+class ClipBounds {
+  public:
+    explicit ClipBounds(const mobb::Clip& clip);
+
+    /// Holds every disk of the clip where it is placed (metres), rounding included.
+    FloorRect bounds(const OrientedPlacement& at) const;
+
+  private:
+    static constexpr std::size_t kCorners = mobb::KDop::kDirections / 2;
+
+    std::array<double, kCorners> x_, y_;  ///< of the corners, in the clip's frame
+    double reach_;                        ///< of the clip: what rounding is measured by
+};
+
+/// A clip with all that is asked of it wherever it is played.
+struct PlayableClip {
+    /// `asked`: a tree over the clip that queries go through instead of the blocks; null: none.
+    explicit PlayableClip(mobb::ClipPtr clip, std::shared_ptr<const mobb::Tree> asked = nullptr)
+        : blocks(std::move(clip)), tree(std::move(asked)), bounds(blocks.clip()) {}
+
+    const mobb::Clip& clip() const { return blocks.clip(); }
+
+    mobb::Blocks blocks;
+    std::shared_ptr<const mobb::Tree> tree;
+    ClipBounds bounds;
+};
+
+/// The bounds of a clip where it is placed, or none if some disk reaches over a wall of the floor, which goes from
+/// -area/2 to area/2 (metres). Touching a wall is allowed.
+std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const OrientedPlacement& at, glm::dvec2 area);
+
+/// A clip that an agent plays, or may play. What queries need of the place is worked out once, as it is made. Refers to
+/// the clip, which must outlive it.
+struct PlayedMove {
+    /// `play_index`: among the agent's plays; `move_index`: among those of the MoveSet, -1: somebody who stands.
+    /// Requires is_valid(where.placement).
+    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip,
+               const OrientedPlacement& where)
+        : PlayedMove(agent_index, play_index, move_index, clip, where, clip.bounds.bounds(where)) {}
+    /// The same with the clip's bounds where it is placed.
+    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip,
+               const OrientedPlacement& where, const FloorRect& placed_bounds)
+        : agent(agent_index),
+          play(play_index),
+          move(move_index),
+          playable(&clip),
+          at(where),
+          placed(clip.blocks, where.rotation, where.placement.translate, where.placement.start),
+          bounds(placed_bounds) {}
+
+    double begin() const { return placed.time(placed.first()); }  ///< global seconds
+    double end() const { return placed.time(placed.end()); }
+    /// Of a clip that has a tree.
+    mobb::PlacedTree placed_tree() const { return {*playable->tree, at.placement}; }
+
+    int agent;
+    int play;         ///< a Blocker repeats it
+    int move;         ///< likewise
+    int planned = 0;  ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
+    const PlayableClip* playable;
+    OrientedPlacement at;
+    mobb::PlacedBlocks placed;
+    FloorRect bounds;  ///< holds every disk
+};
+
+}  // namespace mobbscope
