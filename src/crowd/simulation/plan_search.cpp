@@ -45,16 +45,21 @@ bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seco
     if (seconds >= run_.plan && (run_.grace == 0 || !reservations_.faces_wall(before, placed))) return true;
     if (seconds >= kLongest * run_.plan) return false;
     const std::vector<int>& moves = moves_.after_by_room(before);
-    std::vector<OrientedPlacement> placements;  // by move: the same however far it turns
+    // By move, none where it cannot be placed: the same however far it turns.
+    std::vector<std::optional<OrientedPlacement>> placements;
     placements.reserve(moves.size());
     for (const double turn : kTurns) {
         if (moves_.turns_at_once()) placements.clear();
         for (std::size_t i = 0; i < moves.size(); ++i) {
             const PlannedMove next{moves[i], turn};
-            if (i == placements.size()) placements.push_back(moves_.following(before, placed, next));
-            const OrientedPlacement& at = placements[i];
+            if (i == placements.size()) {
+                const OrientedPlacement following = moves_.following(before, placed, next);
+                placements.push_back(mobb::is_valid(following.placement) ? std::optional(following) : std::nullopt);
+            }
+            if (!placements[i]) continue;
+            const OrientedPlacement& at = *placements[i];
             const std::optional<int> turned = moves_.turned(next);
-            if (!turned || !mobb::is_valid(at.placement)) continue;
+            if (!turned) continue;
             const PlayableClip& clip = moves_.clip(*turned);
             const std::optional<FloorRect> bounds = bounds_on_floor(clip, at, run_.area);
             if (!bounds) continue;

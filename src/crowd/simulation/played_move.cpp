@@ -55,13 +55,13 @@ std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const Oriente
         return std::abs(there.x) + there.r > wall.x || std::abs(there.y) + there.r > wall.y;
     };
     // From the end, as there a move that began on the floor has left it: most that leave it need no more.
-    const std::span<const mobb::Disk> disks = clip.clip().samples();
-    if (is_over(disks.back())) return std::nullopt;
+    if (is_over(clip.last)) return std::nullopt;
     const FloorRect bounds = clip.bounds.bounds(at);
     const bool is_within =
         bounds.low.x >= -wall.x && bounds.low.y >= -wall.y && bounds.high.x <= wall.x && bounds.high.y <= wall.y;
-    if (!is_within && std::any_of(disks.rbegin(), disks.rend(), is_over)) return std::nullopt;
-    return bounds;
+    if (is_within) return bounds;
+    const std::span<const mobb::Disk> disks = clip.clip().samples();
+    return std::any_of(disks.rbegin(), disks.rend(), is_over) ? std::nullopt : std::optional(bounds);
 }
 
 }  // namespace mobbscope

@@ -48,12 +48,16 @@ class ClipBounds {
 struct PlayableClip {
     /// `asked`: a tree over the clip that queries go through instead of the blocks; null: none.
     explicit PlayableClip(mobb::ClipPtr clip, std::shared_ptr<const mobb::Tree> asked = nullptr)
-        : blocks(std::move(clip)), tree(std::move(asked)), bounds(blocks.clip()) {}
+        : blocks(std::move(clip)),
+          tree(std::move(asked)),
+          last(blocks.clip().samples().back()),
+          bounds(blocks.clip()) {}
 
     const mobb::Clip& clip() const { return blocks.clip(); }
 
     mobb::Blocks blocks;
     std::shared_ptr<const mobb::Tree> tree;
+    mobb::Disk last;  ///< of the clip
     ClipBounds bounds;
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -68,7 +69,11 @@ std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
         motions_[slot] = held;
     }
     const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, held.cells.x0, held.cells.y0};
-    for_each_cell(held.cells, [&](int x, int y) { cells_[index(x, y)].push_back(entry); });
+    longest_ = std::max(longest_, entry.end - entry.begin);
+    for_each_cell(held.cells, [&](int x, int y) {
+        std::vector<Entry>& cell = cells_[index(x, y)];
+        cell.insert(std::ranges::upper_bound(cell, entry.begin, {}, &Entry::begin), entry);
+    });
     endings_.push({entry.end, slot});
     return slot;
 }
@@ -78,9 +83,7 @@ void ReservationGrid::withdraw(std::size_t reservation) {
     Held& held = motions_[reservation];
     for_each_cell(held.cells, [&](int x, int y) {
         std::vector<Entry>& cell = cells_[index(x, y)];
-        const auto entry = std::ranges::find(cell, reservation, &Entry::slot);
-        *entry = cell.back();
-        cell.pop_back();
+        cell.erase(std::ranges::find(cell, reservation, &Entry::slot));
     });
     held.withdrawn = true;
 }
@@ -95,11 +98,13 @@ void ReservationGrid::forget_before(double now) {
 }
 
 template <class Visit>
-void ReservationGrid::visit_cells(const CellRange& range, const Visit& visit) const {
+void ReservationGrid::visit_cells(const CellRange& range, double from, double to, const Visit& visit) const {
     for_each_cell(range, [&](int x, int y) {
-        for (const Entry& entry : cells_[index(x, y)]) {
+        const std::vector<Entry>& cell = cells_[index(x, y)];
+        for (auto entry = std::ranges::lower_bound(cell, from, {}, &Entry::begin);
+             entry != cell.end() && entry->begin <= to; ++entry) {
             // Of the cells of the range that a motion reaches into, the first one reports it.
-            if (x == std::max(range.x0, entry.x0) && y == std::max(range.y0, entry.y0)) visit(entry);
+            if (x == std::max(range.x0, entry->x0) && y == std::max(range.y0, entry->y0)) visit(*entry);
         }
     });
 }
@@ -108,7 +113,9 @@ std::vector<ReservationGrid::Near> ReservationGrid::find_near(const PlayedMove& 
     std::vector<Near> near;
     near.reserve(kUsuallyNear);
     const double begin = candidate.begin(), end = candidate.end();
-    visit_cells(cells_of(candidate.bounds), [&](const Entry& other) {
+    // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
+    const double from = begin - longest_ - 1e-12 * std::abs(begin);
+    visit_cells(cells_of(candidate.bounds), from, end, [&](const Entry& other) {
         if (other.agent != candidate.agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
             candidate.bounds.meets(other.bounds))
             near.push_back({other.begin, &motions_[other.slot].motion});
@@ -199,7 +206,8 @@ void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::
     reach.low -= range;
     reach.high += range;
     std::vector<std::uint32_t> slots;
-    visit_cells(cells_of(reach), [&](const Entry& other) {
+    constexpr double kEver = std::numeric_limits<double>::infinity();
+    visit_cells(cells_of(reach), -kEver, kEver, [&](const Entry& other) {
         if (other.agent != candidate.agent && reach.meets(other.bounds)) slots.push_back(other.slot);
     });
     std::sort(slots.begin(), slots.end());

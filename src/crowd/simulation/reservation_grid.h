@@ -110,9 +110,10 @@ class ReservationGrid {
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
-    /// Calls visit(entry) once for each motion that reaches into a cell of the range.
+    /// Calls visit(entry) once for each motion that reaches into a cell of the range and begins from `from` to `to`,
+    /// global seconds.
     template <class Visit>
-    void visit_cells(const CellRange& range, const Visit& visit) const;
+    void visit_cells(const CellRange& range, double from, double to, const Visit& visit) const;
     /// The motions of other agents whose bounds and times meet the candidate's, earliest first.
     std::vector<Near> find_near(const PlayedMove& candidate) const;
     /// The index of the first of them that the candidate collides with; their number if there is none.
@@ -122,7 +123,8 @@ class ReservationGrid {
     glm::dvec2 per_metre_;  ///< cells
     int columns_;
     int rows_;
-    std::vector<std::vector<Entry>> cells_;  ///< motions whose bounds reach into the cell
+    std::vector<std::vector<Entry>> cells_;  ///< motions whose bounds reach into the cell, by their begin
+    double longest_ = 0;                     ///< seconds that a motion lasts
     std::vector<Held> motions_;
     std::vector<std::uint32_t> free_;  ///< slots of motions_ that hold nothing
     std::priority_queue<Ending, std::vector<Ending>, std::greater<>> endings_;

@@ -69,7 +69,7 @@ void ReservationTable::forget_before(double now) {
 bool ReservationTable::faces_wall(int move, const OrientedPlacement& placed) const {
     const glm::dvec2 at = placed.rotation(moves_.exit(move).position) + placed.placement.translate;
     const mobb::Rotation heading = placed.rotation * moves_.exit_rotation(move);
-    const double radius = moves_.clip(move).clip().samples().back().r;
+    const double radius = moves_.clip(move).last.r;
     const auto is_on_floor = [&](glm::dvec2 ahead) {
         const glm::dvec2 point = at + heading(ahead);
         return std::abs(point.x) + radius <= area_.x / 2 && std::abs(point.y) + radius <= area_.y / 2;
