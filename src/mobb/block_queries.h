@@ -26,8 +26,4 @@ struct InstructionSet {
 /// Those of this machine that Highway has, the best first.
 std::vector<InstructionSet> vector_instruction_sets();
 
-namespace scalar {
-const BlockQueries* queries();
-}
-
 }  // namespace mobb

@@ -36,7 +36,7 @@ class Middle {
     double low_x_ = kFar, high_x_ = -kFar, low_y_ = kFar, high_y_ = -kFar;
 };
 
-const Clip& checked(const ClipPtr& clip) {
+const Clip& existing(const ClipPtr& clip) {
     if (!clip) throw std::invalid_argument("blocks need a clip");
     return *clip;
 }
@@ -111,7 +111,7 @@ MovingDisk around(const Run& run, int span) {
 }  // namespace
 
 Blocks::Blocks(ClipPtr clip)
-    : dt_(checked(clip).dt()),
+    : dt_(existing(clip).dt()),
       per_dt_(1 / dt_),
       reach_(clip->reach()),
       count_(clip->count()),

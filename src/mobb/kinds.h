@@ -57,6 +57,8 @@ struct TreeInfo {
     BoxKind below = BoxKind::obb2d;  ///< of all other levels
 
     constexpr bool has(BoxAxes axes) const;
+    /// Whether FitOptions::leaf and levels matter.
+    constexpr bool splits() const { return !has(BoxAxes::centers); }
     /// Whether FitOptions::axes matters.
     constexpr bool chooses_axes() const { return has(BoxAxes::floor) || has(BoxAxes::space_time); }
     /// Whether FitOptions::time_scale matters.

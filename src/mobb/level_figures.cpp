@@ -22,8 +22,7 @@ std::vector<LevelFigures> level_figures(const Tree& tree) {
     std::vector<LevelFigures> levels(static_cast<std::size_t>(tree.depth()));
     for (int i = 0; i < static_cast<int>(tree.nodes().size()); ++i) {
         const double v = volume(tree.box(i), tree.time_scale());
-        const bool is_leaf = tree.node(i).is_leaf();
-        const int last = is_leaf ? tree.depth() - 1 : tree.level(i);
+        const int last = tree.is_leaf(i) ? tree.depth() - 1 : tree.level(i);
         for (int level = tree.level(i); level <= last; ++level) {
             levels[static_cast<std::size_t>(level)].nodes += 1;
             levels[static_cast<std::size_t>(level)].volume += v;

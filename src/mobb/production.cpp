@@ -35,7 +35,7 @@ const std::vector<InstructionSet>& all_instruction_sets() {
 
 std::atomic<const BlockQueries*> in_use{nullptr};
 
-const BlockQueries& queries() {
+const BlockQueries& chosen_queries() {
     const BlockQueries* now = in_use.load(std::memory_order_relaxed);
     if (now == nullptr) [[unlikely]] {
         now = all_instruction_sets().front().queries;
@@ -48,21 +48,21 @@ const BlockQueries& queries() {
 
 std::optional<SamplePair> first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
     SamplePair pair;
-    return queries().first_hit_below_roots(a, b, pair) ? std::optional(pair) : std::nullopt;
+    return chosen_queries().first_hit_below_roots(a, b, pair) ? std::optional(pair) : std::nullopt;
 }
 
 std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others) {
-    const std::size_t first = queries().first_colliding(a, others.data(), others.size());
+    const std::size_t first = chosen_queries().first_colliding(a, others.data(), others.size());
     return first < others.size() ? std::optional(first) : std::nullopt;
 }
 
 void intersects_each(std::span<const BlocksPair> pairs, std::span<bool> answers) {
     assert(pairs.size() == answers.size());
-    queries().intersects_each(pairs.data(), pairs.size(), answers.data());
+    chosen_queries().intersects_each(pairs.data(), pairs.size(), answers.data());
 }
 
 bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
-    return queries().for_each_hit_below_roots(a, b, sink, observer);
+    return chosen_queries().for_each_hit_below_roots(a, b, sink, observer);
 }
 
 std::vector<std::string_view> instruction_sets() {

@@ -156,18 +156,6 @@ TableRow count(const FittedMethod& fitted, const Workload& workload,
     return row;
 }
 
-/// Trees of which the blocks are asked.
-struct BlocksOf {
-    const std::vector<mobb::Tree>& trees;
-};
-
-PlacedPair<mobb::PlacedBlocks> placed(const BlocksOf& of, const WorkloadQuery& query) {
-    const auto side = [&](int clip, const mobb::Placement& placement) {
-        return mobb::PlacedBlocks(*of.trees[static_cast<std::size_t>(clip)].blocks(), placement);
-    };
-    return {side(query.clip_a, query.a), side(query.clip_b, query.b)};
-}
-
 /// As many pairs as mobb::intersects_each says collide.
 int count_in_batches(std::span<const PlacedPair<mobb::PlacedBlocks>> pairs) {
     constexpr std::size_t kBatch = 1000;

@@ -37,6 +37,13 @@ PlacedPair<mobb::PlacedTree> placed(const std::vector<mobb::Tree>& trees, const 
             {trees[static_cast<std::size_t>(query.clip_b)], query.b}};
 }
 
+PlacedPair<mobb::PlacedBlocks> placed(const BlocksOf& of, const WorkloadQuery& query) {
+    const auto side = [&](int clip, const mobb::Placement& placement) {
+        return mobb::PlacedBlocks(*of.trees[static_cast<std::size_t>(clip)].blocks(), placement);
+    };
+    return {side(query.clip_a, query.a), side(query.clip_b, query.b)};
+}
+
 double mean_duration(const Workload& workload) {
     if (workload.clips.empty()) return 0;
     double sum = 0;

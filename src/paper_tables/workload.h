@@ -4,6 +4,7 @@
 #include <crowd/simulation/simulate.h>
 #include <mobb/clip.h>
 #include <mobb/placed_tree.h>
+#include <mobb/production.h>
 #include <paper_tables/random_queries.h>
 #include <scene/scene.h>
 
@@ -32,6 +33,12 @@ struct PlacedPair {
 PlacedPair<mobb::PlacedClip> placed(const Workload& workload, const WorkloadQuery& query);
 /// The trees must outlive it.
 PlacedPair<mobb::PlacedTree> placed(const std::vector<mobb::Tree>& trees, const WorkloadQuery& query);
+
+/// Production trees whose blocks are asked. They must outlive what is placed.
+struct BlocksOf {
+    const std::vector<mobb::Tree>& trees;
+};
+PlacedPair<mobb::PlacedBlocks> placed(const BlocksOf& of, const WorkloadQuery& query);
 
 /// The queries of a scene, such as those that a simulation recorded. At most kMaxQueries of them are taken.
 Workload workload_of_scene(const Scene& scene);

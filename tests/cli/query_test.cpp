@@ -50,6 +50,7 @@ TEST(Query, JsonIsTheAnswer) {
                                        {"obb3d", recorded.tests[mobb::BoxKind::obb3d]},
                                        {"moving", 0},
                                        {"aabb", 0},
+                                       {"block", 0},
                                        {"samples", recorded.tests[mobb::TestKind::samples]}}));
 }
 

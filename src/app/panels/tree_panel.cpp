@@ -236,13 +236,17 @@ void fit_fields(Ui& ui) {
     const Session& session = ui.session;
     const mobb::FitOptions fit = session.fitted().options();
     choose(ui, "Kind", "tree.kind", fit.tree, "What bounds the disks");
+    ImGui::BeginDisabled(!mobb::info(fit.tree).splits());
     whole(ui, "Leaf samples", "tree.leaf", "The number of samples of a leaf", fit.leaf, 1,
           "n_min: a node of at most so many samples is a leaf");
+    ImGui::EndDisabled();
     ImGui::BeginDisabled(!mobb::info(fit.tree).chooses_axes());
     choose(ui, "Axes", "tree.axes", fit.axes, "How boxes are turned");
     ImGui::EndDisabled();
+    ImGui::BeginDisabled(!mobb::info(fit.tree).splits());
     whole(ui, "Levels", "tree.levels", "The number of levels", fit.levels, 0,
           "0: all; 1 is the paper's \"1 level\" tree");
+    ImGui::EndDisabled();
     time_scale(ui);
     shown_levels(ui, session.fitted().tree(clip_in_focus(session)).depth());
     choose(ui, "Colour by", "view.color_by", session.view().color_by, "What the boxes' colours mean");

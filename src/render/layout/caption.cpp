@@ -65,6 +65,12 @@ std::string boxes_text(std::span<const DrawnAgent> agents, const LevelRange& lev
     return text;
 }
 
+/// "MOBB, leaf 10".
+std::string fit_words(const mobb::FitOptions& fit) {
+    const mobb::TreeInfo& tree = mobb::info(fit.tree);
+    return std::string(tree.title) + (tree.splits() ? ", leaf " + std::to_string(fit.leaf) : "");
+}
+
 }  // namespace
 
 std::string at_time(double time) { return formatted(" at %.2f s", time); }
@@ -74,8 +80,7 @@ Caption scene_caption(const FittedScene& fitted, std::span<const DrawnAgent> age
     caption.title = fitted.scene().file.empty() ? "scene" : fitted.scene().file.stem().string();
     caption.headlines = {caption.title};
     if (view.boxes) {
-        caption.detail = std::string(mobb::info(fitted.options().tree).title) + ", leaf " +
-                         std::to_string(fitted.options().leaf) + kDot + boxes_text(agents, view.levels);
+        caption.detail = fit_words(fitted.options()) + kDot + boxes_text(agents, view.levels);
     }
     if (!names_fit(shown_count(agents)) && !is_in_grid(fitted.scene(), view)) {
         const std::string left_out = std::to_string(shown_count(agents)) +
@@ -90,8 +95,7 @@ Caption query_caption(const Palette& palette, std::span<const DrawnAgent> sides,
     Caption caption;
     caption.headlines = step_sentences(sides, recorded.trace, step);
     caption.title = step_of(step, recorded.trace);
-    caption.detail = std::string(mobb::info(sides[0].placed.tree().options().tree).title) + ", leaf " +
-                     std::to_string(sides[0].placed.tree().options().leaf) + kDot + answer_sentence(sides, recorded);
+    caption.detail = fit_words(sides[0].placed.tree().options()) + kDot + answer_sentence(sides, recorded);
     const mobb::Outcome outcome = recorded.trace[step].outcome;
     caption.mark = outcome_style(box_state(outcome), palette).color;
     return caption;
