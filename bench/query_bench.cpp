@@ -74,22 +74,31 @@ struct Trees {
 };
 
 struct Production {
-    using Placed = PlacedBlocks;
-    std::vector<std::unique_ptr<const Blocks>> made;
+    /// Blocks are timed; counts come from the tree that they belong to.
+    struct Placed {
+        Placed(const Tree& of, const Placement& placement) : tree(of, placement), blocks(*of.blocks(), placement) {}
+        PlacedTree tree;
+        PlacedBlocks blocks;
+    };
+    std::vector<std::unique_ptr<const Tree>> made;
 
     explicit Production(const std::vector<ClipPtr>& clips) {
-        for (const ClipPtr& clip : clips) made.push_back(std::make_unique<const Blocks>(clip));
+        for (const ClipPtr& clip : clips)
+            made.push_back(std::make_unique<const Tree>(clip, FitOptions{.tree = TreeKind::production}));
     }
     template <class Observer>
-    static bool ask(const Placed& a, const Placed& b, Observer& observer) {
+    static bool ask(const Placed& a, const Placed& b, [[maybe_unused]] Observer& observer) {
         if constexpr (Observer::watches) {
-            return query(a, b, observer).has_value();
+            return query(a.tree, b.tree, observer).has_value();
         } else {
-            return intersects(a, b);
+            return intersects(a.blocks, b.blocks);
         }
     }
     static std::size_t any(const Placed& a, std::span<const Placed> others) {
-        return intersects_any(a, others).value_or(others.size());
+        std::vector<const PlacedBlocks*> blocks;
+        blocks.reserve(others.size());
+        for (const Placed& other : others) blocks.push_back(&other.blocks);
+        return intersects_any(a.blocks, blocks).value_or(others.size());
     }
 };
 

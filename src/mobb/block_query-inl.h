@@ -380,7 +380,7 @@ struct KeepFirst {
     }
 };
 
-bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
+inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
     NoObserver observer;
     KeepFirst keep;
     const bool hit = BlockTraversal(a, b, observer, keep).run();
@@ -388,7 +388,8 @@ bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SampleP
     return hit;
 }
 
-bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
+inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
+                                     BlockObserver* observer) {
     if (observer) return BlockTraversal(a, b, *observer, sink).run();
     NoObserver nobody;
     return BlockTraversal(a, b, nobody, sink).run();
@@ -417,7 +418,7 @@ void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& 
     }
 }
 
-std::size_t first_colliding(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count) {
+inline std::size_t first_colliding(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count) {
     std::size_t out = count;
     visit_pairs_in_turn(
         count,
@@ -431,7 +432,7 @@ std::size_t first_colliding(const PlacedBlocks& a, const PlacedBlocks* const* ot
     return out;
 }
 
-void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
+inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
     std::fill_n(answers, count, false);
     visit_pairs_in_turn(
         count, [&](std::size_t i) { return pairs[i]; },
@@ -441,7 +442,7 @@ void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) 
         });
 }
 
-const BlockQueries* queries() {
+inline const BlockQueries* queries() {
     static constexpr BlockQueries all{first_hit_below_roots, for_each_hit_below_roots, first_colliding,
                                       intersects_each};
     return &all;

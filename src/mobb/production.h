@@ -154,15 +154,13 @@ class BlockObserver {
   public:
     static constexpr bool watches = true;
 
+    virtual ~BlockObserver() = default;
     virtual void enter(int a, int b) = 0;
     virtual void leave() = 0;
     virtual void time_test(bool overlap) = 0;
     virtual void box_test(BoxKind test, const Separation& separation) = 0;
     virtual void sample_pair(int i, int j, double squared_distance) = 0;
     virtual void sample_test(bool hit) = 0;
-
-  protected:
-    ~BlockObserver() = default;
 };
 
 /// All pairs, of two whose roots meet; with an observer if there is one. Returns whether the sink stopped it.
