@@ -240,7 +240,7 @@ void add_simulate_command(Command& program) {
                "Largest angular speed at which agents turn on the way of a move; 0: they do not (120)", "DEG_PER_S");
     add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
     const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
-                                     "Queries that the trees were asked, as a scene", "FILE.json");
+                                     "Queries that were asked, as a scene", "FILE.json");
     add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
                "How many, drawn at random; 0 is all (20000)", "N")
         .needs(record);
