@@ -358,6 +358,7 @@ void add_queries(const std::string& length, const MakeWorkload& workload) {
     add_asked("direct/" + length, workload, [](const std::vector<ClipPtr>& clips) { return DirectSearch(clips); });
     add_asked("production/" + length, workload, [](const std::vector<ClipPtr>& clips) { return Production(clips); });
     for (const TreeKind kind : kTreeKinds) {
+        if (kind == TreeKind::production) continue;  // asked above, by its blocks
         for (const int levels : {1, 0}) {
             const FitOptions options{.tree = kind, .levels = levels};
             add_asked(std::string(name(kind)) + (levels ? "_1level/" : "/") + length, workload,

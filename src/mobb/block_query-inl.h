@@ -405,6 +405,13 @@ void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& 
         std::size_t left[kAtATime];
         std::size_t n = 0;
         for (std::size_t i = first; i < end; ++i) {
+            // What is asked lies anywhere: a few pairs ahead of time it is asked for.
+            constexpr std::size_t kAhead = 12;
+            if (i + kAhead < count) {
+                const auto [next_a, next_b] = pair_at(i + kAhead);
+                __builtin_prefetch(next_a);
+                __builtin_prefetch(next_b);
+            }
             const auto [a, b] = pair_at(i);
             left[n] = i;
             n += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
