@@ -83,7 +83,7 @@ MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int f
     return out;
 }
 
-/// Pairs of blocks of which no two are as far apart as the next, copied side by side.
+/// One side of several pairs of blocks, copied side by side: in clips of different dt they do not lie so.
 struct Gathered {
     float x[kLanes], y[kLanes], dx[kLanes], dy[kLanes], r[kLanes];
 
@@ -405,7 +405,7 @@ void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& 
         std::size_t left[kAtATime];
         std::size_t n = 0;
         for (std::size_t i = first; i < end; ++i) {
-            // What is asked lies anywhere: a few pairs ahead of time it is asked for.
+            // Placements lie anywhere in memory: they are fetched a few pairs ahead.
             constexpr std::size_t kAhead = 12;
             if (i + kAhead < count) {
                 const auto [next_a, next_b] = pair_at(i + kAhead);
