@@ -28,8 +28,12 @@ void print_tree(const std::string& clip, const mobb::Tree& tree) {
     const mobb::FitOptions& options = tree.options();
     std::cout << cleaned(clip) << ": " << counted(tree.clip().count(), "sample", "samples") << " in "
               << brief(tree.clip().duration()) << " s; " << mobb::name(options.tree) << " tree of "
-              << counted(tree.nodes().size(), "node", "nodes") << " (leaf " << options.leaf << ", axes "
-              << mobb::name(options.axes) << ", time scale " << brief(options.time_scale) << " m/s)\n";
+              << counted(tree.nodes().size(), "node", "nodes");
+    if (mobb::info(options.tree).splits()) {
+        std::cout << " (leaf " << options.leaf << ", axes " << mobb::name(options.axes) << ", time scale "
+                  << brief(options.time_scale) << " m/s)";
+    }
+    std::cout << '\n';
     const std::vector<mobb::LevelFigures> levels = mobb::level_figures(tree);
     std::vector<std::string> lines(1 + levels.size(), " ");
     for (const mobb::LevelColumn& column : mobb::kLevelColumns) {
