@@ -24,10 +24,12 @@ struct Common {
 
 /// Whether paths stay where they are.
 enum class Paced { still, moving };
+/// Whether all paths last equally long, or as their `lasts` say.
+enum class Lasting { alike, as_told };
 
 /// For n <= kLanes pairs (first_a + lane, first_b + lane): a bit is set where two disks may come within the sum of
 /// their radii in their common time.
-template <Paced paced_a, Paced paced_b>
+template <Paced paced_a, Paced paced_b, Lasting lasting = Lasting::alike>
 MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int first_b, int n, const Common& common,
                               const Relation& relation) {
     const Tag d;
@@ -39,43 +41,45 @@ MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int f
         const int i = first_a + lane, j = first_b + lane;
         auto ax = hn::LoadU(d, a.x + i), ay = hn::LoadU(d, a.y + i);
         auto bx = hn::LoadU(d, b.x + j), by = hn::LoadU(d, b.y + j);
-        const auto reach = hn::Add(hn::Add(hn::LoadU(d, a.r + i), hn::LoadU(d, b.r + j)), slack);
-        const auto reach2 = hn::Mul(reach, reach);
+        const auto reach = hn::Add(hn::Add(hn::LoadU(d, a.r + i), slack), hn::LoadU(d, b.r + j));
         // How far each moves in the common time.
-        auto adx = hn::Set(d, 0.0F), ady = adx, bdx = adx, bdy = adx;
+        const auto zero = hn::Set(d, 0.0F);
+        auto adx = zero, ady = zero, bdx = zero, bdy = zero;
+        auto length_a = hn::Set(d, common.length_a), length_b = hn::Set(d, common.length_b);
+        if constexpr (lasting == Lasting::as_told) {
+            const auto left_a = hn::Sub(hn::LoadU(d, a.lasts + i), hn::Set(d, common.begin_a));
+            const auto left_b = hn::Sub(hn::LoadU(d, b.lasts + j), hn::Set(d, common.begin_b));
+            length_a = length_b = hn::Max(hn::Min(hn::Min(left_a, left_b), length_a), zero);
+        }
         if constexpr (paced_a == Paced::moving) {
             const auto dx = hn::LoadU(d, a.dx + i), dy = hn::LoadU(d, a.dy + i);
-            const auto begin = hn::Set(d, common.begin_a), length = hn::Set(d, common.length_a);
+            const auto begin = hn::Set(d, common.begin_a);
             ax = hn::Add(ax, hn::Mul(begin, dx));
             ay = hn::Add(ay, hn::Mul(begin, dy));
-            adx = hn::Mul(length, dx);
-            ady = hn::Mul(length, dy);
+            adx = hn::Mul(length_a, dx);
+            ady = hn::Mul(length_a, dy);
         }
         if constexpr (paced_b == Paced::moving) {
             const auto dx = hn::LoadU(d, b.dx + j), dy = hn::LoadU(d, b.dy + j);
-            const auto begin = hn::Set(d, common.begin_b), length = hn::Set(d, common.length_b);
+            const auto begin = hn::Set(d, common.begin_b);
             bx = hn::Add(bx, hn::Mul(begin, dx));
             by = hn::Add(by, hn::Mul(begin, dy));
-            const auto mx = hn::Mul(length, dx), my = hn::Mul(length, dy);
+            const auto mx = hn::Mul(length_b, dx), my = hn::Mul(length_b, dy);
             bdx = hn::Sub(hn::Mul(c, mx), hn::Mul(s, my));
             bdy = hn::Add(hn::Mul(s, mx), hn::Mul(c, my));
         }
-        const auto px = hn::Sub(hn::Add(hn::Sub(hn::Mul(c, bx), hn::Mul(s, by)), ox), ax);
-        const auto py = hn::Sub(hn::Add(hn::Add(hn::Mul(s, bx), hn::Mul(c, by)), oy), ay);
-        auto meets = hn::Le(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), reach2);
+        auto px = hn::Sub(hn::Sub(hn::Mul(c, bx), hn::Mul(s, by)), hn::Sub(ax, ox));
+        auto py = hn::Sub(hn::Add(hn::Mul(s, bx), hn::Mul(c, by)), hn::Sub(ay, oy));
         if constexpr (paced_a == Paced::moving || paced_b == Paced::moving) {
+            // When they are nearest: the way is never 0 here, and where it nearly is, any moment does.
             const auto vx = hn::Sub(bdx, adx), vy = hn::Sub(bdy, ady);
-            const auto qx = hn::Add(px, vx), qy = hn::Add(py, vy);
-            meets = hn::Or(meets, hn::Le(hn::Add(hn::Mul(qx, qx), hn::Mul(qy, qy)), reach2));
-            // Nearest in between, and then near enough: |p x v| / |v| is the distance from the line through p and q.
-            const auto zero = hn::Set(d, 0.0F);
-            const auto pv = hn::Add(hn::Mul(px, vx), hn::Mul(py, vy));
-            const auto qv = hn::Add(hn::Mul(qx, vx), hn::Mul(qy, vy));
-            const auto cross = hn::Sub(hn::Mul(px, vy), hn::Mul(py, vx));
-            const auto vv = hn::Add(hn::Mul(vx, vx), hn::Mul(vy, vy));
-            const auto near_line = hn::Le(hn::Mul(cross, cross), hn::Mul(reach2, vv));
-            meets = hn::Or(meets, hn::And(near_line, hn::And(hn::Le(pv, zero), hn::Gt(qv, zero))));
+            const auto way2 = hn::Add(hn::Add(hn::Mul(vx, vx), hn::Mul(vy, vy)), hn::Set(d, 1e-30F));
+            const auto along = hn::Sub(zero, hn::Add(hn::Mul(px, vx), hn::Mul(py, vy)));
+            const auto moment = hn::Min(hn::Max(hn::Div(along, way2), zero), hn::Set(d, 1.0F));
+            px = hn::Add(px, hn::Mul(moment, vx));
+            py = hn::Add(py, hn::Mul(moment, vy));
         }
+        const auto meets = hn::Le(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(reach, reach));
         std::uint8_t bits[8];
         hn::StoreMaskBits(d, meets, bits);
         out |= static_cast<unsigned>(bits[0]) << lane;
@@ -89,13 +93,14 @@ struct Gathered {
 
     MOBB_INLINE void set(int lane, const Paths& from, int i, double begin, double length) {
         const auto share = static_cast<float>(begin), part = static_cast<float>(length);
-        x[lane] = from.x[i] + share * from.dx[i];
-        y[lane] = from.y[i] + share * from.dy[i];
-        dx[lane] = part * from.dx[i];
-        dy[lane] = part * from.dy[i];
+        const float all_x = from.dx ? from.dx[i] : 0, all_y = from.dy ? from.dy[i] : 0;
+        x[lane] = from.x[i] + share * all_x;
+        y[lane] = from.y[i] + share * all_y;
         r[lane] = from.r[i];
+        dx[lane] = part * all_x;
+        dy[lane] = part * all_y;
     }
-    Paths paths() const { return {x, y, dx, dy, r}; }
+    Paths paths() const { return {x, y, r, dx, dy, nullptr}; }
 };
 
 // What rounding adds at most, as a share of the numbers that go in, with a wide margin.
@@ -112,7 +117,7 @@ class BlockTraversal {
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
     bool run() {
         relate();
-        if (blocks_a_.node_count() == 1 && blocks_b_.node_count() == 1) return test_samples(0, 0);
+        if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
         const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
         if (shifted_) {
             const int level = std::min(top_a, top_b);
@@ -122,20 +127,14 @@ class BlockTraversal {
     }
 
   private:
-    /// Blocks (or samples) at which B's are shifted against A's by a constant: with k, pair (i, i - whole + k) shares
-    /// time.
-    struct Shift {
-        int k;
-        double begin_b;     ///< when B's begins, samples since A's begins
-        double begin, end;  ///< of the time that two whole blocks share, likewise
-        Common common;
-    };
-    static constexpr int kMostShifts = 4;
+    /// Blocks (or samples) at which B's are shifted against A's by a constant: pair (i, i - whole + k) shares time,
+    /// first <= k < first + count.
     struct Shifts {
         int whole;
-        int count = 0;
-        Shift shifts[kMostShifts];
+        double rest;  ///< samples: with k, B's block begins k blocks and so much after A's
+        int first, count;
     };
+    static constexpr int kMostShifts = 4;
 
     /// Relates B's blocks to A's.
     MOBB_INLINE void relate() {
@@ -150,67 +149,85 @@ class BlockTraversal {
         relation_ = {static_cast<float>(turn.c), static_cast<float>(turn.s), static_cast<float>(offset.x),
                      static_cast<float>(offset.y), static_cast<float>(slack)};
         const double per_dt = blocks_a_.per_dt();
-        shift_ = (b_.begin() - a_.begin()) * per_dt;
         // Less than this many samples in common are not tested; rounded times may overlap where exact ones do not.
         least_common_ = (kMinOverlap - time_error) * per_dt;
         constexpr double kMostError = 0.125;
         shifted_ = a_.dt() == b_.dt() && time_error * per_dt < kMostError;
+        if (!shifted_) return;
+        // Of roots that share time it fits into an int.
+        const double shift = (b_.begin() - a_.begin()) * per_dt;
+        whole_ = static_cast<int>(shift);
+        if (shift < whole_) --whole_;
+        rest_ = shift - whole_;
     }
 
-    /// Which blocks of `span` samples share time, and when.
-    MOBB_INLINE Shifts shifts_of(int span) const {
-        // Spans are powers of two: this loses no digit.
-        const double size = span, per_size = 1 / size;
-        const double in_blocks = shift_ * per_size;
-        Shifts out;
-        out.whole = static_cast<int>(in_blocks);
-        if (in_blocks < out.whole) --out.whole;
-        const double rest = shift_ - out.whole * size;
-        // As a rule -1 and 0: the others share time only by rounding.
-        const int outer = least_common_ > 0 ? 0 : 1;
-        for (int k = -1 - outer; k <= outer; ++k) {
-            const double begin = k * size + rest;
-            const double from = std::max(begin, 0.0);
-            const double common = std::min(begin + size, size) - from;
-            if (common <= least_common_) continue;
-            const auto length = static_cast<float>(std::max(common, 0.0) * per_size);
-            out.shifts[out.count++] = {
-                k,
-                begin,
-                from,
-                from + common,
-                {static_cast<float>(from * per_size), static_cast<float>((from - begin) * per_size), length, length}};
+    /// Which blocks of 2^log_span samples share time: with k they share span - |k * span + rest| samples.
+    MOBB_INLINE Shifts shifts_of(int log_span) const {
+        const int span = 1 << log_span;
+        const double rest = (whole_ & (span - 1)) + rest_;
+        // As a rule -1 and 0; the others share time only by rounding.
+        const int first = rest - span > least_common_ ? -2 : rest > least_common_ ? -1 : 0;
+        const int last = -rest > least_common_ ? 1 : span - rest > least_common_ ? 0 : -1;
+        return {whole_ >> log_span, rest, first, last - first + 1};
+    }
+    /// When those of `k` do.
+    MOBB_INLINE Common common_of(const Shifts& shifts, int k, int log_span) const {
+        const double span = 1 << log_span;
+        const double begin = k * span + shifts.rest;
+        const double from = std::max(begin, 0.0);
+        const auto length = static_cast<float>(std::max(std::min(begin + span, span) - from, 0.0) / span);
+        return {static_cast<float>(from / span), static_cast<float>((from - begin) / span), length, length};
+    }
+
+    /// Calls visit(i, j, k, meet) for the pairs of [first_a, end_a) x [first_b, end_b) that may meet, in order of
+    /// time, until it returns true; if `all`, for all that share time. Everything comes by value: what is referred to
+    /// would lie in memory. Compiled for the numbers of shifts that are usual.
+    template <bool all, Paced paced_a, Paced paced_b, Lasting lasting, class Visit>
+    MOBB_INLINE bool for_each_shifted(Shifts shifts, int log_span, Paths a, int first_a, int end_a, Paths b,
+                                      int first_b, int end_b, Visit visit) {
+        if (shifts.count == 2) {
+            return scan<2, all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a, end_a, b, first_b, end_b,
+                                                           visit);
         }
-        return out;
+        if (shifts.count == 1) {
+            return scan<1, all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a, end_a, b, first_b, end_b,
+                                                           visit);
+        }
+        return scan_any<all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a, end_a, b, first_b, end_b, visit);
     }
-
-    /// Calls visit(i, j, shift, meet) for the pairs of [first_a, end_a) x [first_b, end_b) that may meet, in order of
-    /// time, until it returns true; if `all`, for all that share time.
-    template <bool all, Paced paced_a, Paced paced_b, class Visit>
-    MOBB_INLINE bool for_each_shifted(const Shifts& shifts, const Paths& a, int first_a, int end_a, const Paths& b,
-                                      int first_b, int end_b, const Visit& visit) {
-        if (shifts.count == 0) return false;
-        const int from = std::max(first_a, first_b + shifts.whole - shifts.shifts[shifts.count - 1].k);
-        const int to = std::min(end_a, end_b + shifts.whole - shifts.shifts[0].k);
+    template <bool all, Paced paced_a, Paced paced_b, Lasting lasting, class Visit>
+    [[gnu::noinline]] bool scan_any(Shifts shifts, int log_span, Paths a, int first_a, int end_a, Paths b, int first_b,
+                                    int end_b, Visit visit) {
+        return shifts.count > 0 && scan<kMostShifts, all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a,
+                                                                                     end_a, b, first_b, end_b, visit);
+    }
+    template <int most, bool all, Paced paced_a, Paced paced_b, Lasting lasting, class Visit>
+    MOBB_INLINE bool scan(Shifts shifts, int log_span, Paths a, int first_a, int end_a, Paths b, int first_b, int end_b,
+                          Visit visit) {
+        constexpr bool still = paced_a == Paced::still && paced_b == Paced::still;
+        const int count = most < kMostShifts ? most : shifts.count;
+        Common common[kMostShifts] = {};
+        for (int m = 0; m < count && !still; ++m) common[m] = common_of(shifts, shifts.first + m, log_span);
+        const int to_b = shifts.first - shifts.whole;  // from i to its first partner
+        const int from = std::max(first_a, first_b - to_b - (count - 1));
+        const int to = std::min(end_a, end_b - to_b);
         for (int i = from; i < to; i += kLanes) {
             const int n = std::min(kLanes, to - i);
             unsigned there[kMostShifts], meet[kMostShifts];
             unsigned any = 0;
-            for (int m = 0; m < shifts.count; ++m) {
-                const Shift& shift = shifts.shifts[m];
-                const int j = i - shifts.whole + shift.k;
-                const int low = std::max(0, first_b - j), high = std::min(n, end_b - j);
-                there[m] = low < high ? (1U << high) - (1U << low) : 0U;
-                meet[m] = there[m] & may_meet<paced_a, paced_b>(a, i, b, j, n, shift.common, relation_);
+            for (int m = 0; m < count; ++m) {
+                const int j = i + to_b + m;
+                const int low = std::max(0, first_b - j), high = std::max(0, std::min(n, end_b - j));
+                there[m] = ((1U << high) - 1) & (~0U << low);
+                meet[m] = there[m] & may_meet<paced_a, paced_b, lasting>(a, i, b, j, n, common[m], relation_);
                 any |= all ? there[m] : meet[m];
             }
             for (; any != 0; any &= any - 1) {
                 const int lane = std::countr_zero(any);
-                for (int m = 0; m < shifts.count; ++m) {
+                for (int m = 0; m < count; ++m) {
                     const bool is_meeting = ((meet[m] >> lane) & 1U) != 0;
                     if (!(all ? ((there[m] >> lane) & 1U) != 0 : is_meeting)) continue;
-                    const Shift& shift = shifts.shifts[m];
-                    if (visit(i + lane, i + lane - shifts.whole + shift.k, shift, is_meeting)) return true;
+                    if (visit(i + lane, i + lane + to_b + m, shifts.first + m, is_meeting)) return true;
                 }
             }
         }
@@ -219,34 +236,36 @@ class BlockTraversal {
 
     /// Pairs of blocks of one level of clips of one dt.
     bool visit_shifted(int level, int first_a, int end_a, int first_b, int end_b) {
-        return for_each_shifted<Observer::watches, Paced::moving, Paced::moving>(
-            shifts_of(Blocks::span(level)), blocks_a_.paths(level), first_a, end_a, blocks_b_.paths(level), first_b,
-            end_b, [&](int i, int j, const Shift& shift, bool meet) {
-                const int last_a = blocks_a_.count(level) - 1, last_b = blocks_b_.count(level) - 1;
-                if ((i == last_a || j == last_b) && !shorten(level, i, j, shift, meet)) return false;
-                return visit_pair(level, i, level, j, meet);
-            });
+        return level == 0 ? visit_shifted<Paced::still>(0, first_a, end_a, first_b, end_b)
+                          : visit_shifted<Paced::moving>(level, first_a, end_a, first_b, end_b);
+    }
+    template <Paced paced>
+    bool visit_shifted(int level_above_0, int first_a, int end_a, int first_b, int end_b) {
+        constexpr bool still = paced == Paced::still;
+        const int level = still ? 0 : level_above_0;
+        const int log_span = Blocks::log_span(level);
+        const int last_a = blocks_a_.count(level) - 1, last_b = blocks_b_.count(level) - 1;
+        const Shifts shifts = shifts_of(log_span);
+        constexpr Lasting lasting = still ? Lasting::alike : Lasting::as_told;
+        const auto visit = [=, this](int i, int j, int k, bool meet) {
+            // The last block of a clip may have fewer samples than others, and share no time then.
+            const double begin_b = k * Blocks::span(level) + shifts.rest;
+            if ((i == last_a || j == last_b) && !share_time(level, i, j, begin_b)) return false;
+            return visit_pair(level, i, level, j, meet);
+        };
+        return for_each_shifted<Observer::watches, paced, paced, lasting>(
+            shifts, log_span, blocks_a_.paths(level), first_a, end_a, blocks_b_.paths(level), first_b, end_b, visit);
     }
 
-    /// The last block of a clip may have fewer samples than others: tests the pair again over the time that it shares.
-    /// False if it shares none.
-    bool shorten(int level, int i, int j, const Shift& shift, bool& meet) const {
+    /// Whether blocks i and j do, where B's begins so many samples after A's.
+    bool share_time(int level, int i, int j, double begin_b) const {
         const int size = Blocks::span(level);
         const double until_a = std::min(size, blocks_a_.count() - i * size);
-        const double until_b = shift.begin_b + std::min(size, blocks_b_.count() - j * size);
-        const double end = std::min({shift.end, until_a, until_b});
-        if (end - shift.begin <= least_common_) return false;
-        if (end < shift.end && meet) {
-            Common common = shift.common;
-            common.length_a = common.length_b = static_cast<float>(std::max(end - shift.begin, 0.0) / size);
-            meet = (may_meet<Paced::moving, Paced::moving>(blocks_a_.paths(level), i, blocks_b_.paths(level), j, 1,
-                                                           common, relation_) &
-                    1U) != 0;
-        }
-        return true;
+        const double until_b = begin_b + std::min(size, blocks_b_.count() - j * size);
+        return std::min(until_a, until_b) - std::max(begin_b, 0.0) > least_common_;
     }
 
-    bool visit_pair(int level_a, int i, int level_b, int j, bool meet) {
+    MOBB_INLINE bool visit_pair(int level_a, int i, int level_b, int j, bool meet) {
         if constexpr (Observer::watches) observer_.enter(blocks_a_.node_of(level_a, i), blocks_b_.node_of(level_b, j));
         if constexpr (Observer::watches) observer_.box_test(BoxKind::block, separation(level_a, i, level_b, j, meet));
         const bool stop = meet && below(level_a, i, level_b, j);
@@ -254,7 +273,7 @@ class BlockTraversal {
         return stop;
     }
 
-    bool below(int level_a, int i, int level_b, int j) {
+    MOBB_INLINE bool below(int level_a, int i, int level_b, int j) {
         if (level_a == 0 && level_b == 0) return test_samples(i, j);
         // Blocks that last about as long descend together; else the longer one, if it can.
         constexpr double kAlike = 3;
@@ -337,9 +356,9 @@ class BlockTraversal {
 
     template <Paced paced_a, Paced paced_b>
     bool test_shifted(int first_a, int end_a, int first_b, int end_b) {
-        return for_each_shifted<false, paced_a, paced_b>(
-            shifts_of(1), blocks_a_.sample_paths(), first_a, end_a, blocks_b_.sample_paths(), first_b, end_b,
-            [&](int i, int j, const Shift&, bool) { return decide(i, j); });
+        return for_each_shifted<false, paced_a, paced_b, Lasting::alike>(
+            shifts_of(0), 0, blocks_a_.sample_paths(), first_a, end_a, blocks_b_.sample_paths(), first_b, end_b,
+            [this](int i, int j, int, bool) { return decide(i, j); });
     }
 
     /// In double: what is near enough is not yet a hit.
@@ -365,7 +384,8 @@ class BlockTraversal {
     const Blocks& blocks_a_;
     const Blocks& blocks_b_;
     Relation relation_;
-    double shift_;         ///< B's first sample begins so many samples after A's
+    int whole_ = 0;        ///< if shifted, B's first sample begins so many samples after A's ...
+    double rest_ = 0;      ///< ... and this part of one
     double least_common_;  ///< samples
     bool shifted_;         ///< by a constant: of one dt
     Observer& observer_;

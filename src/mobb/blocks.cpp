@@ -12,8 +12,6 @@ namespace mobb {
 
 namespace {
 
-constexpr int kArrays = 5;  // x, y, dx, dy, r
-
 float rounded_up(double value) {
     const auto nearest = static_cast<float>(value);
     return static_cast<double>(nearest) >= value ? nearest
@@ -40,8 +38,6 @@ const Clip& existing(const ClipPtr& clip) {
     if (!clip) throw std::invalid_argument("blocks need a clip");
     return *clip;
 }
-
-std::size_t stride_of(int count) { return static_cast<std::size_t>(count) + Blocks::kPadBefore + Blocks::kPadBehind; }
 
 /// Samples [first, end) of a clip, as a bound sees them that moves by `per_sample` a sample.
 class Run {
@@ -72,7 +68,7 @@ class Run {
             const double x = (d.x - origin_.x) - at * per_sample.x;
             const double y = (d.y - origin_.y) - at * per_sample.y;
             visit(x, y, d.r);
-            if (stays_) visit(x - per_sample.x, y - per_sample.y, d.r);
+            if (stays_ && per_sample != glm::dvec2(0)) visit(x - per_sample.x, y - per_sample.y, d.r);
         }
         if (stays_ || !last_stays_) return;
         const Disk& d = samples_[last_];
@@ -88,14 +84,15 @@ class Run {
     bool last_stays_;  ///< the last disk does
 };
 
-/// Around a run; `drift` is over `span` samples. Centre and drift are numbers of type Number.
+/// Around a run, moving by `moving_by` metres a sample; `drift` is over `span` samples. Centre and drift are numbers of
+/// type Number.
 template <class Number>
-MovingDisk around(const Run& run, int span) {
+MovingDisk around(const Run& run, glm::dvec2 moving_by, int span) {
     const auto rounded = [](glm::dvec2 v) {
         return glm::dvec2(static_cast<double>(static_cast<Number>(v.x)), static_cast<double>(static_cast<Number>(v.y)));
     };
     MovingDisk out;
-    out.drift = rounded(run.per_sample() * static_cast<double>(span));
+    out.drift = rounded(moving_by * static_cast<double>(span));
     const glm::dvec2 per_sample = out.drift / static_cast<double>(span);
     Middle middle;
     run.for_each(per_sample, [&](double x, double y, double r) { middle.add(x, y, r); });
@@ -113,10 +110,10 @@ MovingDisk around(const Run& run, int span) {
 Blocks::Blocks(ClipPtr clip)
     : dt_(existing(clip).dt()),
       per_dt_(1 / dt_),
-      reach_(clip->reach()),
       count_(clip->count()),
       linear_(clip->motion() == Motion::linear),
       disks_(clip->samples().data()),
+      reach_(clip->reach()),
       clip_(std::move(clip)) {
     const int n = count_;
     Middle middle;
@@ -128,19 +125,19 @@ Blocks::Blocks(ClipPtr clip)
         radius_ = std::max(radius_, std::sqrt(x * x + y * y) + d.r);
     }
 
-    const auto blocks_of = [n](int span) { return (n + span - 1) / span; };
-    std::size_t values = (linear_ ? kArrays : kArrays - 2) * stride_of(n);
+    const auto blocks_of = [n](int level) { return (n + span(level) - 1) / span(level); };
+    const int arrays_of_samples = linear_ ? kRunning : kStill;
+    std::size_t values = static_cast<std::size_t>(arrays_of_samples) * stride_of(n);
     for (int level = 0;; ++level) {
-        values += kArrays * stride_of(blocks_of(span(level)));
-        if (blocks_of(span(level)) <= kMostAtTop) break;
+        values += static_cast<std::size_t>(level == 0 ? kStill : kMoving) * stride_of(blocks_of(level));
+        if (blocks_of(level) <= kMostAtTop) break;
     }
     values_.reserve(values);
 
-    samples_ = {n, values_.size()};
-    values_.resize(values_.size() + (linear_ ? kArrays : kArrays - 2) * stride_of(n));
-    float* const x = values_.data() + samples_.at + kPadBefore;
+    samples_ = add_arrays(n, arrays_of_samples);
+    float* const x = values_.data() + samples_.at;
     float* const y = x + stride_of(n);
-    float* const r = y + (linear_ ? 3 : 1) * stride_of(n);
+    float* const r = y + stride_of(n);
     const std::span<const Disk> disks = clip_->samples();
     for (int i = 0; i < n; ++i) {
         const Disk& d = disks[static_cast<std::size_t>(i)];
@@ -149,7 +146,7 @@ Blocks::Blocks(ClipPtr clip)
         r[i] = static_cast<float>(d.r);
     }
     if (linear_) {
-        float* const dx = y + stride_of(n);
+        float* const dx = r + stride_of(n);
         float* const dy = dx + stride_of(n);
         for (int i = 0; i + 1 < n; ++i) {
             dx[i] = x[i + 1] - x[i];
@@ -158,52 +155,54 @@ Blocks::Blocks(ClipPtr clip)
             speed_ = std::max(speed_, std::hypot(dx[i], dy[i]) / dt_);
         }
     }
-    do {
-        levels_.push_back(add_level(span(levels())));
-    } while (levels_.back().count > kMostAtTop);
+    for (bool more = true; more; ++level_count_) {
+        Level& level = levels_[static_cast<std::size_t>(level_count_)];
+        level = add_level(level_count_);
+        more = level.count > kMostAtTop;
+    }
 }
 
-Blocks::Level Blocks::add_level(int span) {
-    const int n = count_;
-    const Level level{(n + span - 1) / span, values_.size()};
+Blocks::Level Blocks::add_arrays(int count, int arrays) {
+    const Level level{count, arrays, values_.size() + kPadBefore};
+    values_.resize(values_.size() + static_cast<std::size_t>(arrays) * stride_of(count));
+    return level;
+}
+
+Blocks::Level Blocks::add_level(int number) {
+    const int n = count_, size = span(number);
+    const bool moves = number > 0;
+    const Level level = add_arrays((n + size - 1) / size, moves ? kMoving : kStill);
     const std::size_t stride = stride_of(level.count);
-    values_.resize(values_.size() + kArrays * stride);
-    float* const values = values_.data() + level.at + kPadBefore;
+    float* const values = values_.data() + level.at;
     for (int k = 0; k < level.count; ++k) {
-        const Run run(*clip_, origin_, k * span, std::min(n - k * span, span) + k * span);
-        const MovingDisk disk = around<float>(run, span);
+        const int samples = std::min(n - k * size, size);
+        const Run run(*clip_, origin_, k * size, k * size + samples);
+        const MovingDisk disk = around<float>(run, moves ? run.per_sample() : glm::dvec2(0), size);
         float* const block = values + k;
         block[0] = static_cast<float>(disk.from.x);
         block[stride] = static_cast<float>(disk.from.y);
-        block[2 * stride] = static_cast<float>(disk.drift.x);
-        block[3 * stride] = static_cast<float>(disk.drift.y);
-        block[4 * stride] = rounded_up(disk.radius);
-        speed_ = std::max(speed_, glm::length(disk.drift) / (span * dt_));
+        block[2 * stride] = rounded_up(disk.radius);
+        if (!moves) continue;
+        block[3 * stride] = static_cast<float>(disk.drift.x);
+        block[4 * stride] = static_cast<float>(disk.drift.y);
+        block[5 * stride] = static_cast<float>(samples) / static_cast<float>(size);
+        speed_ = std::max(speed_, glm::length(disk.drift) / (size * dt_));
     }
     return level;
 }
 
 MovingDisk bounding_disk(const Clip& clip, int first, int end) {
-    return around<double>(Run(clip, {0, 0}, first, end), end - first);
-}
-
-Blocks::Paths Blocks::paths_of(const Level& level) const {
-    const float* const x = values_.data() + level.at + kPadBefore;
-    const std::size_t stride = stride_of(level.count);
-    return {x, x + stride, x + 2 * stride, x + 3 * stride, x + 4 * stride};
-}
-
-Blocks::Paths Blocks::paths(int level) const { return paths_of(levels_[static_cast<std::size_t>(level)]); }
-
-Blocks::Paths Blocks::sample_paths() const {
-    const Paths all = paths_of(samples_);
-    return linear_ ? all : Paths{all.x, all.y, nullptr, nullptr, all.dx};
+    const Run run(clip, {0, 0}, first, end);
+    return around<double>(run, run.per_sample(), end - first);
 }
 
 MovingDisk Blocks::bound(const Level& level, int block, int span) const {
     const Paths p = paths_of(level);
+    MovingDisk out{origin_ + glm::dvec2(p.x[block], p.y[block]), glm::dvec2(0), p.r[block]};
+    if (p.dx == nullptr) return out;
     const double part = static_cast<double>(std::min(count_ - block * span, span)) / span;
-    return {origin_ + glm::dvec2(p.x[block], p.y[block]), part * glm::dvec2(p.dx[block], p.dy[block]), p.r[block]};
+    out.drift = part * glm::dvec2(p.dx[block], p.dy[block]);
+    return out;
 }
 
 int Blocks::node_count() const { return node_of(0, count(0) - 1) + 1; }

@@ -1,10 +1,11 @@
-/// The production structure: blocks of consecutive samples under bounds that move linearly, level over level, in arrays
+/// The production structure: blocks of consecutive samples under disks that bound them, level over level, in arrays
 /// that are read several blocks at a time.
 #pragma once
 
 #include <mobb/box.h>
 #include <mobb/clip.h>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -39,11 +40,13 @@ inline Box box_around(const MovingDisk& disk, double t0, double t1) {
 ///
 /// A block of level 0 has kSamples samples, one of level l + 1 as many as kFanOut blocks of level l; the last of a
 /// level may have fewer. Levels are added until one has at most kMostAtTop blocks. A block's bound holds each of its
-/// disks for as long as it lasts; of a linear clip the disks as they run. The root's bound holds the whole clip and
-/// stands still.
-class Blocks {
+/// disks for as long as it lasts; of a linear clip the disks as they run. Bounds of level 0 stand still: they are the
+/// cheapest to test, and in so short a time hardly anything moves far. Those of higher levels move. The root's bound
+/// holds the whole clip and stands still.
+class alignas(64) Blocks {
   public:
-    static constexpr int kSamples = 32;
+    static constexpr int kLogSamples = 4;
+    static constexpr int kSamples = 1 << kLogSamples;
     static constexpr int kFanOut = 8;
     static constexpr int kMostAtTop = 128;
 
@@ -60,10 +63,11 @@ class Blocks {
     const Disk* disks() const { return disks_; }  ///< of the clip
     double reach() const { return reach_; }       ///< of the clip
 
-    int levels() const { return static_cast<int>(levels_.size()); }
+    int levels() const { return level_count_; }
     /// Blocks of a level, 0 <= level < levels(); samples that each has, but for the last one.
     int count(int level) const { return levels_[static_cast<std::size_t>(level)].count; }
-    static constexpr int span(int level) { return kSamples << (3 * level); }
+    static constexpr int span(int level) { return 1 << log_span(level); }
+    static constexpr int log_span(int level) { return kLogSamples + 3 * level; }
 
     /// A block as a node: 0 is the root, then come the levels from the top down, each in the order of time. Where level
     /// 0 has one block, that is the root.
@@ -83,16 +87,17 @@ class Blocks {
     struct Paths {
         const float* x;
         const float* y;
-        const float* dx;  ///< how far the centre moves over a whole block
-        const float* dy;
         const float* r;
+        const float* dx;  ///< how far the centre moves over a whole block; none of those that stand still, level 0
+        const float* dy;
+        const float* lasts;  ///< of blocks that move: how long, as a share of a whole block: 1 but of the last one
     };
     static constexpr int kPadBefore = 4;
     static constexpr int kPadBehind = 12;
-    Paths paths(int level) const;
+    Paths paths(int level) const { return paths_of(levels_[static_cast<std::size_t>(level)]); }
     /// Samples stay (held): there is no dx and dy. Or they run to the next one (linear): dx and dy are those ways, and
     /// r is the larger of both radii.
-    Paths sample_paths() const;
+    Paths sample_paths() const { return paths_of(samples_); }
     /// The middle of the root, in the clip's frame, and its radius.
     glm::dvec2 origin() const { return origin_; }
     double radius() const { return radius_; }
@@ -102,30 +107,51 @@ class Blocks {
 
   private:
     struct Level {
-        int count;
-        std::size_t at;  ///< of the first array in values_; the others follow
+        int count = 0;
+        int arrays = 0;      ///< of values: as many members of Paths, from the first on
+        std::size_t at = 0;  ///< of the first array in values_; the others follow
     };
     static_assert(kFanOut == 8 && kMostAtTop >= kFanOut);
+    static constexpr std::size_t kMostLevels = 7;
+    static_assert(kMaxSamples / kSamples >> (3 * (kMostLevels - 1)) < kMostAtTop);
+    static constexpr std::size_t stride_of(int count) {
+        return static_cast<std::size_t>(count) + kPadBefore + kPadBehind;
+    }
 
-    Level add_level(int span);
+    static constexpr int kStill = 3, kRunning = 5, kMoving = 6;
+
+    Level add_arrays(int count, int arrays);
+    Level add_level(int level);
     MovingDisk bound(const Level& level, int block, int span) const;
     MovingDisk root() const { return {origin_, glm::dvec2(0), radius_}; }
-    bool has_root_above() const { return levels_.size() > 1 || levels_[0].count > 1; }
-    Paths paths_of(const Level& level) const;
+    bool has_root_above() const { return level_count_ > 1 || levels_[0].count > 1; }
+    Paths paths_of(const Level& level) const {
+        const float* const x = values_.data() + level.at;
+        const std::size_t stride = stride_of(level.count);
+        const bool moves = level.arrays > kStill;
+        return {x,
+                x + stride,
+                x + 2 * stride,
+                moves ? x + 3 * stride : nullptr,
+                moves ? x + 4 * stride : nullptr,
+                level.arrays == kMoving ? x + 5 * stride : nullptr};
+    }
 
-    glm::dvec2 origin_{0};
-    double radius_ = 0;
+    // First what every query reads.
     double extent_ = 0;
     double speed_ = 0;
     double dt_, per_dt_;
-    double reach_;
     int count_;
+    int level_count_ = 0;
+    std::vector<float> values_;
+    std::array<Level, kMostLevels> levels_{};
+    Level samples_;
     bool linear_;
     const Disk* disks_;
+    double reach_;
+    glm::dvec2 origin_{0};
+    double radius_ = 0;
     ClipPtr clip_;
-    std::vector<Level> levels_;
-    Level samples_{};
-    std::vector<float> values_;
 };
 
 }  // namespace mobb

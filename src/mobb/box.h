@@ -11,7 +11,7 @@
 
 namespace mobb {
 
-/// An oriented box, or one sheared along time. A block is the leaning cylinder inside its box: half.x is its radius.
+/// An oriented box, or one sheared along time. A block is the cylinder inside its box: half.x is its radius.
 /// Every box is complete in three dimensions; all but an obb3d have (0, 0, 1) as their third axis, so that an obb2d can
 /// be tested against an obb3d. Lengths are metres; time is mixed in by the tree's time scale w (m/s).
 struct Box {

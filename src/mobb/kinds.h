@@ -26,7 +26,7 @@ enum class TreeKind : std::uint8_t {
     hybrid2,     ///< UMOBB root, MOBB below
     moving,      ///< 2D oriented boxes that move with the walk
     aabb,        ///< boxes along the axes: the baseline of other fields
-    production,  ///< blocks of 32 samples and of 8 blocks, tested several at a time (mobb/blocks.h)
+    production,  ///< blocks of 16 samples and of 8 blocks, tested several at a time (mobb/blocks.h)
 };
 
 /// The axes of a box, and so those that separate two of its kind.
@@ -107,7 +107,7 @@ constexpr BoxInfo of(BoxKind kind) {
                     .test = "The line between the centres, where they are nearest",
                     .axes = BoxAxes::centers,
                     .in_paper = false,
-                    .looks = "a block is the leaning cylinder inside its box"};
+                    .looks = "a block is the cylinder inside its box"};
     }
     return {};
 }

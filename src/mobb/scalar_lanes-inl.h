@@ -15,10 +15,10 @@ inline float Set(OneLane, float value) { return value; }
 inline float Add(float a, float b) { return a + b; }
 inline float Sub(float a, float b) { return a - b; }
 inline float Mul(float a, float b) { return a * b; }
+inline float Div(float a, float b) { return a / b; }
+inline float Min(float a, float b) { return a < b ? a : b; }
+inline float Max(float a, float b) { return a > b ? a : b; }
 inline bool Le(float a, float b) { return a <= b; }
-inline bool Gt(float a, float b) { return a > b; }
-inline bool And(bool a, bool b) { return a && b; }
-inline bool Or(bool a, bool b) { return a || b; }
 inline void StoreMaskBits(OneLane, bool mask, std::uint8_t* bits) { bits[0] = mask ? 1 : 0; }
 
 }  // namespace mobb::scalar::hn
