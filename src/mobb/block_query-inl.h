@@ -9,27 +9,29 @@ using Paths = Blocks::Paths;
 constexpr int kLanes = 8;  // pairs a test: a set of instructions with fewer takes several steps
 using Tag = hn::CappedTag<float, kLanes>;
 
-/// The placement of B's blocks against A's, and what their bounds must be apart by.
+/// How B's blocks lie against A's, and by how much their bounds must be apart.
 struct Relation {
-    float c, s;    ///< rotation from B's frame to A's
-    float ox, oy;  ///< B's origin against A's, in A's frame
-    float slack;   ///< metres
+    float c, s;        ///< rotation from B's frame to A's
+    float ox, oy;      ///< B's origin against A's, in A's frame
+    float slack;       ///< metres
+    float time_error;  ///< seconds by which times may be wrong
+    bool shifted;      ///< in time by a constant: of one dt. The rest holds then
+    int whole;         ///< B's first sample begins so many samples after A's ...
+    double rest;       ///< ... and this part of one: A's sample i shares time with B's i - whole - 1 and i - whole
 };
 
-/// When a pair of blocks shares time, as shares of the blocks' own.
+/// When a pair of blocks shares time, as shares of a whole block's.
 struct Common {
-    float begin_a, begin_b;    ///< of each since it began
-    float length_a, length_b;  ///< of the time that they share
+    float begin_a = 0, begin_b = 0;  ///< of each since it began
+    float length = 0;                ///< of the time that they share
 };
 
-/// Whether paths stay where they are.
-enum class Paced { still, moving };
-/// Whether all paths last equally long, or as their `lasts` say.
-enum class Lasting { alike, as_told };
+/// Whether bounds stand still; move, for as long as `lasts` says; or move for all of the common time.
+enum class Paced { still, moving, moving_alike };
 
 /// For n <= kLanes pairs (first_a + lane, first_b + lane): a bit is set where two disks may come within the sum of
-/// their radii in their common time.
-template <Paced paced_a, Paced paced_b, Lasting lasting = Lasting::alike>
+/// their radii in their common time. Bits from n on mean nothing.
+template <Paced paced>
 MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int first_b, int n, const Common& common,
                               const Relation& relation) {
     const Tag d;
@@ -39,40 +41,33 @@ MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int f
     unsigned out = 0;
     for (int lane = 0; lane < n; lane += static_cast<int>(hn::Lanes(d))) {
         const int i = first_a + lane, j = first_b + lane;
-        auto ax = hn::LoadU(d, a.x + i), ay = hn::LoadU(d, a.y + i);
-        auto bx = hn::LoadU(d, b.x + j), by = hn::LoadU(d, b.y + j);
-        const auto reach = hn::Add(hn::Add(hn::LoadU(d, a.r + i), slack), hn::LoadU(d, b.r + j));
-        // How far each moves in the common time.
+        auto ax = hn::LoadU(d, a.x() + i), ay = hn::LoadU(d, a.y() + i);
+        auto bx = hn::LoadU(d, b.x() + j), by = hn::LoadU(d, b.y() + j);
+        const auto reach = hn::Add(hn::Add(hn::LoadU(d, a.r() + i), slack), hn::LoadU(d, b.r() + j));
         const auto zero = hn::Set(d, 0.0F);
-        auto adx = zero, ady = zero, bdx = zero, bdy = zero;
-        auto length_a = hn::Set(d, common.length_a), length_b = hn::Set(d, common.length_b);
-        if constexpr (lasting == Lasting::as_told) {
-            const auto left_a = hn::Sub(hn::LoadU(d, a.lasts + i), hn::Set(d, common.begin_a));
-            const auto left_b = hn::Sub(hn::LoadU(d, b.lasts + j), hn::Set(d, common.begin_b));
-            length_a = length_b = hn::Max(hn::Min(hn::Min(left_a, left_b), length_a), zero);
-        }
-        if constexpr (paced_a == Paced::moving) {
-            const auto dx = hn::LoadU(d, a.dx + i), dy = hn::LoadU(d, a.dy + i);
-            const auto begin = hn::Set(d, common.begin_a);
-            ax = hn::Add(ax, hn::Mul(begin, dx));
-            ay = hn::Add(ay, hn::Mul(begin, dy));
-            adx = hn::Mul(length_a, dx);
-            ady = hn::Mul(length_a, dy);
-        }
-        if constexpr (paced_b == Paced::moving) {
-            const auto dx = hn::LoadU(d, b.dx + j), dy = hn::LoadU(d, b.dy + j);
-            const auto begin = hn::Set(d, common.begin_b);
-            bx = hn::Add(bx, hn::Mul(begin, dx));
-            by = hn::Add(by, hn::Mul(begin, dy));
-            const auto mx = hn::Mul(length_b, dx), my = hn::Mul(length_b, dy);
-            bdx = hn::Sub(hn::Mul(c, mx), hn::Mul(s, my));
-            bdy = hn::Add(hn::Mul(s, mx), hn::Mul(c, my));
+        auto vx = zero, vy = zero;  // what B moves by in the common time, as A sees it
+        if constexpr (paced != Paced::still) {
+            const auto begin_a = hn::Set(d, common.begin_a), begin_b = hn::Set(d, common.begin_b);
+            auto length = hn::Set(d, common.length);
+            if constexpr (paced == Paced::moving) {
+                const auto left_a = hn::Sub(hn::LoadU(d, a.lasts() + i), begin_a);
+                const auto left_b = hn::Sub(hn::LoadU(d, b.lasts() + j), begin_b);
+                length = hn::Max(hn::Min(hn::Min(left_a, left_b), length), zero);
+            }
+            const auto adx = hn::LoadU(d, a.dx() + i), ady = hn::LoadU(d, a.dy() + i);
+            const auto bdx = hn::LoadU(d, b.dx() + j), bdy = hn::LoadU(d, b.dy() + j);
+            ax = hn::Add(ax, hn::Mul(begin_a, adx));
+            ay = hn::Add(ay, hn::Mul(begin_a, ady));
+            bx = hn::Add(bx, hn::Mul(begin_b, bdx));
+            by = hn::Add(by, hn::Mul(begin_b, bdy));
+            const auto mx = hn::Mul(length, bdx), my = hn::Mul(length, bdy);
+            vx = hn::Sub(hn::Sub(hn::Mul(c, mx), hn::Mul(s, my)), hn::Mul(length, adx));
+            vy = hn::Sub(hn::Add(hn::Mul(s, mx), hn::Mul(c, my)), hn::Mul(length, ady));
         }
         auto px = hn::Sub(hn::Sub(hn::Mul(c, bx), hn::Mul(s, by)), hn::Sub(ax, ox));
         auto py = hn::Sub(hn::Add(hn::Mul(s, bx), hn::Mul(c, by)), hn::Sub(ay, oy));
-        if constexpr (paced_a == Paced::moving || paced_b == Paced::moving) {
+        if constexpr (paced != Paced::still) {
             // When they are nearest: the way is never 0 here, and where it nearly is, any moment does.
-            const auto vx = hn::Sub(bdx, adx), vy = hn::Sub(bdy, ady);
             const auto way2 = hn::Add(hn::Add(hn::Mul(vx, vx), hn::Mul(vy, vy)), hn::Set(d, 1e-30F));
             const auto along = hn::Sub(zero, hn::Add(hn::Mul(px, vx), hn::Mul(py, vy)));
             const auto moment = hn::Min(hn::Max(hn::Div(along, way2), zero), hn::Set(d, 1.0F));
@@ -89,172 +84,211 @@ MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int f
 
 /// One side of several pairs of blocks, copied side by side: in clips of different dt they do not lie so.
 struct Gathered {
-    float x[kLanes], y[kLanes], dx[kLanes], dy[kLanes], r[kLanes];
+    float values[5 * kLanes];
 
-    MOBB_INLINE void set(int lane, const Paths& from, int i, double begin, double length) {
+    MOBB_INLINE void set(int lane, const Paths& from, bool moves, int i, double begin, double length) {
         const auto share = static_cast<float>(begin), part = static_cast<float>(length);
-        const float all_x = from.dx ? from.dx[i] : 0, all_y = from.dy ? from.dy[i] : 0;
-        x[lane] = from.x[i] + share * all_x;
-        y[lane] = from.y[i] + share * all_y;
-        r[lane] = from.r[i];
-        dx[lane] = part * all_x;
-        dy[lane] = part * all_y;
+        const float dx = moves ? from.dx()[i] : 0, dy = moves ? from.dy()[i] : 0;
+        values[lane] = from.x()[i] + share * dx;
+        values[kLanes + lane] = from.y()[i] + share * dy;
+        values[2 * kLanes + lane] = from.r()[i];
+        values[3 * kLanes + lane] = part * dx;
+        values[4 * kLanes + lane] = part * dy;
     }
-    Paths paths() const { return {x, y, r, dx, dy, nullptr}; }
+    Paths paths() const { return {values, kLanes}; }
 };
 
-// What rounding adds at most, as a share of the numbers that go in, with a wide margin.
-constexpr double kSingle = 0x1p-17, kDouble = 0x1p-44;
+// What rounding adds at most, with a wide margin: as a share of the lengths in single precision, and of the times in
+// double.
+constexpr float kLengthError = 0x1p-17F, kTimeError = 0x1p-48F;
+
+/// Of two whose roots share time.
+MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const Blocks& blocks_a = a.blocks();
+    const Blocks& blocks_b = b.blocks();
+    const float ca = a.cosine(), sa = a.sine(), cb = b.cosine(), sb = b.sine();
+    const glm::dvec2 between = b.center() - a.center();
+    const auto x = static_cast<float>(between.x), y = static_cast<float>(between.y);
+    const float lengths = (std::abs(x) + std::abs(y)) + (blocks_a.extent() + blocks_b.extent());
+    Relation out;
+    out.c = ca * cb + sa * sb;
+    out.s = ca * sb - sa * cb;
+    out.ox = ca * x + sa * y;
+    out.oy = ca * y - sa * x;
+    out.time_error = kTimeError * (a.largest_time() + b.largest_time());
+    out.slack =
+        (a.rounding() + b.rounding()) + kLengthError * lengths + out.time_error * (blocks_a.speed() + blocks_b.speed());
+    // Times of many hours are too inexact to tell which samples share time.
+    constexpr auto kMostError = static_cast<float>(kMinOverlap / 2);
+    out.shifted = static_cast<bool>(static_cast<unsigned>(blocks_a.dt() == blocks_b.dt()) &
+                                    static_cast<unsigned>(out.time_error < kMostError));
+    // As the roots share time, it fits into an int.
+    const double shift = out.shifted ? (b.begin() - a.begin()) * blocks_a.per_dt() : 0;
+    const double whole = std::floor(shift);
+    out.whole = static_cast<int>(whole);
+    out.rest = shift - whole;
+    return out;
+}
+
+/// Those of A's blocks [first_a, end_a) of level 0 that share time with B's [first_b, end_b), where both are of one dt.
+struct BlockRange {
+    int first, end;
+    int shift;  ///< block i shares time with B's pair of blocks i - shift, and with no other block
+
+    MOBB_INLINE BlockRange(const Relation& relation, int first_a, int end_a, int first_b, int end_b)
+        : shift(relation.whole >> Blocks::kLogSamples) {
+        first = std::max(first_a, first_b + shift);
+        end = std::min(end_a, end_b + shift + 1);
+    }
+};
+constexpr int kMostBits = 64;
+
+/// Which of A's blocks from `first` on may meet their pair of B's, a bit each: of at most kMostBits.
+MOBB_INLINE std::uint64_t blocks_that_meet(const Blocks& a, const Blocks& b, const BlockRange& range, int first,
+                                           const Relation& relation) {
+    const Paths blocks = a.paths(0), pairs = b.pairs();
+    const int n = std::min(range.end - first, kMostBits);
+    std::uint64_t out = 0;
+    for (int k = 0; k < n; k += kLanes) {
+        const int i = first + k;
+        const unsigned meet = may_meet<Paced::still>(blocks, i, pairs, i - range.shift, kLanes, {}, relation);
+        out |= std::uint64_t{meet} << k;
+    }
+    return n > 0 ? out & (~std::uint64_t{0} >> (kMostBits - n)) : 0;
+}
 
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop.
 template <class Observer, class OnHit>
 class BlockTraversal {
   public:
-    MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, [[maybe_unused]] Observer& observer,
-                               OnHit& on_hit)
-        : a_(a), b_(b), blocks_a_(a.blocks()), blocks_b_(b.blocks()), observer_(observer), on_hit_(on_hit) {}
+    MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, const Relation& relation,
+                               [[maybe_unused]] Observer& observer, OnHit& on_hit)
+        : a_(a),
+          b_(b),
+          blocks_a_(a.blocks()),
+          blocks_b_(b.blocks()),
+          relation_(relation),
+          observer_(observer),
+          on_hit_(on_hit) {}
 
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
-    bool run() {
-        relate();
-        if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
-        const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
-        if (shifted_) {
-            const int level = std::min(top_a, top_b);
-            return visit_shifted(level, 0, blocks_a_.count(level), 0, blocks_b_.count(level));
+    MOBB_INLINE bool run() {
+        if (!Observer::watches && relation_.shifted && (blocks_a_.levels() == 1 || blocks_b_.levels() == 1)) {
+            return scan_blocks(0, blocks_a_.count(0), 0, blocks_b_.count(0));
         }
-        return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
+        return visit_levels();
+    }
+
+    /// The samples of A's blocks that are set, of which bit 0 is `first`, against those of B's [first_b, end_b).
+    MOBB_INLINE bool test_blocks(std::uint64_t blocks, int first, int first_b, int end_b) {
+        for (; blocks != 0; blocks &= blocks - 1) {
+            if (test_block(first + std::countr_zero(blocks), first_b, end_b)) return true;
+        }
+        return false;
     }
 
   private:
-    /// Blocks (or samples) at which B's are shifted against A's by a constant: pair (i, i - whole + k) shares time,
+    /// Blocks at which B's are shifted against A's by a constant: pair (i, i - whole + k) shares time,
     /// first <= k < first + count.
     struct Shifts {
         int whole;
         double rest;  ///< samples: with k, B's block begins k blocks and so much after A's
         int first, count;
     };
-    static constexpr int kMostShifts = 4;
 
-    /// Relates B's blocks to A's.
-    MOBB_INLINE void relate() {
-        const Rotation to_a = a_.rotation().inverse();
-        const Rotation turn = to_a * b_.rotation();
-        const glm::dvec2 offset = to_a(b_.center() - a_.center());
-        // Single precision is about the lengths that remain.
-        const double lengths = std::abs(offset.x) + std::abs(offset.y) + blocks_a_.extent() + blocks_b_.extent();
-        const double time_error = kDouble * (a_.largest_time() + b_.largest_time());
-        const double slack =
-            a_.rounding() + b_.rounding() + kSingle * lengths + time_error * (blocks_a_.speed() + blocks_b_.speed());
-        relation_ = {static_cast<float>(turn.c), static_cast<float>(turn.s), static_cast<float>(offset.x),
-                     static_cast<float>(offset.y), static_cast<float>(slack)};
-        const double per_dt = blocks_a_.per_dt();
-        // Less than this many samples in common are not tested; rounded times may overlap where exact ones do not.
-        least_common_ = (kMinOverlap - time_error) * per_dt;
-        constexpr double kMostError = 0.125;
-        shifted_ = a_.dt() == b_.dt() && time_error * per_dt < kMostError;
-        if (!shifted_) return;
-        // Of roots that share time it fits into an int.
-        const double shift = (b_.begin() - a_.begin()) * per_dt;
-        whole_ = static_cast<int>(shift);
-        if (shift < whole_) --whole_;
-        rest_ = shift - whole_;
+    /// Of any levels, or with an observer.
+    [[gnu::noinline]] bool visit_levels() {
+        if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
+        const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
+        if (relation_.shifted) {
+            const int level = std::min(top_a, top_b);
+            return visit_shifted(level, 0, blocks_a_.count(level), 0, blocks_b_.count(level));
+        }
+        return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
+    }
+
+    /// Pairs that share less than this many samples are not tested ...
+    double least_common() const {
+        return (kMinOverlap - static_cast<double>(relation_.time_error)) * blocks_a_.per_dt();
+    }
+    /// ... and those that share more are, for sure.
+    double sure_common() const {
+        return (kMinOverlap + static_cast<double>(relation_.time_error)) * blocks_a_.per_dt();
     }
 
     /// Which blocks of 2^log_span samples share time: with k they share span - |k * span + rest| samples.
-    MOBB_INLINE Shifts shifts_of(int log_span) const {
+    Shifts shifts_of(int log_span) const {
         const int span = 1 << log_span;
-        const double rest = (whole_ & (span - 1)) + rest_;
-        // As a rule -1 and 0; the others share time only by rounding.
-        const int first = rest - span > least_common_ ? -2 : rest > least_common_ ? -1 : 0;
-        const int last = -rest > least_common_ ? 1 : span - rest > least_common_ ? 0 : -1;
-        return {whole_ >> log_span, rest, first, last - first + 1};
+        const double rest = (relation_.whole & (span - 1)) + relation_.rest;
+        const int first = rest > least_common() ? -1 : 0, last = span - rest > least_common() ? 0 : -1;
+        return {relation_.whole >> log_span, rest, first, last - first + 1};
     }
-    /// When those of `k` do.
-    MOBB_INLINE Common common_of(const Shifts& shifts, int k, int log_span) const {
-        const double span = 1 << log_span;
-        const double begin = k * span + shifts.rest;
+    /// When those of `k` do, if B's begins `rest` samples later for k = 0.
+    static Common common_of(double rest, int k, double span) {
+        const double begin = k * span + rest;
         const double from = std::max(begin, 0.0);
-        const auto length = static_cast<float>(std::max(std::min(begin + span, span) - from, 0.0) / span);
-        return {static_cast<float>(from / span), static_cast<float>((from - begin) / span), length, length};
+        return {static_cast<float>(from / span), static_cast<float>((from - begin) / span),
+                static_cast<float>(std::max(std::min(begin + span, span) - from, 0.0) / span)};
     }
 
-    /// Calls visit(i, j, k, meet) for the pairs of [first_a, end_a) x [first_b, end_b) that may meet, in order of
-    /// time, until it returns true; if `all`, for all that share time. Everything comes by value: what is referred to
-    /// would lie in memory. Compiled for the numbers of shifts that are usual.
-    template <bool all, Paced paced_a, Paced paced_b, Lasting lasting, class Visit>
-    MOBB_INLINE bool for_each_shifted(Shifts shifts, int log_span, Paths a, int first_a, int end_a, Paths b,
-                                      int first_b, int end_b, Visit visit) {
-        if (shifts.count == 2) {
-            return scan<2, all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a, end_a, b, first_b, end_b,
-                                                           visit);
+    /// Pairs of blocks of one level of clips of one dt, in order of time.
+    bool visit_shifted(int level, int first_a, int end_a, int first_b, int end_b) {
+        if (level > 0) return scan_pairs<Paced::moving>(level, first_a, end_a, first_b, end_b);
+        if constexpr (Observer::watches) {
+            return scan_pairs<Paced::still>(level, first_a, end_a, first_b, end_b);
+        } else {
+            return scan_blocks(first_a, end_a, first_b, end_b);
         }
-        if (shifts.count == 1) {
-            return scan<1, all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a, end_a, b, first_b, end_b,
-                                                           visit);
-        }
-        return scan_any<all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a, end_a, b, first_b, end_b, visit);
     }
-    template <bool all, Paced paced_a, Paced paced_b, Lasting lasting, class Visit>
-    [[gnu::noinline]] bool scan_any(Shifts shifts, int log_span, Paths a, int first_a, int end_a, Paths b, int first_b,
-                                    int end_b, Visit visit) {
-        return shifts.count > 0 && scan<kMostShifts, all, paced_a, paced_b, lasting>(shifts, log_span, a, first_a,
-                                                                                     end_a, b, first_b, end_b, visit);
-    }
-    template <int most, bool all, Paced paced_a, Paced paced_b, Lasting lasting, class Visit>
-    MOBB_INLINE bool scan(Shifts shifts, int log_span, Paths a, int first_a, int end_a, Paths b, int first_b, int end_b,
-                          Visit visit) {
-        constexpr bool still = paced_a == Paced::still && paced_b == Paced::still;
-        const int count = most < kMostShifts ? most : shifts.count;
+    template <Paced paced>
+    bool scan_pairs(int level, int first_a, int end_a, int first_b, int end_b) {
+        const int log_span = Blocks::log_span(level), span = Blocks::span(level);
+        const Paths a = blocks_a_.paths(level), b = blocks_b_.paths(level);
+        const int last_a = blocks_a_.count(level) - 1, last_b = blocks_b_.count(level) - 1;
+        const Shifts shifts = shifts_of(log_span);
+        constexpr int kMostShifts = 2;
         Common common[kMostShifts] = {};
-        for (int m = 0; m < count && !still; ++m) common[m] = common_of(shifts, shifts.first + m, log_span);
+        for (int m = 0; m < shifts.count; ++m) common[m] = common_of(shifts.rest, shifts.first + m, span);
         const int to_b = shifts.first - shifts.whole;  // from i to its first partner
-        const int from = std::max(first_a, first_b - to_b - (count - 1));
+        const int from = std::max(first_a, first_b - to_b - (shifts.count - 1));
         const int to = std::min(end_a, end_b - to_b);
         for (int i = from; i < to; i += kLanes) {
             const int n = std::min(kLanes, to - i);
             unsigned there[kMostShifts], meet[kMostShifts];
             unsigned any = 0;
-            for (int m = 0; m < count; ++m) {
+            for (int m = 0; m < shifts.count; ++m) {
                 const int j = i + to_b + m;
                 const int low = std::max(0, first_b - j), high = std::max(0, std::min(n, end_b - j));
                 there[m] = ((1U << high) - 1) & (~0U << low);
-                meet[m] = there[m] & may_meet<paced_a, paced_b, lasting>(a, i, b, j, n, common[m], relation_);
-                any |= all ? there[m] : meet[m];
+                meet[m] = there[m] & may_meet<paced>(a, i, b, j, n, common[m], relation_);
+                any |= Observer::watches ? there[m] : meet[m];
             }
             for (; any != 0; any &= any - 1) {
                 const int lane = std::countr_zero(any);
-                for (int m = 0; m < count; ++m) {
-                    const bool is_meeting = ((meet[m] >> lane) & 1U) != 0;
-                    if (!(all ? ((there[m] >> lane) & 1U) != 0 : is_meeting)) continue;
-                    if (visit(i + lane, i + lane + to_b + m, shifts.first + m, is_meeting)) return true;
+                for (int m = 0; m < shifts.count; ++m) {
+                    const unsigned visited = Observer::watches ? there[m] : meet[m];
+                    if (((visited >> lane) & 1U) == 0) continue;
+                    const int block_a = i + lane, block_b = block_a + to_b + m;
+                    // The last block of a clip may have fewer samples than others, and share no time then.
+                    const double begin_b = (shifts.first + m) * span + shifts.rest;
+                    if ((block_a == last_a || block_b == last_b) && !share_time(level, block_a, block_b, begin_b)) {
+                        continue;
+                    }
+                    if (visit_pair(level, block_a, level, block_b, ((meet[m] >> lane) & 1U) != 0)) return true;
                 }
             }
         }
         return false;
     }
 
-    /// Pairs of blocks of one level of clips of one dt.
-    bool visit_shifted(int level, int first_a, int end_a, int first_b, int end_b) {
-        return level == 0 ? visit_shifted<Paced::still>(0, first_a, end_a, first_b, end_b)
-                          : visit_shifted<Paced::moving>(level, first_a, end_a, first_b, end_b);
-    }
-    template <Paced paced>
-    bool visit_shifted(int level_above_0, int first_a, int end_a, int first_b, int end_b) {
-        constexpr bool still = paced == Paced::still;
-        const int level = still ? 0 : level_above_0;
-        const int log_span = Blocks::log_span(level);
-        const int last_a = blocks_a_.count(level) - 1, last_b = blocks_b_.count(level) - 1;
-        const Shifts shifts = shifts_of(log_span);
-        constexpr Lasting lasting = still ? Lasting::alike : Lasting::as_told;
-        const auto visit = [=, this](int i, int j, int k, bool meet) {
-            // The last block of a clip may have fewer samples than others, and share no time then.
-            const double begin_b = k * Blocks::span(level) + shifts.rest;
-            if ((i == last_a || j == last_b) && !share_time(level, i, j, begin_b)) return false;
-            return visit_pair(level, i, level, j, meet);
-        };
-        return for_each_shifted<Observer::watches, paced, paced, lasting>(
-            shifts, log_span, blocks_a_.paths(level), first_a, end_a, blocks_b_.paths(level), first_b, end_b, visit);
+    /// Blocks of level 0, where nobody watches: each of A's against both of B's at once, and then their samples.
+    bool scan_blocks(int first_a, int end_a, int first_b, int end_b) {
+        const BlockRange range(relation_, first_a, end_a, first_b, end_b);
+        for (int i = range.first; i < range.end; i += kMostBits) {
+            if (test_blocks(blocks_that_meet(blocks_a_, blocks_b_, range, i, relation_), i, first_b, end_b))
+                return true;
+        }
+        return false;
     }
 
     /// Whether blocks i and j do, where B's begins so many samples after A's.
@@ -262,7 +296,7 @@ class BlockTraversal {
         const int size = Blocks::span(level);
         const double until_a = std::min(size, blocks_a_.count() - i * size);
         const double until_b = begin_b + std::min(size, blocks_b_.count() - j * size);
-        return std::min(until_a, until_b) - std::max(begin_b, 0.0) > least_common_;
+        return std::min(until_a, until_b) - std::max(begin_b, 0.0) > least_common();
     }
 
     MOBB_INLINE bool visit_pair(int level_a, int i, int level_b, int j, bool meet) {
@@ -287,7 +321,7 @@ class BlockTraversal {
         int first_a, end_a, first_b, end_b;
         children(blocks_a_, level_a, i, down_a, first_a, end_a);
         children(blocks_b_, level_b, j, down_b, first_b, end_b);
-        if (shifted_) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
+        if (relation_.shifted) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
         return visit_stepped(level_a - (down_a ? 1 : 0), first_a, end_a, level_b - (down_b ? 1 : 0), first_b, end_b);
     }
 
@@ -307,8 +341,8 @@ class BlockTraversal {
         for (bool more = true; more;) {
             if (overlap_in_time(begin_a, until_a, begin_b, until_b)) {
                 const double begin = std::max(begin_a, begin_b), length = std::min(until_a, until_b) - begin;
-                a.set(n, paths_a, i, (begin - begin_a) * per_a, length * per_a);
-                b.set(n, paths_b, j, (begin - begin_b) * per_b, length * per_b);
+                a.set(n, paths_a, level_a > 0, i, (begin - begin_a) * per_a, length * per_a);
+                b.set(n, paths_b, level_b > 0, j, (begin - begin_b) * per_b, length * per_b);
                 is[n] = i;
                 js[n] = j;
                 ++n;
@@ -323,8 +357,7 @@ class BlockTraversal {
                 if (more) until_b = time_of(b_, level_b, j + 1);
             }
             if (n < kLanes && more) continue;
-            const unsigned meet =
-                may_meet<Paced::moving, Paced::moving>(a.paths(), 0, b.paths(), 0, n, {0, 0, 1, 1}, relation_);
+            const unsigned meet = may_meet<Paced::moving_alike>(a.paths(), 0, b.paths(), 0, n, {0, 0, 1}, relation_);
             for (int k = 0; k < n; ++k) {
                 const bool is_meeting = ((meet >> k) & 1U) != 0;
                 if (!Observer::watches && !is_meeting) continue;
@@ -339,33 +372,54 @@ class BlockTraversal {
     bool test_samples(int i, int j) {
         const int first_a = i * Blocks::kSamples, end_a = std::min(blocks_a_.count(), first_a + Blocks::kSamples);
         const int first_b = j * Blocks::kSamples, end_b = std::min(blocks_b_.count(), first_b + Blocks::kSamples);
-        if (Observer::watches || !shifted_) {
-            const int from_a = a_.first(), from_b = b_.first();
-            const PairVisit pairs = visit_sample_pairs(a_, from_a + first_a, from_a + end_a, b_, from_b + first_b,
-                                                       from_b + end_b, observer_, on_hit_);
-            if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
-            return pairs.stopped;
-        }
-        if (a_.is_linear()) {
-            return b_.is_linear() ? test_shifted<Paced::moving, Paced::moving>(first_a, end_a, first_b, end_b)
-                                  : test_shifted<Paced::moving, Paced::still>(first_a, end_a, first_b, end_b);
-        }
-        return b_.is_linear() ? test_shifted<Paced::still, Paced::moving>(first_a, end_a, first_b, end_b)
-                              : test_shifted<Paced::still, Paced::still>(first_a, end_a, first_b, end_b);
+        const int from_a = a_.first(), from_b = b_.first();
+        const PairVisit pairs = visit_sample_pairs(a_, from_a + first_a, from_a + end_a, b_, from_b + first_b,
+                                                   from_b + end_b, observer_, on_hit_);
+        if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
+        return pairs.stopped;
     }
 
-    template <Paced paced_a, Paced paced_b>
-    bool test_shifted(int first_a, int end_a, int first_b, int end_b) {
-        return for_each_shifted<false, paced_a, paced_b, Lasting::alike>(
-            shifts_of(0), 0, blocks_a_.sample_paths(), first_a, end_a, blocks_b_.sample_paths(), first_b, end_b,
-            [this](int i, int j, int, bool) { return decide(i, j); });
+    /// The samples of one block of A, each against both of B's that it shares time with at once.
+    MOBB_INLINE bool test_block(int block, int first_b, int end_b) {
+        const Paths a = blocks_a_.samples(), pairs = blocks_b_.sample_pairs();
+        const int first = block * Blocks::kSamples;
+        const Relation relation = relation_;
+        unsigned meet = 0;
+        for (int k = 0; k < Blocks::kSamples; k += kLanes) {
+            const int i = first + k;
+            meet |= may_meet<Paced::still>(a, i, pairs, i - relation.whole, kLanes, {}, relation) << k;
+        }
+        return meet != 0 && test_near(first, meet, first_b * Blocks::kSamples,
+                                      std::min(blocks_b_.count(), end_b * Blocks::kSamples));
+    }
+    /// A's samples that are set, of which bit 0 is `first`, against B's of [first_b, end_b).
+    [[gnu::noinline]] bool test_near(int first, unsigned samples, int first_b, int end_b) {
+        const bool held = !a_.is_linear() && !b_.is_linear();
+        for (; samples != 0; samples &= samples - 1) {
+            const int i = first + std::countr_zero(samples);
+            if (i >= blocks_a_.count()) return false;
+            const int j = i - relation_.whole;
+            if (first_b < j && j <= end_b && decide(i, j - 1, held, relation_.rest)) return true;
+            if (first_b <= j && j < end_b && decide(i, j, held, 1 - relation_.rest)) return true;
+        }
+        return false;
     }
 
-    /// In double: what is near enough is not yet a hit.
-    bool decide(int i, int j) {
-        i += a_.first();
-        j += b_.first();
-        return pair_collides(a_, i, b_, j) && on_hit_(i, j);
+    /// Whether samples i and j collide, which share such a part of a sample's time, and on_hit stops: in double, unless
+    /// single precision leaves no doubt.
+    MOBB_INLINE bool decide(int i, int j, bool held, double common) {
+        const int sample_a = a_.first() + i, sample_b = b_.first() + j;
+        if (held) {
+            const Paths a = blocks_a_.samples(), b = blocks_b_.samples();
+            const float bx = b.x()[j], by = b.y()[j];
+            const float x = (relation_.c * bx - relation_.s * by) - (a.x()[i] - relation_.ox);
+            const float y = (relation_.s * bx + relation_.c * by) - (a.y()[i] - relation_.oy);
+            const float squared = x * x + y * y, radii = a.r()[i] + b.r()[j];
+            const float most = radii + relation_.slack, least = radii - relation_.slack;
+            if (squared > most * most) return false;
+            if (least > 0 && squared < least * least && common > sure_common()) return on_hit_(sample_a, sample_b);
+        }
+        return pair_collides(a_, sample_a, b_, sample_b) && on_hit_(sample_a, sample_b);
     }
 
     /// In double, from the stored bounds: what is apart in single precision is so by far more than that test's slack.
@@ -383,11 +437,7 @@ class BlockTraversal {
     const PlacedBlocks& b_;
     const Blocks& blocks_a_;
     const Blocks& blocks_b_;
-    Relation relation_;
-    int whole_ = 0;        ///< if shifted, B's first sample begins so many samples after A's ...
-    double rest_ = 0;      ///< ... and this part of one
-    double least_common_;  ///< samples
-    bool shifted_;         ///< by a constant: of one dt
+    const Relation relation_;
     Observer& observer_;
     OnHit& on_hit_;
 };
@@ -403,27 +453,39 @@ struct KeepFirst {
 inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
     NoObserver observer;
     KeepFirst keep;
-    const bool hit = BlockTraversal(a, b, observer, keep).run();
+    const bool hit = BlockTraversal(a, b, relate(a, b), observer, keep).run();
     pair = keep.pair;
     return hit;
 }
 
 inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
                                      BlockObserver* observer) {
-    if (observer) return BlockTraversal(a, b, *observer, sink).run();
+    const Relation relation = relate(a, b);
+    if (observer) return BlockTraversal(a, b, relation, *observer, sink).run();
     NoObserver nobody;
-    return BlockTraversal(a, b, nobody, sink).run();
+    return BlockTraversal(a, b, relation, nobody, sink).run();
 }
 
-/// Calls visit(i, collides) for the pairs i of `count` whose roots meet, in order, until it returns true. Roots go
-/// first, many at a time: what ends there costs no mispredicted branch.
+/// A pair of clips of which roots and blocks of level 0 may meet.
+struct NearPair {
+    std::size_t index;
+    Relation relation;
+    std::uint64_t blocks;  ///< of A, those that may meet B's, from `first` on
+    int first;
+    bool by_blocks;  ///< else it is not known which those are
+};
+
+/// Calls visit(i, collides) for the pairs i of `count` of which this is not clear from bounds, in order, until it
+/// returns true. Roots go first, many at a time, then blocks, and then samples: what ends soon costs hardly a
+/// mispredicted branch.
 template <class PairAt, class Visit>
 void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& visit) {
     constexpr std::size_t kAtATime = 64;
+    std::size_t below_roots[kAtATime];
+    NearPair near[kAtATime];
     for (std::size_t first = 0; first < count; first += kAtATime) {
         const std::size_t end = std::min(count, first + kAtATime);
-        std::size_t left[kAtATime];
-        std::size_t n = 0;
+        std::size_t roots = 0;
         for (std::size_t i = first; i < end; ++i) {
             // Placements lie anywhere in memory: they are fetched a few pairs ahead.
             constexpr std::size_t kAhead = 12;
@@ -433,14 +495,30 @@ void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& 
                 __builtin_prefetch(next_b);
             }
             const auto [a, b] = pair_at(i);
-            left[n] = i;
-            n += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
+            below_roots[roots] = i;
+            roots += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
         }
-        for (std::size_t k = 0; k < n; ++k) {
-            const auto [a, b] = pair_at(left[k]);
+        std::size_t pairs = 0;
+        for (std::size_t k = 0; k < roots; ++k) {
+            const auto [a, b] = pair_at(below_roots[k]);
+            const Blocks &blocks_a = a->blocks(), &blocks_b = b->blocks();
+            const Relation relation = relate(*a, *b);
+            const BlockRange range(relation, 0, blocks_a.count(0), 0, blocks_b.count(0));
+            const bool by_blocks = relation.shifted && range.end - range.first <= kMostBits;
+            const std::uint64_t blocks =
+                by_blocks ? blocks_that_meet(blocks_a, blocks_b, range, range.first, relation) : 1;
+            near[pairs] = {below_roots[k], relation, blocks, range.first, by_blocks};
+            pairs += blocks != 0 ? std::size_t{1} : std::size_t{0};
+        }
+        for (std::size_t k = 0; k < pairs; ++k) {
+            const NearPair& pair = near[k];
+            const auto [a, b] = pair_at(pair.index);
             NoObserver observer;
             KeepFirst keep;
-            if (visit(left[k], BlockTraversal(*a, *b, observer, keep).run())) return;
+            BlockTraversal traversal(*a, *b, pair.relation, observer, keep);
+            const bool hit = pair.by_blocks ? traversal.test_blocks(pair.blocks, pair.first, 0, b->blocks().count(0))
+                                            : traversal.run();
+            if (visit(pair.index, hit)) return;
         }
     }
 }

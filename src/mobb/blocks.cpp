@@ -12,11 +12,7 @@ namespace mobb {
 
 namespace {
 
-float rounded_up(double value) {
-    const auto nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) >= value ? nearest
-                                                 : std::nextafter(nearest, std::numeric_limits<float>::infinity());
-}
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 /// The middle of what is added.
 class Middle {
@@ -121,58 +117,46 @@ Blocks::Blocks(ClipPtr clip)
     origin_ = middle.get();
     for (const Disk& d : clip_->samples()) {
         const double x = std::abs(d.x - origin_.x), y = std::abs(d.y - origin_.y);
-        extent_ = std::max(extent_, x + y + d.r);
+        extent_ = std::max(extent_, rounded_up(x + y + d.r));
         radius_ = std::max(radius_, std::sqrt(x * x + y * y) + d.r);
     }
 
+    // All that is to be stored, so that it is allocated once.
     const auto blocks_of = [n](int level) { return (n + span(level) - 1) / span(level); };
-    const int arrays_of_samples = linear_ ? kRunning : kStill;
-    std::size_t values = static_cast<std::size_t>(arrays_of_samples) * stride_of(n);
+    const auto values_in = [](int arrays, int count, int pad) {
+        return static_cast<std::size_t>(arrays) * static_cast<std::size_t>(count + pad);
+    };
+    std::size_t values = kSamples + values_in(kStill, n, kSamplePad) + values_in(kStill, n + 1, kSamplePad);
+    values += values_in(kStill, blocks_of(0) + 1, kBlockPad);
     for (int level = 0;; ++level) {
-        values += static_cast<std::size_t>(level == 0 ? kStill : kMoving) * stride_of(blocks_of(level));
+        values += values_in(level == 0 ? kStill : kMoving, blocks_of(level), kBlockPad);
         if (blocks_of(level) <= kMostAtTop) break;
     }
     values_.reserve(values);
 
-    samples_ = add_arrays(n, arrays_of_samples);
-    float* const x = values_.data() + samples_.at;
-    float* const y = x + stride_of(n);
-    float* const r = y + stride_of(n);
-    const std::span<const Disk> disks = clip_->samples();
-    for (int i = 0; i < n; ++i) {
-        const Disk& d = disks[static_cast<std::size_t>(i)];
-        x[i] = static_cast<float>(d.x - origin_.x);
-        y[i] = static_cast<float>(d.y - origin_.y);
-        r[i] = static_cast<float>(d.r);
-    }
-    if (linear_) {
-        float* const dx = r + stride_of(n);
-        float* const dy = dx + stride_of(n);
-        for (int i = 0; i + 1 < n; ++i) {
-            dx[i] = x[i + 1] - x[i];
-            dy[i] = y[i + 1] - y[i];
-            r[i] = std::max(r[i], r[i + 1]);
-            speed_ = std::max(speed_, std::hypot(dx[i], dy[i]) / dt_);
-        }
-    }
+    // What lies before an array is what lies behind another one.
+    values_.assign(kSamples, kNone);
+    samples_ = add_samples();
+    sample_pairs_ = add_pairs(samples_);
     for (bool more = true; more; ++level_count_) {
         Level& level = levels_[static_cast<std::size_t>(level_count_)];
         level = add_level(level_count_);
         more = level.count > kMostAtTop;
     }
+    pairs_ = add_pairs(levels_[0]);
 }
 
-Blocks::Level Blocks::add_arrays(int count, int arrays) {
-    const Level level{count, arrays, values_.size() + kPadBefore};
-    values_.resize(values_.size() + static_cast<std::size_t>(arrays) * stride_of(count));
+Blocks::Level Blocks::add_arrays(int count, int arrays, int pad) {
+    const Level level{values_.size(), count + pad, count, arrays};
+    values_.resize(values_.size() + static_cast<std::size_t>(arrays) * static_cast<std::size_t>(level.stride), kNone);
     return level;
 }
 
 Blocks::Level Blocks::add_level(int number) {
     const int n = count_, size = span(number);
     const bool moves = number > 0;
-    const Level level = add_arrays((n + size - 1) / size, moves ? kMoving : kStill);
-    const std::size_t stride = stride_of(level.count);
+    const Level level = add_arrays((n + size - 1) / size, moves ? kMoving : kStill, kBlockPad);
+    const int stride = level.stride;
     float* const values = values_.data() + level.at;
     for (int k = 0; k < level.count; ++k) {
         const int samples = std::min(n - k * size, size);
@@ -186,7 +170,47 @@ Blocks::Level Blocks::add_level(int number) {
         block[3 * stride] = static_cast<float>(disk.drift.x);
         block[4 * stride] = static_cast<float>(disk.drift.y);
         block[5 * stride] = static_cast<float>(samples) / static_cast<float>(size);
-        speed_ = std::max(speed_, glm::length(disk.drift) / (size * dt_));
+        speed_ = std::max(speed_, rounded_up(glm::length(disk.drift) / (size * dt_)));
+    }
+    return level;
+}
+
+Blocks::Level Blocks::add_samples() {
+    const Level level = add_arrays(count_, kStill, kSamplePad);
+    float* const x = values_.data() + level.at;
+    float* const y = x + level.stride;
+    float* const r = y + level.stride;
+    for (int i = 0; i < count_; ++i) {
+        const Disk& d = disks_[i];
+        x[i] = static_cast<float>(d.x - origin_.x);
+        y[i] = static_cast<float>(d.y - origin_.y);
+        r[i] = static_cast<float>(d.r);
+    }
+    for (int i = 0; linear_ && i + 1 < count_; ++i) {
+        const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], way = std::sqrt(dx * dx + dy * dy);
+        x[i] += dx / 2;
+        y[i] += dy / 2;
+        r[i] = std::max(r[i], r[i + 1]) + way / 2;
+        speed_ = std::max(speed_, rounded_up(way / dt_));
+    }
+    return level;
+}
+
+Blocks::Level Blocks::add_pairs(const Level& of) {
+    const Level level = add_arrays(of.count + 1, kStill, of.stride - of.count);
+    const Paths one = paths_of(of);
+    float* const x = values_.data() + level.at;
+    float* const y = x + level.stride;
+    float* const r = y + level.stride;
+    for (int j = 0; j <= of.count; ++j) {
+        const int before = std::max(j - 1, 0), at = std::min(j, of.count - 1);
+        const float dx = one.x()[at] - one.x()[before], dy = one.y()[at] - one.y()[before];
+        const float r0 = one.r()[before], r1 = one.r()[at], apart = std::sqrt(dx * dx + dy * dy);
+        // Where neither holds the other, both touch the disk from inside.
+        r[j] = std::max((r0 + apart + r1) / 2, std::max(r0, r1));
+        const float part = apart > 0 ? std::min((r[j] - r0) / apart, 1.0F) : 0;
+        x[j] = one.x()[before] + part * dx;
+        y[j] = one.y()[before] + part * dy;
     }
     return level;
 }
@@ -198,10 +222,10 @@ MovingDisk bounding_disk(const Clip& clip, int first, int end) {
 
 MovingDisk Blocks::bound(const Level& level, int block, int span) const {
     const Paths p = paths_of(level);
-    MovingDisk out{origin_ + glm::dvec2(p.x[block], p.y[block]), glm::dvec2(0), p.r[block]};
-    if (p.dx == nullptr) return out;
+    MovingDisk out{origin_ + glm::dvec2(p.x()[block], p.y()[block]), glm::dvec2(0), p.r()[block]};
+    if (level.arrays == kStill) return out;
     const double part = static_cast<double>(std::min(count_ - block * span, span)) / span;
-    out.drift = part * glm::dvec2(p.dx[block], p.dy[block]);
+    out.drift = part * glm::dvec2(p.dx()[block], p.dy()[block]);
     return out;
 }
 

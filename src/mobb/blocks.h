@@ -13,6 +13,9 @@
 
 namespace mobb {
 
+/// A number in single precision that is not less, for values from 0 to 1e38.
+inline float rounded_up(double value) { return static_cast<float>(value * (1 + 0x1p-22)); }
+
 /// A disk on the floor whose centre moves linearly: what bounds a block.
 struct MovingDisk {
     glm::dvec2 from{0};   ///< centre when the block begins, metres
@@ -82,71 +85,68 @@ class alignas(64) Blocks {
     int node_of(int level, int block) const;
     Node node(int index) const;
 
-    /// Paths of disks as the query reads them, several at a time: block or sample i at [i]. Before the first one
-    /// kPadBefore more can be read and behind the last one kPadBehind, without meaning. Relative to origin(), metres.
+    /// Disks as the query reads them, several at a time: of block or sample i at [i] of each array. Some more can be
+    /// read before the first and behind the last one, which are not numbers: of blocks kBlockPad, of samples kSamples
+    /// and kSamplePad. Relative to origin(), metres.
     struct Paths {
-        const float* x;
-        const float* y;
-        const float* r;
-        const float* dx;  ///< how far the centre moves over a whole block; none of those that stand still, level 0
-        const float* dy;
-        const float* lasts;  ///< of blocks that move: how long, as a share of a whole block: 1 but of the last one
+        const float* arrays;
+        std::ptrdiff_t stride;  ///< from one array to the next
+
+        const float* x() const { return arrays; }
+        const float* y() const { return arrays + stride; }
+        const float* r() const { return arrays + 2 * stride; }
+        // Of blocks that move, those above level 0: how far the centre moves over a whole block ...
+        const float* dx() const { return arrays + 3 * stride; }
+        const float* dy() const { return arrays + 4 * stride; }
+        // ... and how long the block lasts, as a share of a whole one: 1 but of the last.
+        const float* lasts() const { return arrays + 5 * stride; }
     };
-    static constexpr int kPadBefore = 4;
-    static constexpr int kPadBehind = 12;
+    static constexpr int kBlockPad = 8, kSamplePad = 2 * kSamples;
     Paths paths(int level) const { return paths_of(levels_[static_cast<std::size_t>(level)]); }
-    /// Samples stay (held): there is no dx and dy. Or they run to the next one (linear): dx and dy are those ways, and
-    /// r is the larger of both radii.
-    Paths sample_paths() const { return paths_of(samples_); }
+    /// Around two consecutive blocks of level 0: at [j] of j - 1 and j, 0 <= j <= count(0).
+    Paths pairs() const { return paths_of(pairs_); }
+    /// The samples: of a linear clip around what each runs through.
+    Paths samples() const { return paths_of(samples_); }
+    /// Around two consecutive samples: at [j] of j - 1 and j, 0 <= j <= count().
+    Paths sample_pairs() const { return paths_of(sample_pairs_); }
     /// The middle of the root, in the clip's frame, and its radius.
     glm::dvec2 origin() const { return origin_; }
     double radius() const { return radius_; }
-    double extent() const { return extent_; }  ///< an upper bound in metres on |x| + |y| + r about the origin
-    double speed() const { return speed_; }    ///< at which no bound's centre moves faster, m/s
-    std::size_t bytes() const;                 ///< of memory, without the clip
+    float extent() const { return extent_; }  ///< an upper bound in metres on |x| + |y| + r about the origin
+    float speed() const { return speed_; }    ///< at which no bound's centre moves faster, m/s
+    std::size_t bytes() const;                ///< of memory, without the clip
 
   private:
     struct Level {
+        std::size_t at = 0;  ///< of the first array in values_
+        int stride = 0;      ///< from there to the next one
         int count = 0;
-        int arrays = 0;      ///< of values: as many members of Paths, from the first on
-        std::size_t at = 0;  ///< of the first array in values_; the others follow
+        int arrays = 0;  ///< as many of Paths as there are, from the first on
     };
     static_assert(kFanOut == 8 && kMostAtTop >= kFanOut);
     static constexpr std::size_t kMostLevels = 7;
     static_assert(kMaxSamples / kSamples >> (3 * (kMostLevels - 1)) < kMostAtTop);
-    static constexpr std::size_t stride_of(int count) {
-        return static_cast<std::size_t>(count) + kPadBefore + kPadBehind;
-    }
+    static constexpr int kStill = 3, kMoving = 6;
 
-    static constexpr int kStill = 3, kRunning = 5, kMoving = 6;
-
-    Level add_arrays(int count, int arrays);
+    Level add_arrays(int count, int arrays, int pad);
     Level add_level(int level);
+    Level add_samples();
+    Level add_pairs(const Level& of);
     MovingDisk bound(const Level& level, int block, int span) const;
     MovingDisk root() const { return {origin_, glm::dvec2(0), radius_}; }
     bool has_root_above() const { return level_count_ > 1 || levels_[0].count > 1; }
-    Paths paths_of(const Level& level) const {
-        const float* const x = values_.data() + level.at;
-        const std::size_t stride = stride_of(level.count);
-        const bool moves = level.arrays > kStill;
-        return {x,
-                x + stride,
-                x + 2 * stride,
-                moves ? x + 3 * stride : nullptr,
-                moves ? x + 4 * stride : nullptr,
-                level.arrays == kMoving ? x + 5 * stride : nullptr};
-    }
+    Paths paths_of(const Level& level) const { return {values_.data() + level.at, level.stride}; }
 
     // First what every query reads.
-    double extent_ = 0;
-    double speed_ = 0;
     double dt_, per_dt_;
     int count_;
     int level_count_ = 0;
+    float extent_ = 0;
+    float speed_ = 0;
     std::vector<float> values_;
-    std::array<Level, kMostLevels> levels_{};
-    Level samples_;
     bool linear_;
+    Level pairs_, samples_, sample_pairs_;
+    std::array<Level, kMostLevels> levels_{};
     const Disk* disks_;
     double reach_;
     glm::dvec2 origin_{0};

@@ -46,9 +46,12 @@ class alignas(64) PlacedBlocks {
     const Blocks& blocks() const { return *blocks_; }
     /// From the clip's frame to the world's.
     const Rotation& rotation() const { return rotation_; }
+    /// The same in single precision: cosine and sine.
+    float cosine() const { return cosine_; }
+    float sine() const { return sine_; }
     /// Where the origin of the blocks lies in the world, and how far their disks reach from there, metres.
     glm::dvec2 center() const { return center_; }
-    double radius() const { return radius_; }
+    float radius() const { return radius_; }
     /// Global times at which the first sample begins and the last one ends.
     double begin() const { return begin_; }
     double end_time() const { return end_; }
@@ -72,9 +75,9 @@ class alignas(64) PlacedBlocks {
     /// Global time at which sample i begins; time(i + 1) is when it ends.
     double time(int i) const { return start_ + i * dt(); }
     /// No number that times are computed from is larger, seconds: what their rounding is measured by.
-    double largest_time() const { return std::abs(start_) + end() * dt(); }
+    float largest_time() const { return largest_time_; }
     /// By how much the disks may be elsewhere for having been placed, metres; part of radius(), too.
-    double rounding() const { return rounding_; }
+    float rounding() const { return rounding_; }
 
   private:
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start, int first,
@@ -82,25 +85,29 @@ class alignas(64) PlacedBlocks {
         : center_(rotation(blocks.origin()) + translate),
           begin_(start + first * blocks.dt()),
           end_(start + (first + blocks.count()) * blocks.dt()),
-          rotation_(rotation),
+          cosine_(static_cast<float>(rotation.c)),
+          sine_(static_cast<float>(rotation.s)),
           blocks_(&blocks),
+          largest_time_(rounded_up(std::abs(start) + (first + blocks.count()) * blocks.dt())),
+          rotation_(rotation),
           translate_(translate),
           start_(start),
           link_(link),
           first_(first) {
         const double reach = link ? link->chain.reach : blocks.reach();
-        rounding_ = 1e-9 + 0x1p-44 * (std::abs(translate.x) + std::abs(translate.y) + reach);
-        radius_ = blocks.radius() + rounding_;
+        const double rounding = 1e-9 + 0x1p-44 * (std::abs(translate.x) + std::abs(translate.y) + reach);
+        radius_ = rounded_up(blocks.radius() + rounding);
+        rounding_ = rounded_up(rounding);
     }
 
-    // One cache line for what most queries end with, one for the others.
+    // One cache line for what is pruned by, one for the samples.
     glm::dvec2 center_;
-    double radius_;
     double begin_, end_;
-    Rotation rotation_;
+    float cosine_, sine_;
     const Blocks* blocks_;
+    float radius_, rounding_, largest_time_;
+    Rotation rotation_;
     glm::dvec2 translate_;
-    double rounding_;
     double start_;  ///< of sample 0: of the clip, or of the chain
     const LinkPlace* link_;
     int first_;
@@ -112,7 +119,7 @@ inline bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
     // The predicate of swept disks takes them for nearer than they are, by up to a share of all lengths involved (see
     // RelativeFrame::cover_swept_disks): they are at most a few times the radii where roots touch.
     constexpr double kSwept = 1e-6;
-    const double reach = (1 + kSwept) * (a.radius() + b.radius());
+    const double reach = (1 + kSwept) * static_cast<double>(a.radius() + b.radius());
     // Without a branch, which would often be mispredicted.
     return static_cast<bool>(static_cast<unsigned>(overlap_in_time(a.begin(), a.end_time(), b.begin(), b.end_time())) &
                              static_cast<unsigned>(between.x * between.x + between.y * between.y <= reach * reach));

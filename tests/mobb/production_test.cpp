@@ -162,6 +162,38 @@ TEST(Blocks, BoundsHoldEveryDiskAndNoMore) {
     }
 }
 
+TEST(Blocks, PairsHoldBothBlocksAndBothSamples) {
+    Random random(77);
+    for (int round = 0; round < 400; ++round) {
+        const ClipPtr clip = nasty_clip(random);
+        const Blocks blocks(clip);
+        const double rounding = 1e-6 * (1 + blocks.extent());
+        const auto at = [](const Blocks::Paths& of, int i) { return Disk{of.x()[i], of.y()[i], of.r()[i]}; };
+        const auto hold_each_two = [&](const Blocks::Paths& pairs, const Blocks::Paths& single, int count) {
+            for (int j = 0; j <= count; ++j) {
+                const Disk bound = at(pairs, j);
+                double most = -1e300;
+                for (int i = std::max(j - 1, 0); i <= std::min(j, count - 1); ++i) {
+                    most = std::max(most, beyond(at(single, i), {bound.x, bound.y}, bound.r));
+                }
+                EXPECT_NEAR(most, 0, rounding) << j << " of " << count;
+            }
+            // What is read beyond the last one meets nothing.
+            EXPECT_TRUE(std::isnan(pairs.x()[count + 1]) && std::isnan(single.x()[count]));
+        };
+        hold_each_two(blocks.pairs(), blocks.paths(0), blocks.count(0));
+        hold_each_two(blocks.sample_pairs(), blocks.samples(), blocks.count());
+        const PlacedClip samples(*clip, Placement{});
+        for (int i = 0; i < clip->count(); ++i) {
+            const Disk bound = at(blocks.samples(), i);
+            const glm::dvec2 center = blocks.origin() + glm::dvec2(bound.x, bound.y);
+            EXPECT_NEAR(
+                std::max(beyond(samples.disk(i), center, bound.r), beyond(samples.disk_at_end(i), center, bound.r)), 0,
+                rounding);
+        }
+    }
+}
+
 TEST(Blocks, LevelsCoverTheClip) {
     Random random(76);
     for (const int count : {1, 2, 31, 32, 33, 64, 1000, 4096, 4097, 40000}) {
