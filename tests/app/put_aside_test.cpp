@@ -172,6 +172,7 @@ void wait_for_jobs(Session& session) {
 TEST(PutAside, JobsOfWhatIsPutAsideAreTakenInOnceItIsBack) {
     CrossingFolder folder;
     Session session(true);
+    session.patience = {};
     folder.write("long.csv", long_csv());
     fs::create_directories(folder.file("cases"));
     fs::create_directories(folder.file("drawn"));

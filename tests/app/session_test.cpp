@@ -610,6 +610,7 @@ TEST(Excerpts, OfAnAgentAgainstItselfHaveItTwice) {
 TEST(Jobs, ACancelledFitLeavesTheDocument) {
     CrossingFolder folder;
     Session opened(true);
+    opened.patience = {};
     opened.open({long_walk(folder)});
     while (opened.job()) opened.poll();
     const auto before = opened.document().fitted;
@@ -638,6 +639,7 @@ void fit_in_excerpt(Session& session, CrossingFolder& folder) {
 TEST(Jobs, EditsGoOnMeanwhileAndAreKept) {
     CrossingFolder folder;
     Session session(true);
+    session.patience = {};
     session.open({long_walk(folder), folder.file("walk.csv")});
     while (session.job()) session.poll();
     run_command(session, "tree.axes", "minarea");
@@ -660,6 +662,7 @@ TEST(Jobs, EditsGoOnMeanwhileAndAreKept) {
 TEST(Jobs, UndoOutOfAnExcerptEndsThem) {
     CrossingFolder folder;
     Session session(true);
+    session.patience = {};
     fit_in_excerpt(session, folder);
     ASSERT_TRUE(session.job());
     session.undo();
@@ -671,6 +674,7 @@ TEST(Jobs, UndoOutOfAnExcerptEndsThem) {
 TEST(Jobs, SeveralRunAtOnceAndEachIsTakenIn) {
     CrossingFolder folder;
     Session session(true);
+    session.patience = {};
     session.open({long_walk(folder)});
     while (session.job()) session.poll();
     run_command(session, "tree.axes", "minarea");
@@ -687,6 +691,7 @@ TEST(Jobs, SeveralRunAtOnceAndEachIsTakenIn) {
 TEST(Jobs, WhatIsOpenedAsksForEditsThatWereMadeMeanwhile) {
     CrossingFolder folder;
     Session session(true);
+    session.patience = {};
     session.open({folder.scene});
     while (session.job()) session.poll();
     long_walk(folder);
@@ -723,6 +728,7 @@ TEST(Jobs, ADroppedOneWakesNobodyAndIsCountedUntilItEnds) {
 TEST(Jobs, WhatPlaysGoesOn) {
     CrossingFolder folder;
     Session session(true);
+    session.patience = {};
     session.open({long_walk(folder)});
     while (session.job()) session.poll();
     run_command(session, "time.play");
@@ -738,6 +744,7 @@ TEST(Jobs, WhatPlaysGoesOn) {
 TEST(Jobs, TheDocumentIsNotLeftForAnExcerptMeanwhile) {
     CrossingFolder folder;
     Session session(true);
+    session.patience = {};
     fit_in_excerpt(session, folder);
     ASSERT_TRUE(session.job());
     const auto before = session.document().fitted;

@@ -18,8 +18,6 @@ namespace mobbscope::app {
 
 namespace {
 
-/// Shorter work is waited for: a window that flickers is worse than one that is late by this.
-constexpr std::chrono::milliseconds kPatience(80);
 constexpr std::size_t kMostMessages = 50;
 /// How long a message lies over the picture; one with an offer stays longer, and none goes sooner than this after the
 /// mouse has left it.
@@ -578,7 +576,8 @@ void Session::require_no_job() const {
 
 void Session::start(std::string title, Job::Work work, Purpose purpose) {
     jobs_.push_back({std::make_unique<Job>(std::move(title), std::move(work), hooks.wake), purpose});
-    jobs_.back().job->wait(attended_ ? kPatience : std::chrono::hours(24));
+    if (attended_ && patience.count() == 0) return;
+    jobs_.back().job->wait(attended_ ? patience : std::chrono::hours(24));
     poll();
 }
 

@@ -22,6 +22,7 @@
 #include <scene/answer.h>
 #include <scene/crowd_run.h>
 
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -140,6 +141,9 @@ class Session {
     Settings settings;
     /// Whether the scene and pictures of it may be written: not where a window is only looked at.
     bool may_write = true;
+    /// Shorter work of an attended window is waited for: one that flickers is worse than one that is late by this. With
+    /// 0 no work is, however short.
+    std::chrono::milliseconds patience{80};
     /// Throws InputError if they may not.
     void check_may_write(const std::filesystem::path& file) const;
 
