@@ -11,6 +11,7 @@ namespace mobb {
 
 struct BlockQueries {
     bool (*first_hit_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair);
+    bool (*intersects_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b);
     bool (*for_each_hit_below_roots)(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
                                      BlockObserver* observer);
     std::size_t (*first_colliding)(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count);

@@ -9,15 +9,25 @@ using Paths = Blocks::Paths;
 constexpr int kLanes = 8;  // pairs a test: a set of instructions with fewer takes several steps
 using Tag = hn::CappedTag<float, kLanes>;
 
-/// How B's blocks lie against A's, and by how much their bounds must be apart.
+/// How B's blocks lie against A's.
 struct Relation {
     float c, s;        ///< rotation from B's frame to A's
     float ox, oy;      ///< B's origin against A's, in A's frame
-    float slack;       ///< metres
-    float time_error;  ///< seconds by which times may be wrong
-    bool shifted;      ///< in time by a constant: of one dt. The rest holds then
-    int whole;         ///< B's first sample begins so many samples after A's ...
-    double rest;       ///< ... and this part of one: A's sample i shares time with B's i - whole - 1 and i - whole
+    float slack;       ///< metres by which bounds that stand still must be apart
+    float sure_slack;  ///< metres by which disks must overlap to collide for sure
+};
+
+/// When B's samples begin against A's, of one dt.
+struct Shift {
+    static constexpr std::int64_t kOne = std::int64_t{1} << Blocks::kLogParts;
+    std::int64_t parts;  ///< of a sample
+
+    /// B's first sample begins so many samples after A's ...
+    int whole() const { return static_cast<int>((parts - 1) >> Blocks::kLogParts); }
+    /// ... and these parts of one, 0 < rest_parts() <= kOne: A's sample i shares them with B's i - whole() - 1, and the
+    /// others with i - whole(), if there are any.
+    std::int64_t rest_parts() const { return ((parts - 1) & (kOne - 1)) + 1; }
+    double rest() const { return static_cast<double>(rest_parts()) / kOne; }
 };
 
 /// When a pair of blocks shares time, as shares of a whole block's.
@@ -30,14 +40,14 @@ struct Common {
 enum class Paced { still, moving, moving_alike };
 
 /// For n <= kLanes pairs (first_a + lane, first_b + lane): a bit is set where two disks may come within the sum of
-/// their radii in their common time. Bits from n on mean nothing.
+/// their radii, and `room` metres, in their common time. Bits from n on mean nothing.
 template <Paced paced>
 MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int first_b, int n, const Common& common,
-                              const Relation& relation) {
+                              const Relation& relation, float room) {
     const Tag d;
     const auto c = hn::Set(d, relation.c), s = hn::Set(d, relation.s);
     const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
-    const auto slack = hn::Set(d, relation.slack);
+    const auto slack = hn::Set(d, room);
     unsigned out = 0;
     for (int lane = 0; lane < n; lane += static_cast<int>(hn::Lanes(d))) {
         const int i = first_a + lane, j = first_b + lane;
@@ -82,6 +92,43 @@ MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int f
     return out;
 }
 
+/// Of several pairs, a bit each.
+struct Nearness {
+    std::uint64_t may = 0;   ///< whether some of the samples that are meant may collide
+    std::uint64_t sure = 0;  ///< whether the samples at the centres do, if there are both
+};
+
+/// Of kLanes pairs (first_a + lane, first_b + lane). The samples at the centres share what Shift says of the first
+/// partner.
+MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, const Blocks::Rings& b,
+                              std::ptrdiff_t first_b, const Relation& relation) {
+    const Tag d;
+    const auto c = hn::Set(d, relation.c), s = hn::Set(d, relation.s);
+    const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
+    const auto slack = hn::Set(d, relation.slack), sure_slack = hn::Set(d, relation.sure_slack);
+    Nearness out;
+    for (int lane = 0; lane < kLanes; lane += static_cast<int>(hn::Lanes(d))) {
+        const std::ptrdiff_t i = first_a + lane, j = first_b + lane;
+        const auto bx = hn::LoadU(d, b.x + j), by = hn::LoadU(d, b.y + j);
+        const auto px = hn::NegMulAdd(s, by, hn::MulAdd(c, bx, hn::Sub(ox, hn::LoadU(d, a.x + i))));
+        const auto py = hn::MulAdd(c, by, hn::MulAdd(s, bx, hn::Sub(oy, hn::LoadU(d, a.y + i))));
+        const auto squared = hn::MulAdd(px, px, hn::Mul(py, py));
+        const auto most = hn::Add(hn::LoadU(d, a.outer + i), hn::Add(slack, hn::LoadU(d, b.outer + j)));
+        const auto least = hn::Add(hn::LoadU(d, a.inner + i), hn::Sub(hn::LoadU(d, b.inner + j), sure_slack));
+        const auto may = hn::Le(squared, hn::Mul(most, most));
+        const auto sure = hn::Lt(squared, hn::Mul(least, hn::Abs(least)));  // never, where that is negative
+        std::uint8_t bits[8];
+        hn::StoreMaskBits(d, may, bits);
+        out.may |= std::uint64_t{bits[0]} << lane;
+        hn::StoreMaskBits(d, sure, bits);
+        out.sure |= std::uint64_t{bits[0]} << lane;
+    }
+    return out;
+}
+
+/// The lowest `count` bits, none if there are fewer than none. count <= 64.
+MOBB_INLINE std::uint64_t low_bits(int count) { return count > 0 ? ~std::uint64_t{0} >> (64 - count) : 0; }
+
 /// One side of several pairs of blocks, copied side by side: in clips of different dt they do not lie so.
 struct Gathered {
     float values[5 * kLanes];
@@ -98,88 +145,124 @@ struct Gathered {
     Paths paths() const { return {values, kLanes}; }
 };
 
-// What rounding adds at most, with a wide margin: as a share of the lengths in single precision, and of the times in
-// double.
-constexpr float kLengthError = 0x1p-17F, kTimeError = 0x1p-48F;
-
-/// Of two whose roots share time.
-MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b) {
-    const Blocks& blocks_a = a.blocks();
-    const Blocks& blocks_b = b.blocks();
+MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b, Shift shift) {
     const float ca = a.cosine(), sa = a.sine(), cb = b.cosine(), sb = b.sine();
     const glm::dvec2 between = b.center() - a.center();
     const auto x = static_cast<float>(between.x), y = static_cast<float>(between.y);
-    const float lengths = (std::abs(x) + std::abs(y)) + (blocks_a.extent() + blocks_b.extent());
-    Relation out;
-    out.c = ca * cb + sa * sb;
-    out.s = ca * sb - sa * cb;
-    out.ox = ca * x + sa * y;
-    out.oy = ca * y - sa * x;
-    out.time_error = kTimeError * (a.largest_time() + b.largest_time());
-    out.slack =
-        (a.rounding() + b.rounding()) + kLengthError * lengths + out.time_error * (blocks_a.speed() + blocks_b.speed());
-    // Times of many hours are too inexact to tell which samples share time.
-    constexpr auto kMostError = static_cast<float>(kMinOverlap / 2);
-    out.shifted = static_cast<bool>(static_cast<unsigned>(blocks_a.dt() == blocks_b.dt()) &
-                                    static_cast<unsigned>(out.time_error < kMostError));
-    // As the roots share time, it fits into an int.
-    const double shift = out.shifted ? (b.begin() - a.begin()) * blocks_a.per_dt() : 0;
-    const double whole = std::floor(shift);
-    out.whole = static_cast<int>(whole);
-    out.rest = shift - whole;
-    return out;
+    const float slack = a.slack() + b.slack();
+    const bool tells = shift.rest_parts() >= std::max(a.blocks().sure_parts(), b.blocks().sure_parts());
+    return {
+        ca * cb + sa * sb, ca * sb - sa * cb, ca * x + sa * y, ca * y - sa * x, slack, tells ? slack : Blocks::kNever};
 }
+
+/// Seconds by which times of either may be wrong, from rounding.
+MOBB_INLINE float time_error(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return static_cast<float>(PlacedBlocks::kTimeError * (a.largest_time() + b.largest_time()));
+}
+
+/// Whether samples of the two share time by a constant shift: of one dt, and not so late that it is too inexact to tell
+/// which do.
+MOBB_INLINE bool are_shifted(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return a.dt() == b.dt() && a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
+}
+
+/// Of two that are shifted and whose roots share time: so samples fit into an int.
+MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { return {b.begin_parts() - a.begin_parts()}; }
+
+constexpr int kMostBits = 64;
 
 /// Those of A's blocks [first_a, end_a) of level 0 that share time with B's [first_b, end_b), where both are of one dt.
 struct BlockRange {
     int first, end;
-    int shift;  ///< block i shares time with B's pair of blocks i - shift, and with no other block
 
-    MOBB_INLINE BlockRange(const Relation& relation, int first_a, int end_a, int first_b, int end_b)
-        : shift(relation.whole >> Blocks::kLogSamples) {
-        first = std::max(first_a, first_b + shift);
-        end = std::min(end_a, end_b + shift + 1);
+    BlockRange() = default;
+    MOBB_INLINE BlockRange(int whole, int first_a, int end_a, const Blocks& b, int first_b, int end_b) {
+        const int samples = std::min(b.count(), end_b << Blocks::kLogSamples);
+        first = std::max(first_a, ((first_b << Blocks::kLogSamples) + whole) >> Blocks::kLogSamples);
+        end = std::min(end_a, ((samples + whole) >> Blocks::kLogSamples) + 1);
+    }
+    /// Of all blocks.
+    MOBB_INLINE BlockRange(int whole, const Blocks& a, const Blocks& b)
+        : first(std::max(0, whole >> Blocks::kLogSamples)),
+          end(std::min((a.count() - 1) >> Blocks::kLogSamples, (b.count() + whole) >> Blocks::kLogSamples) + 1) {}
+};
+
+/// A's blocks from `first` on and the windows of B's samples that they share time with, side by side.
+struct Windows {
+    Blocks::Rings a, b;
+    std::ptrdiff_t from_a, from_b;
+
+    MOBB_INLINE Windows(const Blocks& blocks_a, const Blocks& blocks_b, int first, int whole) {
+        constexpr int kMiddle = Blocks::kSamples / 2;
+        const int middle_b = first * Blocks::kSamples + kMiddle - whole - 1;
+        a = blocks_a.windows(Blocks::phase_of(kMiddle));
+        b = blocks_b.windows(Blocks::phase_of(middle_b));
+        from_a = first + Blocks::place_of(kMiddle);
+        from_b = Blocks::place_of(middle_b);
+    }
+    /// kLanes of them from the k-th on.
+    MOBB_INLINE Nearness at(int k, const Relation& relation) const {
+        return nearness(a, from_a + k, b, from_b + k, relation);
     }
 };
-constexpr int kMostBits = 64;
 
-/// Which of A's blocks from `first` on may meet their pair of B's, a bit each: of at most kMostBits.
-MOBB_INLINE std::uint64_t blocks_that_meet(const Blocks& a, const Blocks& b, const BlockRange& range, int first,
-                                           const Relation& relation) {
-    const Paths blocks = a.paths(0), pairs = b.pairs();
-    const int n = std::min(range.end - first, kMostBits);
-    std::uint64_t out = 0;
+/// Of blocks [first, end) of A, from `first` on: at most kMostBits.
+MOBB_INLINE Nearness blocks_near(const Blocks& a, const Blocks& b, int first, int end, const Relation& relation,
+                                 int whole) {
+    const Windows windows(a, b, first, whole);
+    const int n = std::min(end - first, kMostBits);
+    Nearness out;
     for (int k = 0; k < n; k += kLanes) {
-        const int i = first + k;
-        const unsigned meet = may_meet<Paced::still>(blocks, i, pairs, i - range.shift, kLanes, {}, relation);
-        out |= std::uint64_t{meet} << k;
+        const Nearness some = windows.at(k, relation);
+        out.may |= some.may << k;
+        out.sure |= some.sure << k;
     }
-    return n > 0 ? out & (~std::uint64_t{0} >> (kMostBits - n)) : 0;
+    const std::uint64_t there = low_bits(n);
+    return {out.may & there, out.sure & there};
 }
 
-/// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop.
+/// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop; if
+/// OnHit::kAny, it may not be called before a traversal stops, as one that collides is as good as the earliest.
 template <class Observer, class OnHit>
 class BlockTraversal {
   public:
     MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, const Relation& relation,
-                               [[maybe_unused]] Observer& observer, OnHit& on_hit)
+                               const Shift* shift, [[maybe_unused]] Observer& observer, OnHit& on_hit)
         : a_(a),
           b_(b),
           blocks_a_(a.blocks()),
           blocks_b_(b.blocks()),
           relation_(relation),
+          shifted_(shift != nullptr),
+          shift_(shift ? *shift : Shift{0}),
           observer_(observer),
           on_hit_(on_hit) {}
 
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
-    MOBB_INLINE bool run() {
-        if (!Observer::watches && relation_.shifted && (blocks_a_.levels() == 1 || blocks_b_.levels() == 1)) {
-            return scan_blocks(0, blocks_a_.count(0), 0, blocks_b_.count(0));
+    bool run() {
+        if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
+        const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
+        if (shifted_) {
+            const int level = std::min(top_a, top_b);
+            return visit_shifted(level, 0, blocks_a_.count(level), 0, blocks_b_.count(level));
         }
-        return visit_levels();
+        return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
     }
 
-    /// The samples of A's blocks that are set, of which bit 0 is `first`, against those of B's [first_b, end_b).
+    /// Blocks of level 0 that are shifted, where nobody watches: each of A's against the window of B's samples that it
+    /// shares time with, and then its samples.
+    MOBB_INLINE bool scan_blocks(const BlockRange& range, int first_b, int end_b) {
+        for (int i = range.first; i < range.end; i += kMostBits) {
+            const Nearness blocks = blocks_near(blocks_a_, blocks_b_, i, range.end, relation_, shift_.whole());
+            if constexpr (OnHit::kAny) {
+                if (blocks.sure != 0) return true;
+            }
+            if (blocks.may != 0 && test_blocks(blocks.may, i, first_b, end_b)) return true;
+        }
+        return false;
+    }
+
+    /// The samples of A's blocks that are set, of which bit 0 is `first`, against those of B's blocks [first_b, end_b).
     MOBB_INLINE bool test_blocks(std::uint64_t blocks, int first, int first_b, int end_b) {
         for (; blocks != 0; blocks &= blocks - 1) {
             if (test_block(first + std::countr_zero(blocks), first_b, end_b)) return true;
@@ -196,32 +279,21 @@ class BlockTraversal {
         int first, count;
     };
 
-    /// Of any levels, or with an observer.
-    [[gnu::noinline]] bool visit_levels() {
-        if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
-        const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
-        if (relation_.shifted) {
-            const int level = std::min(top_a, top_b);
-            return visit_shifted(level, 0, blocks_a_.count(level), 0, blocks_b_.count(level));
-        }
-        return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
-    }
-
     /// Pairs that share less than this many samples are not tested ...
-    double least_common() const {
-        return (kMinOverlap - static_cast<double>(relation_.time_error)) * blocks_a_.per_dt();
-    }
+    double least_common() const { return (kMinOverlap - static_cast<double>(time_error(a_, b_))) * blocks_a_.per_dt(); }
     /// ... and those that share more are, for sure.
-    double sure_common() const {
-        return (kMinOverlap + static_cast<double>(relation_.time_error)) * blocks_a_.per_dt();
+    double sure_common() const { return (kMinOverlap + static_cast<double>(time_error(a_, b_))) * blocks_a_.per_dt(); }
+    /// Metres by which bounds that move must be apart.
+    float moving_slack() const {
+        return relation_.slack + time_error(a_, b_) * (blocks_a_.speed() + blocks_b_.speed());
     }
 
     /// Which blocks of 2^log_span samples share time: with k they share span - |k * span + rest| samples.
     Shifts shifts_of(int log_span) const {
         const int span = 1 << log_span;
-        const double rest = (relation_.whole & (span - 1)) + relation_.rest;
+        const double rest = (shift_.whole() & (span - 1)) + shift_.rest();
         const int first = rest > least_common() ? -1 : 0, last = span - rest > least_common() ? 0 : -1;
-        return {relation_.whole >> log_span, rest, first, last - first + 1};
+        return {shift_.whole() >> log_span, rest, first, last - first + 1};
     }
     /// When those of `k` do, if B's begins `rest` samples later for k = 0.
     static Common common_of(double rest, int k, double span) {
@@ -237,7 +309,7 @@ class BlockTraversal {
         if constexpr (Observer::watches) {
             return scan_pairs<Paced::still>(level, first_a, end_a, first_b, end_b);
         } else {
-            return scan_blocks(first_a, end_a, first_b, end_b);
+            return scan_blocks(BlockRange(shift_.whole(), first_a, end_a, blocks_b_, first_b, end_b), first_b, end_b);
         }
     }
     template <Paced paced>
@@ -246,6 +318,7 @@ class BlockTraversal {
         const Paths a = blocks_a_.paths(level), b = blocks_b_.paths(level);
         const int last_a = blocks_a_.count(level) - 1, last_b = blocks_b_.count(level) - 1;
         const Shifts shifts = shifts_of(log_span);
+        const float slack = paced == Paced::still ? relation_.slack : moving_slack();
         constexpr int kMostShifts = 2;
         Common common[kMostShifts] = {};
         for (int m = 0; m < shifts.count; ++m) common[m] = common_of(shifts.rest, shifts.first + m, span);
@@ -260,7 +333,7 @@ class BlockTraversal {
                 const int j = i + to_b + m;
                 const int low = std::max(0, first_b - j), high = std::max(0, std::min(n, end_b - j));
                 there[m] = ((1U << high) - 1) & (~0U << low);
-                meet[m] = there[m] & may_meet<paced>(a, i, b, j, n, common[m], relation_);
+                meet[m] = there[m] & may_meet<paced>(a, i, b, j, n, common[m], relation_, slack);
                 any |= Observer::watches ? there[m] : meet[m];
             }
             for (; any != 0; any &= any - 1) {
@@ -277,16 +350,6 @@ class BlockTraversal {
                     if (visit_pair(level, block_a, level, block_b, ((meet[m] >> lane) & 1U) != 0)) return true;
                 }
             }
-        }
-        return false;
-    }
-
-    /// Blocks of level 0, where nobody watches: each of A's against both of B's at once, and then their samples.
-    bool scan_blocks(int first_a, int end_a, int first_b, int end_b) {
-        const BlockRange range(relation_, first_a, end_a, first_b, end_b);
-        for (int i = range.first; i < range.end; i += kMostBits) {
-            if (test_blocks(blocks_that_meet(blocks_a_, blocks_b_, range, i, relation_), i, first_b, end_b))
-                return true;
         }
         return false;
     }
@@ -321,7 +384,7 @@ class BlockTraversal {
         int first_a, end_a, first_b, end_b;
         children(blocks_a_, level_a, i, down_a, first_a, end_a);
         children(blocks_b_, level_b, j, down_b, first_b, end_b);
-        if (relation_.shifted) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
+        if (shifted_) return visit_shifted(level_a - 1, first_a, end_a, first_b, end_b);
         return visit_stepped(level_a - (down_a ? 1 : 0), first_a, end_a, level_b - (down_b ? 1 : 0), first_b, end_b);
     }
 
@@ -335,6 +398,7 @@ class BlockTraversal {
         const double per_a = 1 / (Blocks::span(level_a) * a_.dt()), per_b = 1 / (Blocks::span(level_b) * b_.dt());
         double begin_a = time_of(a_, level_a, i), until_a = time_of(a_, level_a, i + 1);
         double begin_b = time_of(b_, level_b, j), until_b = time_of(b_, level_b, j + 1);
+        const float slack = moving_slack();
         Gathered a, b;
         int is[kLanes], js[kLanes];
         int n = 0;
@@ -357,7 +421,8 @@ class BlockTraversal {
                 if (more) until_b = time_of(b_, level_b, j + 1);
             }
             if (n < kLanes && more) continue;
-            const unsigned meet = may_meet<Paced::moving_alike>(a.paths(), 0, b.paths(), 0, n, {0, 0, 1}, relation_);
+            const unsigned meet =
+                may_meet<Paced::moving_alike>(a.paths(), 0, b.paths(), 0, n, {0, 0, 1}, relation_, slack);
             for (int k = 0; k < n; ++k) {
                 const bool is_meeting = ((meet >> k) & 1U) != 0;
                 if (!Observer::watches && !is_meeting) continue;
@@ -379,28 +444,32 @@ class BlockTraversal {
         return pairs.stopped;
     }
 
-    /// The samples of one block of A, each against both of B's that it shares time with at once.
+    /// The samples of one block of A, each against what it shares time with of B's blocks [first_b, end_b).
     MOBB_INLINE bool test_block(int block, int first_b, int end_b) {
-        const Paths a = blocks_a_.samples(), pairs = blocks_b_.sample_pairs();
-        const int first = block * Blocks::kSamples;
-        const Relation relation = relation_;
-        unsigned meet = 0;
+        const Blocks::Rings a = blocks_a_.samples(), b = blocks_b_.samples();
+        const int i = block * Blocks::kSamples, j = i - shift_.whole() - 1;
+        Nearness samples;
         for (int k = 0; k < Blocks::kSamples; k += kLanes) {
-            const int i = first + k;
-            meet |= may_meet<Paced::still>(a, i, pairs, i - relation.whole, kLanes, {}, relation) << k;
+            const Nearness some = nearness({a.x, a.y, a.inner, a.inner}, i + k, b, j + k, relation_);
+            samples.may |= some.may << k;
+            samples.sure |= some.sure << k;
         }
-        return meet != 0 && test_near(first, meet, first_b * Blocks::kSamples,
-                                      std::min(blocks_b_.count(), end_b * Blocks::kSamples));
+        const int count = std::min(blocks_a_.count() - i, blocks_b_.count() - j);
+        const std::uint64_t there = low_bits(std::min(count, Blocks::kSamples)) & ~low_bits(-1 - j);
+        if constexpr (OnHit::kAny) {
+            if ((samples.sure & there) != 0) return true;
+        }
+        return (samples.may & there) != 0 && test_near(i, samples.may & there, first_b * Blocks::kSamples,
+                                                       std::min(blocks_b_.count(), end_b * Blocks::kSamples));
     }
     /// A's samples that are set, of which bit 0 is `first`, against B's of [first_b, end_b).
-    [[gnu::noinline]] bool test_near(int first, unsigned samples, int first_b, int end_b) {
+    [[gnu::noinline]] bool test_near(int first, std::uint64_t samples, int first_b, int end_b) {
         const bool held = !a_.is_linear() && !b_.is_linear();
         for (; samples != 0; samples &= samples - 1) {
             const int i = first + std::countr_zero(samples);
-            if (i >= blocks_a_.count()) return false;
-            const int j = i - relation_.whole;
-            if (first_b < j && j <= end_b && decide(i, j - 1, held, relation_.rest)) return true;
-            if (first_b <= j && j < end_b && decide(i, j, held, 1 - relation_.rest)) return true;
+            const int j = i - shift_.whole();
+            if (first_b < j && j <= end_b && decide(i, j - 1, held, shift_.rest())) return true;
+            if (first_b <= j && j < end_b && decide(i, j, held, 1 - shift_.rest())) return true;
         }
         return false;
     }
@@ -410,11 +479,11 @@ class BlockTraversal {
     MOBB_INLINE bool decide(int i, int j, bool held, double common) {
         const int sample_a = a_.first() + i, sample_b = b_.first() + j;
         if (held) {
-            const Paths a = blocks_a_.samples(), b = blocks_b_.samples();
-            const float bx = b.x()[j], by = b.y()[j];
-            const float x = (relation_.c * bx - relation_.s * by) - (a.x()[i] - relation_.ox);
-            const float y = (relation_.s * bx + relation_.c * by) - (a.y()[i] - relation_.oy);
-            const float squared = x * x + y * y, radii = a.r()[i] + b.r()[j];
+            const Blocks::Rings a = blocks_a_.samples(), b = blocks_b_.samples();
+            const float bx = b.x[j], by = b.y[j];
+            const float x = (relation_.c * bx - relation_.s * by) - (a.x[i] - relation_.ox);
+            const float y = (relation_.s * bx + relation_.c * by) - (a.y[i] - relation_.oy);
+            const float squared = x * x + y * y, radii = a.inner[i] + b.inner[j];
             const float most = radii + relation_.slack, least = radii - relation_.slack;
             if (squared > most * most) return false;
             if (least > 0 && squared < least * least && common > sure_common()) return on_hit_(sample_a, sample_b);
@@ -438,54 +507,127 @@ class BlockTraversal {
     const Blocks& blocks_a_;
     const Blocks& blocks_b_;
     const Relation relation_;
+    const bool shifted_;
+    const Shift shift_;  ///< if so
     Observer& observer_;
     OnHit& on_hit_;
 };
 
 struct KeepFirst {
+    static constexpr bool kAny = false;
     SamplePair pair;
     bool operator()(int i, int j) {
         pair = {i, j};
         return true;
     }
 };
+struct AnyHit {
+    static constexpr bool kAny = true;
+    bool operator()(int, int) { return true; }
+};
+
+/// Of roots that share time and may meet. Returns true if on_hit stopped it.
+template <class Observer, class OnHit>
+MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer& observer, OnHit& on_hit) {
+    if (!are_shifted(a, b)) [[unlikely]]
+        return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit).run();
+    const Shift shift = shift_of(a, b);
+    BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, on_hit);
+    const Blocks &blocks_a = a.blocks(), &blocks_b = b.blocks();
+    if (Observer::watches || (blocks_a.levels() > 1 && blocks_b.levels() > 1)) return traversal.run();
+    return traversal.scan_blocks(BlockRange(shift.whole(), blocks_a, blocks_b), 0, blocks_b.count(0));
+}
 
 inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
     NoObserver observer;
     KeepFirst keep;
-    const bool hit = BlockTraversal(a, b, relate(a, b), observer, keep).run();
+    const bool hit = traverse(a, b, observer, keep);
     pair = keep.pair;
     return hit;
 }
 
-inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
-                                     BlockObserver* observer) {
-    const Relation relation = relate(a, b);
-    if (observer) return BlockTraversal(a, b, relation, *observer, sink).run();
-    NoObserver nobody;
-    return BlockTraversal(a, b, relation, nobody, sink).run();
+/// Whether a first look can be had: of two that are shifted, one of which has few enough blocks for one level.
+MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return are_shifted(a, b) && std::min(a.blocks().levels(), b.blocks().levels()) == 1;
 }
+/// What their blocks tell of two whose roots meet. The same work for all, without a branch but for the number of steps.
+struct FirstLook {
+    BlockRange range;
+    Nearness near;  ///< of block first + k of A in bit k; of more than kMostBits blocks, there again from 0 on
 
-/// A pair of clips of which roots and blocks of level 0 may meet.
-struct NearPair {
-    std::size_t index;
-    Relation relation;
-    std::uint64_t blocks;  ///< of A, those that may meet B's, from `first` on
-    int first;
-    bool by_blocks;  ///< else it is not known which those are
+    MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b) : FirstLook(a, b, shift_of(a, b)) {}
+    MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b, Shift shift)
+        : range(shift.whole(), a.blocks(), b.blocks()) {
+        const Relation relation = relate(a, b, shift);
+        const Windows windows(a.blocks(), b.blocks(), range.first, shift.whole());
+        const int n = range.end - range.first;
+        // The last step goes over some a second time rather than beyond them.
+        const int last = std::max(n - kLanes, 0);
+        for (int k = 0;; k = std::min(k + kLanes, last)) {
+            const Nearness some = windows.at(k, relation);
+            near.may |= std::rotl(some.may, k);
+            near.sure |= some.sure;
+            if (k == last) break;
+        }
+        const std::uint64_t there = low_bits(std::min(n, kMostBits));
+        near.may &= there;
+        near.sure &= low_bits(std::min(n, kLanes));
+    }
+    MOBB_INLINE bool collides() const { return near.sure != 0; }
+    MOBB_INLINE bool undecided() const {
+        return static_cast<bool>(static_cast<unsigned>(near.sure == 0) & static_cast<unsigned>(near.may != 0));
+    }
 };
 
-/// Calls visit(i, collides) for the pairs i of `count` of which this is not clear from bounds, in order, until it
-/// returns true. Roots go first, many at a time, then blocks, and then samples: what ends soon costs hardly a
-/// mispredicted branch.
-template <class PairAt, class Visit>
-void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& visit) {
+/// Of two that may collide, by blocks of A from `first` on: those that are set, or all if there may be more. Out of
+/// line, so that the first look keeps no registers for it.
+[[gnu::noinline]] inline bool any_sample_hits(const PlacedBlocks& a, const PlacedBlocks& b, const BlockRange& range,
+                                              std::uint64_t blocks) {
+    NoObserver observer;
+    AnyHit any;
+    const Shift shift = shift_of(a, b);
+    BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, any);
+    const int all_b = b.blocks().count(0);
+    if (range.end - range.first > kMostBits) return traversal.scan_blocks(range, 0, all_b);
+    return traversal.test_blocks(blocks, range.first, 0, all_b);
+}
+/// Of any two whose roots meet.
+[[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
+    NoObserver observer;
+    AnyHit any;
+    return traverse(a, b, observer, any);
+}
+
+inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
+    if (!can_look(a, b)) return any_hit_below_roots(a, b);
+    const FirstLook look(a, b);
+    // One branch, as it is easier to foretell than which of the two is known.
+    return look.undecided() ? any_sample_hits(a, b, look.range, look.near.may) : look.collides();
+}
+
+inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
+                                     BlockObserver* observer) {
+    if (observer) return traverse(a, b, *observer, sink);
+    NoObserver nobody;
+    return traverse(a, b, nobody, sink);
+}
+
+/// Calls found(i, collides) for pairs i of `count`, until stop(i) says that this one and those behind it need not be
+/// asked; of the others it is not called if they do not collide. Of some number of pairs at a time times go first, then
+/// roots, blocks, and samples: what ends soon costs hardly a mispredicted branch. So they come in no order, but each
+/// number of pairs behind the one before.
+template <class PairAt, class Found, class Stop>
+void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found, const Stop& stop) {
     constexpr std::size_t kAtATime = 64;
-    std::size_t below_roots[kAtATime];
-    NearPair near[kAtATime];
-    for (std::size_t first = 0; first < count; first += kAtATime) {
+    std::size_t together[kAtATime], below_roots[kAtATime];
+    struct {
+        std::size_t index;
+        BlockRange range;
+        std::uint64_t blocks;
+    } undecided[kAtATime];
+    for (std::size_t first = 0; first < count && !stop(first); first += kAtATime) {
         const std::size_t end = std::min(count, first + kAtATime);
-        std::size_t roots = 0;
+        std::size_t pairs = 0;
         for (std::size_t i = first; i < end; ++i) {
             // Placements lie anywhere in memory: they are fetched a few pairs ahead.
             constexpr std::size_t kAhead = 12;
@@ -495,61 +637,59 @@ void visit_pairs_in_turn(std::size_t count, const PairAt& pair_at, const Visit& 
                 __builtin_prefetch(next_b);
             }
             const auto [a, b] = pair_at(i);
-            below_roots[roots] = i;
+            together[pairs] = i;
+            pairs +=
+                overlap_in_time(a->begin(), a->end_time(), b->begin(), b->end_time()) ? std::size_t{1} : std::size_t{0};
+        }
+        std::size_t roots = 0;
+        for (std::size_t k = 0; k < pairs; ++k) {
+            const auto [a, b] = pair_at(together[k]);
+            below_roots[roots] = together[k];
             roots += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
         }
-        std::size_t pairs = 0;
+        std::size_t open = 0;
         for (std::size_t k = 0; k < roots; ++k) {
-            const auto [a, b] = pair_at(below_roots[k]);
-            const Blocks &blocks_a = a->blocks(), &blocks_b = b->blocks();
-            const Relation relation = relate(*a, *b);
-            const BlockRange range(relation, 0, blocks_a.count(0), 0, blocks_b.count(0));
-            const bool by_blocks = relation.shifted && range.end - range.first <= kMostBits;
-            const std::uint64_t blocks =
-                by_blocks ? blocks_that_meet(blocks_a, blocks_b, range, range.first, relation) : 1;
-            near[pairs] = {below_roots[k], relation, blocks, range.first, by_blocks};
-            pairs += blocks != 0 ? std::size_t{1} : std::size_t{0};
+            const std::size_t i = below_roots[k];
+            const auto [a, b] = pair_at(i);
+            if (!can_look(*a, *b)) [[unlikely]] {
+                found(i, !stop(i) && any_hit_below_roots(*a, *b));
+                continue;
+            }
+            const FirstLook look(*a, *b);
+            found(i, look.collides());
+            undecided[open] = {i, look.range, look.near.may};
+            open += look.undecided() ? std::size_t{1} : std::size_t{0};
         }
-        for (std::size_t k = 0; k < pairs; ++k) {
-            const NearPair& pair = near[k];
+        for (std::size_t k = 0; k < open && !stop(undecided[k].index); ++k) {
+            const auto& pair = undecided[k];
             const auto [a, b] = pair_at(pair.index);
-            NoObserver observer;
-            KeepFirst keep;
-            BlockTraversal traversal(*a, *b, pair.relation, observer, keep);
-            const bool hit = pair.by_blocks ? traversal.test_blocks(pair.blocks, pair.first, 0, b->blocks().count(0))
-                                            : traversal.run();
-            if (visit(pair.index, hit)) return;
+            found(pair.index, any_sample_hits(*a, *b, pair.range, pair.blocks));
         }
     }
 }
 
 inline std::size_t first_colliding(const PlacedBlocks& a, const PlacedBlocks* const* others, std::size_t count) {
     std::size_t out = count;
-    visit_pairs_in_turn(
+    find_colliding(
         count,
         [&](std::size_t i) {
             return BlocksPair{&a, others[i]};
         },
-        [&](std::size_t i, bool hit) {
-            if (hit) out = i;
-            return hit;
-        });
+        [&](std::size_t i, bool collides) { out = std::min(out, collides ? i : count); },
+        [&](std::size_t i) { return out <= i; });
     return out;
 }
 
 inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
     std::fill_n(answers, count, false);
-    visit_pairs_in_turn(
-        count, [&](std::size_t i) { return pairs[i]; },
-        [&](std::size_t i, bool hit) {
-            answers[i] = hit;
-            return false;
-        });
+    find_colliding(
+        count, [&](std::size_t i) { return pairs[i]; }, [&](std::size_t i, bool collides) { answers[i] = collides; },
+        [](std::size_t) { return false; });
 }
 
 inline const BlockQueries* queries() {
-    static constexpr BlockQueries all{first_hit_below_roots, for_each_hit_below_roots, first_colliding,
-                                      intersects_each};
+    static constexpr BlockQueries all{first_hit_below_roots, intersects_below_roots, for_each_hit_below_roots,
+                                      first_colliding, intersects_each};
     return &all;
 }
 

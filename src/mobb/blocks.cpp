@@ -1,9 +1,11 @@
 #include <mobb/blocks.h>
+#include <mobb/predicate.h>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -11,8 +13,6 @@
 namespace mobb {
 
 namespace {
-
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 /// The middle of what is added.
 class Middle {
@@ -101,6 +101,43 @@ MovingDisk around(const Run& run, glm::dvec2 moving_by, int span) {
     return out;
 }
 
+/// Sets reach[j], -beyond <= j <= n + beyond, to the radius about sample j, or else about the nearest one, of what
+/// holds the disks (x, y, inner) of those of the samples j - before to j + behind that there are, of n: 0 if there is
+/// none.
+void find_reaches(const Blocks::Rings& of, int n, int before, int behind, int beyond, float* reach) {
+    const auto from = [&of](int center, int i) {
+        const float dx = of.x[i] - of.x[center], dy = of.y[i] - of.y[center];
+        return std::sqrt(dx * dx + dy * dy) + of.inner[i];
+    };
+    std::copy_n(of.inner, n, reach);
+    // A distance serves both of its ends. As many at a time as stay in the first cache.
+    constexpr int kAtATime = 256;
+    float apart[kAtATime];
+    for (int first = 0; first < n; first += kAtATime) {
+        for (int ahead = 1; ahead <= std::max(before, behind); ++ahead) {
+            const int count = std::min(kAtATime, n - ahead - first);
+            const float* const x = of.x + first;
+            const float* const y = of.y + first;
+            const float* const r = of.inner + first;
+            float* const here = reach + first;
+            for (int j = 0; j < count; ++j) {
+                const float dx = x[j + ahead] - x[j], dy = y[j + ahead] - y[j];
+                apart[j] = std::sqrt(dx * dx + dy * dy);
+            }
+            for (int j = 0; j < count && ahead <= behind; ++j) here[j] = std::max(here[j], apart[j] + r[j + ahead]);
+            for (int j = 0; j < count && ahead <= before; ++j)
+                here[j + ahead] = std::max(here[j + ahead], apart[j] + r[j]);
+        }
+    }
+    for (int j = -beyond; j <= n + beyond; ++j) {
+        if (j == 0) j = n;
+        const int center = j < 0 ? 0 : n - 1;
+        reach[j] = 0;
+        for (int i = std::max(0, j - before); i <= std::min(n - 1, j + behind); ++i)
+            reach[j] = std::max(reach[j], from(center, i));
+    }
+}
+
 }  // namespace
 
 Blocks::Blocks(ClipPtr clip)
@@ -111,53 +148,72 @@ Blocks::Blocks(ClipPtr clip)
       disks_(clip->samples().data()),
       reach_(clip->reach()),
       clip_(std::move(clip)) {
+    constexpr std::int64_t kWhole = std::int64_t{1} << kLogParts;
+    const double sure = 2 * kMinOverlap * per_dt_;  // of a sample; twice, as times are exact to half of it
+    sure_parts_ = linear_ || sure > 1 ? kWhole + 1 : static_cast<std::int64_t>(sure * static_cast<double>(kWhole)) + 1;
     const int n = count_;
+    const auto reach_from = [this](glm::dvec2 center) {
+        double radius = 0;
+        for (const Disk& d : clip_->samples()) {
+            const double x = d.x - center.x, y = d.y - center.y;
+            radius = std::max(radius, std::sqrt(x * x + y * y) + d.r);
+        }
+        return radius;
+    };
     Middle middle;
     for (const Disk& d : clip_->samples()) middle.add(d.x, d.y, d.r);
     origin_ = middle.get();
-    for (const Disk& d : clip_->samples()) {
-        const double x = std::abs(d.x - origin_.x), y = std::abs(d.y - origin_.y);
-        extent_ = std::max(extent_, rounded_up(x + y + d.r));
-        radius_ = std::max(radius_, std::sqrt(x * x + y * y) + d.r);
+    moving_radius_ = radius_ = reach_from(origin_);
+    if (is_short()) {
+        const Run run(*clip_, {0, 0}, 0, n);
+        const MovingDisk moving = around<double>(run, run.per_sample(), n);
+        if (moving.radius < radius_) {
+            origin_ = moving.from + moving.drift / 2.0;
+            velocity_ = moving.drift * per_dt_ / static_cast<double>(n);
+            moving_radius_ = moving.radius;
+            radius_ = reach_from(origin_);
+        }
     }
+    for (const Disk& d : clip_->samples())
+        extent_ = std::max(extent_, rounded_up(std::abs(d.x - origin_.x) + std::abs(d.y - origin_.y) + d.r));
 
     // All that is to be stored, so that it is allocated once.
-    const auto blocks_of = [n](int level) { return (n + span(level) - 1) / span(level); };
-    const auto values_in = [](int arrays, int count, int pad) {
-        return static_cast<std::size_t>(arrays) * static_cast<std::size_t>(count + pad);
+    const auto values_in = [](int arrays, int count) {
+        return static_cast<std::size_t>(arrays) * static_cast<std::size_t>(count);
     };
-    std::size_t values = kSamples + values_in(kStill, n, kSamplePad) + values_in(kStill, n + 1, kSamplePad);
-    values += values_in(kStill, blocks_of(0) + 1, kBlockPad);
+    const int windows = place_of(n + kSamples / 2) + 1;
+    std::size_t values = kSamples + values_in(kRings, n + 2) + values_in(kRings * kSamples, windows) + kReadAhead;
     for (int level = 0;; ++level) {
-        values += values_in(level == 0 ? kStill : kMoving, blocks_of(level), kBlockPad);
-        if (blocks_of(level) <= kMostAtTop) break;
+        const int blocks = (n + span(level) - 1) / span(level);
+        values += values_in(level == 0 ? kStill : kMoving, blocks);
+        if (blocks <= kMostAtTop) break;
     }
     values_.reserve(values);
 
-    // What lies before an array is what lies behind another one.
-    values_.assign(kSamples, kNone);
-    samples_ = add_samples();
-    sample_pairs_ = add_pairs(samples_);
+    // What is read before or behind an array is another one.
+    values_.assign(kSamples, 0);
+    add_samples();
     for (bool more = true; more; ++level_count_) {
         Level& level = levels_[static_cast<std::size_t>(level_count_)];
         level = add_level(level_count_);
         more = level.count > kMostAtTop;
     }
-    pairs_ = add_pairs(levels_[0]);
+    add_windows();
+    values_.resize(values_.size() + kReadAhead);
 }
 
-Blocks::Level Blocks::add_arrays(int count, int arrays, int pad) {
-    const Level level{values_.size(), count + pad, count, arrays};
-    values_.resize(values_.size() + static_cast<std::size_t>(arrays) * static_cast<std::size_t>(level.stride), kNone);
-    return level;
+float* Blocks::add_arrays(int count, int arrays) {
+    const std::size_t at = values_.size();
+    values_.resize(at + static_cast<std::size_t>(arrays) * static_cast<std::size_t>(count));
+    return values_.data() + at;
 }
 
 Blocks::Level Blocks::add_level(int number) {
     const int n = count_, size = span(number);
     const bool moves = number > 0;
-    const Level level = add_arrays((n + size - 1) / size, moves ? kMoving : kStill, kBlockPad);
-    const int stride = level.stride;
-    float* const values = values_.data() + level.at;
+    const int stride = (n + size - 1) / size, arrays = moves ? kMoving : kStill;
+    float* const values = add_arrays(stride, arrays);
+    const Level level{static_cast<std::size_t>(values - values_.data()), stride, arrays};
     for (int k = 0; k < level.count; ++k) {
         const int samples = std::min(n - k * size, size);
         const Run run(*clip_, origin_, k * size, k * size + samples);
@@ -175,44 +231,55 @@ Blocks::Level Blocks::add_level(int number) {
     return level;
 }
 
-Blocks::Level Blocks::add_samples() {
-    const Level level = add_arrays(count_, kStill, kSamplePad);
-    float* const x = values_.data() + level.at;
-    float* const y = x + level.stride;
-    float* const r = y + level.stride;
-    for (int i = 0; i < count_; ++i) {
+void Blocks::add_samples() {
+    const int n = count_, stride = n + 2;
+    float* const x = add_arrays(stride, kRings) + 1;
+    float* const y = x + stride;
+    float* const inner = y + stride;
+    float* const outer = inner + stride;
+    first_sample_ = x;
+    for (int i = 0; i < n; ++i) {
         const Disk& d = disks_[i];
         x[i] = static_cast<float>(d.x - origin_.x);
         y[i] = static_cast<float>(d.y - origin_.y);
-        r[i] = static_cast<float>(d.r);
+        inner[i] = static_cast<float>(d.r);
     }
-    for (int i = 0; linear_ && i + 1 < count_; ++i) {
+    for (int i = 0; linear_ && i + 1 < n; ++i) {
         const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], way = std::sqrt(dx * dx + dy * dy);
         x[i] += dx / 2;
         y[i] += dy / 2;
-        r[i] = std::max(r[i], r[i + 1]) + way / 2;
+        inner[i] = std::max(inner[i], inner[i + 1]) + way / 2;
         speed_ = std::max(speed_, rounded_up(way / dt_));
     }
-    return level;
+    for (float* const values : {x, y}) {
+        values[-1] = values[0];
+        values[n] = values[n - 1];
+    }
+    inner[-1] = inner[n] = -kNever;
+    find_reaches(samples(), n, 0, 1, 1, outer);
 }
 
-Blocks::Level Blocks::add_pairs(const Level& of) {
-    const Level level = add_arrays(of.count + 1, kStill, of.stride - of.count);
-    const Paths one = paths_of(of);
-    float* const x = values_.data() + level.at;
-    float* const y = x + level.stride;
-    float* const r = y + level.stride;
-    for (int j = 0; j <= of.count; ++j) {
-        const int before = std::max(j - 1, 0), at = std::min(j, of.count - 1);
-        const float dx = one.x()[at] - one.x()[before], dy = one.y()[at] - one.y()[before];
-        const float r0 = one.r()[before], r1 = one.r()[at], apart = std::sqrt(dx * dx + dy * dy);
-        // Where neither holds the other, both touch the disk from inside.
-        r[j] = std::max((r0 + apart + r1) / 2, std::max(r0, r1));
-        const float part = apart > 0 ? std::min((r[j] - r0) / apart, 1.0F) : 0;
-        x[j] = one.x()[before] + part * dx;
-        y[j] = one.y()[before] + part * dy;
+void Blocks::add_windows() {
+    constexpr int kBeyond = kSamples / 2;  // so far before the first sample and behind the last one stand centres
+    const int n = count_;
+    std::vector<float> reaches(static_cast<std::size_t>(n + 2 * kBeyond + 1));
+    float* const outer = reaches.data() + kBeyond;
+    find_reaches(samples(), n, kWindow, kWindow, kBeyond, outer);
+    const int stride = place_of(n + kBeyond) + 1;
+    float* values = add_arrays(stride, kRings * kSamples);
+    first_window_ = values;
+    window_stride_ = stride;
+    const Rings of = samples();
+    for (int phase = 0; phase < kSamples; ++phase, values += kRings * stride) {
+        for (int place = 0; place < stride; ++place) {
+            const int j = std::min(place * kSamples + phase - kBeyond, n + kBeyond);
+            const int nearest = std::clamp(j, 0, n - 1);
+            values[place] = of.x[nearest];
+            values[stride + place] = of.y[nearest];
+            values[2 * stride + place] = nearest == j ? of.inner[j] : -kNever;
+            values[3 * stride + place] = outer[j];
+        }
     }
-    return level;
 }
 
 MovingDisk bounding_disk(const Clip& clip, int first, int end) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -55,6 +56,11 @@ class alignas(64) Blocks {
 
     /// Takes time in proportion to the samples times the levels. Throws std::invalid_argument if there is no clip.
     explicit Blocks(ClipPtr clip);
+    Blocks(const Blocks&) = delete;
+    Blocks& operator=(const Blocks&) = delete;
+    Blocks(Blocks&&) = default;
+    Blocks& operator=(Blocks&&) = default;
+    ~Blocks() = default;
 
     const Clip& clip() const { return *clip_; }
     const ClipPtr& shared_clip() const { return clip_; }
@@ -85,9 +91,8 @@ class alignas(64) Blocks {
     int node_of(int level, int block) const;
     Node node(int index) const;
 
-    /// Disks as the query reads them, several at a time: of block or sample i at [i] of each array. Some more can be
-    /// read before the first and behind the last one, which are not numbers: of blocks kBlockPad, of samples kSamples
-    /// and kSamplePad. Relative to origin(), metres.
+    /// Blocks as the query reads them, several at a time: block i of a level at [i] of each array. Relative to
+    /// origin(), metres. Behind the last one kReadAhead more can be read, which mean nothing.
     struct Paths {
         const float* arrays;
         std::ptrdiff_t stride;  ///< from one array to the next
@@ -101,56 +106,91 @@ class alignas(64) Blocks {
         // ... and how long the block lasts, as a share of a whole one: 1 but of the last.
         const float* lasts() const { return arrays + 5 * stride; }
     };
-    static constexpr int kBlockPad = 8, kSamplePad = 2 * kSamples;
+    static constexpr int kReadAhead = 8;
     Paths paths(int level) const { return paths_of(levels_[static_cast<std::size_t>(level)]); }
-    /// Around two consecutive blocks of level 0: at [j] of j - 1 and j, 0 <= j <= count(0).
-    Paths pairs() const { return paths_of(pairs_); }
-    /// The samples: of a linear clip around what each runs through.
-    Paths samples() const { return paths_of(samples_); }
-    /// Around two consecutive samples: at [j] of j - 1 and j, 0 <= j <= count().
-    Paths sample_pairs() const { return paths_of(sample_pairs_); }
+
+    /// Two disks about each of several centres, relative to origin(), metres.
+    struct Rings {
+        const float* x;
+        const float* y;
+        const float* inner;  ///< radius of the sample itself, where there is one
+        const float* outer;  ///< radius of what holds all samples that are meant
+    };
+    /// The samples: sample i at [i], -1 <= i <= count(), where the first and the last one stand once more,
+    /// with -kNever as `inner`. Of a linear clip around what each runs through. `outer` holds the sample behind, too.
+    /// Before and behind kSamples more can be read, which mean nothing.
+    Rings samples() const { return rings_from(first_sample_, count_ + 2); }
+    /// Windows of consecutive samples: about sample j, -kSamples / 2 <= j <= count() + kSamples / 2, `outer` holds
+    /// those from j - kWindow to j + kWindow. Where there is no sample j, the first or the last one is the centre, and
+    /// `inner` is -kNever. Every kSamples-th stands side by side: window j in the arrays of phase_of(j), at
+    /// place_of(j). So block i of A and what it shares time with of B, which is a window about the same place of it for
+    /// all i, are read several at a time. Behind the last one kReadAhead more can be read, which mean nothing.
+    Rings windows(int phase) const {
+        return rings_from(first_window_ + std::ptrdiff_t{kRings} * window_stride_ * phase, window_stride_);
+    }
+    static constexpr int kWindow = kSamples / 2;
+    static constexpr float kNever = 1e30F;
+    static constexpr int phase_of(int sample) { return (sample + kSamples / 2) & (kSamples - 1); }
+    static constexpr int place_of(int sample) { return (sample + kSamples / 2) >> kLogSamples; }
+
     /// The middle of the root, in the clip's frame, and its radius.
     glm::dvec2 origin() const { return origin_; }
     double radius() const { return radius_; }
+    /// A second root, for what lasts shortly: it moves, with its centre at origin() in the middle of the clip's time.
+    /// Velocity in m/s, and radius. Of long clips, and where moving makes it no smaller, it is the first one.
+    bool is_short() const { return count_ <= kShort; }
+    glm::dvec2 velocity() const { return velocity_; }
+    double moving_radius() const { return moving_radius_; }
+    static constexpr int kShort = 8 * kSamples;
     float extent() const { return extent_; }  ///< an upper bound in metres on |x| + |y| + r about the origin
     float speed() const { return speed_; }    ///< at which no bound's centre moves faster, m/s
-    std::size_t bytes() const;                ///< of memory, without the clip
+    /// Times of clips of one dt are told in parts of a sample, 1 / 2^kLogParts each.
+    static constexpr int kLogParts = 33;
+    /// So many must two samples share to collide for sure where their disks overlap. More than one has of a linear
+    /// clip, whose disks are not known in between, and of samples that last for an instant.
+    std::int64_t sure_parts() const { return sure_parts_; }
+    std::size_t bytes() const;  ///< of memory, without the clip
 
   private:
     struct Level {
         std::size_t at = 0;  ///< of the first array in values_
-        int stride = 0;      ///< from there to the next one
-        int count = 0;
-        int arrays = 0;  ///< as many of Paths as there are, from the first on
+        int count = 0;       ///< of blocks, and from one array to the next
+        int arrays = 0;      ///< as many of Paths as there are, from the first on
     };
     static_assert(kFanOut == 8 && kMostAtTop >= kFanOut);
     static constexpr std::size_t kMostLevels = 7;
     static_assert(kMaxSamples / kSamples >> (3 * (kMostLevels - 1)) < kMostAtTop);
-    static constexpr int kStill = 3, kMoving = 6;
+    static constexpr int kStill = 3, kMoving = 6, kRings = 4;
 
-    Level add_arrays(int count, int arrays, int pad);
+    float* add_arrays(int count, int arrays);
     Level add_level(int level);
-    Level add_samples();
-    Level add_pairs(const Level& of);
+    void add_samples();
+    void add_windows();
     MovingDisk bound(const Level& level, int block, int span) const;
     MovingDisk root() const { return {origin_, glm::dvec2(0), radius_}; }
     bool has_root_above() const { return level_count_ > 1 || levels_[0].count > 1; }
-    Paths paths_of(const Level& level) const { return {values_.data() + level.at, level.stride}; }
+    Paths paths_of(const Level& level) const { return {values_.data() + level.at, level.count}; }
+    static Rings rings_from(const float* x, std::ptrdiff_t stride) {
+        return {x, x + stride, x + 2 * stride, x + 3 * stride};
+    }
 
     // First what every query reads.
     double dt_, per_dt_;
     int count_;
     int level_count_ = 0;
+    const float* first_window_ = nullptr;  ///< in values_, as the next one
+    const float* first_sample_ = nullptr;
+    int window_stride_ = 0;
     float extent_ = 0;
+    std::int64_t sure_parts_;
     float speed_ = 0;
-    std::vector<float> values_;
     bool linear_;
-    Level pairs_, samples_, sample_pairs_;
     std::array<Level, kMostLevels> levels_{};
+    std::vector<float> values_;
     const Disk* disks_;
     double reach_;
-    glm::dvec2 origin_{0};
-    double radius_ = 0;
+    glm::dvec2 origin_{0}, velocity_{0};
+    double radius_ = 0, moving_radius_ = 0;
     ClipPtr clip_;
 };
 

@@ -52,6 +52,10 @@ std::optional<SamplePair> first_hit_below_roots(const PlacedBlocks& a, const Pla
     return chosen_queries().first_hit_below_roots(a, b, pair) ? std::optional(pair) : std::nullopt;
 }
 
+bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
+    return chosen_queries().intersects_below_roots(a, b);
+}
+
 std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others) {
     const std::size_t first = chosen_queries().first_colliding(a, others.data(), others.size());
     return first < others.size() ? std::optional(first) : std::nullopt;

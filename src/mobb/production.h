@@ -6,9 +6,12 @@
 #include <mobb/predicate.h>
 #include <mobb/separation.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -49,8 +52,13 @@ class alignas(64) PlacedBlocks {
     /// The same in single precision: cosine and sine.
     float cosine() const { return cosine_; }
     float sine() const { return sine_; }
-    /// Where the origin of the blocks lies in the world, and how far their disks reach from there, metres.
+    /// Where the origin of the blocks lies in the world.
     glm::dvec2 center() const { return center_; }
+    /// The root in the world: its centre is center() in the middle between begin() and end_time(); its velocity in m/s,
+    /// and its radius in metres, with as much more as the rounding of what is computed from them.
+    bool moves() const { return moves_; }  ///< if not, the velocity is 0
+    float velocity_x() const { return velocity_x_; }
+    float velocity_y() const { return velocity_y_; }
     float radius() const { return radius_; }
     /// Global times at which the first sample begins and the last one ends.
     double begin() const { return begin_; }
@@ -75,9 +83,16 @@ class alignas(64) PlacedBlocks {
     /// Global time at which sample i begins; time(i + 1) is when it ends.
     double time(int i) const { return start_ + i * dt(); }
     /// No number that times are computed from is larger, seconds: what their rounding is measured by.
-    float largest_time() const { return largest_time_; }
-    /// By how much the disks may be elsewhere for having been placed, metres; part of radius(), too.
-    float rounding() const { return rounding_; }
+    double largest_time() const { return std::abs(start_) + end() * dt(); }
+    static constexpr double kTimeError = 0x1p-48;  ///< of them, with a wide margin
+    /// begin() in parts of a sample (see Blocks::kLogParts), to the nearest: how two clips of one dt are shifted
+    /// against each other follows from these. kNoParts where that is too inexact: of samples that last long, or begin
+    /// late.
+    std::int64_t begin_parts() const { return begin_parts_; }
+    static constexpr std::int64_t kNoParts = std::numeric_limits<std::int64_t>::min();
+    /// What this one adds to the slack of tests in single precision, metres: where roots meet, what is farther apart
+    /// than the sum is apart for sure.
+    float slack() const { return slack_; }
 
   private:
     PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start, int first,
@@ -85,48 +100,95 @@ class alignas(64) PlacedBlocks {
         : center_(rotation(blocks.origin()) + translate),
           begin_(start + first * blocks.dt()),
           end_(start + (first + blocks.count()) * blocks.dt()),
+          blocks_(&blocks),
           cosine_(static_cast<float>(rotation.c)),
           sine_(static_cast<float>(rotation.s)),
-          blocks_(&blocks),
-          largest_time_(rounded_up(std::abs(start) + (first + blocks.count()) * blocks.dt())),
+          first_(first),
           rotation_(rotation),
           translate_(translate),
           start_(start),
-          link_(link),
-          first_(first) {
+          link_(link) {
+        // By how much the disks may be elsewhere for having been placed.
         const double reach = link ? link->chain.reach : blocks.reach();
         const double rounding = 1e-9 + 0x1p-44 * (std::abs(translate.x) + std::abs(translate.y) + reach);
-        radius_ = rounded_up(blocks.radius() + rounding);
-        rounding_ = rounded_up(rounding);
+        // No centre of a root moves farther than this from the origin, nor is it farther from another one's that it
+        // meets.
+        const double lengths = 3 * blocks.radius();
+        constexpr double kTaxicab = 1.4143;  // what |x| + |y| of a length is at most
+        slack_ = rounded_up(rounding + kLengthError * (kTaxicab * lengths + static_cast<double>(blocks.extent())));
+        // Which samples share time must be told to half of what they must share.
+        constexpr double kParts = std::int64_t{1} << Blocks::kLogParts, kMostSamples = 1 << 29;
+        const double samples = begin_ * blocks.per_dt();
+        if (kTimeError * largest_time() + blocks.dt() / kParts < kMinOverlap / 4 && std::abs(samples) < kMostSamples)
+            begin_parts_ = std::llround(samples * kParts);
+        // Late times are too inexact for what moves. It is not asked whether it does: of short clips some do, and a
+        // branch on that would often be mispredicted.
+        moves_ = blocks.is_short() && begin_parts_ != kNoParts;
+        if (moves_) {
+            const glm::dvec2 velocity = rotation(blocks.velocity());
+            velocity_x_ = static_cast<float>(velocity.x);
+            velocity_y_ = static_cast<float>(velocity.y);
+        }
+        // Above what single precision leaves out, and the predicate of swept disks: that takes them for nearer than
+        // they are, by up to a share of all lengths involved (see RelativeFrame::cover_swept_disks).
+        constexpr double kRootError = 0x1p-19;
+        radius_ = rounded_up((moves_ ? blocks.moving_radius() : blocks.radius()) + rounding + kRootError * lengths);
     }
 
-    // One cache line for what is pruned by, one for the samples.
+    /// What rounding in single precision adds at most, as a share of the lengths involved, with a wide margin.
+    static constexpr double kLengthError = 0x1p-17;
+
+    // One cache line for what is pruned by, one for what lies below.
     glm::dvec2 center_;
     double begin_, end_;
-    float cosine_, sine_;
+    std::int64_t begin_parts_ = kNoParts;
     const Blocks* blocks_;
-    float radius_, rounding_, largest_time_;
+    float velocity_x_ = 0, velocity_y_ = 0;
+    float radius_;
+    bool moves_;
+    float cosine_, sine_;
+    float slack_;
+    int first_;
     Rotation rotation_;
     glm::dvec2 translate_;
     double start_;  ///< of sample 0: of the clip, or of the chain
     const LinkPlace* link_;
-    int first_;
 };
 
+/// Whether two share time and their roots may meet, where these move.
+inline bool moving_roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
+    // In the middle of the common time, and from there to when they are nearest.
+    const double from = std::max(a.begin(), b.begin()), until = std::min(a.end_time(), b.end_time());
+    const double middle = (from + until) / 2;
+    const auto since_a = static_cast<float>(middle - (a.begin() + a.end_time()) / 2);
+    const auto since_b = static_cast<float>(middle - (b.begin() + b.end_time()) / 2);
+    const auto half = static_cast<float>((until - from) / 2);
+    const glm::dvec2 between = b.center() - a.center();
+    float x = static_cast<float>(between.x) + (b.velocity_x() * since_b - a.velocity_x() * since_a);
+    float y = static_cast<float>(between.y) + (b.velocity_y() * since_b - a.velocity_y() * since_a);
+    const float vx = b.velocity_x() - a.velocity_x(), vy = b.velocity_y() - a.velocity_y();
+    constexpr float kNoWay = 1e-30F;  // where they hardly move, any moment does
+    const float moment = -(x * vx + y * vy) / (vx * vx + vy * vy + kNoWay);
+    const float nearest = std::max(std::min(moment, half), -half);
+    x += nearest * vx;
+    y += nearest * vy;
+    const float reach = a.radius() + b.radius();
+    // Without a branch, which would often be mispredicted.
+    return static_cast<bool>(static_cast<unsigned>(until - from > kMinOverlap) &
+                             static_cast<unsigned>(x * x + y * y <= reach * reach));
+}
 /// Whether two share time and their roots may meet: without that they do not collide.
 inline bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
+    if (a.moves() || b.moves()) return moving_roots_meet(a, b);
     const glm::dvec2 between = b.center() - a.center();
-    // The predicate of swept disks takes them for nearer than they are, by up to a share of all lengths involved (see
-    // RelativeFrame::cover_swept_disks): they are at most a few times the radii where roots touch.
-    constexpr double kSwept = 1e-6;
-    const double reach = (1 + kSwept) * static_cast<double>(a.radius() + b.radius());
-    // Without a branch, which would often be mispredicted.
+    const auto reach = static_cast<double>(a.radius() + b.radius());
     return static_cast<bool>(static_cast<unsigned>(overlap_in_time(a.begin(), a.end_time(), b.begin(), b.end_time())) &
                              static_cast<unsigned>(between.x * between.x + between.y * between.y <= reach * reach));
 }
 
 /// Is told of the pairs of samples that collide, in order of time; says whether to stop.
 struct HitSink {
+    static constexpr bool kAny = false;  ///< they are not told of all, if any will do
     bool (*on_hit)(void* receiver, int i, int j);
     void* receiver;
 
@@ -141,9 +203,11 @@ struct SamplePair {
 
 /// The earliest pair, or none, of two whose roots meet.
 std::optional<SamplePair> first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b);
+/// Whether two whose roots meet ever collide.
+bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b);
 /// Whether two ever collide: as direct_search finds, on every machine.
 inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return roots_meet(a, b) && first_hit_below_roots(a, b).has_value();
+    return roots_meet(a, b) && intersects_below_roots(a, b);
 }
 
 /// The first of `others` that collides with `a`: its index, or none.

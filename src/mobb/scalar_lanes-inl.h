@@ -1,5 +1,6 @@
 // The operations of Highway that block_query-inl.h uses, on one float at a time: for builds without Highway, and for
 // tests of the others. Names and meanings are Highway's.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,10 +16,14 @@ inline float Set(OneLane, float value) { return value; }
 inline float Add(float a, float b) { return a + b; }
 inline float Sub(float a, float b) { return a - b; }
 inline float Mul(float a, float b) { return a * b; }
+inline float MulAdd(float a, float b, float c) { return a * b + c; }
+inline float NegMulAdd(float a, float b, float c) { return c - a * b; }
+inline float Abs(float a) { return std::abs(a); }
 inline float Div(float a, float b) { return a / b; }
 inline float Min(float a, float b) { return a < b ? a : b; }
 inline float Max(float a, float b) { return a > b ? a : b; }
 inline bool Le(float a, float b) { return a <= b; }
+inline bool Lt(float a, float b) { return a < b; }
 inline void StoreMaskBits(OneLane, bool mask, std::uint8_t* bits) { bits[0] = mask ? 1 : 0; }
 
 }  // namespace mobb::scalar::hn

@@ -162,36 +162,63 @@ TEST(Blocks, BoundsHoldEveryDiskAndNoMore) {
     }
 }
 
-TEST(Blocks, PairsHoldBothBlocksAndBothSamples) {
+TEST(Blocks, WindowsHoldTheirSamples) {
     Random random(77);
     for (int round = 0; round < 400; ++round) {
         const ClipPtr clip = nasty_clip(random);
         const Blocks blocks(clip);
+        const int n = blocks.count();
         const double rounding = 1e-6 * (1 + blocks.extent());
-        const auto at = [](const Blocks::Paths& of, int i) { return Disk{of.x()[i], of.y()[i], of.r()[i]}; };
-        const auto hold_each_two = [&](const Blocks::Paths& pairs, const Blocks::Paths& single, int count) {
-            for (int j = 0; j <= count; ++j) {
-                const Disk bound = at(pairs, j);
-                double most = -1e300;
-                for (int i = std::max(j - 1, 0); i <= std::min(j, count - 1); ++i) {
-                    most = std::max(most, beyond(at(single, i), {bound.x, bound.y}, bound.r));
-                }
-                EXPECT_NEAR(most, 0, rounding) << j << " of " << count;
-            }
-            // What is read beyond the last one meets nothing.
-            EXPECT_TRUE(std::isnan(pairs.x()[count + 1]) && std::isnan(single.x()[count]));
+        const Blocks::Rings samples = blocks.samples();
+        const auto sample = [&](int i) { return Disk{samples.x[i], samples.y[i], samples.inner[i]}; };
+        // How far the samples [first, last] that there are reach out of a disk, and whether there are any.
+        const auto reach_out = [&](int first, int last, glm::dvec2 center, double radius) {
+            double most = -1e300;
+            for (int i = std::max(first, 0); i <= std::min(last, n - 1); ++i)
+                most = std::max(most, beyond(sample(i), center, radius));
+            return most;
         };
-        hold_each_two(blocks.pairs(), blocks.paths(0), blocks.count(0));
-        hold_each_two(blocks.sample_pairs(), blocks.samples(), blocks.count());
-        const PlacedClip samples(*clip, Placement{});
-        for (int i = 0; i < clip->count(); ++i) {
-            const Disk bound = at(blocks.samples(), i);
-            const glm::dvec2 center = blocks.origin() + glm::dvec2(bound.x, bound.y);
-            EXPECT_NEAR(
-                std::max(beyond(samples.disk(i), center, bound.r), beyond(samples.disk_at_end(i), center, bound.r)), 0,
-                rounding);
+        const PlacedClip placed(*clip, Placement{});
+        for (int i = 0; i < n; ++i) {
+            const glm::dvec2 center = blocks.origin() + glm::dvec2(sample(i).x, sample(i).y);
+            EXPECT_NEAR(std::max(beyond(placed.disk(i), center, sample(i).r),
+                                 beyond(placed.disk_at_end(i), center, sample(i).r)),
+                        0, rounding);
+            EXPECT_NEAR(reach_out(i, i + 1, {sample(i).x, sample(i).y}, samples.outer[i]), 0, rounding);
+        }
+        EXPECT_NEAR(reach_out(0, 0, {samples.x[-1], samples.y[-1]}, samples.outer[-1]), 0, rounding);
+        for (int j = -Blocks::kWindow; j < n + Blocks::kWindow; ++j) {
+            const Blocks::Rings windows = blocks.windows(Blocks::phase_of(j));
+            const int place = Blocks::place_of(j), nearest = std::clamp(j, 0, n - 1);
+            const glm::dvec2 center(windows.x[place], windows.y[place]);
+            EXPECT_EQ(center, glm::dvec2(sample(nearest).x, sample(nearest).y)) << j;
+            EXPECT_EQ(windows.inner[place], j == nearest ? samples.inner[j] : -Blocks::kNever) << j;
+            EXPECT_NEAR(reach_out(j - Blocks::kWindow, j + Blocks::kWindow, center, windows.outer[place]), 0, rounding)
+                << j << " of " << n;
         }
     }
+}
+
+TEST(Blocks, RootsThatMoveHoldTheClip) {
+    Random random(79);
+    int moving = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const ClipPtr clip = test::random_motion(random, test::random_clip(random, 150));
+        const Blocks blocks(clip);
+        moving += blocks.velocity() != glm::dvec2(0) ? 1 : 0;
+        EXPECT_TRUE(blocks.is_short() || blocks.velocity() == glm::dvec2(0));
+        const PlacedClip placed(*clip, Placement{});
+        for (int i = 0; i < clip->count(); ++i) {
+            const auto center = [&](int at) {
+                return blocks.origin() + blocks.velocity() * ((at - clip->count() / 2.0) * clip->dt());
+            };
+            const double room = 1e-9 * (1 + clip->reach());
+            EXPECT_LE(beyond(placed.disk(i), center(i), blocks.moving_radius()), room);
+            EXPECT_LE(beyond(placed.disk_at_end(i), center(i + 1), blocks.moving_radius()), room);
+            EXPECT_LE(beyond(placed.disk(i), blocks.origin(), blocks.radius()), room);
+        }
+    }
+    EXPECT_GT(moving, 200);
 }
 
 TEST(Blocks, LevelsCoverTheClip) {
