@@ -35,9 +35,24 @@ std::optional<mobb::Contact> contact_of(const PlayedMove& a, const PlayedMove& b
     return a.playable->tree ? mobb::query(a.placed_tree(), b.placed_tree()) : mobb::query(a.placed, b.placed);
 }
 
-std::vector<mobb::Interval> contact_intervals(const PlayedMove& a, const PlayedMove& b) {
-    return a.playable->tree ? mobb::contact_intervals(a.placed_tree(), b.placed_tree())
-                            : mobb::contact_intervals(a.placed, b.placed);
+/// Adds the seconds over which two collide to `seconds`. What makes them more than `most` may be counted in part.
+void add_contact(const PlayedMove& a, const PlayedMove& b, double most, double& seconds) {
+    const auto add = [&seconds](const std::vector<mobb::Interval>& intervals) {
+        for (const mobb::Interval& interval : intervals) seconds += interval.t1 - interval.t0;
+    };
+    if (a.playable->tree) return add(mobb::contact_intervals(a.placed_tree(), b.placed_tree()));
+    struct Sink {
+        mobb::IntervalCollector<mobb::PlacedBlocks, mobb::PlacedBlocks> collector;
+        double before, most;
+    } sink{{a.placed, b.placed, {}}, seconds, most};
+    const auto on_hit = [](void* receiver, int i, int j) {
+        auto& [collector, before, enough] = *static_cast<Sink*>(receiver);
+        collector(i, j);
+        const mobb::Interval& last = collector.intervals.back();
+        return before + (last.t1 - last.t0) > enough;
+    };
+    mobb::for_each_hit(a.placed, b.placed, {on_hit, &sink});
+    add(sink.collector.intervals);
 }
 
 }  // namespace
@@ -195,8 +210,7 @@ double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, double m
     double seconds = 0;
     for (const Near& other : find_near(candidate)) {
         if (seconds > most) break;
-        for (const mobb::Interval& interval : contact_intervals(candidate, *other.motion))
-            seconds += interval.t1 - interval.t0;
+        add_contact(candidate, *other.motion, most, seconds);
     }
     return seconds;
 }
