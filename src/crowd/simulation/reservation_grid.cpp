@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
 #include <optional>
 #include <tuple>
 
@@ -124,22 +126,28 @@ void ReservationGrid::visit_cells(const CellRange& range, double from, double to
     });
 }
 
-std::vector<ReservationGrid::Near> ReservationGrid::find_near(const PlayedMove& candidate) const {
-    std::vector<Near> near;
-    near.reserve(kUsuallyNear);
+/// What a look-up finds. For as many as there usually are no memory is allocated.
+struct ReservationGrid::NearMotions {
+    alignas(Near) std::array<std::byte, kUsuallyNear * sizeof(Near)> buffer;
+    std::pmr::monotonic_buffer_resource memory{buffer.data(), buffer.size()};
+    std::pmr::vector<Near> list{&memory};
+
+    NearMotions() { list.reserve(kUsuallyNear); }
+};
+
+void ReservationGrid::find_near(const PlayedMove& candidate, NearMotions& near) const {
     const double begin = candidate.begin(), end = candidate.end();
     // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
     const double from = begin - longest_ - 1e-12 * std::abs(begin);
     visit_cells(cells_of(candidate.bounds), from, end, [&](const Entry& other) {
         if (other.agent != candidate.agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
             candidate.bounds.meets(other.bounds))
-            near.push_back({other.begin, &motions_[other.slot].motion});
+            near.list.push_back({other.begin, &motions_[other.slot].motion});
     });
-    std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
+    std::sort(near.list.begin(), near.list.end(), [](const Near& a, const Near& b) {
         if (a.begin != b.begin) return a.begin < b.begin;
         return std::tie(a.motion->agent, a.motion->play) < std::tie(b.motion->agent, b.motion->play);
     });
-    return near;
 }
 
 std::size_t ReservationGrid::first_met(const PlayedMove& candidate, std::span<const Near> near) {
@@ -159,7 +167,9 @@ std::size_t ReservationGrid::first_met(const PlayedMove& candidate, std::span<co
 
 CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
     CandidateCheck check;
-    for (const auto& [begin, other] : find_near(candidate)) {
+    NearMotions near;
+    find_near(candidate, near);
+    for (const auto& [begin, other] : near.list) {
         // What begins after the first contact cannot be met before it.
         if (check.blocker && begin > check.blocker->contact.time) break;
         ++check.asked;
@@ -191,14 +201,15 @@ std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMov
 
 bool ReservationGrid::is_clear(const PlayedMove& candidate, std::int64_t& queries,
                                std::vector<AskedPair>* asked) const {
-    const std::vector<Near> near = find_near(candidate);
-    const std::size_t first = first_met(candidate, near);
-    const std::size_t count = std::min(first + 1, near.size());
+    NearMotions near;
+    find_near(candidate, near);
+    const std::size_t first = first_met(candidate, near.list);
+    const std::size_t count = std::min(first + 1, near.list.size());
     queries += static_cast<std::int64_t>(count);
     if (asked) {
-        for (std::size_t i = 0; i < count; ++i) asked->push_back({candidate, *near[i].motion});
+        for (std::size_t i = 0; i < count; ++i) asked->push_back({candidate, *near.list[i].motion});
     }
-    return first == near.size();
+    return first == near.list.size();
 }
 
 bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
@@ -208,7 +219,9 @@ bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
 
 double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, double most) const {
     double seconds = 0;
-    for (const Near& other : find_near(candidate)) {
+    NearMotions near;
+    find_near(candidate, near);
+    for (const Near& other : near.list) {
         if (seconds > most) break;
         add_contact(candidate, *other.motion, most, seconds);
     }
