@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
@@ -79,6 +80,9 @@ std::string read_file(const std::filesystem::path& file) {
     if (!in) throw InputError(name, "", "cannot be read: " + system_message(errno));
 
     std::string bytes;
+    // In one piece: as it grew, memory would be asked for again and again.
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error) bytes.reserve(static_cast<std::size_t>(std::min(size, kLargestFile)));
     std::vector<char> buffer(1 << 16);
     std::size_t count = 0;
     while ((count = std::fread(buffer.data(), 1, buffer.size(), in.get())) > 0) {

@@ -150,6 +150,27 @@ TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     EXPECT_FALSE(reservations.check(candidate).blocker);
 }
 
+TEST_F(WorldTest, ContactIsMeasuredInFullUpToTheMostThatCounts) {
+    const glm::dvec2 area{12, 12};
+    ReservationGrid reservations(area);
+    for (int agent = 0; agent < 30; ++agent) reservations.reserve(random_motion(agent, 0, area, 3));
+    int over = 0;
+    for (int i = 0; i < 300; ++i) {
+        const PlayedMove candidate = random_motion(99, 0, area, 3);
+        const double seconds = reservations.seconds_of_contact(candidate);
+        const double most = 2 * random.unit();
+        const double measured = reservations.seconds_of_contact(candidate, most);
+        if (seconds <= most) {
+            EXPECT_EQ(measured, seconds) << i;
+        } else {
+            EXPECT_GT(measured, most) << i;
+            ++over;
+        }
+    }
+    EXPECT_GT(over, 30);
+    EXPECT_LT(over, 270);
+}
+
 TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
     ReservationGrid reservations({40, 20});
     const auto at = [&](int agent, double x, double start) {

@@ -99,13 +99,17 @@ class Measurer {
     explicit Measurer(const Scene& scene) {
         const std::vector<int> rigs = rig_of_each_clip(scene);
         Importer importer;
+        std::vector<std::vector<Contact>> stands;  // by move
         motions_.reserve(scene.graph->moves.size());
         for (const GraphMove& move : scene.graph->moves) {
             const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
             motions_.emplace_back();
+            stands.emplace_back();
             if (!clip.skeleton) continue;
+            const std::optional<std::size_t> same = recorded_alike(scene, move, stands.size() - 1);
+            stands.back() = same ? stands[*same] : stands_in(scene, move, importer);
             motions_.back() = motion_of(*clip.clip, *clip.skeleton, rigs[static_cast<std::size_t>(move.clip)],
-                                        move.entry, move.exit, stands_in(scene, move, importer));
+                                        move.entry, move.exit, stands.back());
         }
     }
 
@@ -126,6 +130,19 @@ class Measurer {
     }
 
   private:
+    /// The move that a turned one is a variant of, if it is among the first `known` and warps the same part of the same
+    /// recording: feet stand alike there, and it is read once.
+    static std::optional<std::size_t> recorded_alike(const Scene& scene, const GraphMove& move, std::size_t known) {
+        if (!move.turned || static_cast<std::size_t>(move.turned->move) >= known) return std::nullopt;
+        const auto origin = static_cast<std::size_t>(move.turned->move);
+        const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
+        const SceneClip& other = scene.clips[static_cast<std::size_t>(scene.graph->moves[origin].clip)];
+        const bool alike = clip.warp && other.warp && other.skeleton && clip.source == other.source &&
+                           clip.options == other.options && clip.clip->count() == other.clip->count() &&
+                           clip.clip->dt() == other.clip->dt();
+        return alike ? std::optional(origin) : std::nullopt;
+    }
+
     /// Feet stand where they do in the recording: those that a warp makes slide still should.
     static std::vector<Contact> stands_in(const Scene& scene, const GraphMove& move, Importer& importer) {
         const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];

@@ -67,19 +67,20 @@ class Chooser {
 
   private:
     void add_candidates(double turn) {
-        for (const int move : moves_.after(point_.before.move)) {
-            const std::optional<int> played = moves_.turned({move, turn});
+        const std::vector<int>& moves = moves_.after(point_.before.move);
+        for (std::size_t i = 0; i < moves.size(); ++i) {
+            const std::optional<int> played = moves_.turned({moves[i], turn});
             if (!played) continue;
-            const OrientedPlacement at = moves_.following(point_.before.move, before_, {move, turn});
+            const OrientedPlacement* const at = placements_.at(i, turn);
             // A graph whose moves lead far away would in the end leave what can be placed.
-            if (!mobb::is_valid(at.placement)) continue;
+            if (!at) continue;
             const PlayableClip& clip = moves_.clip(*played);
-            const std::optional<FloorRect> on_floor = bounds_on_floor(clip, at, run_.area);
-            motions_.emplace_back(point_.agent, point_.play, *played, clip, at,
-                                  on_floor ? *on_floor : clip.bounds.bounds(at));
+            const std::optional<FloorRect> on_floor = bounds_on_floor(clip, *at, run_.area);
+            motions_.emplace_back(point_.agent, point_.play, *played, clip, *at,
+                                  on_floor ? *on_floor : clip.bounds.bounds(*at));
             Candidate& candidate = choice_.candidates.emplace_back(candidate_of(moves_, *played));
             candidate.turn_deg = turn;
-            candidate.placement = at.placement;
+            candidate.placement = at->placement;
             candidate.leaves_floor = !on_floor;
         }
     }
@@ -112,9 +113,9 @@ class Chooser {
             const std::vector<std::size_t> of = those(first, condition);
             std::vector<const PlayedMove*> motions;
             for (const std::size_t i : of) motions.push_back(&motions_[i]);
-            const std::vector<CandidateCheck> checks = grid.check_all(motions, asked_);
+            std::vector<CandidateCheck> checks = grid.check_all(motions, asked_);
             for (std::size_t i = 0; i < of.size(); ++i) {
-                choice_.candidates[of[i]].blocker = checks[i].blocker;
+                choice_.candidates[of[i]].blocker = std::move(checks[i].blocker);
                 choice_.queries += checks[i].asked;
             }
         };
@@ -263,6 +264,7 @@ class Chooser {
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
     OrientedPlacement before_{point_.before.placement};
+    FollowingPlacements placements_{moves_, point_.before.move, before_, moves_.after(point_.before.move)};
     PlanSearch search_;
     Choice choice_;
     std::vector<PlayedMove> motions_;  ///< by candidate

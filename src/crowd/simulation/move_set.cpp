@@ -70,7 +70,22 @@ MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate, Que
         return (rect.high.x - rect.low.x) * (rect.high.y - rect.low.y) * duration(move);
     };
     by_room_ = by_hub_;
-    for (std::vector<int>& of_hub : by_room_) std::ranges::stable_sort(of_hub, {}, room);
+    for (std::vector<int>& of_hub : by_room_) {
+        std::ranges::stable_sort(of_hub, {}, room);
+        followers_.push_back(turned_each_way(of_hub));
+    }
+}
+
+std::vector<MoveSet::Follower> MoveSet::turned_each_way(const std::vector<int>& moves) const {
+    std::vector<Follower> out;
+    for (const double turn : kTurns) {
+        for (std::size_t i = 0; i < moves.size(); ++i) {
+            const PlannedMove planned{moves[i], turn};
+            if (const std::optional<int> played = turned(planned))
+                out.push_back({planned, *played, i, clip(*played).last});
+        }
+    }
+    return out;
 }
 
 void MoveSet::add_turned() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <crowd/simulation/played_move.h>
+#include <mobb/clip.h>
 #include <scene/crowd_run.h>
 #include <scene/fitted_scene.h>
 #include <scene/motion_graph.h>
@@ -67,6 +68,17 @@ class MoveSet {
     const std::vector<int>& after_by_room(int move) const {
         return by_room_[static_cast<std::size_t>(this->move(move).to)];
     }
+    /// A move that may follow another, turned, with what a plan looks at first.
+    struct Follower {
+        PlannedMove planned;
+        int played;          ///< the move turned so
+        std::size_t number;  ///< of the move itself among those of after_by_room
+        mobb::Disk last;     ///< of the clip
+    };
+    /// Each of after_by_room by each of kTurns that it can turn by: all that turn least first, each time in that order.
+    const std::vector<Follower>& followers(int move) const {
+        return followers_[static_cast<std::size_t>(this->move(move).to)];
+    }
 
     /// Where `next` is placed after `before`.
     OrientedPlacement following(int before, const OrientedPlacement& placed, const PlannedMove& next) const;
@@ -103,6 +115,7 @@ class MoveSet {
 
     const Move& at(int move) const { return moves_[static_cast<std::size_t>(move)]; }
     void add_turned();
+    std::vector<Follower> turned_each_way(const std::vector<int>& moves) const;
     std::optional<Move> turned_move(const PlannedMove& origin) const;
 
     const FittedScene* fitted_;
@@ -113,6 +126,40 @@ class MoveSet {
     std::vector<int> unturned_;
     std::vector<std::vector<int>> by_hub_;
     std::vector<std::vector<int>> by_room_;
+    std::vector<std::vector<Follower>> followers_;
+};
+
+/// Where the moves that may follow another are placed, each worked out when it is asked for first. Refers to what it is
+/// given, which must outlive it.
+class FollowingPlacements {
+  public:
+    /// `next`: moves that are not turned, such as MoveSet::after gives.
+    FollowingPlacements(const MoveSet& moves, int before, const OrientedPlacement& placed, const std::vector<int>& next)
+        : moves_(moves), before_(before), placed_(placed), next_(next), found_(next.size()) {}
+
+    /// Of the one with that index among `next`, turned; null where it leads beyond what can be placed.
+    const OrientedPlacement* at(std::size_t index, double turn_deg) {
+        Found& found = found_[index];
+        // It is the same however far a move turns on its way.
+        if (!found.known || moves_.turns_at_once()) {
+            found.placement = moves_.following(before_, placed_, {next_[index], turn_deg});
+            found.known = true;
+            found.is_valid = mobb::is_valid(found.placement.placement);
+        }
+        return found.is_valid ? &found.placement : nullptr;
+    }
+
+  private:
+    struct Found {
+        OrientedPlacement placement;
+        bool known = false, is_valid = false;
+    };
+
+    const MoveSet& moves_;
+    int before_;
+    const OrientedPlacement& placed_;
+    const std::vector<int>& next_;
+    std::vector<Found> found_;
 };
 
 }  // namespace mobbscope

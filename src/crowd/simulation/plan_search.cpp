@@ -1,5 +1,4 @@
 #include <crowd/simulation/plan_search.h>
-#include <mobb/clip.h>
 
 #include <optional>
 
@@ -44,32 +43,20 @@ void PlanSearch::add(const PlannedMove& next, double seconds) {
 bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seconds) {
     if (seconds >= run_.plan && (run_.grace == 0 || !reservations_.faces_wall(before, placed))) return true;
     if (seconds >= kLongest * run_.plan) return false;
-    const std::vector<int>& moves = moves_.after_by_room(before);
-    // By move, none where it cannot be placed: the same however far it turns.
-    std::vector<std::optional<OrientedPlacement>> placements;
-    placements.reserve(moves.size());
-    for (const double turn : kTurns) {
-        if (moves_.turns_at_once()) placements.clear();
-        for (std::size_t i = 0; i < moves.size(); ++i) {
-            const PlannedMove next{moves[i], turn};
-            if (i == placements.size()) {
-                const OrientedPlacement following = moves_.following(before, placed, next);
-                placements.push_back(mobb::is_valid(following.placement) ? std::optional(following) : std::nullopt);
-            }
-            if (!placements[i]) continue;
-            const OrientedPlacement& at = *placements[i];
-            const std::optional<int> turned = moves_.turned(next);
-            if (!turned) continue;
-            const PlayableClip& clip = moves_.clip(*turned);
-            const std::optional<FloorRect> bounds = bounds_on_floor(clip, at, run_.area);
-            if (!bounds) continue;
-            if (--left_ < 0) return false;
-            if (!is_free({agent_, play_, *turned, clip, at, *bounds})) continue;
-            const double end = seconds + moves_.duration(*turned);
-            add(next, end);
-            if (extend(*turned, at, end)) return true;
-            plan_.pop_back();
-        }
+    FollowingPlacements placements(moves_, before, placed, moves_.after_by_room(before));
+    for (const MoveSet::Follower& next : moves_.followers(before)) {
+        const OrientedPlacement* const at = placements.at(next.number, next.planned.turn_deg);
+        // Most that leave the floor have left it at their end.
+        if (!at || is_over_wall(next.last, *at, run_.area)) continue;
+        const PlayableClip& clip = moves_.clip(next.played);
+        const std::optional<FloorRect> bounds = bounds_on_floor(clip, *at, run_.area);
+        if (!bounds) continue;
+        if (--left_ < 0) return false;
+        if (!is_free({agent_, play_, next.played, clip, *at, *bounds})) continue;
+        const double end = seconds + moves_.duration(next.played);
+        add(next.planned, end);
+        if (extend(next.played, *at, end)) return true;
+        plan_.pop_back();
     }
     return false;
 }

@@ -50,10 +50,7 @@ FloorRect ClipBounds::bounds(const OrientedPlacement& placed) const {
 
 std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const OrientedPlacement& at, glm::dvec2 area) {
     const glm::dvec2 wall = area / 2.0;
-    const auto is_over = [&](const mobb::Disk& disk) {
-        const mobb::Disk there = mobb::placed(disk, at.rotation, at.placement.translate);
-        return std::abs(there.x) + there.r > wall.x || std::abs(there.y) + there.r > wall.y;
-    };
+    const auto is_over = [&](const mobb::Disk& disk) { return is_over_wall(disk, at, area); };
     // From the end, as there a move that began on the floor has left it: most that leave it need no more.
     if (is_over(clip.last)) return std::nullopt;
     const FloorRect bounds = clip.bounds.bounds(at);

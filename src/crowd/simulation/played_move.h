@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -61,8 +62,16 @@ struct PlayableClip {
     ClipBounds bounds;
 };
 
-/// The bounds of a clip where it is placed, or none if some disk reaches over a wall of the floor, which goes from
-/// -area/2 to area/2 (metres). Touching a wall is allowed.
+/// Whether a disk of a clip that is placed reaches over a wall of the floor, which goes from -area/2 to area/2
+/// (metres). Touching a wall is not over it.
+inline bool is_over_wall(const mobb::Disk& disk, const OrientedPlacement& at, glm::dvec2 area) {
+    const mobb::Disk there = mobb::placed(disk, at.rotation, at.placement.translate);
+    // Without a branch for each, which would often be mispredicted.
+    return static_cast<bool>(static_cast<unsigned>(std::abs(there.x) + there.r > area.x / 2) |
+                             static_cast<unsigned>(std::abs(there.y) + there.r > area.y / 2));
+}
+
+/// The bounds of a clip where it is placed, or none if some disk is over a wall.
 std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const OrientedPlacement& at, glm::dvec2 area);
 
 /// A clip that an agent plays, or may play. What queries need of the place is worked out once, as it is made. Refers to

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
 #include <optional>
 #include <tuple>
 
@@ -35,9 +37,24 @@ std::optional<mobb::Contact> contact_of(const PlayedMove& a, const PlayedMove& b
     return a.playable->tree ? mobb::query(a.placed_tree(), b.placed_tree()) : mobb::query(a.placed, b.placed);
 }
 
-std::vector<mobb::Interval> contact_intervals(const PlayedMove& a, const PlayedMove& b) {
-    return a.playable->tree ? mobb::contact_intervals(a.placed_tree(), b.placed_tree())
-                            : mobb::contact_intervals(a.placed, b.placed);
+/// Adds the seconds over which two collide to `seconds`. What makes them more than `most` may be counted in part.
+void add_contact(const PlayedMove& a, const PlayedMove& b, double most, double& seconds) {
+    const auto add = [&seconds](const std::vector<mobb::Interval>& intervals) {
+        for (const mobb::Interval& interval : intervals) seconds += interval.t1 - interval.t0;
+    };
+    if (a.playable->tree) return add(mobb::contact_intervals(a.placed_tree(), b.placed_tree()));
+    struct Sink {
+        mobb::IntervalCollector<mobb::PlacedBlocks, mobb::PlacedBlocks> collector;
+        double before, most;
+    } sink{{a.placed, b.placed, {}}, seconds, most};
+    const auto on_hit = [](void* receiver, int i, int j) {
+        auto& [collector, before, enough] = *static_cast<Sink*>(receiver);
+        collector(i, j);
+        const mobb::Interval& last = collector.intervals.back();
+        return before + (last.t1 - last.t0) > enough;
+    };
+    mobb::for_each_hit(a.placed, b.placed, {on_hit, &sink});
+    add(sink.collector.intervals);
 }
 
 }  // namespace
@@ -109,22 +126,28 @@ void ReservationGrid::visit_cells(const CellRange& range, double from, double to
     });
 }
 
-std::vector<ReservationGrid::Near> ReservationGrid::find_near(const PlayedMove& candidate) const {
-    std::vector<Near> near;
-    near.reserve(kUsuallyNear);
+/// What a look-up finds. For as many as there usually are no memory is allocated.
+struct ReservationGrid::NearMotions {
+    alignas(Near) std::array<std::byte, kUsuallyNear * sizeof(Near)> buffer;
+    std::pmr::monotonic_buffer_resource memory{buffer.data(), buffer.size()};
+    std::pmr::vector<Near> list{&memory};
+
+    NearMotions() { list.reserve(kUsuallyNear); }
+};
+
+void ReservationGrid::find_near(const PlayedMove& candidate, NearMotions& near) const {
     const double begin = candidate.begin(), end = candidate.end();
     // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
     const double from = begin - longest_ - 1e-12 * std::abs(begin);
     visit_cells(cells_of(candidate.bounds), from, end, [&](const Entry& other) {
         if (other.agent != candidate.agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
             candidate.bounds.meets(other.bounds))
-            near.push_back({other.begin, &motions_[other.slot].motion});
+            near.list.push_back({other.begin, &motions_[other.slot].motion});
     });
-    std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
+    std::sort(near.list.begin(), near.list.end(), [](const Near& a, const Near& b) {
         if (a.begin != b.begin) return a.begin < b.begin;
         return std::tie(a.motion->agent, a.motion->play) < std::tie(b.motion->agent, b.motion->play);
     });
-    return near;
 }
 
 std::size_t ReservationGrid::first_met(const PlayedMove& candidate, std::span<const Near> near) {
@@ -144,7 +167,9 @@ std::size_t ReservationGrid::first_met(const PlayedMove& candidate, std::span<co
 
 CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
     CandidateCheck check;
-    for (const auto& [begin, other] : find_near(candidate)) {
+    NearMotions near;
+    find_near(candidate, near);
+    for (const auto& [begin, other] : near.list) {
         // What begins after the first contact cannot be met before it.
         if (check.blocker && begin > check.blocker->contact.time) break;
         ++check.asked;
@@ -176,14 +201,15 @@ std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMov
 
 bool ReservationGrid::is_clear(const PlayedMove& candidate, std::int64_t& queries,
                                std::vector<AskedPair>* asked) const {
-    const std::vector<Near> near = find_near(candidate);
-    const std::size_t first = first_met(candidate, near);
-    const std::size_t count = std::min(first + 1, near.size());
+    NearMotions near;
+    find_near(candidate, near);
+    const std::size_t first = first_met(candidate, near.list);
+    const std::size_t count = std::min(first + 1, near.list.size());
     queries += static_cast<std::int64_t>(count);
     if (asked) {
-        for (std::size_t i = 0; i < count; ++i) asked->push_back({candidate, *near[i].motion});
+        for (std::size_t i = 0; i < count; ++i) asked->push_back({candidate, *near.list[i].motion});
     }
-    return first == near.size();
+    return first == near.list.size();
 }
 
 bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
@@ -193,10 +219,11 @@ bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
 
 double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, double most) const {
     double seconds = 0;
-    for (const Near& other : find_near(candidate)) {
+    NearMotions near;
+    find_near(candidate, near);
+    for (const Near& other : near.list) {
         if (seconds > most) break;
-        for (const mobb::Interval& interval : contact_intervals(candidate, *other.motion))
-            seconds += interval.t1 - interval.t0;
+        add_contact(candidate, *other.motion, most, seconds);
     }
     return seconds;
 }

@@ -114,8 +114,9 @@ class ReservationGrid {
     /// global seconds.
     template <class Visit>
     void visit_cells(const CellRange& range, double from, double to, const Visit& visit) const;
-    /// The motions of other agents whose bounds and times meet the candidate's, earliest first.
-    std::vector<Near> find_near(const PlayedMove& candidate) const;
+    struct NearMotions;
+    /// Finds the motions of other agents whose bounds and times meet the candidate's, earliest first.
+    void find_near(const PlayedMove& candidate, NearMotions& near) const;
     /// The index of the first of them that the candidate collides with; their number if there is none.
     static std::size_t first_met(const PlayedMove& candidate, std::span<const Near> near);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 
@@ -40,19 +41,22 @@ const Columns kPetrack{"petrack", 5, 0, 1, 2, 3, 4};
 const Columns kPetrackFlat{"petrack", 4, 0, 1, 2, 3};
 const Columns kSdd{"sdd", 10, 0, kSddFrame};
 
-/// Words between blanks; one in double quotes may hold blanks. More than `limit` + 1 are not looked for.
+/// Words between blanks; one in double quotes may hold blanks. More than `limit` + 1 are not looked for. `line`: as
+/// TextLines gives it, or an end of it.
 void split(std::string_view line, std::size_t limit, std::vector<std::string_view>& words) {
     const auto parts_words = [](char c) { return c == ' ' || c == '\t'; };
-    const auto is_blank = [&](char c) { return parts_words(c) || c == '\r'; };
     words.clear();
-    line = trimmed(line);
-    for (auto at = line.begin(); words.size() <= limit;) {
-        at = std::find_if_not(at, line.end(), is_blank);
-        if (at == line.end()) return;
-        auto end = std::find_if(at, line.end(), parts_words);
+    const char* at = line.data();
+    const char* const line_end = at + line.size();
+    while (words.size() <= limit) {
+        while (at != line_end && (parts_words(*at) || *at == '\r')) ++at;
+        if (at == line_end) return;
+        const char* end = at;
         if (*at == '"') {
-            end = std::find(at + 1, line.end(), '"');
-            if (end != line.end()) ++end;
+            end = std::find(at + 1, line_end, '"');
+            if (end != line_end) ++end;
+        } else {
+            while (end != line_end && !parts_words(*end)) ++end;
         }
         words.emplace_back(at, end);
         at = end;
@@ -186,7 +190,7 @@ class TextTracksParser {
 
     double whole_number(int column) const {
         const double value = number(column, kMaxFrame);
-        if (value != std::floor(value)) {
+        if (value != static_cast<double>(static_cast<std::int64_t>(value))) {
             fail(column, in_quotes(words_[static_cast<std::size_t>(column)]) +
                              " is no whole number, as ids and frames of this format (" + columns_.format +
                              ") are; check the columns");

@@ -68,7 +68,8 @@ void append_steps(std::span<const TrackPoint> points, std::vector<double>& steps
 
 /// The most frequent step, the shorter of equals; none for none.
 std::optional<double> usual(std::vector<double> steps) {
-    std::sort(steps.begin(), steps.end());
+    // Nearly always they are all alike.
+    if (!std::ranges::is_sorted(steps)) std::ranges::sort(steps);
     std::optional<double> found;
     std::ptrdiff_t most = 0;
     for (auto at = steps.begin(); at != steps.end();) {

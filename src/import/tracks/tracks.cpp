@@ -6,15 +6,20 @@
 namespace mobbscope {
 
 void TrackCollector::add(const std::string& id, const TrackPoint& point, std::string_view label) {
-    const auto [at, is_new] = index_.try_emplace(id, tracks_.size());
-    if (is_new) tracks_.push_back({id, {}, std::string(label)});
-    tracks_[at->second].points.push_back(point);
+    // Many files have a track's points one after another.
+    if (tracks_.empty() || tracks_[last_].id != id) {
+        const auto [at, is_new] = index_.try_emplace(id, tracks_.size());
+        if (is_new) tracks_.push_back({id, {}, std::string(label)});
+        last_ = at->second;
+    }
+    tracks_[last_].points.push_back(point);
 }
 
 std::vector<Track> TrackCollector::take(const std::string& file) {
     for (Track& track : tracks_) {
-        std::stable_sort(track.points.begin(), track.points.end(),
-                         [](const TrackPoint& a, const TrackPoint& b) { return a.frame < b.frame; });
+        // Most are in order, which is found out sooner than they are sorted.
+        if (!std::ranges::is_sorted(track.points, {}, &TrackPoint::frame))
+            std::ranges::stable_sort(track.points, {}, &TrackPoint::frame);
         const auto twice =
             std::adjacent_find(track.points.begin(), track.points.end(),
                                [](const TrackPoint& a, const TrackPoint& b) { return a.frame == b.frame; });

@@ -71,6 +71,7 @@ class TrackCollector {
   private:
     std::vector<Track> tracks_;
     std::unordered_map<std::string, std::size_t> index_;
+    std::size_t last_ = 0;  ///< the track that had a point last
 };
 
 /// Text, told apart by its content: UCY and ETH `obsmat` (frame id x z y vx vz vy), TrajNet (frame ped x y), PeTrack
