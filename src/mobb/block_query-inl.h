@@ -171,20 +171,14 @@ MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { retur
 
 constexpr int kMostBits = 64;
 
-/// Those of A's blocks [first_a, end_a) of level 0 that share time with B's [first_b, end_b), where both are of one dt.
+/// Those of A's blocks of a level that share time with B, where both are of one dt.
 struct BlockRange {
     int first, end;
 
     BlockRange() = default;
-    MOBB_INLINE BlockRange(int whole, int first_a, int end_a, const Blocks& b, int first_b, int end_b) {
-        const int samples = std::min(b.count(), end_b << Blocks::kLogSamples);
-        first = std::max(first_a, ((first_b << Blocks::kLogSamples) + whole) >> Blocks::kLogSamples);
-        end = std::min(end_a, ((samples + whole) >> Blocks::kLogSamples) + 1);
-    }
-    /// Of all blocks.
-    MOBB_INLINE BlockRange(int whole, const Blocks& a, const Blocks& b)
-        : first(std::max(0, whole >> Blocks::kLogSamples)),
-          end(std::min((a.count() - 1) >> Blocks::kLogSamples, (b.count() + whole) >> Blocks::kLogSamples) + 1) {}
+    MOBB_INLINE BlockRange(int whole, const Blocks& a, const Blocks& b, int log_span = Blocks::kLogSamples)
+        : first(std::max(0, whole >> log_span)),
+          end(std::min((a.count() - 1) >> log_span, (b.count() + whole) >> log_span) + 1) {}
 };
 
 /// A's blocks from `first` on and the windows of B's samples that they share time with, side by side.
@@ -200,26 +194,33 @@ struct Windows {
         from_a = first + Blocks::place_of(kMiddle);
         from_b = Blocks::place_of(middle_b);
     }
+    /// Of a level above 0.
+    MOBB_INLINE Windows(const Blocks& blocks_a, const Blocks& blocks_b, int level, int first, int whole) {
+        const int log_unit = Blocks::log_span(level - 1), log_span = Blocks::log_span(level);
+        const int middle = (first << log_span) + (1 << (log_span - 1)),
+                  nearest_b = (middle - whole - 1) + (1 << (log_unit - 1));
+        const int number_a = middle >> log_unit, number_b = nearest_b >> log_unit;
+        a = blocks_a.windows(level, number_a);
+        b = blocks_b.windows(level, number_b);
+        from_a = Blocks::place_of_number(number_a);
+        from_b = Blocks::place_of_number(number_b);
+    }
     /// kLanes of them from the k-th on.
     MOBB_INLINE Nearness at(int k, const Relation& relation) const {
         return nearness(a, from_a + k, b, from_b + k, relation);
     }
-};
-
-/// Of blocks [first, end) of A, from `first` on: at most kMostBits.
-MOBB_INLINE Nearness blocks_near(const Blocks& a, const Blocks& b, int first, int end, const Relation& relation,
-                                 int whole) {
-    const Windows windows(a, b, first, whole);
-    const int n = std::min(end - first, kMostBits);
-    Nearness out;
-    for (int k = 0; k < n; k += kLanes) {
-        const Nearness some = windows.at(k, relation);
-        out.may |= some.may << k;
-        out.sure |= some.sure << k;
+    /// The first n of them, n <= kMostBits.
+    MOBB_INLINE Nearness first(int n, const Relation& relation) const {
+        Nearness out;
+        for (int k = 0; k < n; k += kLanes) {
+            const Nearness some = at(k, relation);
+            out.may |= some.may << k;
+            out.sure |= some.sure << k;
+        }
+        const std::uint64_t there = low_bits(n);
+        return {out.may & there, out.sure & there};
     }
-    const std::uint64_t there = low_bits(n);
-    return {out.may & there, out.sure & there};
-}
+};
 
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop; if
 /// OnHit::kAny, it may not be called before a traversal stops, as one that collides is as good as the earliest.
@@ -240,32 +241,50 @@ class BlockTraversal {
 
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
     bool run() {
-        if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
         const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
         if (shifted_) {
             const int level = std::min(top_a, top_b);
+            if constexpr (!Observer::watches) return scan_level(level, 0, blocks_a_.count(level));
+            if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
             return visit_shifted(level, 0, blocks_a_.count(level), 0, blocks_b_.count(level));
         }
+        if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
         return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
     }
 
-    /// Blocks of level 0 that are shifted, where nobody watches: each of A's against the window of B's samples that it
-    /// shares time with, and then its samples.
-    MOBB_INLINE bool scan_blocks(const BlockRange& range, int first_b, int end_b) {
-        for (int i = range.first; i < range.end; i += kMostBits) {
-            const Nearness blocks = blocks_near(blocks_a_, blocks_b_, i, range.end, relation_, shift_.whole());
+    /// Blocks that are shifted, where nobody watches: each of A's against the window of B's samples that it shares time
+    /// with, and then what lies below it. At most the blocks [first, end) of A.
+    bool scan_level(int level, int first, int end) {
+        const BlockRange range(shift_.whole(), blocks_a_, blocks_b_, Blocks::log_span(level));
+        first = std::max(first, range.first);
+        end = std::min(end, range.end);
+        if (level == 0) return scan_blocks(first, end);
+        for (; first < end; first += kMostBits) {
+            const Windows windows(blocks_a_, blocks_b_, level, first, shift_.whole());
+            std::uint64_t may = windows.first(std::min(end - first, kMostBits), relation_).may;
+            for (; may != 0; may &= may - 1) {
+                const int below = (first + std::countr_zero(may)) * Blocks::kFanOut;
+                if (scan_level(level - 1, below, below + Blocks::kFanOut)) return true;
+            }
+        }
+        return false;
+    }
+    MOBB_INLINE bool scan_blocks(int first, int end) {
+        for (; first < end; first += kMostBits) {
+            const Windows windows(blocks_a_, blocks_b_, first, shift_.whole());
+            const Nearness blocks = windows.first(std::min(end - first, kMostBits), relation_);
             if constexpr (OnHit::kAny) {
                 if (blocks.sure != 0) return true;
             }
-            if (blocks.may != 0 && test_blocks(blocks.may, i, first_b, end_b)) return true;
+            if (blocks.may != 0 && test_blocks(blocks.may, first)) return true;
         }
         return false;
     }
 
-    /// The samples of A's blocks that are set, of which bit 0 is `first`, against those of B's blocks [first_b, end_b).
-    MOBB_INLINE bool test_blocks(std::uint64_t blocks, int first, int first_b, int end_b) {
+    /// The samples of A's blocks that are set, of which bit 0 is `first`.
+    MOBB_INLINE bool test_blocks(std::uint64_t blocks, int first) {
         for (; blocks != 0; blocks &= blocks - 1) {
-            if (test_block(first + std::countr_zero(blocks), first_b, end_b)) return true;
+            if (test_block(first + std::countr_zero(blocks))) return true;
         }
         return false;
     }
@@ -303,14 +322,10 @@ class BlockTraversal {
                 static_cast<float>(std::max(std::min(begin + span, span) - from, 0.0) / span)};
     }
 
-    /// Pairs of blocks of one level of clips of one dt, in order of time.
+    /// Pairs of blocks of one level of clips of one dt, in order of time, where somebody watches.
     bool visit_shifted(int level, int first_a, int end_a, int first_b, int end_b) {
         if (level > 0) return scan_pairs<Paced::moving>(level, first_a, end_a, first_b, end_b);
-        if constexpr (Observer::watches) {
-            return scan_pairs<Paced::still>(level, first_a, end_a, first_b, end_b);
-        } else {
-            return scan_blocks(BlockRange(shift_.whole(), first_a, end_a, blocks_b_, first_b, end_b), first_b, end_b);
-        }
+        return scan_pairs<Paced::still>(level, first_a, end_a, first_b, end_b);
     }
     template <Paced paced>
     bool scan_pairs(int level, int first_a, int end_a, int first_b, int end_b) {
@@ -334,13 +349,12 @@ class BlockTraversal {
                 const int low = std::max(0, first_b - j), high = std::max(0, std::min(n, end_b - j));
                 there[m] = ((1U << high) - 1) & (~0U << low);
                 meet[m] = there[m] & may_meet<paced>(a, i, b, j, n, common[m], relation_, slack);
-                any |= Observer::watches ? there[m] : meet[m];
+                any |= there[m];
             }
             for (; any != 0; any &= any - 1) {
                 const int lane = std::countr_zero(any);
                 for (int m = 0; m < shifts.count; ++m) {
-                    const unsigned visited = Observer::watches ? there[m] : meet[m];
-                    if (((visited >> lane) & 1U) == 0) continue;
+                    if (((there[m] >> lane) & 1U) == 0) continue;
                     const int block_a = i + lane, block_b = block_a + to_b + m;
                     // The last block of a clip may have fewer samples than others, and share no time then.
                     const double begin_b = (shifts.first + m) * span + shifts.rest;
@@ -444,8 +458,8 @@ class BlockTraversal {
         return pairs.stopped;
     }
 
-    /// The samples of one block of A, each against what it shares time with of B's blocks [first_b, end_b).
-    MOBB_INLINE bool test_block(int block, int first_b, int end_b) {
+    /// The samples of one block of A, each against both of B's that it shares time with.
+    MOBB_INLINE bool test_block(int block) {
         const Blocks::Rings a = blocks_a_.samples(), b = blocks_b_.samples();
         const int i = block * Blocks::kSamples, j = i - shift_.whole() - 1;
         Nearness samples;
@@ -459,17 +473,16 @@ class BlockTraversal {
         if constexpr (OnHit::kAny) {
             if ((samples.sure & there) != 0) return true;
         }
-        return (samples.may & there) != 0 && test_near(i, samples.may & there, first_b * Blocks::kSamples,
-                                                       std::min(blocks_b_.count(), end_b * Blocks::kSamples));
+        return (samples.may & there) != 0 && test_near(i, samples.may & there);
     }
-    /// A's samples that are set, of which bit 0 is `first`, against B's of [first_b, end_b).
-    [[gnu::noinline]] bool test_near(int first, std::uint64_t samples, int first_b, int end_b) {
+    /// A's samples that are set, of which bit 0 is `first`.
+    [[gnu::noinline]] bool test_near(int first, std::uint64_t samples) {
         const bool held = !a_.is_linear() && !b_.is_linear();
         for (; samples != 0; samples &= samples - 1) {
             const int i = first + std::countr_zero(samples);
             const int j = i - shift_.whole();
-            if (first_b < j && j <= end_b && decide(i, j - 1, held, shift_.rest())) return true;
-            if (first_b <= j && j < end_b && decide(i, j, held, 1 - shift_.rest())) return true;
+            if (0 < j && j <= blocks_b_.count() && decide(i, j - 1, held, shift_.rest())) return true;
+            if (0 <= j && j < blocks_b_.count() && decide(i, j, held, 1 - shift_.rest())) return true;
         }
         return false;
     }
@@ -535,7 +548,8 @@ MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer
     BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, on_hit);
     const Blocks &blocks_a = a.blocks(), &blocks_b = b.blocks();
     if (Observer::watches || (blocks_a.levels() > 1 && blocks_b.levels() > 1)) return traversal.run();
-    return traversal.scan_blocks(BlockRange(shift.whole(), blocks_a, blocks_b), 0, blocks_b.count(0));
+    const BlockRange range(shift.whole(), blocks_a, blocks_b);
+    return traversal.scan_blocks(range.first, range.end);
 }
 
 inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
@@ -587,9 +601,8 @@ struct FirstLook {
     AnyHit any;
     const Shift shift = shift_of(a, b);
     BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, any);
-    const int all_b = b.blocks().count(0);
-    if (range.end - range.first > kMostBits) return traversal.scan_blocks(range, 0, all_b);
-    return traversal.test_blocks(blocks, range.first, 0, all_b);
+    if (range.end - range.first > kMostBits) return traversal.scan_blocks(range.first, range.end);
+    return traversal.test_blocks(blocks, range.first);
 }
 /// Of any two whose roots meet.
 [[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {

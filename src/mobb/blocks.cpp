@@ -186,6 +186,7 @@ Blocks::Blocks(ClipPtr clip)
     for (int level = 0;; ++level) {
         const int blocks = (n + span(level) - 1) / span(level);
         values += values_in(level == 0 ? kStill : kMoving, blocks);
+        if (level > 0) values += values_in(3 * kFanOut, window_stride(level));
         if (blocks <= kMostAtTop) break;
     }
     values_.reserve(values);
@@ -199,6 +200,7 @@ Blocks::Blocks(ClipPtr clip)
         more = level.count > kMostAtTop;
     }
     add_windows();
+    for (int level = 1; level < level_count_; ++level) add_windows(level);
     values_.resize(values_.size() + kReadAhead);
 }
 
@@ -213,7 +215,10 @@ Blocks::Level Blocks::add_level(int number) {
     const bool moves = number > 0;
     const int stride = (n + size - 1) / size, arrays = moves ? kMoving : kStill;
     float* const values = add_arrays(stride, arrays);
-    const Level level{static_cast<std::size_t>(values - values_.data()), stride, arrays};
+    Level level;
+    level.at = static_cast<std::size_t>(values - values_.data());
+    level.count = stride;
+    level.arrays = arrays;
     for (int k = 0; k < level.count; ++k) {
         const int samples = std::min(n - k * size, size);
         const Run run(*clip_, origin_, k * size, k * size + samples);
@@ -278,6 +283,37 @@ void Blocks::add_windows() {
             values[stride + place] = of.y[nearest];
             values[2 * stride + place] = nearest == j ? of.inner[j] : -kNever;
             values[3 * stride + place] = outer[j];
+        }
+    }
+}
+
+int Blocks::window_stride(int level) const {
+    const int farthest = count_ - 1 + span(level) / 2 + span(level - 1) / 2;
+    return place_of_number(farthest >> log_span(level - 1)) + 1;
+}
+
+void Blocks::add_windows(int level) {
+    const int n = count_, unit = span(level - 1), reach = (span(level) + unit) / 2;
+    const int stride = window_stride(level);
+    float* values = add_arrays(stride, 3 * kFanOut);
+    Level& of = levels_[static_cast<std::size_t>(level)];
+    of.windows = static_cast<std::size_t>(values - values_.data());
+    of.window_stride = stride;
+    const Rings each = samples();
+    const Paths blocks = paths(0);
+    for (int phase = 0; phase < kFanOut; ++phase, values += 3 * stride) {
+        for (int place = 0; place < stride; ++place) {
+            const std::int64_t middle = std::int64_t{place * kFanOut + phase - kFanOut / 2} * unit;
+            const auto within = [n](std::int64_t i) { return static_cast<int>(std::clamp<std::int64_t>(i, 0, n - 1)); };
+            const int center = within(middle);
+            float radius = 0;
+            for (int k = within(middle - reach) >> kLogSamples; k <= within(middle + reach) >> kLogSamples; ++k) {
+                const float dx = blocks.x()[k] - each.x[center], dy = blocks.y()[k] - each.y[center];
+                radius = std::max(radius, std::sqrt(dx * dx + dy * dy) + blocks.r()[k]);
+            }
+            values[place] = each.x[center];
+            values[stride + place] = each.y[center];
+            values[2 * stride + place] = radius;
         }
     }
 }

@@ -132,6 +132,17 @@ class alignas(64) Blocks {
     static constexpr float kNever = 1e30F;
     static constexpr int phase_of(int sample) { return (sample + kSamples / 2) & (kSamples - 1); }
     static constexpr int place_of(int sample) { return (sample + kSamples / 2) >> kLogSamples; }
+    /// Windows for the blocks of a level above 0, likewise, but of `outer` alone: about every span(level - 1)-th
+    /// sample, as its number counts these; of half a block's samples and half of what lies between two windows before
+    /// and behind.
+    Rings windows(int level, int number) const {
+        const Level& of = levels_[static_cast<std::size_t>(level)];
+        const int phase = (number + kFanOut / 2) & (kFanOut - 1);
+        const float* const x = values_.data() + of.windows + std::ptrdiff_t{3} * of.window_stride * phase;
+        const float* const outer = x + 2 * std::ptrdiff_t{of.window_stride};
+        return {x, x + of.window_stride, outer, outer};
+    }
+    static constexpr int place_of_number(int number) { return (number + kFanOut / 2) >> 3; }
 
     /// The middle of the root, in the clip's frame, and its radius.
     glm::dvec2 origin() const { return origin_; }
@@ -153,9 +164,11 @@ class alignas(64) Blocks {
 
   private:
     struct Level {
-        std::size_t at = 0;  ///< of the first array in values_
-        int count = 0;       ///< of blocks, and from one array to the next
-        int arrays = 0;      ///< as many of Paths as there are, from the first on
+        std::size_t at = 0;       ///< of the first array in values_
+        int count = 0;            ///< of blocks, and from one array to the next
+        std::size_t windows = 0;  ///< in values_, of levels above 0
+        int window_stride = 0;
+        int arrays = 0;  ///< as many of Paths as there are, from the first on
     };
     static_assert(kFanOut == 8 && kMostAtTop >= kFanOut);
     static constexpr std::size_t kMostLevels = 7;
@@ -166,6 +179,8 @@ class alignas(64) Blocks {
     Level add_level(int level);
     void add_samples();
     void add_windows();
+    void add_windows(int level);
+    int window_stride(int level) const;
     MovingDisk bound(const Level& level, int block, int span) const;
     MovingDisk root() const { return {origin_, glm::dvec2(0), radius_}; }
     bool has_root_above() const { return level_count_ > 1 || levels_[0].count > 1; }

@@ -67,6 +67,51 @@ TEST(Production, GivesTheDirectSearchsAnswersOnEveryInstructionSet) {
     EXPECT_GT(hits, test::query_budget() / 100);
 }
 
+/// A walk that turns at will, at some metres a sample: of long ones few come near each other.
+ClipPtr long_walk(Random& random, int samples, double step, double dt) {
+    std::vector<Disk> walk;
+    double x = random.real(-1, 1), y = random.real(-1, 1), heading = random.real(0, 7);
+    for (int i = 0; i < samples; ++i) {
+        walk.push_back({x, y, random.real(0.2, 0.5)});
+        heading += random.real(-0.3, 0.3);
+        x += step * std::cos(heading), y += step * std::sin(heading);
+    }
+    return std::make_shared<const Clip>(dt, walk, random.chance(0.2) ? Motion::linear : Motion::held);
+}
+
+TEST(Production, GivesTheDirectSearchsAnswersOnClipsOfSeveralLevels) {
+    const EachInstructionSet sets;
+    Random random(80);
+    int hits = 0, levels = 0;
+    for (int round = 0; round < 40; ++round) {
+        const auto length = [&] { return static_cast<int>(std::pow(10, random.real(3.4, 4.7))); };
+        const double step = random.real(0.005, 0.05);
+        const Blocks blocks_a(long_walk(random, length(), step, 0.04));
+        const Blocks blocks_b(long_walk(random, length(), step, random.chance(0.8) ? 0.04 : 0.05));
+        levels = std::max(levels, std::min(blocks_a.levels(), blocks_b.levels()));
+        for (int i = 0; i < 20; ++i) {
+            Placement place_a, place_b;
+            test::random_placements(random, blocks_a.clip(), blocks_b.clip(), place_a, place_b);
+            if (random.chance(0.5)) place_b.translate *= 0.2 * std::sqrt(blocks_a.count());
+            const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
+            const PlacedClip clip_a(blocks_a.clip(), place_a), clip_b(blocks_b.clip(), place_b);
+            const std::optional<Contact> expected = direct_search(clip_a, clip_b);
+            hits += expected ? 1 : 0;
+            for (const std::string_view set : sets.names()) {
+                ASSERT_TRUE(use_instruction_set(set));
+                ASSERT_EQ(query(a, b), expected) << set;
+                ASSERT_EQ(intersects(b, a), expected.has_value()) << set;
+            }
+            if (i == 0) {
+                EXPECT_EQ(contact_intervals(a, b), direct_contact_intervals(clip_a, clip_b));
+            }
+        }
+    }
+    EXPECT_GE(levels, 3);
+    EXPECT_GT(hits, 100);
+    EXPECT_LT(hits, 700);
+}
+
 TEST(Production, FindsAllIntervalsOfContact) {
     const EachInstructionSet sets;
     Random random(72);
@@ -195,6 +240,31 @@ TEST(Blocks, WindowsHoldTheirSamples) {
             EXPECT_EQ(windows.inner[place], j == nearest ? samples.inner[j] : -Blocks::kNever) << j;
             EXPECT_NEAR(reach_out(j - Blocks::kWindow, j + Blocks::kWindow, center, windows.outer[place]), 0, rounding)
                 << j << " of " << n;
+        }
+    }
+}
+
+TEST(Blocks, WindowsOfHigherLevelsHoldTheirSamples) {
+    Random random(81);
+    for (const int count : {2049, 5000, 20'000}) {
+        const Blocks blocks(long_walk(random, count, 0.03, 0.04));
+        const Blocks::Rings samples = blocks.samples();
+        ASSERT_GT(blocks.levels(), 1);
+        for (int level = 1; level < blocks.levels(); ++level) {
+            const int unit = Blocks::span(level - 1), half = Blocks::span(level) / 2,
+                      last = (count - 1 + half + unit / 2) / unit;
+            for (int number = -half / unit; number <= last; ++number) {
+                const Blocks::Rings windows = blocks.windows(level, number);
+                const int place = Blocks::place_of_number(number), middle = number * unit;
+                const int nearest = std::clamp(middle, 0, count - 1);
+                EXPECT_EQ(windows.x[place], samples.x[nearest]);
+                EXPECT_EQ(windows.y[place], samples.y[nearest]);
+                double most = -1;
+                for (int i = std::max(0, middle - half - unit / 2); i < std::min(count, middle + half + unit / 2); ++i)
+                    most = std::max(most, beyond({samples.x[i], samples.y[i], samples.inner[i]},
+                                                 {windows.x[place], windows.y[place]}, windows.outer[place]));
+                EXPECT_LT(most, 1e-4) << level << ", " << number << " of " << count;
+            }
         }
     }
 }
