@@ -1,6 +1,9 @@
-// The traversal of two clips' blocks: the only one, for answers, counts and traces alike. Included once for each set of
-// instructions, in a namespace MOBB_LANES of mobb in which hn has the operations. Every number that decides what is
-// pruned comes from the same operations in the same order on every machine, and none of them is fused.
+// The traversal of two clips' blocks, for answers, counts and traces. Included once for each set of instructions, in a
+// namespace MOBB_LANES of mobb in which hn has the operations. Where an observer watches, each of A's blocks is tested
+// against each of B's that it shares time with (may_meet): what it is told comes from the same operations in the same
+// order on every machine, and none of them is fused. Where nobody does and both clips are of one dt, each of A's blocks
+// is tested against the window of B's samples that it shares time with (nearness), which is faster and rules out more.
+// Either only rules out: what collides is decided by the predicate, or is sure by far more than rounding.
 
 namespace mobb::MOBB_LANES {
 
@@ -181,7 +184,7 @@ struct BlockRange {
           end(std::min((a.count() - 1) >> log_span, (b.count() + whole) >> log_span) + 1) {}
 };
 
-/// A's blocks from `first` on and the windows of B's samples that they share time with, side by side.
+/// A's blocks from `first` on, and the windows of B's samples that they share time with.
 struct Windows {
     Blocks::Rings a, b;
     std::ptrdiff_t from_a, from_b;

@@ -46,12 +46,16 @@ inline Box box_around(const MovingDisk& disk, double t0, double t1) {
 /// level may have fewer. Levels are added until one has at most kMostAtTop blocks. A block's bound holds each of its
 /// disks for as long as it lasts; of a linear clip the disks as they run. Bounds of level 0 stand still: they are the
 /// cheapest to test, and in so short a time hardly anything moves far. Those of higher levels move. The root's bound
-/// holds the whole clip and stands still.
+/// holds the whole clip and stands still. These are the nodes that an observer is told of.
+///
+/// Where nobody watches, and clips are of one dt, blocks are tested by windows: runs of as many samples that may begin
+/// at any sample, so that a block of one clip shares time with one window of the other.
 class alignas(64) Blocks {
   public:
     static constexpr int kLogSamples = 4;
     static constexpr int kSamples = 1 << kLogSamples;
-    static constexpr int kFanOut = 8;
+    static constexpr int kLogFanOut = 3;
+    static constexpr int kFanOut = 1 << kLogFanOut;
     static constexpr int kMostAtTop = 128;
 
     /// Takes time in proportion to the samples times the levels. Throws std::invalid_argument if there is no clip.
@@ -76,7 +80,7 @@ class alignas(64) Blocks {
     /// Blocks of a level, 0 <= level < levels(); samples that each has, but for the last one.
     int count(int level) const { return levels_[static_cast<std::size_t>(level)].count; }
     static constexpr int span(int level) { return 1 << log_span(level); }
-    static constexpr int log_span(int level) { return kLogSamples + 3 * level; }
+    static constexpr int log_span(int level) { return kLogSamples + kLogFanOut * level; }
 
     /// A block as a node: 0 is the root, then come the levels from the top down, each in the order of time. Where level
     /// 0 has one block, that is the root.
@@ -132,9 +136,9 @@ class alignas(64) Blocks {
     static constexpr float kNever = 1e30F;
     static constexpr int phase_of(int sample) { return (sample + kSamples / 2) & (kSamples - 1); }
     static constexpr int place_of(int sample) { return (sample + kSamples / 2) >> kLogSamples; }
-    /// Windows for the blocks of a level above 0, likewise, but of `outer` alone: about every span(level - 1)-th
-    /// sample, as its number counts these; of half a block's samples and half of what lies between two windows before
-    /// and behind.
+    /// Windows for the blocks of a level above 0, likewise, but with `outer` alone, and about every span(level - 1)-th
+    /// sample, which `number` counts. They reach half a block before and behind, and half of the way to the next window
+    /// more, as B's may be so far from where it should be. Window `number` is at place_of_number(number).
     Rings windows(int level, int number) const {
         const Level& of = levels_[static_cast<std::size_t>(level)];
         const int phase = (number + kFanOut / 2) & (kFanOut - 1);
@@ -142,7 +146,7 @@ class alignas(64) Blocks {
         const float* const outer = x + 2 * std::ptrdiff_t{of.window_stride};
         return {x, x + of.window_stride, outer, outer};
     }
-    static constexpr int place_of_number(int number) { return (number + kFanOut / 2) >> 3; }
+    static constexpr int place_of_number(int number) { return (number + kFanOut / 2) >> kLogFanOut; }
 
     /// The middle of the root, in the clip's frame, and its radius.
     glm::dvec2 origin() const { return origin_; }
@@ -170,9 +174,9 @@ class alignas(64) Blocks {
         int window_stride = 0;
         int arrays = 0;  ///< as many of Paths as there are, from the first on
     };
-    static_assert(kFanOut == 8 && kMostAtTop >= kFanOut);
+    static_assert(kMostAtTop >= kFanOut);
     static constexpr std::size_t kMostLevels = 7;
-    static_assert(kMaxSamples / kSamples >> (3 * (kMostLevels - 1)) < kMostAtTop);
+    static_assert(kMaxSamples / kSamples >> (kLogFanOut * (kMostLevels - 1)) < kMostAtTop);
     static constexpr int kStill = 3, kMoving = 6, kRings = 4;
 
     float* add_arrays(int count, int arrays);
