@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
@@ -80,14 +79,20 @@ std::string read_file(const std::filesystem::path& file) {
     if (!in) throw InputError(name, "", "cannot be read: " + system_message(errno));
 
     std::string bytes;
-    // In one piece: as it grew, memory would be asked for again and again.
+    const auto check_size = [&name](std::uintmax_t size) {
+        if (size > kLargestFile) throw InputError(name, "", "is larger than 2 GiB; split it");
+    };
     const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error) bytes.reserve(static_cast<std::size_t>(std::min(size, kLargestFile)));
+    if (!error) {
+        check_size(size);
+        // In one piece: as it grew, memory would be asked for again and again.
+        bytes.reserve(static_cast<std::size_t>(size));
+    }
     std::vector<char> buffer(1 << 16);
     std::size_t count = 0;
     while ((count = std::fread(buffer.data(), 1, buffer.size(), in.get())) > 0) {
         bytes.append(buffer.data(), count);
-        if (bytes.size() > kLargestFile) throw InputError(name, "", "is larger than 2 GiB; split it");
+        check_size(bytes.size());  // it may have grown meanwhile
     }
     if (std::ferror(in.get())) throw InputError(name, "", "cannot be read: " + system_message(errno));
     return bytes;

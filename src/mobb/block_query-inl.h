@@ -184,30 +184,11 @@ struct BlockRange {
           end(std::min((a.count() - 1) >> log_span, (b.count() + whole) >> log_span) + 1) {}
 };
 
-/// A's blocks from `first` on, and the windows of B's samples that they share time with.
-struct Windows {
+/// Pairs (from_a + k, from_b + k).
+struct Pairs {
     Blocks::Rings a, b;
     std::ptrdiff_t from_a, from_b;
 
-    MOBB_INLINE Windows(const Blocks& blocks_a, const Blocks& blocks_b, int first, int whole) {
-        constexpr int kMiddle = Blocks::kSamples / 2;
-        const int middle_b = first * Blocks::kSamples + kMiddle - whole - 1;
-        a = blocks_a.windows(Blocks::phase_of(kMiddle));
-        b = blocks_b.windows(Blocks::phase_of(middle_b));
-        from_a = first + Blocks::place_of(kMiddle);
-        from_b = Blocks::place_of(middle_b);
-    }
-    /// Of a level above 0.
-    MOBB_INLINE Windows(const Blocks& blocks_a, const Blocks& blocks_b, int level, int first, int whole) {
-        const int log_unit = Blocks::log_span(level - 1), log_span = Blocks::log_span(level);
-        const int middle = (first << log_span) + (1 << (log_span - 1)),
-                  nearest_b = (middle - whole - 1) + (1 << (log_unit - 1));
-        const int number_a = middle >> log_unit, number_b = nearest_b >> log_unit;
-        a = blocks_a.windows(level, number_a);
-        b = blocks_b.windows(level, number_b);
-        from_a = Blocks::place_of_number(number_a);
-        from_b = Blocks::place_of_number(number_b);
-    }
     /// kLanes of them from the k-th on.
     MOBB_INLINE Nearness at(int k, const Relation& relation) const {
         return nearness(a, from_a + k, b, from_b + k, relation);
@@ -224,6 +205,28 @@ struct Windows {
         return {out.may & there, out.sure & there};
     }
 };
+
+/// A's blocks from `first` on, and the windows of B's samples that they share time with.
+MOBB_INLINE Pairs blocks_and_windows(const Blocks& a, const Blocks& b, int first, int whole) {
+    constexpr int kMiddle = Blocks::kSamples / 2;
+    const int middle_b = first * Blocks::kSamples + kMiddle - whole - 1;
+    return {a.windows(Blocks::phase_of(kMiddle)), b.windows(Blocks::phase_of(middle_b)),
+            first + Blocks::place_of(kMiddle), Blocks::place_of(middle_b)};
+}
+/// Of a level above 0.
+MOBB_INLINE Pairs blocks_and_windows(const Blocks& a, const Blocks& b, int level, int first, int whole) {
+    const int log_unit = Blocks::log_span(level - 1), log_span = Blocks::log_span(level);
+    const int middle = (first << log_span) + (1 << (log_span - 1));
+    const int nearest_b = (middle - whole - 1) + (1 << (log_unit - 1));
+    const int number_a = middle >> log_unit, number_b = nearest_b >> log_unit;
+    return {a.windows(level, number_a), b.windows(level, number_b), Blocks::place_of_number(number_a),
+            Blocks::place_of_number(number_b)};
+}
+/// A's samples from i on, and B's from j on.
+MOBB_INLINE Pairs samples_of(const Blocks& blocks_a, int i, const Blocks& blocks_b, int j) {
+    const Blocks::Rings a = blocks_a.samples();
+    return {{a.x, a.y, a.inner, a.inner}, blocks_b.samples(), i, j};
+}
 
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop; if
 /// OnHit::kAny, it may not be called before a traversal stops, as one that collides is as good as the earliest.
@@ -244,14 +247,10 @@ class BlockTraversal {
 
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
     bool run() {
-        const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1;
-        if (shifted_) {
-            const int level = std::min(top_a, top_b);
-            if constexpr (!Observer::watches) return scan_level(level, 0, blocks_a_.count(level));
-            if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
-            return visit_shifted(level, 0, blocks_a_.count(level), 0, blocks_b_.count(level));
-        }
+        const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1, top = std::min(top_a, top_b);
+        if (!Observer::watches && shifted_) return scan_level(top, 0, blocks_a_.count(top));
         if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
+        if (shifted_) return visit_shifted(top, 0, blocks_a_.count(top), 0, blocks_b_.count(top));
         return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
     }
 
@@ -263,8 +262,8 @@ class BlockTraversal {
         end = std::min(end, range.end);
         if (level == 0) return scan_blocks(first, end);
         for (; first < end; first += kMostBits) {
-            const Windows windows(blocks_a_, blocks_b_, level, first, shift_.whole());
-            std::uint64_t may = windows.first(std::min(end - first, kMostBits), relation_).may;
+            const Pairs pairs = blocks_and_windows(blocks_a_, blocks_b_, level, first, shift_.whole());
+            std::uint64_t may = pairs.first(std::min(end - first, kMostBits), relation_).may;
             for (; may != 0; may &= may - 1) {
                 const int below = (first + std::countr_zero(may)) * Blocks::kFanOut;
                 if (scan_level(level - 1, below, below + Blocks::kFanOut)) return true;
@@ -274,8 +273,8 @@ class BlockTraversal {
     }
     MOBB_INLINE bool scan_blocks(int first, int end) {
         for (; first < end; first += kMostBits) {
-            const Windows windows(blocks_a_, blocks_b_, first, shift_.whole());
-            const Nearness blocks = windows.first(std::min(end - first, kMostBits), relation_);
+            const Pairs pairs = blocks_and_windows(blocks_a_, blocks_b_, first, shift_.whole());
+            const Nearness blocks = pairs.first(std::min(end - first, kMostBits), relation_);
             if constexpr (OnHit::kAny) {
                 if (blocks.sure != 0) return true;
             }
@@ -463,14 +462,8 @@ class BlockTraversal {
 
     /// The samples of one block of A, each against both of B's that it shares time with.
     MOBB_INLINE bool test_block(int block) {
-        const Blocks::Rings a = blocks_a_.samples(), b = blocks_b_.samples();
         const int i = block * Blocks::kSamples, j = i - shift_.whole() - 1;
-        Nearness samples;
-        for (int k = 0; k < Blocks::kSamples; k += kLanes) {
-            const Nearness some = nearness({a.x, a.y, a.inner, a.inner}, i + k, b, j + k, relation_);
-            samples.may |= some.may << k;
-            samples.sure |= some.sure << k;
-        }
+        const Nearness samples = samples_of(blocks_a_, i, blocks_b_, j).first(Blocks::kSamples, relation_);
         const int count = std::min(blocks_a_.count() - i, blocks_b_.count() - j);
         const std::uint64_t there = low_bits(std::min(count, Blocks::kSamples)) & ~low_bits(-1 - j);
         if constexpr (OnHit::kAny) {
@@ -572,16 +565,16 @@ struct FirstLook {
     BlockRange range;
     Nearness near;  ///< of block first + k of A in bit k; of more than kMostBits blocks, there again from 0 on
 
-    MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b) : FirstLook(a, b, shift_of(a, b)) {}
-    MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b, Shift shift)
-        : range(shift.whole(), a.blocks(), b.blocks()) {
+    MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b) {
+        const Shift shift = shift_of(a, b);
         const Relation relation = relate(a, b, shift);
-        const Windows windows(a.blocks(), b.blocks(), range.first, shift.whole());
+        range = BlockRange(shift.whole(), a.blocks(), b.blocks());
+        const Pairs pairs = blocks_and_windows(a.blocks(), b.blocks(), range.first, shift.whole());
         const int n = range.end - range.first;
         // The last step goes over some a second time rather than beyond them.
         const int last = std::max(n - kLanes, 0);
         for (int k = 0;; k = std::min(k + kLanes, last)) {
-            const Nearness some = windows.at(k, relation);
+            const Nearness some = pairs.at(k, relation);
             near.may |= std::rotl(some.may, k);
             near.sure |= some.sure;
             if (k == last) break;

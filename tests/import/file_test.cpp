@@ -8,6 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <string>
 
 namespace mobbscope {
@@ -95,6 +98,13 @@ TEST(File, OnlyRegularFilesAreRead) {
     EXPECT_NE(input_error([&] { read_file(folder.path() / "none"); }).find("no such file"), std::string::npos);
     EXPECT_NE(input_error([&] { read_file(folder.path()); }).find("is a directory"), std::string::npos);
     EXPECT_NE(input_error([] { read_file("/dev/zero"); }).find("no regular file"), std::string::npos);
+}
+
+TEST(File, OneThatIsTooLargeIsRefused) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("large.csv", "t,x,y,r\n");
+    std::filesystem::resize_file(file, std::uintmax_t{3} << 30);  // sparse: it takes no room
+    EXPECT_EQ(input_error([&] { read_file(file); }), file.string() + ": is larger than 2 GiB; split it");
 }
 
 TEST(File, ExtensionsAreComparedInLowerCase) {
