@@ -541,11 +541,7 @@ MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer
     if (!are_shifted(a, b)) [[unlikely]]
         return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit).run();
     const Shift shift = shift_of(a, b);
-    BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, on_hit);
-    const Blocks &blocks_a = a.blocks(), &blocks_b = b.blocks();
-    if (Observer::watches || (blocks_a.levels() > 1 && blocks_b.levels() > 1)) return traversal.run();
-    const BlockRange range(shift.whole(), blocks_a, blocks_b);
-    return traversal.scan_blocks(range.first, range.end);
+    return BlockTraversal(a, b, relate(a, b, shift), &shift, observer, on_hit).run();
 }
 
 inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
