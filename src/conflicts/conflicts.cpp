@@ -54,7 +54,7 @@ Conflict conflict_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b, Searc
     if (direct) {
         mobb::visit_sample_pairs(deepest.a, 0, deepest.a.count(), deepest.b, 0, deepest.b.count(), observer, deepest);
     } else {
-        mobb::Traversal(a, b, observer, deepest).run();
+        mobb::visit_hits(a, b, observer, deepest);
     }
     return conflict;
 }

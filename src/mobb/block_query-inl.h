@@ -1,9 +1,9 @@
 // The traversal of two clips' blocks, for answers, counts and traces. Included once for each set of instructions, in a
 // namespace MOBB_LANES of mobb in which hn has the operations. Where an observer watches, each of A's blocks is tested
 // against each of B's that it shares time with (may_meet): what it is told comes from the same operations in the same
-// order on every machine, and none of them is fused. Where nobody does and both clips are of one dt, each of A's blocks
-// is tested against the window of B's samples that it shares time with (nearness), which is faster and rules out more.
-// Either only rules out: what collides is decided by the predicate, or is sure by far more than rounding.
+// order on every machine, and none of them is fused. Where nobody does and both clips are of one dt, runs of A's
+// samples are tested against the windows of B's samples that they share time with (nearness), which is faster and rules
+// out more. Either only rules out: what collides is decided by the predicate, or is sure by far more than rounding.
 
 namespace mobb::MOBB_LANES {
 
@@ -174,15 +174,14 @@ MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { retur
 
 constexpr int kMostBits = 64;
 
-/// Those of A's blocks of a level that share time with B, where both are of one dt.
-struct BlockRange {
+/// Samples [first, end) of A.
+struct SampleRange {
     int first, end;
-
-    BlockRange() = default;
-    MOBB_INLINE BlockRange(int whole, const Blocks& a, const Blocks& b, int log_span = Blocks::kLogSamples)
-        : first(std::max(0, whole >> log_span)),
-          end(std::min((a.count() - 1) >> log_span, (b.count() + whole) >> log_span) + 1) {}
 };
+/// Those that share time with B, where both are of one dt.
+MOBB_INLINE SampleRange shared_samples(const Blocks& a, const Blocks& b, int whole) {
+    return {std::max(0, whole), std::min(a.count() - 1, b.count() + whole) + 1};
+}
 
 /// Pairs (from_a + k, from_b + k).
 struct Pairs {
@@ -193,6 +192,7 @@ struct Pairs {
     MOBB_INLINE Nearness at(int k, const Relation& relation) const {
         return nearness(a, from_a + k, b, from_b + k, relation);
     }
+    MOBB_INLINE Pairs from(int k) const { return {a, b, from_a + k, from_b + k}; }
     /// The first n of them, n <= kMostBits.
     MOBB_INLINE Nearness first(int n, const Relation& relation) const {
         Nearness out;
@@ -206,14 +206,25 @@ struct Pairs {
     }
 };
 
-/// A's blocks from `first` on, and the windows of B's samples that they share time with.
-MOBB_INLINE Pairs blocks_and_windows(const Blocks& a, const Blocks& b, int first, int whole) {
-    constexpr int kMiddle = Blocks::kSamples / 2;
-    const int middle_b = first * Blocks::kSamples + kMiddle - whole - 1;
-    return {a.windows(Blocks::phase_of(kMiddle)), b.windows(Blocks::phase_of(middle_b)),
-            first + Blocks::place_of(kMiddle), Blocks::place_of(middle_b)};
-}
-/// Of a level above 0.
+/// Runs of kWindow samples of A, one behind the other, that have all samples of a range between them; and the windows
+/// of B's samples that they share time with.
+struct WindowPairs {
+    Pairs pairs;
+    int first;  ///< sample of A with which the first run begins: it may be before the range
+    int count;
+
+    MOBB_INLINE WindowPairs(const Blocks& a, const Blocks& b, const SampleRange& range, int whole) {
+        constexpr int kLog = Blocks::kLogWindow;
+        const Blocks::PhasePair phases = Blocks::phases_apart(whole + 1);
+        const int to_place = Blocks::kWindow - phases.a;
+        const int place = (range.first + to_place) >> kLog;
+        first = (place << kLog) - to_place;
+        count = ((range.end - 1 + to_place) >> kLog) + 1 - place;
+        const int later = phases.a - phases.b - (whole + 1);  // what B's window is about, in whole windows
+        pairs = {a.windows(phases.number_a), b.windows(phases.number_b), place, place + (later >> kLog)};
+    }
+};
+/// A's blocks of a level above 0 from `first` on, and the windows of B's samples that they share time with.
 MOBB_INLINE Pairs blocks_and_windows(const Blocks& a, const Blocks& b, int level, int first, int whole) {
     const int log_unit = Blocks::log_span(level - 1), log_span = Blocks::log_span(level);
     const int middle = (first << log_span) + (1 << (log_span - 1));
@@ -248,45 +259,46 @@ class BlockTraversal {
     /// Of roots that share time and may meet. Returns true if on_hit stopped it.
     bool run() {
         const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1, top = std::min(top_a, top_b);
-        if (!Observer::watches && shifted_) return scan_level(top, 0, blocks_a_.count(top));
+        if (!Observer::watches && shifted_)
+            return scan_level(top, shared_samples(blocks_a_, blocks_b_, shift_.whole()));
         if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
         if (shifted_) return visit_shifted(top, 0, blocks_a_.count(top), 0, blocks_b_.count(top));
         return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
     }
 
-    /// Blocks that are shifted, where nobody watches: each of A's against the window of B's samples that it shares time
-    /// with, and then what lies below it. At most the blocks [first, end) of A.
-    bool scan_level(int level, int first, int end) {
-        const BlockRange range(shift_.whole(), blocks_a_, blocks_b_, Blocks::log_span(level));
-        first = std::max(first, range.first);
-        end = std::min(end, range.end);
-        if (level == 0) return scan_blocks(first, end);
-        for (; first < end; first += kMostBits) {
+    /// Samples of A against B's that are shifted, where nobody watches: those of a block against the window of B's that
+    /// it shares time with, and then what lies below it.
+    bool scan_level(int level, const SampleRange& range) {
+        if (level == 0) return scan_windows(range);
+        const int log_span = Blocks::log_span(level), end = ((range.end - 1) >> log_span) + 1;
+        for (int first = range.first >> log_span; first < end; first += kMostBits) {
             const Pairs pairs = blocks_and_windows(blocks_a_, blocks_b_, level, first, shift_.whole());
             std::uint64_t may = pairs.first(std::min(end - first, kMostBits), relation_).may;
             for (; may != 0; may &= may - 1) {
-                const int below = (first + std::countr_zero(may)) * Blocks::kFanOut;
-                if (scan_level(level - 1, below, below + Blocks::kFanOut)) return true;
+                const std::int64_t begin = std::int64_t{first + std::countr_zero(may)} << log_span;
+                const std::int64_t until = std::min<std::int64_t>(range.end, begin + Blocks::span(level));
+                const int from = std::max(range.first, static_cast<int>(begin));
+                if (scan_level(level - 1, {from, static_cast<int>(until)})) return true;
             }
         }
         return false;
     }
-    MOBB_INLINE bool scan_blocks(int first, int end) {
-        for (; first < end; first += kMostBits) {
-            const Pairs pairs = blocks_and_windows(blocks_a_, blocks_b_, first, shift_.whole());
-            const Nearness blocks = pairs.first(std::min(end - first, kMostBits), relation_);
+    MOBB_INLINE bool scan_windows(const SampleRange& range) {
+        const WindowPairs windows(blocks_a_, blocks_b_, range, shift_.whole());
+        for (int k = 0; k < windows.count; k += kMostBits) {
+            const Nearness some = windows.pairs.from(k).first(std::min(windows.count - k, kMostBits), relation_);
             if constexpr (OnHit::kAny) {
-                if (blocks.sure != 0) return true;
+                if (some.sure != 0) return true;
             }
-            if (blocks.may != 0 && test_blocks(blocks.may, first)) return true;
+            if (some.may != 0 && test_runs(some.may, windows.first + k * Blocks::kWindow, range)) return true;
         }
         return false;
     }
 
-    /// The samples of A's blocks that are set, of which bit 0 is `first`.
-    MOBB_INLINE bool test_blocks(std::uint64_t blocks, int first) {
-        for (; blocks != 0; blocks &= blocks - 1) {
-            if (test_block(first + std::countr_zero(blocks))) return true;
+    /// The samples of A's runs that are set, of which bit 0 begins with sample `first`.
+    MOBB_INLINE bool test_runs(std::uint64_t runs, int first, const SampleRange& range) {
+        for (; runs != 0; runs &= runs - 1) {
+            if (test_run(first + std::countr_zero(runs) * Blocks::kWindow, range)) return true;
         }
         return false;
     }
@@ -460,12 +472,11 @@ class BlockTraversal {
         return pairs.stopped;
     }
 
-    /// The samples of one block of A, each against both of B's that it shares time with.
-    MOBB_INLINE bool test_block(int block) {
-        const int i = block * Blocks::kSamples, j = i - shift_.whole() - 1;
-        const Nearness samples = samples_of(blocks_a_, i, blocks_b_, j).first(Blocks::kSamples, relation_);
-        const int count = std::min(blocks_a_.count() - i, blocks_b_.count() - j);
-        const std::uint64_t there = low_bits(std::min(count, Blocks::kSamples)) & ~low_bits(-1 - j);
+    /// A run from sample i of A on, as far as it lies in the range: each against both of B's that it shares time with.
+    MOBB_INLINE bool test_run(int i, const SampleRange& range) {
+        const Nearness samples =
+            samples_of(blocks_a_, i, blocks_b_, i - shift_.whole() - 1).first(Blocks::kWindow, relation_);
+        const std::uint64_t there = low_bits(std::min(range.end - i, Blocks::kWindow)) & ~low_bits(range.first - i);
         if constexpr (OnHit::kAny) {
             if ((samples.sure & there) != 0) return true;
         }
@@ -556,28 +567,31 @@ inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, 
 MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b) {
     return are_shifted(a, b) && std::min(a.blocks().levels(), b.blocks().levels()) == 1;
 }
-/// What their blocks tell of two whose roots meet. The same work for all, without a branch but for the number of steps.
+/// What their windows tell of two whose roots meet. The same work for all, without a branch but for the number of
+/// steps.
 struct FirstLook {
-    BlockRange range;
-    Nearness near;  ///< of block first + k of A in bit k; of more than kMostBits blocks, there again from 0 on
+    SampleRange range;
+    int first, count;  ///< of runs, as WindowPairs says
+    Nearness near;     ///< of run k of A in bit k; of more than kMostBits, there again from 0 on
 
+    FirstLook() = default;
     MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b) {
         const Shift shift = shift_of(a, b);
         const Relation relation = relate(a, b, shift);
-        range = BlockRange(shift.whole(), a.blocks(), b.blocks());
-        const Pairs pairs = blocks_and_windows(a.blocks(), b.blocks(), range.first, shift.whole());
-        const int n = range.end - range.first;
+        range = shared_samples(a.blocks(), b.blocks(), shift.whole());
+        const WindowPairs windows(a.blocks(), b.blocks(), range, shift.whole());
+        first = windows.first;
+        count = windows.count;
         // The last step goes over some a second time rather than beyond them.
-        const int last = std::max(n - kLanes, 0);
+        const int last = std::max(count - kLanes, 0);
         for (int k = 0;; k = std::min(k + kLanes, last)) {
-            const Nearness some = pairs.at(k, relation);
+            const Nearness some = windows.pairs.at(k, relation);
             near.may |= std::rotl(some.may, k);
             near.sure |= some.sure;
             if (k == last) break;
         }
-        const std::uint64_t there = low_bits(std::min(n, kMostBits));
-        near.may &= there;
-        near.sure &= low_bits(std::min(n, kLanes));
+        near.may &= low_bits(std::min(count, kMostBits));
+        near.sure &= low_bits(std::min(count, kLanes));
     }
     MOBB_INLINE bool collides() const { return near.sure != 0; }
     MOBB_INLINE bool undecided() const {
@@ -585,16 +599,14 @@ struct FirstLook {
     }
 };
 
-/// Of two that may collide, by blocks of A from `first` on: those that are set, or all if there may be more. Out of
-/// line, so that the first look keeps no registers for it.
-[[gnu::noinline]] inline bool any_sample_hits(const PlacedBlocks& a, const PlacedBlocks& b, const BlockRange& range,
-                                              std::uint64_t blocks) {
+/// Of two that are left undecided by the first look. Out of line, so that it keeps no registers for it.
+[[gnu::noinline]] inline bool any_sample_hits(const PlacedBlocks& a, const PlacedBlocks& b, const FirstLook& look) {
     NoObserver observer;
     AnyHit any;
     const Shift shift = shift_of(a, b);
     BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, any);
-    if (range.end - range.first > kMostBits) return traversal.scan_blocks(range.first, range.end);
-    return traversal.test_blocks(blocks, range.first);
+    if (look.count > kMostBits) return traversal.scan_windows(look.range);
+    return traversal.test_runs(look.near.may, look.first, look.range);
 }
 /// Of any two whose roots meet.
 [[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
@@ -607,7 +619,7 @@ inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b)
     if (!can_look(a, b)) return any_hit_below_roots(a, b);
     const FirstLook look(a, b);
     // One branch, as it is easier to foretell than which of the two is known.
-    return look.undecided() ? any_sample_hits(a, b, look.range, look.near.may) : look.collides();
+    return look.undecided() ? any_sample_hits(a, b, look) : look.collides();
 }
 
 inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
@@ -627,8 +639,7 @@ void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found
     std::size_t together[kAtATime], below_roots[kAtATime];
     struct {
         std::size_t index;
-        BlockRange range;
-        std::uint64_t blocks;
+        FirstLook look;
     } undecided[kAtATime];
     for (std::size_t first = 0; first < count && !stop(first); first += kAtATime) {
         const std::size_t end = std::min(count, first + kAtATime);
@@ -662,13 +673,13 @@ void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found
             }
             const FirstLook look(*a, *b);
             found(i, look.collides());
-            undecided[open] = {i, look.range, look.near.may};
+            undecided[open] = {i, look};
             open += look.undecided() ? std::size_t{1} : std::size_t{0};
         }
         for (std::size_t k = 0; k < open && !stop(undecided[k].index); ++k) {
             const auto& pair = undecided[k];
             const auto [a, b] = pair_at(pair.index);
-            found(pair.index, any_sample_hits(*a, *b, pair.range, pair.blocks));
+            found(pair.index, any_sample_hits(*a, *b, pair.look));
         }
     }
 }

@@ -181,8 +181,8 @@ Blocks::Blocks(ClipPtr clip)
     const auto values_in = [](int arrays, int count) {
         return static_cast<std::size_t>(arrays) * static_cast<std::size_t>(count);
     };
-    std::size_t values =
-        kSamples + values_in(kRings, n + 2) + values_in(kRings * kSamples, window_stride(0)) + kReadAhead;
+    std::size_t values = kSamples + values_in(kRings, n + 2) +
+                         values_in(kRings * static_cast<int>(kPhases.size()), window_stride()) + kReadAhead;
     for (int level = 0;; ++level) {
         const int blocks = (n + span(level) - 1) / span(level);
         values += values_in(level == 0 ? kStill : kMoving, blocks);
@@ -265,29 +265,30 @@ void Blocks::add_samples() {
 }
 
 void Blocks::add_windows() {
+    constexpr int kHalf = kWindow / 2;
     const int n = count_;
-    std::vector<float> reaches(static_cast<std::size_t>(n + 2 * kWindow + 1));
-    float* const outer = reaches.data() + kWindow;
-    find_reaches(samples(), n, kWindow, kWindow, kWindow, outer);
-    const int stride = window_stride(0);
-    float* values = add_arrays(stride, kRings * kSamples);
+    std::vector<float> reaches(static_cast<std::size_t>(n + 2 * kHalf + 1));
+    float* const outer = reaches.data() + kHalf;
+    find_reaches(samples(), n, kHalf, kHalf, kHalf, outer);
+    const int stride = window_stride();
+    float* values = add_arrays(stride, kRings * static_cast<int>(kPhases.size()));
     first_window_ = values;
     window_stride_ = stride;
     const Rings of = samples();
-    for (int phase = 0; phase < kSamples; ++phase, values += kRings * stride) {
+    for (const int phase : kPhases) {
         for (int place = 0; place < stride; ++place) {
-            const int j = std::min(place * kSamples + phase - kWindow, n + kWindow);
+            const int j = std::min(phase + place * kWindow - kHalf, n + kHalf);
             const int nearest = std::clamp(j, 0, n - 1);
             values[place] = of.x[nearest];
             values[stride + place] = of.y[nearest];
             values[2 * stride + place] = nearest == j ? of.inner[j] : -kNever;
             values[3 * stride + place] = outer[j];
         }
+        values += kRings * stride;
     }
 }
 
 int Blocks::window_stride(int level) const {
-    if (level == 0) return place_of(count_ + kWindow) + 1;
     const int farthest = count_ - 1 + span(level) / 2 + span(level - 1) / 2;
     return place_of_number(farthest >> log_span(level - 1)) + 1;
 }

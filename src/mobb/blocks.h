@@ -48,8 +48,8 @@ inline Box box_around(const MovingDisk& disk, double t0, double t1) {
 /// cheapest to test, and in so short a time hardly anything moves far. Those of higher levels move. The root's bound
 /// holds the whole clip and stands still. These are the nodes that an observer is told of.
 ///
-/// Where nobody watches, and clips are of one dt, blocks are tested by windows: runs of as many samples that may begin
-/// at any sample, so that a block of one clip shares time with one window of the other.
+/// Where nobody watches, and clips are of one dt, there is no need for whole blocks: runs of as many samples of one
+/// clip are tested against windows of the other, each of which holds all samples that share time with a run.
 class alignas(64) Blocks {
   public:
     static constexpr int kLogSamples = 4;
@@ -124,18 +124,29 @@ class alignas(64) Blocks {
     /// with -kNever as `inner`. Of a linear clip around what each runs through. `outer` holds the sample behind, too.
     /// Before and behind kSamples more can be read, which mean nothing.
     Rings samples() const { return rings_from(first_sample_, count_ + 2); }
-    /// Windows of consecutive samples: about sample j, -kSamples / 2 <= j <= count() + kSamples / 2, `outer` holds
-    /// those from j - kWindow to j + kWindow. Where there is no sample j, the first or the last one is the centre, and
-    /// `inner` is -kNever. Every kSamples-th stands side by side: window j in the arrays of phase_of(j), at
-    /// place_of(j). So block i of A and what it shares time with of B, which is a window about the same place of it for
-    /// all i, are read several at a time. Behind the last one kReadAhead more can be read, which mean nothing.
-    Rings windows(int phase) const {
-        return rings_from(first_window_ + std::ptrdiff_t{kRings} * window_stride_ * phase, window_stride_);
+    /// Windows of consecutive samples, for runs of kWindow samples of the other clip: about sample j, -kWindow / 2 <= j
+    /// <= count() + kWindow / 2, `outer` holds those from j - kWindow / 2 to j + kWindow / 2. Where there is no sample
+    /// j, the first or the last one is the centre, and `inner` is -kNever. They are stored at a few phases, by number:
+    /// those of kPhases[k] stand side by side, place p about sample kPhases[k] + kWindow * p - kWindow / 2, so that
+    /// several are read at a time. Behind the last one kReadAhead more can be read, which mean nothing.
+    Rings windows(int phase_number) const {
+        return rings_from(first_window_ + std::ptrdiff_t{kRings} * window_stride_ * phase_number, window_stride_);
     }
-    static constexpr int kWindow = kSamples / 2;
+    static constexpr int kLogWindow = 4;
+    static constexpr int kWindow = 1 << kLogWindow;
     static constexpr float kNever = 1e30F;
-    static constexpr int phase_of(int sample) { return (sample + kSamples / 2) & (kSamples - 1); }
-    static constexpr int place_of(int sample) { return (sample + kSamples / 2) >> kLogSamples; }
+    /// Each number is the difference of two of these, modulo kWindow: so windows of two clips can be had that lie as
+    /// far apart as the clips do, at a third of the memory that all phases would take.
+    static constexpr std::array kPhases{0, 1, 2, 5, 8};
+    /// Of windows of A and of B: the numbers of their phases, and these.
+    struct PhasePair {
+        int number_a, number_b;
+        int a, b;
+    };
+    /// A's phase is B's and so many samples more, modulo kWindow.
+    static PhasePair phases_apart(int samples) {
+        return kPhasesApart[static_cast<std::uint32_t>(samples) % std::uint32_t{kWindow}];
+    }
     /// Windows for the blocks of a level above 0, likewise, but with `outer` alone, and about every span(level - 1)-th
     /// sample, which `number` counts. They reach half a block before and behind, and half of the way to the next window
     /// more, as B's may be so far from where it should be. Window `number` is at place_of_number(number).
@@ -184,6 +195,7 @@ class alignas(64) Blocks {
     void add_samples();
     void add_windows();
     void add_windows(int level);
+    int window_stride() const { return (count_ + kWindow) / kWindow + 1; }  ///< places of the longest phase
     int window_stride(int level) const;
     MovingDisk bound(const Level& level, int block, int span) const;
     MovingDisk root() const { return {origin_, glm::dvec2(0), radius_}; }
@@ -192,6 +204,17 @@ class alignas(64) Blocks {
     static Rings rings_from(const float* x, std::ptrdiff_t stride) {
         return {x, x + stride, x + 2 * stride, x + 3 * stride};
     }
+
+    static constexpr std::array<PhasePair, kWindow> kPhasesApart = [] {
+        std::array<PhasePair, kWindow> out{};
+        for (std::size_t a = 0; a < kPhases.size(); ++a) {
+            for (std::size_t b = 0; b < kPhases.size(); ++b) {
+                out[static_cast<std::size_t>(kPhases[a] - kPhases[b] + kWindow) % kWindow] = {
+                    static_cast<int>(a), static_cast<int>(b), kPhases[a], kPhases[b]};
+            }
+        }
+        return out;
+    }();
 
     // First what every query reads.
     double dt_, per_dt_;

@@ -64,6 +64,9 @@ class PlacedChain {
     /// Global time, as the samples that bound the node have it.
     double begin(const ChainNode& node) const { return time(node.first); }
     double end(const ChainNode& node) const { return time(node.end()); }
+    /// Of the root.
+    double begin_time() const { return time(first()); }
+    double end_time() const { return time(end()); }
 
     int first() const { return chain_->first(); }
     int end() const { return chain_->end(); }

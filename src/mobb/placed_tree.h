@@ -36,6 +36,9 @@ class PlacedTree {
     /// Global time, as the samples that bound the node have it: so a node is never apart from what its samples meet.
     double begin(const Node& node) const { return placed_.time(node.first); }
     double end(const Node& node) const { return placed_.time(node.end()); }
+    /// Of the root, which is not read for it.
+    double begin_time() const { return frame().start; }
+    double end_time() const { return frame().start + frame().duration; }
 
   private:
     const Node* nodes_;

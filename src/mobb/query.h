@@ -96,7 +96,7 @@ std::optional<Contact> query(const A& a, const B& b, Observer& observer) {
         contact = contact_of(a.samples(), i, b.samples(), j);
         return true;
     };
-    Traversal(a, b, observer, on_hit).run();
+    visit_hits(a, b, observer, on_hit);
     return contact;
 }
 template <NodeSource A, NodeSource B>
@@ -110,7 +110,7 @@ template <NodeSource A, NodeSource B>
 std::vector<Interval> contact_intervals(const A& a, const B& b) {
     NoObserver observer;
     IntervalCollector collector{a.samples(), b.samples(), {}};
-    Traversal(a, b, observer, collector).run();
+    visit_hits(a, b, observer, collector);
     return std::move(collector.intervals);
 }
 

@@ -10,34 +10,12 @@ namespace mobb {
 
 namespace {
 
-/// Fitting, two placements (a chain places twice), the rotation between them and the projections round some sixty
-/// times, each by at most one epsilon of the lengths involved. The rest is margin: it costs nothing that can be seen.
-constexpr double kSlackFactor = 256 * std::numeric_limits<double>::epsilon();
-
-/// Metres. Squares of lengths below 1e-154 underflow in the hit predicate, which then sees disks closer than they are.
-constexpr double kLeastSlack = 1e-150;
-
 /// The predicate of swept disks takes A, B and C, of at most the square of the lengths involved, for less than they are
 /// by some ten epsilons: disks that are apart by the root of that, and no less, are seen apart for certain.
 constexpr double kSweptSlackFactor = 1e-7;
 constexpr double kLeastSweptSlack = 1e-70;  // metres: B^2 is a fourth power
 
-double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
-
 }  // namespace
-
-RelativeFrame::RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
-    : rotation_(a.rotation.inverse() * b.rotation), to_world_(a.rotation) {
-    cosines_ = both(rotation_.c);
-    sines_ = TwoDoubles{-rotation_.s, rotation_.s};
-    const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
-    offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
-    const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
-    const double times = std::abs(a.start) + std::abs(b.start) + a.duration + b.duration;
-    slack2d_ = kLeastSlack + kSlackFactor * lengths;
-    slack_time_ = kSlackFactor * time_scale * times;
-    slack3d_ = slack2d_ + slack_time_;
-}
 
 void RelativeFrame::cover_swept_disks(const PlacedFrame& a, const PlacedFrame& b) {
     const double lengths = std::abs(offset_.x) + std::abs(offset_.y) + a.reach + b.reach;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <type_traits>
 
 namespace mobb {
@@ -24,11 +25,25 @@ struct Separation {
     bool separated() const { return axis >= 0; }
 };
 
+/// The L1 norm.
+inline double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
+
 /// The placement of B's frame in A's, and the slack that a gap must exceed. One per query.
 class RelativeFrame {
   public:
     /// `time_scale` w is that of both trees.
-    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale);
+    RelativeFrame(const PlacedFrame& a, const PlacedFrame& b, double time_scale)
+        : rotation_(a.rotation.inverse() * b.rotation), to_world_(a.rotation) {
+        cosines_ = both(rotation_.c);
+        sines_ = TwoDoubles{-rotation_.s, rotation_.s};
+        const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
+        offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
+        const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
+        const double times = std::abs(a.start) + std::abs(b.start) + a.duration + b.duration;
+        slack2d_ = kLeastSlack + kSlackFactor * lengths;
+        slack_time_ = kSlackFactor * time_scale * times;
+        slack3d_ = slack2d_ + slack_time_;
+    }
 
     /// Makes the slack cover the squares that the predicate of swept disks subtracts. `a`, `b`: as above.
     void cover_swept_disks(const PlacedFrame& a, const PlacedFrame& b);
@@ -55,6 +70,14 @@ class RelativeFrame {
     double slack_time() const { return slack_time_; }
 
   private:
+    /// Fitting, two placements (a chain places twice), the rotation between them and the projections round some sixty
+    /// times, each by at most one epsilon of the lengths involved. The rest is margin: it costs nothing that can be
+    /// seen.
+    static constexpr double kSlackFactor = 256 * std::numeric_limits<double>::epsilon();
+    /// Metres. Squares of lengths below 1e-154 underflow in the hit predicate, which then sees disks closer than they
+    /// are.
+    static constexpr double kLeastSlack = 1e-150;
+
     TwoDoubles cosines_, sines_;  ///< of rotation_: (c, c) and (-s, s)
     Rotation rotation_;           ///< from B's frame to A's
     Rotation to_world_;

@@ -63,6 +63,8 @@ concept NodeSource = requires(const S& source, int i) {
     { source.stored_box(i, source.node(i)) } -> std::convertible_to<const Box&>;
     { source.begin(source.node(i)) } -> std::convertible_to<double>;
     { source.end(source.node(i)) } -> std::convertible_to<double>;
+    { source.begin_time() } -> std::convertible_to<double>;
+    { source.end_time() } -> std::convertible_to<double>;
     { source.samples(source.node(i)) } -> StoredSamples;
     { source.samples() } -> SampleSource;
     { source.frame() } -> std::convertible_to<const PlacedFrame&>;
@@ -245,6 +247,7 @@ class BlocksOfNodes<NoObserver> {
 template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit, WalkTests walk_tests = WalkTests::time>
 class Traversal {
   public:
+    /// Of two that share time.
     Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
         : a_(a),
           b_(b),
@@ -256,28 +259,21 @@ class Traversal {
 
     /// Returns true if on_hit stopped it.
     bool run() {
-        if (a_.samples().is_linear() || b_.samples().is_linear()) [[unlikely]] {
+        const auto& na = a_.node(0);
+        const auto& nb = b_.node(0);
+        const bool linear = a_.samples().is_linear() || b_.samples().is_linear();
+        if (linear) [[unlikely]]
             frame_.cover_swept_disks(a_.frame(), b_.frame());
-            return visit_root<Mode::linear>();
-        }
-        return shift_.is_known() ? visit_root<Mode::shifted>() : visit_root<Mode::held>();
+        if (!may_meet_in_space(0, na, 0, nb)) return false;
+        if (linear) [[unlikely]]
+            return visit_below<Mode::linear>(0, na, 0, nb);
+        return shift_.is_known() ? visit_below<Mode::shifted>(0, na, 0, nb) : visit_below<Mode::held>(0, na, 0, nb);
     }
 
   private:
     enum class Side { a, b };
     /// How times and samples are compared: of held samples of which a shift is known, of others, of linear ones.
     enum class Mode { shifted, held, linear };
-
-    template <Mode mode>
-    bool visit_root() {
-        const auto& na = a_.node(0);
-        const auto& nb = b_.node(0);
-        if constexpr (Observer::watches) observer_.enter(0, 0);
-        const bool stop =
-            may_meet_in_time<mode>(na, nb) && may_meet_in_space(0, na, 0, nb) && visit_below<mode>(0, na, 0, nb);
-        if constexpr (Observer::watches) observer_.leave();
-        return stop;
-    }
 
     /// What lies below two nodes whose boxes meet.
     template <Mode mode>
@@ -448,5 +444,18 @@ class Traversal {
     Observer& observer_;
     OnHit& on_hit_;
 };
+
+/// Calls on_hit with the sample pairs of two node sources that collide, earliest first, until it returns true: then it
+/// returns true.
+template <WalkTests walk_tests = WalkTests::time, NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit>
+bool visit_hits(const A& a, const B& b, Observer& observer, OnHit& on_hit) {
+    if constexpr (Observer::watches) observer.enter(0, 0);
+    // The cheapest test comes before anything else is worked out or read.
+    const bool overlap = overlap_in_time(a.begin_time(), a.end_time(), b.begin_time(), b.end_time());
+    if constexpr (Observer::watches) observer.time_test(overlap);
+    const bool stopped = overlap && Traversal<A, B, Observer, OnHit, walk_tests>(a, b, observer, on_hit).run();
+    if constexpr (Observer::watches) observer.leave();
+    return stopped;
+}
 
 }  // namespace mobb

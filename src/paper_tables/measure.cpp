@@ -82,9 +82,7 @@ std::optional<mobb::Contact> ask(const Method& method, const mobb::PlacedTree& a
         contact = mobb::contact_of(a.samples(), i, b.samples(), j);
         return true;
     };
-    using Walker = mobb::Traversal<mobb::PlacedTree, mobb::PlacedTree, Observer, decltype(on_hit),
-                                   mobb::WalkTests::time_and_boxes>;
-    Walker(a, b, observer, on_hit).run();
+    mobb::visit_hits<mobb::WalkTests::time_and_boxes>(a, b, observer, on_hit);
     return contact;
 }
 

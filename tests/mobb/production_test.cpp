@@ -232,15 +232,28 @@ TEST(Blocks, WindowsHoldTheirSamples) {
             EXPECT_NEAR(reach_out(i, i + 1, {sample(i).x, sample(i).y}, samples.outer[i]), 0, rounding);
         }
         EXPECT_NEAR(reach_out(0, 0, {samples.x[-1], samples.y[-1]}, samples.outer[-1]), 0, rounding);
-        for (int j = -Blocks::kWindow; j < n + Blocks::kWindow; ++j) {
-            const Blocks::Rings windows = blocks.windows(Blocks::phase_of(j));
-            const int place = Blocks::place_of(j), nearest = std::clamp(j, 0, n - 1);
-            const glm::dvec2 center(windows.x[place], windows.y[place]);
-            EXPECT_EQ(center, glm::dvec2(sample(nearest).x, sample(nearest).y)) << j;
-            EXPECT_EQ(windows.inner[place], j == nearest ? samples.inner[j] : -Blocks::kNever) << j;
-            EXPECT_NEAR(reach_out(j - Blocks::kWindow, j + Blocks::kWindow, center, windows.outer[place]), 0, rounding)
-                << j << " of " << n;
+        constexpr int kHalf = Blocks::kWindow / 2;
+        for (int number = 0; number < static_cast<int>(Blocks::kPhases.size()); ++number) {
+            const Blocks::Rings windows = blocks.windows(number);
+            const int phase = Blocks::kPhases[static_cast<std::size_t>(number)];
+            for (int place = 0, j = phase - kHalf; j < n + kHalf; ++place, j += Blocks::kWindow) {
+                const int nearest = std::clamp(j, 0, n - 1);
+                const glm::dvec2 center(windows.x[place], windows.y[place]);
+                EXPECT_EQ(center, glm::dvec2(sample(nearest).x, sample(nearest).y)) << j;
+                EXPECT_EQ(windows.inner[place], j == nearest ? samples.inner[j] : -Blocks::kNever) << j;
+                EXPECT_NEAR(reach_out(j - kHalf, j + kHalf, center, windows.outer[place]), 0, rounding)
+                    << j << " of " << n;
+            }
         }
+    }
+}
+
+TEST(Blocks, WindowsCanLieAsFarApartAsClipsDo) {
+    for (int apart = -100; apart <= 100; ++apart) {
+        const Blocks::PhasePair phases = Blocks::phases_apart(apart);
+        EXPECT_EQ(phases.a, Blocks::kPhases[static_cast<std::size_t>(phases.number_a)]);
+        EXPECT_EQ(phases.b, Blocks::kPhases[static_cast<std::size_t>(phases.number_b)]);
+        EXPECT_EQ((phases.a - phases.b - apart) % Blocks::kWindow, 0) << apart;
     }
 }
 

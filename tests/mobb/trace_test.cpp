@@ -265,7 +265,7 @@ TEST(Trace, AHitIsAHitWhoeverListens) {
     TraceRecorder recorder;
     int hits = 0;
     auto go_on = [&](int, int) { return ++hits, false; };
-    EXPECT_FALSE(Traversal(a, b, recorder, go_on).run());
+    EXPECT_FALSE(visit_hits(a, b, recorder, go_on));
     EXPECT_EQ(hits, 4);
     const Trace trace = recorder.take();
     EXPECT_TRUE(recorder.trace().empty());
