@@ -17,8 +17,7 @@ namespace {
 
 int run(int argc, char** argv) {
     Command program("mobbscope", "See and debug bounding-volume trees in space-time");
-    const std::string version = "mobbscope " MOBBSCOPE_VERSION;
-    program.add_version(version);
+    program.add_version("mobbscope " MOBBSCOPE_VERSION);
     WindowArguments window;
     add_window_options(program, window);
     int status = kDone;
@@ -34,7 +33,6 @@ int run(int argc, char** argv) {
     add_review_command(program, status);
     add_simulate_command(program);
     add_test_command(program, status);
-    for (Command& command : program.subcommands()) command.add_version(version);
     // Before any command runs: what stands in front of its name is no argument of it.
     program.before_subcommand([&program] { check_not_before_command(program); });
     try {
