@@ -4,6 +4,8 @@
 #include <cli/program.h>
 #include <cli/window_command.h>
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <csignal>
 #include <exception>
@@ -14,6 +16,17 @@
 namespace mobbscope::cli {
 
 namespace {
+
+/// Memory that is freed is soon asked for again, and to have it from the system each time takes longer than most
+/// commands work. glibc comes to these thresholds by itself once it frees a block that is so large.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int kLargestKept = 32 << 20;
+    mallopt(M_MMAP_THRESHOLD, kLargestKept);
+    mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
+    mallopt(M_TOP_PAD, 1 << 20);
+#endif
+}
 
 int run(int argc, char** argv) {
     Command program("mobbscope", "See and debug bounding-volume trees in space-time");
@@ -54,6 +67,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace mobbscope;
+    cli::keep_freed_memory();
     std::ios::sync_with_stdio(false);
     // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
     std::signal(SIGPIPE, SIG_IGN);
