@@ -56,7 +56,7 @@ void split(std::string_view line, std::size_t limit, std::vector<Word>& words) {
     words.clear();
     const char* at = line.data();
     const char* const line_end = at + line.size();
-    while (words.size() <= limit) {
+    for (std::size_t left = limit + 1; left > 0; --left) {
         while (at != line_end && (parts_words(*at) || *at == '\r')) ++at;
         if (at == line_end) return;
         const char* const begin = at;
