@@ -2,10 +2,12 @@
 #include <base/text.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -54,6 +56,10 @@ bool is_tiny(std::string_view number) {
     return exponent < first - point;
 }
 
+constexpr std::ptrdiff_t kMostDigits = 19;  // fit 64 bits
+constexpr std::array<double, kMostDigits> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
+                                                       1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
+
 /// Where each character begins, and the text's end.
 std::vector<std::size_t> beginnings(std::string_view text) {
     const bool utf8 = is_utf8(text);
@@ -68,12 +74,40 @@ std::vector<std::size_t> beginnings(std::string_view text) {
 
 }  // namespace
 
+const char* read_plain_double(const char* at, const char* end, double& value) {
+    constexpr std::uint64_t kLargestDigits = std::uint64_t{1} << std::numeric_limits<double>::digits;
+    const char* const begin = at;
+    std::uint64_t digits = 0;  // what is too large for it is found out by its length
+    const auto read_digits = [&] {
+        const char* const first = at;
+        for (unsigned digit = 0; at != end && (digit = static_cast<unsigned char>(*at) - unsigned{'0'}) <= 9; ++at)
+            digits = 10 * digits + digit;
+        return at - first;
+    };
+    const bool is_negative = at != end && *at == '-';
+    if (is_negative) ++at;
+    const std::ptrdiff_t whole = read_digits();
+    std::ptrdiff_t decimals = 0;
+    if (at != end && *at == '.') {
+        ++at;
+        decimals = read_digits();
+        if (decimals == 0) return begin;
+    }
+    if (whole == 0 || whole + decimals > kMostDigits || digits > kLargestDigits) return begin;
+    // Both are exact: the quotient is rounded once, to the nearest double.
+    const double size = static_cast<double>(digits) / kPowersOfTen[static_cast<std::size_t>(decimals)];
+    value = is_negative ? -size : size;
+    return at;
+}
+
 std::optional<double> parse_double(std::string_view text) {
     // from_chars takes no plus sign and takes "inf" and "nan"; a file of numbers wants it the other way round.
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    const char* const text_end = text.data() + text.size();
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (end != text.data() + text.size()) return std::nullopt;
+    if (!text.empty() && read_plain_double(text.data(), text_end, value) == text_end) return value;
+    const auto [end, error] = std::from_chars(text.data(), text_end, value);
+    if (end != text_end) return std::nullopt;
     if (error == std::errc::result_out_of_range && is_tiny(text)) return text[0] == '-' ? -0.0 : 0.0;
     if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
     return value;
@@ -150,10 +184,10 @@ std::string lower(std::string_view text) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
 }
 
 bool is_utf8(std::string_view text) {

@@ -18,6 +18,10 @@ namespace mobbscope {
 /// The whole text as a finite decimal number; nothing for anything else ("", blanks, "nan", "1e999", "0x1", "1.5m").
 /// What is too small for a double ("1e-400") is zero.
 std::optional<double> parse_double(std::string_view text);
+/// Reads a number such as "-12.25", without a power, that begins at `at`, several times as fast as parse_double.
+/// Returns where it ends; `at` where there is none, or one of more digits than a double holds. What follows may belong
+/// to the number: see that a blank or the end does.
+const char* read_plain_double(const char* at, const char* end, double& value);
 /// The number within [low, high]; throws std::invalid_argument, saying what is allowed.
 double parse_number_within(std::string_view text, double low, double high);
 

@@ -73,14 +73,22 @@ Command::Command(const std::string& name, const std::string& description)
 
 Command::Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
 
-Command& Command::add_subcommand(const std::string& name, const std::string& description) {
+void Command::add_subcommand(const std::string& name, const std::string& description,
+                             std::function<void(Command&)> add_options) {
     CLI::App* const added = app_->add_subcommand(name, description);
-    return subcommands_.emplace_back(app_->get_subcommand_ptr(added));
+    Command& command = subcommands_.emplace_back(app_->get_subcommand_ptr(added));
+    added->preparse_callback([this, &command, add_options = std::move(add_options)](std::size_t) {
+        add_options(command);
+        if (!version_.empty()) command.app_->set_version_flag("--version", version_);
+    });
 }
 
 void Command::require_subcommand() { app_->require_subcommand(1); }
 
-void Command::add_version(const std::string& text) { app_->set_version_flag("--version", text); }
+void Command::add_version(const std::string& text) {
+    version_ = text;
+    app_->set_version_flag("--version", text);
+}
 
 Option Command::add_flag(const std::string& name, bool& target, const std::string& help) {
     return Option(*app_->add_flag(name, target, help));

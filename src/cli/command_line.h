@@ -58,12 +58,14 @@ class Command {
     Command(const Command&) = delete;
     Command& operator=(const Command&) = delete;
 
-    /// It lives as long as this one.
-    Command& add_subcommand(const std::string& name, const std::string& description);
+    /// `add_options` is called when the command is asked for, with a command that lives as long as this one: the
+    /// options of all commands would take longer than most commands do.
+    void add_subcommand(const std::string& name, const std::string& description,
+                        std::function<void(Command&)> add_options);
     /// Bad usage without a subcommand.
     void require_subcommand();
 
-    /// Adds --version, which says `text`.
+    /// Adds --version, which says `text`, here and to the subcommands.
     void add_version(const std::string& text);
     Option add_flag(const std::string& name, bool& target, const std::string& help);
     /// `set` gets false for the names that begin with "!", as in "--floor,!--no-floor".
@@ -90,7 +92,6 @@ class Command {
     std::string parse(std::vector<std::string> words);
 
     std::string name() const;
-    std::list<Command>& subcommands() { return subcommands_; }
     const std::list<Command>& subcommands() const { return subcommands_; }
     /// The names of the subcommands that are asked for, as in "graph build"; empty if none is.
     std::string chosen() const;
@@ -102,6 +103,7 @@ class Command {
   private:
     std::shared_ptr<CLI::App> app_;
     std::list<Command> subcommands_;
+    std::string version_;  ///< what --version says
 };
 
 /// Adds an option whose text goes through `parse`; the std::invalid_argument that it throws becomes bad usage.

@@ -232,14 +232,16 @@ void run_conflicts(const ConflictsCommandArguments& arguments, int& status) {
 }  // namespace
 
 void add_conflicts_command(Command& program, int& status) {
-    Command& command = program.add_subcommand(
+    program.add_subcommand(
         "conflicts",
         "Every pair of agents whose disks overlap, the deepest overlap first: when, how deep and where; --tree brute "
-        "searches directly");
-    const auto arguments = std::make_shared<ConflictsCommandArguments>();
-    add_fitted_options(command, *arguments, "The same as JSON", Brute::allowed);
-    command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");
-    command.callback([arguments, &status] { run_conflicts(*arguments, status); });
+        "searches directly",
+        [&status](Command& command) {
+            const auto arguments = std::make_shared<ConflictsCommandArguments>();
+            add_fitted_options(command, *arguments, "The same as JSON", Brute::allowed);
+            command.add_flag("--check", arguments->check, "Status 1 if there is a conflict");
+            command.callback([arguments, &status] { run_conflicts(*arguments, status); });
+        });
 }
 
 }  // namespace mobbscope::cli

@@ -153,17 +153,21 @@ void run_convert(const ConvertCommandArguments& arguments) {
 }  // namespace
 
 void add_convert_command(Command& program) {
-    Command& command = program.add_subcommand(
-        "convert", "Write clips as CSV, or as a scene with its samples inside; what an agent plays as BVH or glTF");
-    const auto arguments = std::make_shared<ConvertCommandArguments>();
-    add_scene_file(command, arguments->file);
-    command.add_option("-o,--output", arguments->out, "Where to: .csv or .json; with the skeleton .bvh or .glb", "OUT")
-        .required();
-    add_parsed(
-        command, "--agent", arguments->agent, [](const std::string& text) { return text; },
-        "Of a run or scene, for .bvh and .glb: whose motion (not needed where there is one alone)", "NAME");
-    add_import_options(command, arguments->import_options);
-    command.callback([arguments] { run_convert(*arguments); });
+    program.add_subcommand(
+        "convert", "Write clips as CSV, or as a scene with its samples inside; what an agent plays as BVH or glTF",
+        [](Command& command) {
+            const auto arguments = std::make_shared<ConvertCommandArguments>();
+            add_scene_file(command, arguments->file);
+            command
+                .add_option("-o,--output", arguments->out, "Where to: .csv or .json; with the skeleton .bvh or .glb",
+                            "OUT")
+                .required();
+            add_parsed(
+                command, "--agent", arguments->agent, [](const std::string& text) { return text; },
+                "Of a run or scene, for .bvh and .glb: whose motion (not needed where there is one alone)", "NAME");
+            add_import_options(command, arguments->import_options);
+            command.callback([arguments] { run_convert(*arguments); });
+        });
 }
 
 }  // namespace mobbscope::cli

@@ -143,24 +143,28 @@ int run_diff(const DiffCommandArguments& arguments) {
 }  // namespace
 
 void add_diff_command(Command& program, int& status) {
-    Command& command =
-        program.add_subcommand("diff", "Compare two pictures; exit status 0 if they are the same, 1 if they differ");
-    const auto arguments = std::make_shared<DiffCommandArguments>();
-    command.add_option("A.png", arguments->a, "A picture, such as the one just made", "").required();
-    command.add_option("B.png", arguments->b, "The one that it is held against", "").required();
-    command.add_option("-o,--output", arguments->heat, "Heat map: B in grey, and what differs glowing", "HEAT.png");
-    command.add_option("--strip", arguments->strip, "A, B and the heat map side by side", "STRIP.png");
-    add_parsed(
-        command, "--threshold", arguments->options.channel_tolerance, parse_threshold,
-        "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 and 1 (3)", "X");
-    add_parsed(command, "--allowed", arguments->options.pixel_fraction, parse_share,
-               "The share of the pixels that may be farther off: 0.001 or 0.1% (0.1%)", "P");
-    add_parsed(command, "--shift", arguments->options.shift, parse_pixel_shift,
-               "1: something may lie a pixel aside (0)", "0|1");
-    command.add_option("--mask", arguments->mask, "Compares only where this picture is neither black nor transparent",
-                       "MASK.png");
-    command.add_flag("--json", arguments->json, "The verdict with all figures as JSON");
-    command.callback([arguments, &status] { status = run_diff(*arguments); });
+    program.add_subcommand(
+        "diff", "Compare two pictures; exit status 0 if they are the same, 1 if they differ",
+        [&status](Command& command) {
+            const auto arguments = std::make_shared<DiffCommandArguments>();
+            command.add_option("A.png", arguments->a, "A picture, such as the one just made", "").required();
+            command.add_option("B.png", arguments->b, "The one that it is held against", "").required();
+            command.add_option("-o,--output", arguments->heat, "Heat map: B in grey, and what differs glowing",
+                               "HEAT.png");
+            command.add_option("--strip", arguments->strip, "A, B and the heat map side by side", "STRIP.png");
+            add_parsed(command, "--threshold", arguments->options.channel_tolerance, parse_threshold,
+                       "How far a channel may be off: levels of 255, or a share as 3/255, 1.2%, or a number between 0 "
+                       "and 1 (3)",
+                       "X");
+            add_parsed(command, "--allowed", arguments->options.pixel_fraction, parse_share,
+                       "The share of the pixels that may be farther off: 0.001 or 0.1% (0.1%)", "P");
+            add_parsed(command, "--shift", arguments->options.shift, parse_pixel_shift,
+                       "1: something may lie a pixel aside (0)", "0|1");
+            command.add_option("--mask", arguments->mask,
+                               "Compares only where this picture is neither black nor transparent", "MASK.png");
+            command.add_flag("--json", arguments->json, "The verdict with all figures as JSON");
+            command.callback([arguments, &status] { status = run_diff(*arguments); });
+        });
 }
 
 }  // namespace mobbscope::cli

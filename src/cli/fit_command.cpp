@@ -63,10 +63,11 @@ void run_fit(const FittedArguments& arguments) {
 }  // namespace
 
 void add_fit_command(Command& program) {
-    Command& command = program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are");
-    const auto arguments = std::make_shared<FittedArguments>();
-    add_fitted_options(command, *arguments, "Levels and nodes as JSON");
-    command.callback([arguments] { run_fit(*arguments); });
+    program.add_subcommand("fit", "Fit a tree to every clip and show how tight its levels are", [](Command& command) {
+        const auto arguments = std::make_shared<FittedArguments>();
+        add_fitted_options(command, *arguments, "Levels and nodes as JSON");
+        command.callback([arguments] { run_fit(*arguments); });
+    });
 }
 
 }  // namespace mobbscope::cli

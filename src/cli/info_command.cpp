@@ -164,16 +164,17 @@ void run_info(const InfoCommandArguments& arguments) {
 }  // namespace
 
 void add_info_command(Command& program) {
-    Command& command = program.add_subcommand("info", "What is in each file: its clips, their paths and radii");
-    const auto arguments = std::make_shared<InfoCommandArguments>();
-    command
-        .add_option("FILE", arguments->files,
-                    "Scenes (.json), clips (" + listed_clip_extensions() + ") and trajectories (" +
-                        listed_trajectory_extensions() + ")")
-        .required();
-    command.add_flag("--json", arguments->json, "The same as JSON");
-    add_import_options(command, arguments->import_options);
-    command.callback([arguments] { run_info(*arguments); });
+    program.add_subcommand("info", "What is in each file: its clips, their paths and radii", [](Command& command) {
+        const auto arguments = std::make_shared<InfoCommandArguments>();
+        command
+            .add_option("FILE", arguments->files,
+                        "Scenes (.json), clips (" + listed_clip_extensions() + ") and trajectories (" +
+                            listed_trajectory_extensions() + ")")
+            .required();
+        command.add_flag("--json", arguments->json, "The same as JSON");
+        add_import_options(command, arguments->import_options);
+        command.callback([arguments] { run_info(*arguments); });
+    });
 }
 
 }  // namespace mobbscope::cli

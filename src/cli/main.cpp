@@ -4,6 +4,8 @@
 #include <cli/program.h>
 #include <cli/window_command.h>
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <csignal>
 #include <exception>
@@ -15,10 +17,20 @@ namespace mobbscope::cli {
 
 namespace {
 
+/// Memory that is freed is soon asked for again, and to have it from the system each time takes longer than most
+/// commands work. glibc comes to these thresholds by itself once it frees a block that is so large.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int kLargestKept = 32 << 20;
+    mallopt(M_MMAP_THRESHOLD, kLargestKept);
+    mallopt(M_TRIM_THRESHOLD, 2 * kLargestKept);
+    mallopt(M_TOP_PAD, 1 << 20);
+#endif
+}
+
 int run(int argc, char** argv) {
     Command program("mobbscope", "See and debug bounding-volume trees in space-time");
-    const std::string version = "mobbscope " MOBBSCOPE_VERSION;
-    program.add_version(version);
+    program.add_version("mobbscope " MOBBSCOPE_VERSION);
     WindowArguments window;
     add_window_options(program, window);
     int status = kDone;
@@ -34,7 +46,6 @@ int run(int argc, char** argv) {
     add_review_command(program, status);
     add_simulate_command(program);
     add_test_command(program, status);
-    for (Command& command : program.subcommands()) command.add_version(version);
     // Before any command runs: what stands in front of its name is no argument of it.
     program.before_subcommand([&program] { check_not_before_command(program); });
     try {
@@ -56,6 +67,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace mobbscope;
+    cli::keep_freed_memory();
     std::ios::sync_with_stdio(false);
     // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
     std::signal(SIGPIPE, SIG_IGN);

@@ -112,14 +112,16 @@ void run_query(QueryCommandArguments& arguments, int& status) {
 }  // namespace
 
 void add_query_command(Command& program, int& status) {
-    Command& command = program.add_subcommand(
-        "query",
-        "Answer the scene's queries: do two clips ever collide? Status 1 if an answer is not the expected one");
-    const auto arguments = std::make_shared<QueryCommandArguments>();
-    add_fitted_options(command, *arguments, "Answers as JSON", Brute::allowed);
-    command.add_flag("--trace", arguments->details.trace, "Every test that was made");
-    command.add_flag("--all-contacts", arguments->details.all_contacts, "All intervals of contact, not only the first");
-    command.callback([arguments, &status] { run_query(*arguments, status); });
+    program.add_subcommand(
+        "query", "Answer the scene's queries: do two clips ever collide? Status 1 if an answer is not the expected one",
+        [&status](Command& command) {
+            const auto arguments = std::make_shared<QueryCommandArguments>();
+            add_fitted_options(command, *arguments, "Answers as JSON", Brute::allowed);
+            command.add_flag("--trace", arguments->details.trace, "Every test that was made");
+            command.add_flag("--all-contacts", arguments->details.all_contacts,
+                             "All intervals of contact, not only the first");
+            command.callback([arguments, &status] { run_query(*arguments, status); });
+        });
 }
 
 }  // namespace mobbscope::cli

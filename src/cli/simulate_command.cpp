@@ -217,47 +217,53 @@ void run_simulate(const SimulateCommandArguments& arguments) {
 }  // namespace
 
 void add_simulate_command(Command& program) {
-    Command& command = program.add_subcommand(
-        "simulate", "Let a crowd play the moves of a motion graph; nobody collides but who is forced to");
-    const auto arguments = std::make_shared<SimulateCommandArguments>();
-    SimulateOptions& options = arguments->options;
-    add_parsed(command, "GRAPH", arguments->graph, parse_file_name,
-               "A scene with a motion graph; with --whole clips, or a folder of them", "")
-        .required();
-    add_parsed(command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json").required();
-    add_parsed(command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
-    add_parsed(command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
-    add_parsed(command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated), "Simulated (120)",
-               "S");
-    add_parsed(command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
-    add_parsed(command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
-               "Seconds before its begin at which a move is chosen (0)", "S");
-    add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
-               "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
-    add_parsed(command, "--plan", options.plan, number_within(0, kMaxSimulated),
-               "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (8)", "S");
-    add_parsed(command, "--turn-rate", arguments->turn_rate, number_within(0, kMaxTurnRate),
-               "Largest angular speed at which agents turn on the way of a move; 0: they do not (120)", "DEG_PER_S");
-    add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)", "N");
-    const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
-                                     "Queries that were asked, as a scene", "FILE.json");
-    add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
-               "How many, drawn at random; 0 is all (20000)", "N")
-        .needs(record);
-    const Option all = command
-                           .add_flag("--record-all-pairs", arguments->record_all_pairs,
-                                     "Draw from every candidate against everybody, as without a broad phase")
-                           .needs(record);
-    add_parsed(command, "--record-within", arguments->record_within, number_within(0, kMaxArea),
-               "Draw from every candidate against all that lies within M metres, at any time", "M")
-        .needs(record)
-        .excludes(all);
-    command.add_flag("--whole", arguments->whole, "Instead of a graph: every clip whole, and each may follow each");
-    command.add_flag("--inline", arguments->inline_samples,
-                     "Samples stand in what is written, which then needs no other file");
-    command.add_flag("--json", arguments->json, "The summary as JSON");
-    add_fit_options(command, arguments->fit);
-    command.callback([arguments] { run_simulate(*arguments); });
+    program.add_subcommand(
+        "simulate", "Let a crowd play the moves of a motion graph; nobody collides but who is forced to",
+        [](Command& command) {
+            const auto arguments = std::make_shared<SimulateCommandArguments>();
+            SimulateOptions& options = arguments->options;
+            add_parsed(command, "GRAPH", arguments->graph, parse_file_name,
+                       "A scene with a motion graph; with --whole clips, or a folder of them", "")
+                .required();
+            add_parsed(command, "-o,--output", arguments->out, parse_file_name, "The run, as a scene", "OUT.json")
+                .required();
+            add_parsed(command, "--agents", options.agents, whole_number_within(1, kMaxAgents), "How many (100)", "N");
+            add_parsed(command, "--area", options.area, parse_area, "The floor, in metres (30x40)", "WxH");
+            add_parsed(command, "--seconds", options.seconds, number_within(kMinSimulated, kMaxSimulated),
+                       "Simulated (120)", "S");
+            add_parsed(command, "--seed", options.seed, parse_seed, "Another seed, another run (1)", "N");
+            add_parsed(command, "--ahead", options.ahead, number_within(0, kMaxSimulated),
+                       "Seconds before its begin at which a move is chosen (0)", "S");
+            add_parsed(command, "--grace", options.grace, number_within(0, kMaxSimulated),
+                       "Seconds for which room is kept where moves end; 0: none, as in the paper (1)", "S");
+            add_parsed(command, "--plan", options.plan, number_within(0, kMaxSimulated),
+                       "Seconds for which each choice plans how to go on; 0: not at all, as in the paper (8)", "S");
+            add_parsed(command, "--turn-rate", arguments->turn_rate, number_within(0, kMaxTurnRate),
+                       "Largest angular speed at which agents turn on the way of a move; 0: they do not (120)",
+                       "DEG_PER_S");
+            add_parsed(command, "--threads", options.threads, whole_number_within(1, kMaxThreads), "At most (all)",
+                       "N");
+            const Option record = add_parsed(command, "--record", arguments->record, parse_file_name,
+                                             "Queries that were asked, as a scene", "FILE.json");
+            add_parsed(command, "--record-queries", arguments->record_queries, whole_number_within(0, kMostRecorded),
+                       "How many, drawn at random; 0 is all (20000)", "N")
+                .needs(record);
+            const Option all = command
+                                   .add_flag("--record-all-pairs", arguments->record_all_pairs,
+                                             "Draw from every candidate against everybody, as without a broad phase")
+                                   .needs(record);
+            add_parsed(command, "--record-within", arguments->record_within, number_within(0, kMaxArea),
+                       "Draw from every candidate against all that lies within M metres, at any time", "M")
+                .needs(record)
+                .excludes(all);
+            command.add_flag("--whole", arguments->whole,
+                             "Instead of a graph: every clip whole, and each may follow each");
+            command.add_flag("--inline", arguments->inline_samples,
+                             "Samples stand in what is written, which then needs no other file");
+            command.add_flag("--json", arguments->json, "The summary as JSON");
+            add_fit_options(command, arguments->fit);
+            command.callback([arguments] { run_simulate(*arguments); });
+        });
 }
 
 }  // namespace mobbscope::cli

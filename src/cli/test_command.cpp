@@ -367,45 +367,51 @@ void read_update(TestCommandArguments& arguments) {
 }  // namespace
 
 void add_test_command(Command& program, int& status) {
-    Command& command = program.add_subcommand("test", "Draw picture tests and hold them against their goldens");
-    const auto arguments = std::make_shared<TestCommandArguments>();
-    command.add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json").required();
-    command.add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
-    command.add_flag("--list", arguments->list, "Only print the names of the cases");
-    add_parsed(command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
-               "OpenGL without a display: auto, osmesa or egl", "NAME");
-    command
-        .add_option("--update", arguments->update_names,
-                    "Take the present pictures as goldens: of these cases, or all; without names, ask for each", "NAME")
-        .any_number();
-    command.add_flag("--new-reference", arguments->new_reference,
-                     "With --update all: say in reference.json what the goldens are drawn with, and take those without "
-                     "text that hold with anything else");
-    add_parsed(command, "--output", arguments->output, parse_file_name,
-               "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
-    const Option json = command.add_flag("--json", arguments->json, "The report as JSON on standard output");
-    Option json_lines = command.add_flag("--json-lines", arguments->json_lines,
-                                         "Each result as a line of JSON as soon as it is there, with its pictures, for "
-                                         "other programs; nothing else is written");
-    json_lines.excludes(json);
-    add_parsed(command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
-    add_parsed(command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
-               "OUT.html");
-    add_parsed(command, "--contact-sheet", arguments->contact_sheet, parse_file_name, "All pictures of the run in one",
-               "OUT.png");
-    add_parsed(
-        command, "--columns", arguments->columns,
-        [](const std::string& text) {
-            const std::optional<int> columns = parse_int(text);
-            if (!columns || *columns < 1) throw std::invalid_argument(in_quotes(text) + " is no number of columns");
-            return *columns;
-        },
-        "Of the contact sheet", "N");
-    command.callback([&command, arguments, &status] {
-        if (command.is_given("--update")) read_update(*arguments);
-        check_new_reference(*arguments);
-        status = run_test(*arguments);
-    });
+    program.add_subcommand(
+        "test", "Draw picture tests and hold them against their goldens", [&status](Command& command) {
+            const auto arguments = std::make_shared<TestCommandArguments>();
+            command.add_option("DIR", arguments->folder, "The folder of the cases, NAME.case.json").required();
+            command.add_option("NAME", arguments->names, "Only these cases; * and ? stand for anything");
+            command.add_flag("--list", arguments->list, "Only print the names of the cases");
+            add_parsed(command, "--backend", arguments->backend, one_of(backend_from_name, "auto, osmesa, egl"),
+                       "OpenGL without a display: auto, osmesa or egl", "NAME");
+            command
+                .add_option("--update", arguments->update_names,
+                            "Take the present pictures as goldens: of these cases, or all; without names, ask for each",
+                            "NAME")
+                .any_number();
+            command.add_flag(
+                "--new-reference", arguments->new_reference,
+                "With --update all: say in reference.json what the goldens are drawn with, and take those without "
+                "text that hold with anything else");
+            add_parsed(command, "--output", arguments->output, parse_file_name,
+                       "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
+            const Option json = command.add_flag("--json", arguments->json, "The report as JSON on standard output");
+            Option json_lines =
+                command.add_flag("--json-lines", arguments->json_lines,
+                                 "Each result as a line of JSON as soon as it is there, with its pictures, for "
+                                 "other programs; nothing else is written");
+            json_lines.excludes(json);
+            add_parsed(command, "--junit", arguments->junit, parse_file_name, "The report for CI servers", "OUT.xml");
+            add_parsed(command, "--html", arguments->html, parse_file_name, "The report as one page, with all pictures",
+                       "OUT.html");
+            add_parsed(command, "--contact-sheet", arguments->contact_sheet, parse_file_name,
+                       "All pictures of the run in one", "OUT.png");
+            add_parsed(
+                command, "--columns", arguments->columns,
+                [](const std::string& text) {
+                    const std::optional<int> columns = parse_int(text);
+                    if (!columns || *columns < 1)
+                        throw std::invalid_argument(in_quotes(text) + " is no number of columns");
+                    return *columns;
+                },
+                "Of the contact sheet", "N");
+            command.callback([&command, arguments, &status] {
+                if (command.is_given("--update")) read_update(*arguments);
+                check_new_reference(*arguments);
+                status = run_test(*arguments);
+            });
+        });
 }
 
 }  // namespace mobbscope::cli

@@ -125,25 +125,26 @@ void add_window_options(Command& program, WindowArguments& arguments) {
 }
 
 void add_review_command(Command& program, int& status) {
-    Command& command =
-        program.add_subcommand("review", "Look at picture tests in the window: what differs, and take it or not");
-    const auto arguments = std::make_shared<WindowArguments>();
-    command.add_option("DIR", arguments->cases, "The folder of the cases, NAME.case.json").required();
-    add_parsed(command, "--output", arguments->output, parse_file_name,
-               "Look at the pictures that mobbscope test --output left there; without it, all cases are drawn",
-               "FOLDER");
-    add_parsed(
-        command, "--backend", arguments->backend,
-        [](const std::string& text) {
-            static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
-            return text;
-        },
-        "OpenGL that draws the cases: auto, osmesa or egl", "NAME");
-    add_common_options(command, *arguments);
-    command.callback([arguments, &status] {
-        // Bad input is told before there is a window.
-        status = show(app::find_review(arguments->cases, arguments->output), *arguments);
-    });
+    program.add_subcommand(
+        "review", "Look at picture tests in the window: what differs, and take it or not", [&status](Command& command) {
+            const auto arguments = std::make_shared<WindowArguments>();
+            command.add_option("DIR", arguments->cases, "The folder of the cases, NAME.case.json").required();
+            add_parsed(command, "--output", arguments->output, parse_file_name,
+                       "Look at the pictures that mobbscope test --output left there; without it, all cases are drawn",
+                       "FOLDER");
+            add_parsed(
+                command, "--backend", arguments->backend,
+                [](const std::string& text) {
+                    static_cast<void>(one_of(backend_from_name, "auto, osmesa, egl")(text));
+                    return text;
+                },
+                "OpenGL that draws the cases: auto, osmesa or egl", "NAME");
+            add_common_options(command, *arguments);
+            command.callback([arguments, &status] {
+                // Bad input is told before there is a window.
+                status = show(app::find_review(arguments->cases, arguments->output), *arguments);
+            });
+        });
 }
 
 void check_not_before_command(const Command& program) {

@@ -7,6 +7,7 @@
 #include <scene/motion_graph.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,6 @@
 #include <map>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace mobbscope {
@@ -121,10 +121,14 @@ class Grid {
         while (cells_covered(pieces) > kMostCellsPerPiece * count) size_ *= 2;
     }
 
+    /// Calls visit with a number for each cell that the piece covers; few cells have the same.
     template <class Visit>
     void for_each_cell(const PathPiece& piece, Visit visit) const {
-        for (std::int64_t x = cell(piece.x0); x <= cell(piece.x1); ++x) {
-            for (std::int64_t y = cell(piece.y0); y <= cell(piece.y1); ++y) visit(x * (std::int64_t{1} << 32) + y);
+        const std::int64_t x1 = cell(piece.x1);
+        const std::int64_t y1 = cell(piece.y1);
+        const std::int64_t y0 = cell(piece.y0);
+        for (std::int64_t x = cell(piece.x0); x <= x1; ++x) {
+            for (std::int64_t y = y0; y <= y1; ++y) visit(static_cast<std::size_t>(x * kColumn + y));
         }
     }
 
@@ -139,6 +143,9 @@ class Grid {
         }
         return sum;
     }
+
+    static constexpr std::int64_t kColumn =
+        0x9E3779B1;  // odd and large: columns side by side do not fall on each other
 
     double size_ = 1;
 };
@@ -244,14 +251,18 @@ std::vector<std::pair<int, int>> near_pairs(std::span<const mobb::PlacedTree> cr
     if (pieces.empty()) return pairs;
     std::sort(pieces.begin(), pieces.end(), [](const PathPiece& a, const PathPiece& b) { return a.t0 < b.t0; });
     const Grid grid(pieces);
-    std::unordered_map<std::int64_t, std::vector<const PathPiece*>> present;  // by cell: pieces that may not have ended
+    // Pieces that may not have ended, by cell. Cells that share a place cost time alone.
+    std::vector<std::vector<const PathPiece*>> present(std::bit_ceil(pieces.size()));
+    std::vector<const PathPiece*> met_by(crowd.size());  // by member: the last piece that was near a piece of it
     for (const PathPiece& piece : pieces) {
-        grid.for_each_cell(piece, [&](std::int64_t cell) {
-            std::vector<const PathPiece*>& others = present[cell];
+        grid.for_each_cell(piece, [&](std::size_t cell) {
+            std::vector<const PathPiece*>& others = present[cell & (present.size() - 1)];
             std::erase_if(others, [&](const PathPiece* other) { return other->t1 <= piece.t0; });
             for (const PathPiece* other : others) {
-                if (other->member != piece.member && near(*other, piece))
-                    pairs.emplace_back(std::min(other->member, piece.member), std::max(other->member, piece.member));
+                if (other->member == piece.member || !near(*other, piece)) continue;
+                // Most are near each other in several cells.
+                if (std::exchange(met_by[static_cast<std::size_t>(other->member)], &piece) == &piece) continue;
+                pairs.emplace_back(std::min(other->member, piece.member), std::max(other->member, piece.member));
             }
             others.push_back(&piece);
         });

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <random>
+#include <string>
+#include <string_view>
 
 namespace mobbscope {
 namespace {
@@ -40,6 +43,36 @@ TEST(Text, SeventeenDigitsGiveTheSameDoubleBack) {
     EXPECT_EQ(format_double(0.1), "0.10000000000000001");
     EXPECT_EQ(format_double(2), "2");
     EXPECT_TRUE(std::signbit(*parse_double(format_double(-0.0))));
+}
+
+TEST(Text, PlainNumbersAreTheNearestDoubles) {
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 100'000; ++i) {
+        // Of 1 to 20 digits, so that some are more than a double or an integer holds, with a point in any place.
+        std::string text = std::to_string(random() >> (random() % 64));
+        const std::size_t point = random() % (text.size() + 1);
+        if (point < text.size()) text.insert(point, point == 0 ? "0." : ".");
+        if (random() % 2 == 0) text.insert(0, "-");
+        ASSERT_EQ(parse_double(text), std::strtod(text.c_str(), nullptr)) << text;
+    }
+    EXPECT_TRUE(std::signbit(*parse_double("-0")));
+    EXPECT_EQ(parse_double("5."), 5);
+    EXPECT_EQ(parse_double(".5"), 0.5);
+    EXPECT_EQ(parse_double("007"), 7);
+    for (const char* bad : {"-", ".", "-.", "1.2.3", "--1", "1-"}) EXPECT_FALSE(parse_double(bad)) << bad;
+}
+
+TEST(Text, PlainNumbersAreReadOffTheFront) {
+    const auto length = [](std::string_view text) {
+        double value = 0;
+        return read_plain_double(text.data(), text.data() + text.size(), value) - text.data();
+    };
+    EXPECT_EQ(length("-12.25 7"), 6);
+    EXPECT_EQ(length("12"), 2);
+    EXPECT_EQ(length("1e5"), 1);  // what follows is for the caller to see
+    EXPECT_EQ(length("9007199254740992"), 16);
+    for (const char* none : {"", "-", "+1", ".5", "5.", "x", "9007199254740993", "0.0000000000000000001"})
+        EXPECT_EQ(length(none), 0) << none;
 }
 
 TEST(Text, RangesHaveTwoNumbers) {

@@ -2,9 +2,11 @@
 #include <app/window/picture_clipboard.h>
 #include <base/error.h>
 #include <render/drawlist/palette.h>
+#include <render/gl/backends.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <opened_libraries.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -17,6 +19,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,6 +34,28 @@ constexpr double kLeastFrame = 1.0 / 120;
 constexpr double kShareOfMonitor = 0.9;
 /// Pixels of a window's upper edge that must be on a monitor to take hold of it.
 constexpr int kGrip = 48;
+
+// What is used of GLFW: pointers that hide its functions. The library is opened with the first window, as loading it,
+// and X11 with it, takes longer than many a command that opens none.
+// clang-format off
+#define MOBBSCOPE_GLFW_FUNCTIONS(X) \
+    X(glfwCreateStandardCursor) X(glfwCreateWindow) X(glfwDestroyCursor) X(glfwDestroyWindow) \
+    X(glfwGetClipboardString) X(glfwGetCurrentContext) X(glfwGetFramebufferSize) X(glfwGetKeyName) \
+    X(glfwGetMonitorContentScale) X(glfwGetMonitorWorkarea) X(glfwGetMonitors) X(glfwGetMouseButton) \
+    X(glfwGetPrimaryMonitor) X(glfwGetProcAddress) X(glfwGetTime) X(glfwGetWindowAttrib) X(glfwGetWindowPos) \
+    X(glfwGetWindowSize) X(glfwGetWindowUserPointer) X(glfwInit) X(glfwInitHint) X(glfwMakeContextCurrent) \
+    X(glfwPollEvents) X(glfwPostEmptyEvent) X(glfwRestoreWindow) X(glfwSetCharCallback) X(glfwSetClipboardString) \
+    X(glfwSetCursor) X(glfwSetCursorEnterCallback) X(glfwSetCursorPosCallback) X(glfwSetDropCallback) \
+    X(glfwSetErrorCallback) X(glfwSetKeyCallback) X(glfwSetMouseButtonCallback) X(glfwSetScrollCallback) \
+    X(glfwSetWindowCloseCallback) X(glfwSetWindowContentScaleCallback) X(glfwSetWindowFocusCallback) \
+    X(glfwSetWindowIcon) X(glfwSetWindowMaximizeCallback) X(glfwSetWindowPos) X(glfwSetWindowPosCallback) \
+    X(glfwSetWindowShouldClose) X(glfwSetWindowSize) X(glfwSetWindowSizeCallback) X(glfwSetWindowSizeLimits) \
+    X(glfwSetWindowTitle) X(glfwSetWindowUserPointer) X(glfwShowWindow) X(glfwSwapBuffers) X(glfwSwapInterval) \
+    X(glfwTerminate) X(glfwWaitEvents) X(glfwWaitEventsTimeout) X(glfwWindowHint) X(glfwWindowHintString)
+// clang-format on
+#define MOBBSCOPE_DECLARE(function) decltype(&::function) function = nullptr;
+MOBBSCOPE_GLFW_FUNCTIONS(MOBBSCOPE_DECLARE)
+#undef MOBBSCOPE_DECLARE
 
 std::string last_error;
 
@@ -131,9 +156,22 @@ bool is_set(const char* variable) {
     return value && *value;
 }
 
+void open_glfw() {
+    try {
+        const SharedLibrary library(glfw_libraries());
+#define MOBBSCOPE_FIND(name) name = library.function<decltype(name)>(#name);
+        MOBBSCOPE_GLFW_FUNCTIONS(MOBBSCOPE_FIND)
+#undef MOBBSCOPE_FIND
+    } catch (const std::runtime_error& error) {
+        last_error = error.what();
+        fail("there is no GLFW to open a window with");
+    }
+}
+
 /// GLFW from start to end.
 struct Library {
     Library() {
+        open_glfw();
         glfwSetErrorCallback([](int, const char* message) { last_error = message; });
 #ifdef GLFW_PLATFORM
         // From GLFW 3.4 on Wayland is tried first, whose library complains on standard error where there is none.

@@ -84,19 +84,21 @@ void run_render(const Command& command, const RenderCommandArguments& arguments)
 }  // namespace
 
 void add_render_command(Command& program) {
-    Command& command = program.add_subcommand("render", "Draw a scene into pictures, without a display");
-    const auto arguments = std::make_shared<RenderCommandArguments>();
-    add_render_options(command, arguments->render);
-    constexpr const char* kGroup = "Many pictures in one process";
-    command
-        .add_option("--batch", arguments->batch,
-                    "A text file with the arguments of one picture a line; - is standard input. Options beside it hold "
-                    "for every line",
-                    "LIST")
-        .group(kGroup);
-    command.add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
-    command.add_flag("--json", arguments->json, "With --list-backends: as JSON");
-    command.callback([&command, arguments] { run_render(command, *arguments); });
+    program.add_subcommand("render", "Draw a scene into pictures, without a display", [](Command& command) {
+        const auto arguments = std::make_shared<RenderCommandArguments>();
+        add_render_options(command, arguments->render);
+        constexpr const char* kGroup = "Many pictures in one process";
+        command
+            .add_option(
+                "--batch", arguments->batch,
+                "A text file with the arguments of one picture a line; - is standard input. Options beside it hold "
+                "for every line",
+                "LIST")
+            .group(kGroup);
+        command.add_flag("--list-backends", arguments->list_backends, "Say what this machine can draw with, and stop");
+        command.add_flag("--json", arguments->json, "With --list-backends: as JSON");
+        command.callback([&command, arguments] { run_render(command, *arguments); });
+    });
 }
 
 }  // namespace mobbscope::cli

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace mobbscope {
@@ -41,25 +42,34 @@ const Columns kPetrack{"petrack", 5, 0, 1, 2, 3, 4};
 const Columns kPetrackFlat{"petrack", 4, 0, 1, 2, 3};
 const Columns kSdd{"sdd", 10, 0, kSddFrame};
 
+constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
+
+struct Word {
+    std::string_view text;
+    double number;  ///< of most numbers; kUnread: it is read when it is asked for
+};
+
 /// Words between blanks; one in double quotes may hold blanks. More than `limit` + 1 are not looked for. `line`: as
 /// TextLines gives it, or an end of it.
-void split(std::string_view line, std::size_t limit, std::vector<std::string_view>& words) {
+void split(std::string_view line, std::size_t limit, std::vector<Word>& words) {
     const auto parts_words = [](char c) { return c == ' ' || c == '\t'; };
     words.clear();
     const char* at = line.data();
     const char* const line_end = at + line.size();
-    while (words.size() <= limit) {
+    for (std::size_t left = limit + 1; left > 0; --left) {
         while (at != line_end && (parts_words(*at) || *at == '\r')) ++at;
         if (at == line_end) return;
-        const char* end = at;
+        const char* const begin = at;
+        double number = kUnread;
         if (*at == '"') {
-            end = std::find(at + 1, line_end, '"');
-            if (end != line_end) ++end;
+            at = std::find(at + 1, line_end, '"');
+            if (at != line_end) ++at;
         } else {
-            while (end != line_end && !parts_words(*end)) ++end;
+            at = read_plain_double(at, line_end, number);
+            if (at != line_end && !parts_words(*at)) number = kUnread;
+            while (at != line_end && !parts_words(*at)) ++at;
         }
-        words.emplace_back(at, end);
-        at = end;
+        words.push_back({{begin, at}, number});
     }
 }
 
@@ -134,7 +144,7 @@ class TextTracksParser {
         split(comment, kMaxColumns, words_);
         Columns named{"petrack", words_.size()};
         for (std::size_t i = 0; i < words_.size(); ++i) {
-            const std::string_view word = words_[i].substr(0, words_[i].find('/'));
+            const std::string_view word = words_[i].text.substr(0, words_[i].text.find('/'));
             const auto is_one_of = [word](std::initializer_list<std::string_view> names) {
                 return std::find(names.begin(), names.end(), word) != names.end();
             };
@@ -160,9 +170,9 @@ class TextTracksParser {
             lines_.fail("has " + columns(words_.size()) + " but a comment names " + std::to_string(columns_.count) +
                         "; give every row all of them");
         }
-        const bool labelled = words_.size() == kSdd.count && words_.back().front() == '"';
+        const bool labelled = words_.size() == kSdd.count && words_.back().text.front() == '"';
         const auto numbers = std::count_if(words_.begin(), words_.end(),
-                                           [](std::string_view word) { return parse_double(word).has_value(); });
+                                           [](const Word& word) { return parse_double(word.text).has_value(); });
         const bool all_numbers = numbers == std::ssize(words_);
         if (labelled && numbers == std::ssize(words_) - 1) {
             columns_ = kSdd;
@@ -180,8 +190,8 @@ class TextTracksParser {
     }
 
     double number(int column, double largest) const {
-        const std::string_view word = words_[static_cast<std::size_t>(column)];
-        const std::optional<double> value = parse_double(word);
+        const auto& [word, known] = words_[static_cast<std::size_t>(column)];
+        const std::optional<double> value = std::isnan(known) ? parse_double(word) : known;
         if (!value) fail(column, in_quotes(word) + " is no finite number; write it like 0.25");
         if (std::abs(*value) > largest)
             fail(column, in_quotes(word) + " is beyond " + short_double(largest) + "; check the row");
@@ -191,7 +201,7 @@ class TextTracksParser {
     double whole_number(int column) const {
         const double value = number(column, kMaxFrame);
         if (value != static_cast<double>(static_cast<std::int64_t>(value))) {
-            fail(column, in_quotes(words_[static_cast<std::size_t>(column)]) +
+            fail(column, in_quotes(words_[static_cast<std::size_t>(column)].text) +
                              " is no whole number, as ids and frames of this format (" + columns_.format +
                              ") are; check the columns");
         }
@@ -205,7 +215,11 @@ class TextTracksParser {
     void add(double x, double y, std::string_view label = {}) {
         const double frame = whole_number(columns_.frame);
         const double id = whole_number(columns_.id);
-        tracks_.add(std::to_string(static_cast<long long>(id)), {frame, x, y, lines_.number()}, label);
+        if (id != id_) {
+            id_ = id;
+            id_text_ = std::to_string(static_cast<long long>(id));
+        }
+        tracks_.add(id_text_, {frame, x, y, lines_.number()}, label);
     }
 
     void read_point() {
@@ -226,7 +240,7 @@ class TextTracksParser {
 
     /// The class, without its quotes.
     std::string_view label() const {
-        std::string_view word = words_[kLabel];
+        std::string_view word = words_[kLabel].text;
         if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
         if (!is_utf8(word)) fail(kLabel, "the label is no UTF-8 text; save the file as UTF-8");
         return word;
@@ -296,11 +310,13 @@ class TextTracksParser {
 
     TextLines lines_;
     const std::string& file_;
-    std::vector<std::string_view> words_;  ///< of the line in hand
+    std::vector<Word> words_;  ///< of the line in hand
     Columns columns_;
     bool seen_row_ = false;
     std::optional<double> rate_;
     std::optional<double> unit_;
+    std::optional<double> id_;  ///< of the last row
+    std::string id_text_;
     TrackCollector tracks_;
     std::vector<double> heights_;
     int lost_ = 0;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -61,41 +62,37 @@ std::string unused_radii(const TrackFile& file, const Radius& radius) {
            " not in the file" + (unused.size() == 1 ? "" : ", such as " + in_quotes(unused.front()));
 }
 
-/// Frames from each point to the next.
-void append_steps(std::span<const TrackPoint> points, std::vector<double>& steps) {
-    for (std::size_t i = 1; i < points.size(); ++i) steps.push_back(points[i].frame - points[i - 1].frame);
+/// How many points are so many frames after the one before: nearly always all points of a file are as many.
+using StepCounts = std::map<double, std::ptrdiff_t>;
+
+void count_steps(std::span<const TrackPoint> points, StepCounts& counts) {
+    auto last = counts.end();
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double step = points[i].frame - points[i - 1].frame;
+        if (last == counts.end() || last->first != step) last = counts.try_emplace(step, 0).first;
+        ++last->second;
+    }
 }
 
 /// The most frequent step, the shorter of equals; none for none.
-std::optional<double> usual(std::vector<double> steps) {
-    // Nearly always they are all alike.
-    if (!std::ranges::is_sorted(steps)) std::ranges::sort(steps);
-    std::optional<double> found;
-    std::ptrdiff_t most = 0;
-    for (auto at = steps.begin(); at != steps.end();) {
-        const auto end = std::upper_bound(at, steps.end(), *at);
-        if (end - at > most) {
-            most = end - at;
-            found = *at;
-        }
-        at = end;
-    }
-    return found;
+std::optional<double> usual(const StepCounts& counts) {
+    const auto most = std::ranges::max_element(counts, {}, &StepCounts::value_type::second);
+    return most == counts.end() ? std::nullopt : std::optional(most->first);
 }
 
 /// Frame numbers to seconds.
 class FrameClock {
   public:
     FrameClock(const TrackFile& file, const ImportOptions& options) : dt_(options.dt) {
-        std::vector<double> steps;
+        StepCounts steps;
         first_ = file.tracks.front().points.front().frame;
         last_ = first_;
         for (const Track& track : file.tracks) {
-            append_steps(track.points, steps);
+            count_steps(track.points, steps);
             first_ = std::min(first_, track.points.front().frame);
             last_ = std::max(last_, track.points.back().frame);
         }
-        step_ = usual(std::move(steps)).value_or(file.least_step);
+        step_ = usual(steps).value_or(file.least_step);
         rate_ = file.rate_of_steps ? file.rate * step_ : file.rate;
     }
 
@@ -151,16 +148,17 @@ class TrackClipMaker {
     std::optional<ImportedClip> make(const Track& track) {
         const std::span<const TrackPoint> points = trimmed(track);
         if (points.empty()) return std::nullopt;
-        std::vector<double> steps;
-        append_steps(points, steps);
+        StepCounts steps;
+        count_steps(points, steps);
         const double step = usual(steps).value_or(clock_.usual_step());
         const double dt = clock_.seconds(step);
+        const bool resampled = !in_step(steps, step);
 
         SourceFacts facts = common_;
         facts.label = track.label;
         facts.frames = static_cast<int>(track.points.size());
         facts.duration = clock_.seconds(track.points.back().frame - track.points.front().frame);
-        if (!in_step(steps, step)) {
+        if (resampled) {
             const double fps = options_.fps.value_or(kDefaultFps);
             facts.warnings.push_back(
                 {"the points are not uniform in time; the path is resampled at " + brief(fps) + " fps", "fps"});
@@ -168,11 +166,11 @@ class TrackClipMaker {
             facts.dt = dt;
         } else {
             const double missing =
-                (points.back().frame - points.front().frame) / step - static_cast<double>(steps.size());
+                (points.back().frame - points.front().frame) / step - static_cast<double>(points.size() - 1);
             facts.warnings.push_back({counted(std::llround(missing), "frame is", "frames are") +
                                       " missing within the track; the path is interpolated there"});
         }
-        const double sample_dt = options_.fps || !in_step(steps, step) ? 1 / options_.fps.value_or(kDefaultFps) : dt;
+        const double sample_dt = options_.fps || resampled ? 1 / options_.fps.value_or(kDefaultFps) : dt;
 
         ImportedClip out;
         out.id = track.id;
@@ -200,29 +198,31 @@ class TrackClipMaker {
         return {begin, end};
     }
 
-    static bool uniform(std::span<const double> steps, double step) {
-        return std::all_of(steps.begin(), steps.end(),
-                           [step](double s) { return std::abs(s - step) <= kStepTolerance * step; });
+    static bool uniform(const StepCounts& steps, double step) {
+        return std::ranges::all_of(steps | std::views::keys,
+                                   [step](double s) { return std::abs(s - step) <= kStepTolerance * step; });
     }
 
     /// Whether only whole steps are missing.
-    static bool in_step(std::span<const double> steps, double step) {
-        return std::all_of(steps.begin(), steps.end(), [step](double s) {
+    static bool in_step(const StepCounts& steps, double step) {
+        return std::ranges::all_of(steps | std::views::keys, [step](double s) {
             return std::abs(s / step - std::round(s / step)) <= kStepTolerance && s > 0.5 * step;
         });
     }
 
     std::vector<mobb::Disk> samples(std::span<const TrackPoint> points, double radius, double dt, bool as_stored) {
-        std::vector<TimedDisk> stored;
-        stored.reserve(points.size());
-        for (const TrackPoint& point : points) {
-            stored.push_back({clock_.seconds(point.frame - points.front().frame),
-                              {point.x * common_.unit, point.y * common_.unit, radius}});
-        }
+        const auto disk = [&](const TrackPoint& point) {
+            return mobb::Disk{point.x * common_.unit, point.y * common_.unit, radius};
+        };
         std::vector<mobb::Disk> out;
         if (as_stored) {
-            for (const TimedDisk& point : stored) out.push_back(point.disk);
+            out.resize(points.size());
+            std::ranges::transform(points, out.begin(), disk);
         } else {
+            std::vector<TimedDisk> stored;
+            stored.reserve(points.size());
+            for (const TrackPoint& point : points)
+                stored.push_back({clock_.seconds(point.frame - points.front().frame), disk(point)});
             const std::size_t left = most_ - std::min(count_, most_);
             out = sample(stored, sample_grid(0, stored.back().t, std::nullopt, dt, left));
         }
@@ -230,7 +230,6 @@ class TrackClipMaker {
         put_at_origin(out, options_.origin.value_or(Origin::keep));
         return out;
     }
-
     const ImportOptions& options_;
     FrameClock clock_;
     SourceFacts common_;     ///< what holds for every track
