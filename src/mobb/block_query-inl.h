@@ -175,11 +175,11 @@ MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { retur
 constexpr int kMostBits = 64;
 
 /// Samples [first, end) of A.
-struct SampleRange {
+struct SampleSpan {
     int first, end;
 };
 /// Those that share time with B, where both are of one dt.
-MOBB_INLINE SampleRange shared_samples(const Blocks& a, const Blocks& b, int whole) {
+MOBB_INLINE SampleSpan shared_samples(const Blocks& a, const Blocks& b, int whole) {
     return {std::max(0, whole), std::min(a.count() - 1, b.count() + whole) + 1};
 }
 
@@ -206,22 +206,22 @@ struct Pairs {
     }
 };
 
-/// Runs of kWindow samples of A, one behind the other, that have all samples of a range between them; and the windows
-/// of B's samples that they share time with.
+/// Runs of kRun samples of A, one behind the other, that have all samples of a span between them: the first and the
+/// last one may reach over its ends. And the windows of B's samples that they share time with.
 struct WindowPairs {
     Pairs pairs;
-    int first;  ///< sample of A with which the first run begins: it may be before the range
+    int first;  ///< sample of A with which the first run begins
     int count;
 
-    MOBB_INLINE WindowPairs(const Blocks& a, const Blocks& b, const SampleRange& range, int whole) {
-        constexpr int kLog = Blocks::kLogWindow;
+    MOBB_INLINE WindowPairs(const Blocks& a, const Blocks& b, const SampleSpan& span, int whole) {
+        constexpr int kLog = Blocks::kLogRun;
         const Blocks::PhasePair phases = Blocks::phases_apart(whole + 1);
-        const int to_place = Blocks::kWindow - phases.a;
-        const int place = (range.first + to_place) >> kLog;
+        const int to_place = Blocks::kRun - phases.a;  // with it, a sample's place times kRun
+        const int place = (span.first + to_place) >> kLog;
         first = (place << kLog) - to_place;
-        count = ((range.end - 1 + to_place) >> kLog) + 1 - place;
-        const int later = phases.a - phases.b - (whole + 1);  // what B's window is about, in whole windows
-        pairs = {a.windows(phases.number_a), b.windows(phases.number_b), place, place + (later >> kLog)};
+        count = ((span.end - 1 + to_place) >> kLog) + 1 - place;
+        const int samples = phases.a - phases.b - (whole + 1);  // from A's places to B's: whole runs
+        pairs = {a.windows(phases.index_a), b.windows(phases.index_b), place, place + (samples >> kLog)};
     }
 };
 /// A's blocks of a level above 0 from `first` on, and the windows of B's samples that they share time with.
@@ -268,37 +268,37 @@ class BlockTraversal {
 
     /// Samples of A against B's that are shifted, where nobody watches: those of a block against the window of B's that
     /// it shares time with, and then what lies below it.
-    bool scan_level(int level, const SampleRange& range) {
-        if (level == 0) return scan_windows(range);
-        const int log_span = Blocks::log_span(level), end = ((range.end - 1) >> log_span) + 1;
-        for (int first = range.first >> log_span; first < end; first += kMostBits) {
+    bool scan_level(int level, const SampleSpan& span) {
+        if (level == 0) return scan_windows(span);
+        const int log_span = Blocks::log_span(level), end = ((span.end - 1) >> log_span) + 1;
+        for (int first = span.first >> log_span; first < end; first += kMostBits) {
             const Pairs pairs = blocks_and_windows(blocks_a_, blocks_b_, level, first, shift_.whole());
             std::uint64_t may = pairs.first(std::min(end - first, kMostBits), relation_).may;
             for (; may != 0; may &= may - 1) {
                 const std::int64_t begin = std::int64_t{first + std::countr_zero(may)} << log_span;
-                const std::int64_t until = std::min<std::int64_t>(range.end, begin + Blocks::span(level));
-                const int from = std::max(range.first, static_cast<int>(begin));
+                const std::int64_t until = std::min<std::int64_t>(span.end, begin + Blocks::span(level));
+                const int from = std::max(span.first, static_cast<int>(begin));
                 if (scan_level(level - 1, {from, static_cast<int>(until)})) return true;
             }
         }
         return false;
     }
-    MOBB_INLINE bool scan_windows(const SampleRange& range) {
-        const WindowPairs windows(blocks_a_, blocks_b_, range, shift_.whole());
+    MOBB_INLINE bool scan_windows(const SampleSpan& span) {
+        const WindowPairs windows(blocks_a_, blocks_b_, span, shift_.whole());
         for (int k = 0; k < windows.count; k += kMostBits) {
             const Nearness some = windows.pairs.from(k).first(std::min(windows.count - k, kMostBits), relation_);
             if constexpr (OnHit::kAny) {
                 if (some.sure != 0) return true;
             }
-            if (some.may != 0 && test_runs(some.may, windows.first + k * Blocks::kWindow, range)) return true;
+            if (some.may != 0 && test_runs(some.may, windows.first + k * Blocks::kRun, span)) return true;
         }
         return false;
     }
 
     /// The samples of A's runs that are set, of which bit 0 begins with sample `first`.
-    MOBB_INLINE bool test_runs(std::uint64_t runs, int first, const SampleRange& range) {
+    MOBB_INLINE bool test_runs(std::uint64_t runs, int first, const SampleSpan& span) {
         for (; runs != 0; runs &= runs - 1) {
-            if (test_run(first + std::countr_zero(runs) * Blocks::kWindow, range)) return true;
+            if (test_run(first + std::countr_zero(runs) * Blocks::kRun, span)) return true;
         }
         return false;
     }
@@ -312,13 +312,16 @@ class BlockTraversal {
         int first, count;
     };
 
+    /// Seconds by which what two samples share may be more or less than it is told: times are rounded, those of one dt
+    /// to whole parts of a sample.
+    double time_slack() const { return static_cast<double>(time_error(a_, b_)) + a_.dt() / Shift::kOne; }
     /// Pairs that share less than this many samples are not tested ...
-    double least_common() const { return (kMinOverlap - static_cast<double>(time_error(a_, b_))) * blocks_a_.per_dt(); }
+    double least_common() const { return (kMinOverlap - time_slack()) * blocks_a_.per_dt(); }
     /// ... and those that share more are, for sure.
-    double sure_common() const { return (kMinOverlap + static_cast<double>(time_error(a_, b_))) * blocks_a_.per_dt(); }
+    double sure_common() const { return (kMinOverlap + time_slack()) * blocks_a_.per_dt(); }
     /// Metres by which bounds that move must be apart.
     float moving_slack() const {
-        return relation_.slack + time_error(a_, b_) * (blocks_a_.speed() + blocks_b_.speed());
+        return relation_.slack + static_cast<float>(time_slack()) * (blocks_a_.speed() + blocks_b_.speed());
     }
 
     /// Which blocks of 2^log_span samples share time: with k they share span - |k * span + rest| samples.
@@ -472,11 +475,11 @@ class BlockTraversal {
         return pairs.stopped;
     }
 
-    /// A run from sample i of A on, as far as it lies in the range: each against both of B's that it shares time with.
-    MOBB_INLINE bool test_run(int i, const SampleRange& range) {
+    /// A run from sample i of A on, as far as it lies in the span: each against both of B's that it shares time with.
+    MOBB_INLINE bool test_run(int i, const SampleSpan& span) {
         const Nearness samples =
-            samples_of(blocks_a_, i, blocks_b_, i - shift_.whole() - 1).first(Blocks::kWindow, relation_);
-        const std::uint64_t there = low_bits(std::min(range.end - i, Blocks::kWindow)) & ~low_bits(range.first - i);
+            samples_of(blocks_a_, i, blocks_b_, i - shift_.whole() - 1).first(Blocks::kRun, relation_);
+        const std::uint64_t there = low_bits(std::min(span.end - i, Blocks::kRun)) & ~low_bits(span.first - i);
         if constexpr (OnHit::kAny) {
             if ((samples.sure & there) != 0) return true;
         }
@@ -570,16 +573,16 @@ MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b) {
 /// What their windows tell of two whose roots meet. The same work for all, without a branch but for the number of
 /// steps.
 struct FirstLook {
-    SampleRange range;
+    SampleSpan span;
     int first, count;  ///< of runs, as WindowPairs says
-    Nearness near;     ///< of run k of A in bit k; of more than kMostBits, there again from 0 on
+    Nearness near;     ///< of run k of A in bit k modulo kMostBits
 
     FirstLook() = default;
     MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b) {
         const Shift shift = shift_of(a, b);
         const Relation relation = relate(a, b, shift);
-        range = shared_samples(a.blocks(), b.blocks(), shift.whole());
-        const WindowPairs windows(a.blocks(), b.blocks(), range, shift.whole());
+        span = shared_samples(a.blocks(), b.blocks(), shift.whole());
+        const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
         first = windows.first;
         count = windows.count;
         // The last step goes over some a second time rather than beyond them.
@@ -605,8 +608,8 @@ struct FirstLook {
     AnyHit any;
     const Shift shift = shift_of(a, b);
     BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, any);
-    if (look.count > kMostBits) return traversal.scan_windows(look.range);
-    return traversal.test_runs(look.near.may, look.first, look.range);
+    if (look.count > kMostBits) return traversal.scan_windows(look.span);
+    return traversal.test_runs(look.near.may, look.first, look.span);
 }
 /// Of any two whose roots meet.
 [[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
@@ -631,7 +634,7 @@ inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& 
 
 /// Calls found(i, collides) for pairs i of `count`, until stop(i) says that this one and those behind it need not be
 /// asked; of the others it is not called if they do not collide. Of some number of pairs at a time times go first, then
-/// roots, blocks, and samples: what ends soon costs hardly a mispredicted branch. So they come in no order, but each
+/// roots, windows, and samples: what ends soon costs hardly a mispredicted branch. So they come in no order, but each
 /// number of pairs behind the one before.
 template <class PairAt, class Found, class Stop>
 void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found, const Stop& stop) {

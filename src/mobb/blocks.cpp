@@ -30,6 +30,15 @@ class Middle {
     double low_x_ = kFar, high_x_ = -kFar, low_y_ = kFar, high_y_ = -kFar;
 };
 
+constexpr bool has_phases_for_all_shifts() {
+    for (int apart = -Blocks::kRun; apart <= Blocks::kRun; ++apart) {
+        const Blocks::PhasePair phases = Blocks::phases_apart(apart);
+        if ((phases.a - phases.b - apart) % Blocks::kRun != 0) return false;
+    }
+    return true;
+}
+static_assert(has_phases_for_all_shifts());
+
 const Clip& existing(const ClipPtr& clip) {
     if (!clip) throw std::invalid_argument("blocks need a clip");
     return *clip;
@@ -192,7 +201,7 @@ Blocks::Blocks(ClipPtr clip)
     values_.reserve(values);
 
     // What is read before or behind an array is another one.
-    values_.assign(kSamples, 0);
+    values_.assign(kRun, 0);
     add_samples();
     for (bool more = true; more; ++level_count_) {
         Level& level = levels_[static_cast<std::size_t>(level_count_)];
@@ -265,7 +274,7 @@ void Blocks::add_samples() {
 }
 
 void Blocks::add_windows() {
-    constexpr int kHalf = kWindow / 2;
+    constexpr int kHalf = kRun / 2;
     const int n = count_;
     std::vector<float> reaches(static_cast<std::size_t>(n + 2 * kHalf + 1));
     float* const outer = reaches.data() + kHalf;
@@ -277,7 +286,7 @@ void Blocks::add_windows() {
     const Rings of = samples();
     for (const int phase : kPhases) {
         for (int place = 0; place < stride; ++place) {
-            const int j = std::min(phase + place * kWindow - kHalf, n + kHalf);
+            const int j = std::min(phase + place * kRun - kHalf, n + kHalf);
             const int nearest = std::clamp(j, 0, n - 1);
             values[place] = of.x[nearest];
             values[stride + place] = of.y[nearest];

@@ -122,33 +122,33 @@ class alignas(64) Blocks {
     };
     /// The samples: sample i at [i], -1 <= i <= count(), where the first and the last one stand once more,
     /// with -kNever as `inner`. Of a linear clip around what each runs through. `outer` holds the sample behind, too.
-    /// Before and behind kSamples more can be read, which mean nothing.
+    /// Before and behind kRun more can be read, which mean nothing.
     Rings samples() const { return rings_from(first_sample_, count_ + 2); }
-    /// Windows of consecutive samples, for runs of kWindow samples of the other clip: about sample j, -kWindow / 2 <= j
-    /// <= count() + kWindow / 2, `outer` holds those from j - kWindow / 2 to j + kWindow / 2. Where there is no sample
-    /// j, the first or the last one is the centre, and `inner` is -kNever. They are stored at a few phases, by number:
-    /// those of kPhases[k] stand side by side, place p about sample kPhases[k] + kWindow * p - kWindow / 2, so that
-    /// several are read at a time. Behind the last one kReadAhead more can be read, which mean nothing.
-    Rings windows(int phase_number) const {
-        return rings_from(first_window_ + std::ptrdiff_t{kRings} * window_stride_ * phase_number, window_stride_);
+    /// Windows of consecutive samples, for runs of kRun samples of the other clip: about sample j, -kRun / 2 <= j <=
+    /// count() + kRun / 2, `outer` holds those from j - kRun / 2 to j + kRun / 2. Where there is no sample j, the first
+    /// or the last one is the centre, and `inner` is -kNever. They are stored at a few phases: those of kPhases[k]
+    /// stand side by side, place p about sample kPhases[k] + kRun * p - kRun / 2, so that several are read at a time.
+    /// Behind the last one kReadAhead more can be read, which mean nothing.
+    Rings windows(int phase_index) const {
+        return rings_from(first_window_ + std::ptrdiff_t{kRings} * window_stride_ * phase_index, window_stride_);
     }
-    static constexpr int kLogWindow = 4;
-    static constexpr int kWindow = 1 << kLogWindow;
+    static constexpr int kLogRun = 4;
+    static constexpr int kRun = 1 << kLogRun;
     static constexpr float kNever = 1e30F;
-    /// Each number is the difference of two of these, modulo kWindow: so windows of two clips can be had that lie as
-    /// far apart as the clips do, at a third of the memory that all phases would take.
+    /// Each number is the difference of two of these, modulo kRun: so windows of two clips can be had that lie as far
+    /// apart as the clips do, at a third of the memory that all phases would take.
     static constexpr std::array kPhases{0, 1, 2, 5, 8};
-    /// Of windows of A and of B: the numbers of their phases, and these.
+    /// Of windows of A and of B: which of kPhases, and these.
     struct PhasePair {
-        int number_a, number_b;
+        int index_a, index_b;
         int a, b;
     };
-    /// A's phase is B's and so many samples more, modulo kWindow.
-    static PhasePair phases_apart(int samples) {
-        return kPhasesApart[static_cast<std::uint32_t>(samples) % std::uint32_t{kWindow}];
+    /// A's phase is B's and so many samples more, modulo kRun.
+    static constexpr PhasePair phases_apart(int samples) {
+        return kPhasesApart[static_cast<std::uint32_t>(samples) % std::uint32_t{kRun}];
     }
-    /// Windows for the blocks of a level above 0, likewise, but with `outer` alone, and about every span(level - 1)-th
-    /// sample, which `number` counts. They reach half a block before and behind, and half of the way to the next window
+    /// Windows for the blocks of a level above 0: with `outer` alone, and about every span(level - 1)-th sample, which
+    /// `number` counts. They reach half a block before and behind, and half of the way to the next window
     /// more, as B's may be so far from where it should be. Window `number` is at place_of_number(number).
     Rings windows(int level, int number) const {
         const Level& of = levels_[static_cast<std::size_t>(level)];
@@ -195,7 +195,7 @@ class alignas(64) Blocks {
     void add_samples();
     void add_windows();
     void add_windows(int level);
-    int window_stride() const { return (count_ + kWindow) / kWindow + 1; }  ///< places of the longest phase
+    int window_stride() const { return (count_ + kRun) / kRun + 1; }  ///< places of the longest phase
     int window_stride(int level) const;
     MovingDisk bound(const Level& level, int block, int span) const;
     MovingDisk root() const { return {origin_, glm::dvec2(0), radius_}; }
@@ -205,11 +205,12 @@ class alignas(64) Blocks {
         return {x, x + stride, x + 2 * stride, x + 3 * stride};
     }
 
-    static constexpr std::array<PhasePair, kWindow> kPhasesApart = [] {
-        std::array<PhasePair, kWindow> out{};
-        for (std::size_t a = 0; a < kPhases.size(); ++a) {
+    /// The least phase of A that will do: runs of A then begin with its first sample where they can.
+    static constexpr std::array<PhasePair, kRun> kPhasesApart = [] {
+        std::array<PhasePair, kRun> out{};
+        for (std::size_t a = kPhases.size(); a-- > 0;) {
             for (std::size_t b = 0; b < kPhases.size(); ++b) {
-                out[static_cast<std::size_t>(kPhases[a] - kPhases[b] + kWindow) % kWindow] = {
+                out[static_cast<std::size_t>(kPhases[a] - kPhases[b] + kRun) % kRun] = {
                     static_cast<int>(a), static_cast<int>(b), kPhases[a], kPhases[b]};
             }
         }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mobb {
 
@@ -82,7 +81,7 @@ Separation separate_moving(const Box& a, const Box& b, const RelativeFrame& fram
     const glm::dvec2 first = between(begin);
     const glm::dvec2 last = between(end);
     // A drift is at most twice the reach of its clip. Rounded times put a box elsewhere by its velocity.
-    const double slack = 4 * frame.slack2d() + frame.slack_time() * (manhattan(velocity_a) + manhattan(velocity_b));
+    const double slack = 4 * frame.slack2d() + frame.slack_time() * (l1_norm(velocity_a) + l1_norm(velocity_b));
 
     // Centres that change sides are as near as can be.
     const auto distance = [](double from, double to) { return std::max(std::min(from, to), -std::max(from, to)); };
@@ -126,7 +125,7 @@ Separation separate_block(const Box& a, const Box& b, const RelativeFrame& frame
     const double way_squared = glm::dot(way, way);
     const double s = way_squared > 0 ? std::clamp(-glm::dot(first, way) / way_squared, 0.0, 1.0) : 0.0;
     const double gap = glm::length(first + s * way) - (a.half.x + b.half.x);
-    const double slack = 4 * frame.slack2d() + frame.slack_time() * (manhattan(velocity_a) + manhattan(velocity_b));
+    const double slack = 4 * frame.slack2d() + frame.slack_time() * (l1_norm(velocity_a) + l1_norm(velocity_b));
     return gap > slack ? Separation{0, gap} : Separation{};
 }
 

@@ -25,8 +25,8 @@ struct Separation {
     bool separated() const { return axis >= 0; }
 };
 
-/// The L1 norm.
-inline double manhattan(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
+/// |x| + |y|.
+inline double l1_norm(glm::dvec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 /// The placement of B's frame in A's, and the slack that a gap must exceed. One per query.
 class RelativeFrame {
@@ -38,7 +38,7 @@ class RelativeFrame {
         sines_ = TwoDoubles{-rotation_.s, rotation_.s};
         const glm::dvec2 between = a.rotation.inverse()(b.translate - a.translate);
         offset_ = {between.x, between.y, time_scale * (b.start - a.start)};
-        const double lengths = manhattan(a.translate) + manhattan(b.translate) + a.reach + b.reach;
+        const double lengths = l1_norm(a.translate) + l1_norm(b.translate) + a.reach + b.reach;
         const double times = std::abs(a.start) + std::abs(b.start) + a.duration + b.duration;
         slack2d_ = kLeastSlack + kSlackFactor * lengths;
         slack_time_ = kSlackFactor * time_scale * times;

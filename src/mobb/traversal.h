@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <concepts>
 #include <cstddef>
 #include <iterator>
@@ -247,7 +248,7 @@ class BlocksOfNodes<NoObserver> {
 template <NodeSource A, NodeSource B, TraversalObserver Observer, class OnHit, WalkTests walk_tests = WalkTests::time>
 class Traversal {
   public:
-    /// Of two that share time.
+    /// Of two that share time: visit_hits tests that, and tells the observer of the roots.
     Traversal(const A& a, const B& b, Observer& observer, OnHit& on_hit)
         : a_(a),
           b_(b),
@@ -255,7 +256,9 @@ class Traversal {
           same_scale_(a.time_scale() == b.time_scale()),
           shift_(a.frame(), a.samples().dt(), b.frame(), b.samples().dt()),
           observer_(observer),
-          on_hit_(on_hit) {}
+          on_hit_(on_hit) {
+        assert(overlap_in_time(a.begin_time(), a.end_time(), b.begin_time(), b.end_time()));
+    }
 
     /// Returns true if on_hit stopped it.
     bool run() {

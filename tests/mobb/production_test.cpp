@@ -152,6 +152,41 @@ TEST(Production, DoesNotDependOnHowFarAwayOrHowUnlikeTwoClipsAre) {
     EXPECT_GT(hits, 400);
 }
 
+TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
+    // Two samples that overlap, and nothing else that comes near: they share about what they must at least.
+    Random random(83);
+    int hits = 0, queries = 0;
+    for (const double dt : {1.0 / 30, 0.1, 0.5, 1.9, 2.1}) {
+        for (const int sample_b : {15, 16}) {  // the pair is at the edge of blocks
+            std::vector<Disk> disks_a(40, {100, 0, 0.5}), disks_b(40, {-100, 0, 0.5});
+            disks_a[16] = disks_b[static_cast<std::size_t>(sample_b)] = {0, 0, 0.5};
+            const auto clip_a = std::make_shared<const Clip>(dt, disks_a),
+                       clip_b = std::make_shared<const Clip>(dt, disks_b);
+            const Blocks blocks_a(clip_a), blocks_b(clip_b);
+            const FitOptions production{.tree = TreeKind::production};
+            const Tree tree_a(clip_a, production), tree_b(clip_b, production);
+            for (int i = 0; i < 400; ++i, ++queries) {
+                const double start = random.real(0, 10), share = random.real(0.7e-9, 1.3e-9);
+                const Placement place_a{.start = start};
+                // B's sample begins before A's ends, or ends after A's begins.
+                const double later = random.chance(0.5) ? dt - share : share - dt;
+                const Placement place_b{.start = start + (16 - sample_b) * dt + later};
+                const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
+                const std::optional<Contact> expected =
+                    direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
+                hits += expected ? 1 : 0;
+                ASSERT_EQ(query(a, b), expected) << dt << " " << share;
+                ASSERT_EQ(intersects(a, b), expected.has_value()) << dt << " " << share;
+                TraceRecorder recorder;
+                ASSERT_EQ(query(PlacedTree(tree_a, place_a), PlacedTree(tree_b, place_b), recorder), expected)
+                    << dt << " " << share;
+            }
+        }
+    }
+    EXPECT_GT(hits, queries / 4);
+    EXPECT_LT(hits, queries * 3 / 4);
+}
+
 TEST(Production, TheFirstThatCollidesIsFoundAmongMany) {
     Random random(74);
     for (int round = 0; round < 300; ++round) {
@@ -232,11 +267,11 @@ TEST(Blocks, WindowsHoldTheirSamples) {
             EXPECT_NEAR(reach_out(i, i + 1, {sample(i).x, sample(i).y}, samples.outer[i]), 0, rounding);
         }
         EXPECT_NEAR(reach_out(0, 0, {samples.x[-1], samples.y[-1]}, samples.outer[-1]), 0, rounding);
-        constexpr int kHalf = Blocks::kWindow / 2;
+        constexpr int kHalf = Blocks::kRun / 2;
         for (int number = 0; number < static_cast<int>(Blocks::kPhases.size()); ++number) {
             const Blocks::Rings windows = blocks.windows(number);
             const int phase = Blocks::kPhases[static_cast<std::size_t>(number)];
-            for (int place = 0, j = phase - kHalf; j < n + kHalf; ++place, j += Blocks::kWindow) {
+            for (int place = 0, j = phase - kHalf; j < n + kHalf; ++place, j += Blocks::kRun) {
                 const int nearest = std::clamp(j, 0, n - 1);
                 const glm::dvec2 center(windows.x[place], windows.y[place]);
                 EXPECT_EQ(center, glm::dvec2(sample(nearest).x, sample(nearest).y)) << j;
@@ -245,15 +280,6 @@ TEST(Blocks, WindowsHoldTheirSamples) {
                     << j << " of " << n;
             }
         }
-    }
-}
-
-TEST(Blocks, WindowsCanLieAsFarApartAsClipsDo) {
-    for (int apart = -100; apart <= 100; ++apart) {
-        const Blocks::PhasePair phases = Blocks::phases_apart(apart);
-        EXPECT_EQ(phases.a, Blocks::kPhases[static_cast<std::size_t>(phases.number_a)]);
-        EXPECT_EQ(phases.b, Blocks::kPhases[static_cast<std::size_t>(phases.number_b)]);
-        EXPECT_EQ((phases.a - phases.b - apart) % Blocks::kWindow, 0) << apart;
     }
 }
 
