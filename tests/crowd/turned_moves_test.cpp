@@ -160,7 +160,11 @@ TEST(TurnedMoves, WhatIsForcedHarmsForTheFewestSeconds) {
     const Choice choice = choose(moves, reservations, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
     ASSERT_EQ(choice.candidates.size(), 2u);
-    EXPECT_GT(choice.candidates[0].blocker->contact.time, choice.candidates[1].blocker->contact.time);
+    const auto first_contact = [&](const Candidate& candidate) {
+        const PlayedMove motion = moves.motion(0, 1, candidate.played, OrientedPlacement(candidate.placement));
+        return reservations.motions().around(motion).contact_times(motion).first;
+    };
+    EXPECT_GT(first_contact(choice.candidates[0]), first_contact(choice.candidates[1]));
     EXPECT_EQ(choice.candidates[choice.taken].move, 1);
 }
 
