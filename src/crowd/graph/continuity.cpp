@@ -124,9 +124,8 @@ struct Join {
 
 class Measurer {
   public:
-    explicit Measurer(const Scene& scene) {
+    Measurer(const Scene& scene, Importer& importer) {
         const std::vector<int> rigs = rig_of_each_clip(scene);
-        Importer importer;
         std::vector<std::vector<Contact>> stands;  // by move
         motions_.reserve(scene.graph->moves.size());
         for (const GraphMove& move : scene.graph->moves) {
@@ -359,17 +358,19 @@ Continuity graph_continuity(const Scene& scene) {
     for (const auto& [before, after] : transitions_of(*scene.graph)) joins.push_back({before, after});
     std::vector<int> moves(scene.graph->moves.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = static_cast<int>(i);
-    return Measurer(scene).measure(joins, moves);
+    Importer importer;
+    return Measurer(scene, importer).measure(joins, moves);
 }
 
 std::vector<bool> joins_over(const Scene& scene, const std::vector<std::pair<int, int>>& transitions) {
-    const Measurer measurer(scene);
+    Importer importer;
+    const Measurer measurer(scene, importer);
     std::vector<bool> out;
     for (const auto& [before, after] : transitions) out.push_back(measurer.measure({{before, after}}, {}).over > 0);
     return out;
 }
 
-RunContinuity run_continuity(const Scene& scene) {
+RunContinuity run_continuity(const Scene& scene, Importer& importer) {
     JoinsOfRun free;
     JoinsOfRun forced;
     std::vector<int> moves;
@@ -385,7 +386,7 @@ RunContinuity run_continuity(const Scene& scene) {
     }
     std::sort(moves.begin(), moves.end());
     moves.erase(std::unique(moves.begin(), moves.end()), moves.end());
-    const Measurer measurer(scene);
+    const Measurer measurer(scene, importer);
     return {measurer.measure(free.joins(), moves), measurer.measure(forced.joins(), {})};
 }
 

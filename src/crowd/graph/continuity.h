@@ -130,7 +130,7 @@ struct RunContinuity {
     Continuity forced;  ///< joins with a forced play, and no moves
 };
 
-/// Over all joins of the scene's run.
-RunContinuity run_continuity(const Scene& scene);
+/// Over all joins of the scene's run. `importer` reads what was recorded, unless it has before.
+RunContinuity run_continuity(const Scene& scene, Importer& importer);
 
 }  // namespace mobbscope
