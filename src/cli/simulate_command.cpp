@@ -209,7 +209,7 @@ void run_simulate(const SimulateCommandArguments& arguments) {
         summary.recorded.emplace(sample->size(), sample->offered());
         write_scene(sample->workload(moves), arguments.record, arguments.inline_samples);
     }
-    const Scene played = scene_of_run(moves, std::move(simulation.run));
+    const Scene played = scene_of_run(moves, std::move(simulation.run), TurnedSkeletons::left_out);
     summary.continuity = run_continuity(played, importer);
     write_scene(played, arguments.out, arguments.inline_samples);
     arguments.json ? print_run_json(played, summary) : print_run_text(summary);

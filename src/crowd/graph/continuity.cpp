@@ -3,6 +3,7 @@
 #include <crowd/graph/rigs.h>
 #include <import/import.h>
 #include <import/skeleton/disk_sampler.h>
+#include <scene/clip_turn.h>
 #include <scene/crowd_run.h>
 
 #include <tbb/blocked_range.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <tuple>
@@ -132,11 +134,16 @@ class Measurer {
             const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
             motions_.emplace_back();
             stands.emplace_back();
-            if (!clip.skeleton) continue;
+            // Skeletons that are made here are held one at a time.
+            const int of = clip.skeleton || !move.turned || !clip.turn ? move.clip : origin_of(scene, move).clip;
+            const SceneClip& straight = scene.clips[static_cast<std::size_t>(of)];
+            if (!straight.skeleton) continue;
+            const std::shared_ptr<const Skeleton> skeleton =
+                of == move.clip ? clip.skeleton : turned_skeleton(*straight.skeleton, *straight.clip, *clip.turn);
             const std::optional<std::size_t> same = recorded_alike(scene, move, stands.size() - 1);
-            stands.back() = same ? stands[*same] : stands_in(scene, move, importer);
-            motions_.back() = motion_of(*clip.clip, *clip.skeleton, rigs[static_cast<std::size_t>(move.clip)],
-                                        move.entry, move.exit, stands.back());
+            stands.back() = same ? stands[*same] : stands_in(scene, move, *skeleton, importer);
+            motions_.back() = motion_of(*clip.clip, *skeleton, rigs[static_cast<std::size_t>(of)], move.entry,
+                                        move.exit, stands.back());
         }
     }
 
@@ -157,6 +164,10 @@ class Measurer {
     }
 
   private:
+    static const GraphMove& origin_of(const Scene& scene, const GraphMove& turned) {
+        return scene.graph->moves[static_cast<std::size_t>(turned.turned->move)];
+    }
+
     /// The move that a turned one is a variant of, if it is among the first `known` and warps the same part of the same
     /// recording: feet stand alike there, and it is read once.
     static std::optional<std::size_t> recorded_alike(const Scene& scene, const GraphMove& move, std::size_t known) {
@@ -171,9 +182,10 @@ class Measurer {
     }
 
     /// Feet stand where they do in the recording: those that a warp makes slide still should.
-    static std::vector<Contact> stands_in(const Scene& scene, const GraphMove& move, Importer& importer) {
+    static std::vector<Contact> stands_in(const Scene& scene, const GraphMove& move, const Skeleton& skeleton,
+                                          Importer& importer) {
         const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
-        if (!clip.warp) return standing(*clip.clip, *clip.skeleton, 0, clip.clip->count());
+        if (!clip.warp) return standing(*clip.clip, skeleton, 0, clip.clip->count());
         const RecordedMove recorded = recorded_move(scene, move, importer);
         return standing(*recorded.clip, *recorded.skeleton, recorded.entry, recorded.exit);
     }

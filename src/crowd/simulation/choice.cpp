@@ -37,10 +37,7 @@ class Chooser {
           asked_(asked),
           search_(moves, reservations, run, point.agent, point.play, asked) {
         choice_.time = point.time;
-        // Both ways of one turn: more is seldom needed.
-        const std::size_t usually = 3 * moves.after(point.before.move).size();
-        choice_.candidates.reserve(usually);
-        motions_.reserve(usually);
+        reserve(1);
     }
 
     Choice choose() {
@@ -51,6 +48,7 @@ class Chooser {
             for (; turn < kTurns.size() && std::abs(kTurns[turn]) == angle; ++turn) add_candidates(kTurns[turn]);
             // Often no turn is needed, and often more than the least.
             if (angle <= kTurnStep) look_up(angle == 0 ? 0 : 180);
+            if (angle == kTurnStep) reserve(kTurns.size());
             check_candidates(first);
             if (take_clear(first)) return done();
         }
@@ -66,6 +64,12 @@ class Chooser {
     /// What is near all candidates that turn by no more than that.
     void look_up(double most_turn_deg) {
         nearby_ = reservations_.nearby(point_.agent, moves_.room_after(point_.before.move, before_, most_turn_deg));
+    }
+
+    void reserve(std::size_t turns) {
+        const std::size_t count = turns * moves_.after(point_.before.move).size();
+        choice_.candidates.reserve(count);
+        motions_.reserve(count);
     }
 
     void add_candidates(double turn) {

@@ -205,7 +205,7 @@ std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play)
     return out;
 }
 
-MoveSet::Extended MoveSet::extended(std::span<const int> used) const {
+MoveSet::Extended MoveSet::extended(std::span<const int> used, TurnedSkeletons skeletons) const {
     Extended out{fitted_->scene(), std::vector<int>(moves_.size(), -1)};
     out.scene.crowd = nullptr;
     MotionGraph graph = this->graph();
@@ -220,7 +220,9 @@ MoveSet::Extended MoveSet::extended(std::span<const int> used) const {
         const PlannedMove& origin = this->origin(index);
         GraphMove move = this->move(index);
         SceneClip clip = out.scene.clips[static_cast<std::size_t>(move.clip)];
-        bend(clip, turn_at_rate(origin.turn_deg, turn_rate_));
+        clip.turn = turn_at_rate(origin.turn_deg, turn_rate_);
+        if (clip.source && skeletons == TurnedSkeletons::left_out) clip.skeleton = nullptr;
+        if (clip.skeleton) clip.skeleton = turned_skeleton(*clip.skeleton, *clip.clip, *clip.turn);
         clip.name = names.take(clip.name + formatted(" turned %+.0f", origin.turn_deg));
         clip.clip = this->clip(index).blocks.shared_clip();
         // Of samples in the scene those that are bent are kept.

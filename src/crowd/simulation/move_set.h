@@ -29,6 +29,13 @@ enum class QueriedBy {
     trees,   ///< those of the fit in use
 };
 
+/// Whether clips that are turned on the way get skeletons of their own: a run has hundreds of them, and a file has
+/// none.
+enum class TurnedSkeletons {
+    made,
+    left_out,  ///< of clips with a source
+};
+
 /// The moves of a motion graph, and behind them all that they become by turns: each move that is no variant of
 /// another, by each of kTurns that its duration allows, unless the graph has that variant. Moves are counted through
 /// both. Refers to the scene, which must outlive it and have a graph. Const calls are safe from any number of threads.
@@ -112,7 +119,7 @@ class MoveSet {
         Scene scene;
         std::vector<int> index;  ///< of each move in that scene's graph; -1 of those that are not in it
     };
-    Extended extended(std::span<const int> used) const;
+    Extended extended(std::span<const int> used, TurnedSkeletons skeletons = TurnedSkeletons::made) const;
 
   private:
     struct Move {

@@ -243,12 +243,12 @@ Scene QuerySample::workload(const MoveSet& moves) const {
     return std::move(out);
 }
 
-Scene scene_of_run(const MoveSet& moves, CrowdRun run) {
+Scene scene_of_run(const MoveSet& moves, CrowdRun run, TurnedSkeletons skeletons) {
     std::vector<int> used;
     for (const CrowdAgent& agent : run.agents) {
         for (const Play& play : agent.plays) used.push_back(play.move);
     }
-    auto [scene, index] = moves.extended(used);
+    auto [scene, index] = moves.extended(used, skeletons);
     for (CrowdAgent& agent : run.agents) {
         for (Play& play : agent.plays) play.move = index[static_cast<std::size_t>(play.move)];
     }
