@@ -53,8 +53,20 @@ std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const Oriente
     const bool is_within =
         bounds.low.x >= -wall.x && bounds.low.y >= -wall.y && bounds.high.x <= wall.x && bounds.high.y <= wall.y;
     if (is_within) return bounds;
+    // Blocks of disks whose bound is over no wall are left out; the margin is far more than its single precision.
+    const mobb::Blocks::Paths blocks = clip.blocks.paths(0);
+    const glm::dvec2 origin = clip.blocks.origin();
+    const double margin = 1e-6 * (1 + clip.blocks.reach());
     const std::span<const mobb::Disk> disks = clip.clip().samples();
-    return std::any_of(disks.rbegin(), disks.rend(), is_over) ? std::nullopt : std::optional(bounds);
+    for (int block = clip.blocks.count(0) - 1; block >= 0; --block) {
+        if (!is_over({origin.x + blocks.x()[block], origin.y + blocks.y()[block], blocks.r()[block] + margin}))
+            continue;
+        const auto of_block = disks.subspan(static_cast<std::size_t>(block) * mobb::Blocks::kSamples);
+        if (std::ranges::any_of(of_block.first(std::min<std::size_t>(of_block.size(), mobb::Blocks::kSamples)),
+                                is_over))
+            return std::nullopt;
+    }
+    return bounds;
 }
 
 }  // namespace mobbscope

@@ -56,6 +56,7 @@ std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
     }
     const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, held.cells.x0, held.cells.y0};
     longest_ = std::max(longest_, entry.end - entry.begin);
+    latest_end_ = std::max(latest_end_, entry.end);
     for_each_cell(held.cells, [&](int x, int y) {
         std::vector<Entry>& cell = cells_[index(x, y)];
         cell.insert(std::ranges::upper_bound(cell, entry.begin, {}, &Entry::begin), entry);
@@ -97,6 +98,8 @@ void ReservationGrid::visit_cells(const CellRange& range, double from, double to
 
 Surroundings ReservationGrid::around(int agent, const FloorRect& bounds, double begin, double end) const {
     std::vector<Surroundings::Near> near;
+    // Most plans go on when all that is played has ended.
+    if (begin >= latest_end_) return Surroundings(std::move(near));
     near.reserve(kUsuallyNear);
     // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
     const double from = begin - longest_ - 1e-12 * std::abs(begin);

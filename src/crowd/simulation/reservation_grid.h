@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <vector>
 
@@ -77,6 +78,7 @@ class ReservationGrid {
     int rows_;
     std::vector<std::vector<Entry>> cells_;  ///< motions whose bounds reach into the cell, by their begin
     double longest_ = 0;                     ///< seconds that a motion lasts
+    double latest_end_ = std::numeric_limits<double>::lowest();  ///< global seconds; nothing lasts longer
     std::vector<Held> motions_;
     std::vector<std::uint32_t> free_;  ///< slots of motions_ that hold nothing
     std::priority_queue<Ending, std::vector<Ending>, std::greater<>> endings_;
