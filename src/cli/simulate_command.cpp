@@ -9,6 +9,7 @@
 #include <crowd/graph/build_graph.h>
 #include <crowd/graph/continuity.h>
 #include <crowd/simulation/simulate.h>
+#include <import/import.h>
 #include <scene/crowd_run.h>
 #include <scene/load_files.h>
 #include <scene/motion_graph.h>
@@ -61,8 +62,8 @@ glm::dvec2 parse_area(const std::string& text) {
 }
 
 /// The scene whose graph is played, and nothing else of it.
-Scene load_moves(const SimulateCommandArguments& arguments) {
-    Scene scene = load_files({arguments.graph});
+Scene load_moves(const SimulateCommandArguments& arguments, Importer& importer) {
+    Scene scene = load_files({arguments.graph}, {}, {}, &importer);
     scene.agents.clear();
     scene.queries.clear();
     if (scene.graph) remove_run(scene);
@@ -185,7 +186,8 @@ QueriedBy queried_by(const FitArguments& fit) {
 
 void run_simulate(const SimulateCommandArguments& arguments) {
     check_run_outputs(arguments);
-    Scene scene = load_moves(arguments);
+    Importer importer;
+    Scene scene = load_moves(arguments, importer);
     const mobb::FitOptions fit = scene.fit;
     const FittedScene fitted(std::move(scene), fit);
     const MoveSet moves(fitted, arguments.turn_rate, queried_by(arguments.fit));
@@ -207,8 +209,8 @@ void run_simulate(const SimulateCommandArguments& arguments) {
         summary.recorded.emplace(sample->size(), sample->offered());
         write_scene(sample->workload(moves), arguments.record, arguments.inline_samples);
     }
-    const Scene played = scene_of_run(moves, std::move(simulation.run));
-    summary.continuity = run_continuity(played);
+    const Scene played = scene_of_run(moves, std::move(simulation.run), TurnedSkeletons::left_out);
+    summary.continuity = run_continuity(played, importer);
     write_scene(played, arguments.out, arguments.inline_samples);
     arguments.json ? print_run_json(played, summary) : print_run_text(summary);
     flush_results();

@@ -24,24 +24,6 @@ glm::dvec2 bent_step(const ClipTurn& turn, double dt, int i, glm::dvec2 step) {
     return mobb::Rotation::from_degrees(turn.at((i + 0.5) * dt))(step);
 }
 
-std::shared_ptr<const Skeleton> turned_skeleton(const Skeleton& skeleton, const mobb::Clip& clip,
-                                                const ClipTurn& turn) {
-    auto out = std::make_shared<Skeleton>(skeleton);
-    const std::size_t joints = skeleton.joints.size();
-    for (int sample = 0; sample < clip.count(); ++sample) {
-        const mobb::Rotation by = mobb::Rotation::from_degrees(turn.at(sample * clip.dt()));
-        const glm::quat about(about_up(by));
-        const std::size_t first = static_cast<std::size_t>(sample) * joints;
-        for (std::size_t j = first; j < first + joints; ++j) {
-            glm::vec3& position = out->positions[j];
-            const glm::dvec2 aside = by({position.x, position.y});
-            position = {aside.x, aside.y, position.z};
-            out->rotations[j] = about * out->rotations[j];
-        }
-    }
-    return out;
-}
-
 }  // namespace
 
 double ClipTurn::at(double time) const {
@@ -67,6 +49,24 @@ Stance bent_exit(const mobb::Clip& clip, const mobb::Clip& bent_clip, const Stan
     const glm::dvec2 step = exit.position - place_of(clip.samples().back());
     return {place_of(bent_clip.samples().back()) + bent_step(turn, clip.dt(), clip.count() - 1, step),
             exit.heading_deg + turn.deg};
+}
+
+std::shared_ptr<const Skeleton> turned_skeleton(const Skeleton& skeleton, const mobb::Clip& clip,
+                                                const ClipTurn& turn) {
+    auto out = std::make_shared<Skeleton>(skeleton);
+    const std::size_t joints = skeleton.joints.size();
+    for (int sample = 0; sample < clip.count(); ++sample) {
+        const mobb::Rotation by = mobb::Rotation::from_degrees(turn.at(sample * clip.dt()));
+        const glm::quat about(about_up(by));
+        const std::size_t first = static_cast<std::size_t>(sample) * joints;
+        for (std::size_t j = first; j < first + joints; ++j) {
+            glm::vec3& position = out->positions[j];
+            const glm::dvec2 aside = by({position.x, position.y});
+            position = {aside.x, aside.y, position.z};
+            out->rotations[j] = about * out->rotations[j];
+        }
+    }
+    return out;
 }
 
 void bend(SceneClip& clip, const ClipTurn& turn) {

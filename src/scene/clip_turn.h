@@ -32,6 +32,9 @@ mobb::ClipPtr bent(const mobb::Clip& clip, const ClipTurn& turn);
 /// Where the bent clip's stance is that the clip has one dt after its last sample.
 Stance bent_exit(const mobb::Clip& clip, const mobb::Clip& bent_clip, const Stance& exit, const ClipTurn& turn);
 
+/// The clip's skeleton with its samples turned as the bent clip is.
+std::shared_ptr<const Skeleton> turned_skeleton(const Skeleton& skeleton, const mobb::Clip& clip, const ClipTurn& turn);
+
 /// Bends the clip and turns its skeleton's samples with it; `clip.turn` says by how much. Throws std::invalid_argument
 /// if the turn lasts longer than the clip, or as `bent` does.
 void bend(SceneClip& clip, const ClipTurn& turn);

@@ -58,7 +58,7 @@ std::string openable_files() {
 std::string openable_files_in_short() { return "scenes and captures .json, clips " + listed_clip_extensions(); }
 
 Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOptions& overrides,
-                 const Progress& progress) {
+                 const Progress& progress, Importer* importer) {
     std::vector<std::filesystem::path> all;
     for (const std::filesystem::path& file : files) {
         std::error_code ignored;
@@ -76,7 +76,7 @@ Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOp
         const Progress of_file = !progress || all.size() == 1
                                      ? progress
                                      : Progress([&](std::size_t, std::size_t) { progress(i, all.size()); });
-        Scene loaded = load_scene(all[i], overrides, of_file);
+        Scene loaded = load_scene(all[i], overrides, of_file, importer);
         if (i == 0) {
             scene = std::move(loaded);
         } else {

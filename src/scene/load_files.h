@@ -25,9 +25,9 @@ std::vector<std::filesystem::path> clips_in(const std::filesystem::path& folder,
 
 /// Scenes and clips merged into one scene; a folder stands for the clips in it, by name. `overrides` go
 /// over the import keys of every clip with a source. `progress` is told before each file, or of one scene before each
-/// clip. Throws InputError.
+/// clip. `importer` as in load_scene. Throws InputError.
 Scene load_files(const std::vector<std::filesystem::path>& files, const ImportOptions& overrides = {},
-                 const Progress& progress = {});
+                 const Progress& progress = {}, Importer* importer = nullptr);
 
 /// Where the scene of these files would be saved: the scene among them if there is exactly one.
 std::optional<std::filesystem::path> scene_file_of(const std::vector<std::filesystem::path>& files);

@@ -22,6 +22,7 @@
 
 namespace mobbscope {
 
+class Importer;      // import/import.h
 struct CrowdRun;     // scene/crowd_run.h
 struct MotionGraph;  // scene/motion_graph.h
 
@@ -106,12 +107,14 @@ using Progress = std::function<void(std::size_t done, std::size_t all)>;
 /// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a trajectory file (a scene with an
 /// agent for each track, which starts when the track does; global time 0 is the file's first frame). `overrides` go
 /// over the import keys of every clip with a source; their motion goes over that of every clip. `progress` is told
-/// before each clip; a clip file is read in one go. Throws InputError; all files are checked before it returns.
-Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {});
+/// before each clip; a clip file is read in one go. `importer` reads a scene's sources, and knows them then. Throws
+/// InputError; all files are checked before it returns.
+Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {},
+                 Importer* importer = nullptr);
 
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                  const ImportOptions& overrides = {}, const Progress& progress = {});
+                  const ImportOptions& overrides = {}, const Progress& progress = {}, Importer* importer = nullptr);
 
 /// The scene as JSON text, numbers with 17 digits. Clips with a source are written as their source; with
 /// `inline_samples` every clip is written with its samples, so the file stands alone.

@@ -201,8 +201,8 @@ MovingPose read_pose(const JsonPlace& place) {
 class SceneReader {
   public:
     SceneReader(const JsonPlace& root, std::filesystem::path folder, const ImportOptions& overrides,
-                const Progress& progress)
-        : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress) {}
+                const Progress& progress, Importer& importer)
+        : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress), importer_(importer) {}
 
     Scene read() {
         root_.allow_only(
@@ -448,7 +448,7 @@ class SceneReader {
     std::filesystem::path folder_;
     const ImportOptions& overrides_;
     const Progress& progress_;
-    Importer importer_;
+    Importer& importer_;
     NameTable pose_names_;
     std::vector<std::shared_ptr<const MovingPose>> poses_;  ///< by their place among the names
     NameTable clip_names_;
@@ -485,21 +485,24 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides, const Progress& progress) {
+Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides, const Progress& progress,
+                 Importer* importer) {
     check_file_name(file);
     const bool is_scene = lower_extension(file) == ".json";
     if (!is_scene && progress) progress(0, 1);
-    Scene scene = is_scene ? parse_scene(read_file(file), file.string(), file.parent_path(), overrides, progress)
-                           : scene_of_clips(file, overrides);
+    Scene scene = is_scene
+                      ? parse_scene(read_file(file), file.string(), file.parent_path(), overrides, progress, importer)
+                      : scene_of_clips(file, overrides);
     scene.file = file;
     return scene;
 }
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                  const ImportOptions& overrides, const Progress& progress) {
+                  const ImportOptions& overrides, const Progress& progress, Importer* importer) {
     const JsonValue value = parse_json(text, name);
     const JsonPlace root(value, name);
-    return SceneReader(root, folder, overrides, progress).read();
+    Importer own;
+    return SceneReader(root, folder, overrides, progress, importer ? *importer : own).read();
 }
 
 }  // namespace mobbscope

@@ -45,8 +45,7 @@ class ChoiceTest : public ::testing::Test {
                 EXPECT_EQ(moves.origin(play.move), (PlannedMove{taken.move, taken.turn_deg}));
                 EXPECT_EQ(taken.placement, play.placement);
                 EXPECT_EQ(choice.plan, play.plan);
-                const bool meets_somebody = taken.blocker && taken.blocker->planned == 0;
-                EXPECT_EQ(taken.leaves_floor || meets_somebody, play.kind == PlayKind::forced);
+                EXPECT_EQ(taken.leaves_floor || taken.met == Met::play, play.kind == PlayKind::forced);
                 if (play.kind != PlayKind::forced) {
                     EXPECT_EQ(taken.turn_deg == 0, play.kind == PlayKind::chosen) << agent << " " << i;
                 }
@@ -54,10 +53,12 @@ class ChoiceTest : public ::testing::Test {
                 counts.queries += choice.queries;
                 for (const Candidate& candidate : choice.candidates) {
                     counts.off_floor += candidate.leaves_floor;
-                    counts.colliding += !candidate.leaves_floor && candidate.blocker;
+                    counts.colliding += !candidate.leaves_floor && candidate.met != Met::nobody;
                     counts.no_way_on += candidate.is_free() && candidate.no_way_on;
+                    ASSERT_EQ(candidate.blocker.has_value(), candidate.met != Met::nobody);
                     if (candidate.blocker) {
                         EXPECT_NE(candidate.blocker->agent, agent);
+                        EXPECT_EQ(candidate.blocker->planned > 0, candidate.met == Met::plan);
                     }
                 }
             }
@@ -164,10 +165,8 @@ TEST_F(ChoiceTest, APlanIsRoomThatIsKept) {
     const auto met = [&] {
         int planned = 0;
         for (const Candidate& candidate : choose(moves, reservations, crowd, point).candidates) {
-            if (!candidate.blocker) continue;
-            EXPECT_EQ(candidate.blocker->play, 0);
-            EXPECT_GE(candidate.blocker->planned, 1);
-            ++planned;
+            EXPECT_NE(candidate.met, Met::play);
+            planned += candidate.met == Met::plan;
         }
         return planned;
     };
@@ -217,7 +216,7 @@ TEST_F(ChoiceTest, AtAWallItTurnsAsLittleAsItMust) {
     EXPECT_EQ(choice.kind, PlayKind::pivoted);
     double least = 360;
     for (const Candidate& candidate : choice.candidates) {
-        EXPECT_FALSE(candidate.blocker);
+        EXPECT_EQ(candidate.met, Met::nobody);
         if (candidate.is_free() && !candidate.in_the_way) least = std::min(least, std::abs(candidate.turn_deg));
     }
     EXPECT_EQ(std::abs(choice.candidates[choice.taken].turn_deg), least);
@@ -268,10 +267,10 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLeastContactIsForcedAndTheFloorKept) {
     ASSERT_EQ(choice.kind, PlayKind::forced);
     const Candidate& taken = choice.candidates[choice.taken];
     EXPECT_FALSE(taken.leaves_floor);
-    ASSERT_TRUE(taken.blocker);
+    ASSERT_EQ(taken.met, Met::play);
     const auto seconds = [&](const Candidate& candidate) {
-        return reservations.motions().seconds_of_contact(
-            moves.motion(0, 1, candidate.played, OrientedPlacement(candidate.placement)));
+        const PlayedMove motion = moves.motion(0, 1, candidate.played, OrientedPlacement(candidate.placement));
+        return reservations.motions().around(motion).contact_times(motion).seconds;
     };
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_FALSE(candidate.is_free());
@@ -290,7 +289,7 @@ TEST_F(ChoiceTest, OnNoFloorAtAllTheLeastContactIsStillFound) {
     EXPECT_EQ(choice.kind, PlayKind::forced);
     EXPECT_TRUE(choice.candidates[choice.taken].leaves_floor);
     // In a room of one's own there is none.
-    EXPECT_FALSE(choice.candidates[choice.taken].blocker);
+    EXPECT_EQ(choice.candidates[choice.taken].met, Met::nobody);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "walking_body.h"
 
 #include <crowd/graph/continuity.h>
+#include <import/import.h>
 #include <scene/crowd_run.h>
 
 #include <gtest/gtest.h>
@@ -191,7 +192,8 @@ TEST(Continuity, OfARunJoinsAreCountedAsPlayedAndForcedOnesApart) {
     run.agents = {agent_of(scene, {{PlayKind::chosen, 0}, {PlayKind::chosen, 0}, {PlayKind::forced, -90}}),
                   agent_of(scene, {{PlayKind::pivoted, 15}, {PlayKind::chosen, 0}, {PlayKind::forced, 0}})};
     scene.crowd = std::make_shared<const CrowdRun>(run);
-    const RunContinuity found = run_continuity(scene);
+    Importer importer;
+    const RunContinuity found = run_continuity(scene, importer);
     EXPECT_EQ(found.free.joins, 4u);
     EXPECT_EQ(found.free.different, 2u);
     EXPECT_EQ(found.free.over, 1u);

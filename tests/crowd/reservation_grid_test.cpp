@@ -36,6 +36,21 @@ class WorldTest : public ::testing::Test {
         return out;
     }
 
+    /// What a candidate is asked against and found to collide with, looked up for it alone.
+    static std::optional<Blocker> blocker(const ReservationGrid& reservations, const PlayedMove& candidate) {
+        return reservations.around(candidate).blocker(candidate);
+    }
+
+    /// Of the motions that have begun by the earliest contact, those whose bounds and times meet the candidate's.
+    static int asked_of(const PlayedMove& candidate, const std::vector<PlayedMove>& reserved,
+                        const std::optional<Blocker>& blocker) {
+        return static_cast<int>(std::ranges::count_if(reserved, [&](const PlayedMove& other) {
+            return other.agent != candidate.agent && other.bounds.meets(candidate.bounds) &&
+                   mobb::overlap_in_time(candidate.begin(), candidate.end(), other.begin(), other.end()) &&
+                   (!blocker || other.begin() <= blocker->contact.time);
+        }));
+    }
+
     static std::optional<Blocker> direct(const PlayedMove& candidate, const std::vector<PlayedMove>& reserved) {
         std::optional<Blocker> first;
         for (const PlayedMove& other : reserved) {
@@ -65,27 +80,37 @@ TEST_F(WorldTest, VerdictsAreThoseOfTheDirectSearch) {
     }
     EXPECT_EQ(reservations.size(), 180u);
     std::vector<PlayedMove> candidates;
-    for (int i = 0; i < 1500; ++i) candidates.push_back(random_motion(i % 60, 9, area, 8));
+    for (int i = 0; i < 1500; ++i) candidates.push_back(random_motion(99, 9, area, 8));
     std::vector<AskedPair> asked;
-    const std::vector<CandidateCheck> checks = reservations.check_all(pointers(candidates), &asked);
+    // One look-up serves all that no agent plays, and those of an agent one for each.
+    constexpr double kEver = 1e6;
+    const FloorRect everywhere{glm::dvec2(-kEver), glm::dvec2(kEver)};
+    const Surroundings all = reservations.around(99, everywhere, -kEver, kEver);
+    const std::vector<CandidateCheck> checks = all.check_all(pointers(candidates), &asked);
     int ruled_out = 0, all_asked = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        EXPECT_EQ(checks[i].blocker, direct(candidates[i], reserved)) << i;
-        ruled_out += checks[i].blocker.has_value();
+        const std::optional<Blocker> expected = direct(candidates[i], reserved);
+        EXPECT_EQ(all.blocker(candidates[i]), expected) << i;
+        EXPECT_EQ(blocker(reservations, candidates[i]), expected) << i;
+        EXPECT_EQ(checks[i].collides, expected.has_value()) << i;
+        EXPECT_EQ(checks[i].asked, asked_of(candidates[i], reserved, expected)) << i;
+        std::int64_t queries = 0;
+        EXPECT_EQ(all.is_clear(candidates[i], queries), !expected);
+        EXPECT_LE(queries, checks[i].asked);
+        ruled_out += checks[i].collides;
         all_asked += checks[i].asked;
     }
     EXPECT_GT(ruled_out, 200);
     EXPECT_LT(ruled_out, 1300);
     EXPECT_EQ(asked.size(), static_cast<std::size_t>(all_asked));
-    // The grid leaves few of the 177 pairs of each candidate.
-    EXPECT_LT(all_asked, 177 * 1500 / 10);
+    // The grid leaves few of the 180 pairs of each candidate.
+    EXPECT_LT(all_asked, 180 * 1500 / 10);
     // On one thread and on many.
     for (const int threads : {1, 5}) {
         tbb::task_arena arena(threads);
-        const std::vector<CandidateCheck> again =
-            arena.execute([&] { return reservations.check_all(pointers(candidates)); });
+        const std::vector<CandidateCheck> again = arena.execute([&] { return all.check_all(pointers(candidates)); });
         for (std::size_t i = 0; i < checks.size(); ++i) {
-            EXPECT_EQ(again[i].blocker, checks[i].blocker);
+            EXPECT_EQ(again[i].collides, checks[i].collides);
             EXPECT_EQ(again[i].asked, checks[i].asked);
         }
     }
@@ -96,11 +121,11 @@ TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
     const OrientedPlacement placement({{1, 2}, 30, 0});
     for (const int agent : {7, 3, 5}) reservations.reserve(moves.motion(agent, agent, 0, placement));
     const PlayedMove candidate = moves.motion(3, 0, 1, placement);
-    const CandidateCheck check = reservations.check(candidate);
-    ASSERT_TRUE(check.blocker);
-    EXPECT_EQ(check.blocker->agent, 5);
-    EXPECT_EQ(check.blocker->play, 5);
-    EXPECT_EQ(check.blocker->contact.time, 0);
+    const std::optional<Blocker> found = blocker(reservations, candidate);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->agent, 5);
+    EXPECT_EQ(found->play, 5);
+    EXPECT_EQ(found->contact.time, 0);
 }
 
 TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
@@ -126,10 +151,8 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
         for (int i = 0; i < 200; ++i) {
             candidates.push_back(random_motion(99, 0, area, 20, now));
         }
-        const std::vector<CandidateCheck> checks = reservations.check_all(pointers(candidates));
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            EXPECT_EQ(checks[i].blocker, direct(candidates[i], reserved));
-        }
+        for (const PlayedMove& candidate : candidates)
+            EXPECT_EQ(blocker(reservations, candidate), direct(candidate, reserved));
     }
 }
 
@@ -139,15 +162,15 @@ TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     const std::size_t first = reservations.reserve(moves.motion(1, 0, 0, placement));
     reservations.reserve(moves.motion(2, 0, 0, placement));
     const PlayedMove candidate = moves.motion(0, 0, 0, placement);
-    EXPECT_EQ(reservations.check(candidate).blocker->agent, 1);
+    EXPECT_EQ(blocker(reservations, candidate)->agent, 1);
     reservations.withdraw(first);
-    EXPECT_EQ(reservations.check(candidate).blocker->agent, 2);
+    EXPECT_EQ(blocker(reservations, candidate)->agent, 2);
     std::vector<AskedPair> pairs;
     reservations.all_pairs(candidate, 0, pairs);
     EXPECT_EQ(pairs.size(), 1u);
     reservations.forget_before(1000);
     EXPECT_EQ(reservations.size(), 0u);
-    EXPECT_FALSE(reservations.check(candidate).blocker);
+    EXPECT_FALSE(blocker(reservations, candidate));
 }
 
 TEST_F(WorldTest, ContactIsMeasuredInFullUpToTheMostThatCounts) {
@@ -157,13 +180,17 @@ TEST_F(WorldTest, ContactIsMeasuredInFullUpToTheMostThatCounts) {
     int over = 0;
     for (int i = 0; i < 300; ++i) {
         const PlayedMove candidate = random_motion(99, 0, area, 3);
-        const double seconds = reservations.seconds_of_contact(candidate);
+        const Surroundings others = reservations.around(candidate);
+        const ContactTimes times = others.contact_times(candidate);
+        const std::optional<Blocker> first = others.blocker(candidate);
+        EXPECT_EQ(times.first, first ? first->contact.time : std::numeric_limits<double>::infinity()) << i;
         const double most = 2 * random.unit();
-        const double measured = reservations.seconds_of_contact(candidate, most);
-        if (seconds <= most) {
-            EXPECT_EQ(measured, seconds) << i;
+        const ContactTimes measured = others.contact_times(candidate, most);
+        if (times.seconds <= most) {
+            EXPECT_EQ(measured.seconds, times.seconds) << i;
+            EXPECT_EQ(measured.first, times.first) << i;
         } else {
-            EXPECT_GT(measured, most) << i;
+            EXPECT_GT(measured.seconds, most) << i;
             ++over;
         }
     }

@@ -66,6 +66,40 @@ TEST(TurnedMoves, NoneIsFasterThanTheRateAllows) {
     EXPECT_EQ(MoveSet(fitted, 0).count(), fitted.scene().graph->moves.size());
 }
 
+TEST(TurnedMoves, TheRoomAfterAMoveHoldsAllThatMayFollow) {
+    const FittedScene fitted(testing::walker_scene(), {});
+    for (const double rate : {0.0, 120.0, kTurnsAtOnce}) {
+        const MoveSet moves(fitted, rate);
+        for (int i = 0; i < 36; ++i) {
+            const int before = i % static_cast<int>(moves.count());
+            const OrientedPlacement at({{40.0 * i - 700, 3.0 * i}, 37.0 * i, 11.0 * i - 100});
+            const auto holds = [](const MoveSet::Room& room, const FloorRect& rect) {
+                return room.bounds.low.x <= rect.low.x && room.bounds.low.y <= rect.low.y &&
+                       room.bounds.high.x >= rect.high.x && room.bounds.high.y >= rect.high.y;
+            };
+            std::size_t known = 0;
+            for (const MoveSet::FollowerGroup& group : moves.followers(before)) {
+                const double angle = std::abs(group.moves.front().planned.turn_deg);
+                for (const MoveSet::Room& room :
+                     {moves.room_after(before, at, group.room), moves.room_after(before, at, angle)}) {
+                    for (const MoveSet::Follower& next : group.moves) {
+                        const PlayedMove motion =
+                            moves.motion(0, 1, next.played, moves.following(before, at, next.planned));
+                        const glm::dvec2 end =
+                            end_of(motion.at, moves.exit(next.played), moves.duration(next.played)).position;
+                        EXPECT_TRUE(holds(room, motion.bounds));
+                        EXPECT_TRUE(holds(room, {end - next.last.r, end + next.last.r}));
+                        EXPECT_LT(room.begin, motion.begin());
+                        EXPECT_GT(room.end, motion.end());
+                    }
+                }
+                known += group.moves.size();
+            }
+            EXPECT_GE(known, moves.after(before).size());
+        }
+    }
+}
+
 TEST(TurnedMoves, ARunHoldsThoseThatArePlayedAndIsReadAgain) {
     const FittedScene fitted(testing::walker_scene(), {});
     const MoveSet moves(fitted);
@@ -160,7 +194,11 @@ TEST(TurnedMoves, WhatIsForcedHarmsForTheFewestSeconds) {
     const Choice choice = choose(moves, reservations, crowd, point);
     ASSERT_EQ(choice.kind, PlayKind::forced);
     ASSERT_EQ(choice.candidates.size(), 2u);
-    EXPECT_GT(choice.candidates[0].blocker->contact.time, choice.candidates[1].blocker->contact.time);
+    const auto first_contact = [&](const Candidate& candidate) {
+        const PlayedMove motion = moves.motion(0, 1, candidate.played, OrientedPlacement(candidate.placement));
+        return reservations.motions().around(motion).contact_times(motion).first;
+    };
+    EXPECT_GT(first_contact(choice.candidates[0]), first_contact(choice.candidates[1]));
     EXPECT_EQ(choice.candidates[choice.taken].move, 1);
 }
 

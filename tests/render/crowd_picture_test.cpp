@@ -268,6 +268,7 @@ TEST_F(CrowdPicture, TheSentenceKeepsFatesApart) {
     in_the_way.in_the_way = true;
     const auto met = [](int agent) {
         Candidate out;
+        out.met = Met::play;
         out.blocker = Blocker{agent, 1, {}};
         return out;
     };
@@ -278,6 +279,7 @@ TEST_F(CrowdPicture, TheSentenceKeepsFatesApart) {
     Candidate no_way_on;
     no_way_on.no_way_on = true;
     Candidate against_plan = met(5);
+    against_plan.met = Met::plan;
     against_plan.blocker->planned = 2;
     followed.choice.candidates = {free, no_way_on, against_plan};
     EXPECT_EQ(choice_sentence(run.scene(), followed),

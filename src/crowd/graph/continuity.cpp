@@ -3,6 +3,7 @@
 #include <crowd/graph/rigs.h>
 #include <import/import.h>
 #include <import/skeleton/disk_sampler.h>
+#include <scene/clip_turn.h>
 #include <scene/crowd_run.h>
 
 #include <tbb/blocked_range.h>
@@ -10,11 +11,12 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -40,39 +42,67 @@ double turn_about_up(const glm::dquat& q) {
     return std::abs(std::remainder(2 * std::atan2(q.z, q.w), 2 * std::numbers::pi)) * 180 / std::numbers::pi;
 }
 
+double squared(const auto& way) { return glm::dot(way, way); }
+
+// What is largest is found among squares: many moves have many frames. lengths() makes lengths of them.
 void raise_by_step(LargestChanges& largest, const BodyPose& from, const BodyPose& to) {
-    for (std::size_t j = 0; j < from.joints.size(); ++j)
-        raise(of(largest, Change::joint_position)[j], glm::distance(from.joints[j], to.joints[j]));
+    double* const of_joint = of(largest, Change::joint_position).data();
+    for (std::size_t j = 0; j < from.joints.size(); ++j) raise(of_joint[j], squared(to.joints[j] - from.joints[j]));
     raise(of(largest, Change::heading)[0], turn_about_up(to.root * glm::conjugate(from.root)));
 }
 
-void raise_by_two_steps(LargestChanges& largest, std::span<const BodyPose> three, double dt) {
+void raise_by_two_steps(LargestChanges& largest, const BodyPose& first, const BodyPose& second, const BodyPose& third,
+                        double dt) {
     const auto change = [&](std::size_t joint) {
-        return (three[2].joints[joint] - three[1].joints[joint] - (three[1].joints[joint] - three[0].joints[joint])) /
-               dt;
+        return (third.joints[joint] - second.joints[joint] - (second.joints[joint] - first.joints[joint])) / dt;
     };
-    raise(of(largest, Change::root_velocity)[0], glm::length(glm::dvec2(change(0))));
-    for (std::size_t j = 0; j < three[0].joints.size(); ++j)
-        raise(of(largest, Change::joint_velocity)[j], glm::length(change(j)));
+    raise(of(largest, Change::root_velocity)[0], squared(glm::dvec2(change(0))));
+    double* const of_joint = of(largest, Change::joint_velocity).data();
+    for (std::size_t j = 0; j < first.joints.size(); ++j) raise(of_joint[j], squared(change(j)));
+}
+
+LargestChanges lengths(LargestChanges squares) {
+    for (const Change change : {Change::joint_position, Change::root_velocity, Change::joint_velocity}) {
+        for (double& largest : of(squares, change)) largest = std::sqrt(largest);
+    }
+    return squares;
 }
 
 glm::dvec2 seen_from(const Stance& stance, const mobb::Rotation& turn, glm::dvec2 place) {
     return turn(place - stance.position);
 }
 
-BodyPose pose_from(const mobb::Clip& clip, const Skeleton& skeleton, int frame, const std::vector<int>& joints,
-                   const Stance& stance) {
-    const mobb::Rotation turn = mobb::Rotation::from_degrees(-stance.heading_deg);
-    const mobb::Disk& disk = clip.samples()[static_cast<std::size_t>(frame)];
-    BodyPose out;
-    for (const int joint : joints) {
-        const glm::dvec3 p(skeleton.at(frame)[static_cast<std::size_t>(joint)]);
-        out.joints.emplace_back(seen_from(stance, turn, {disk.x + p.x, disk.y + p.y}), p.z);
+/// Poses of some joints, seen from a stance.
+class PoseReader {
+  public:
+    PoseReader(const mobb::Clip& clip, const Skeleton& skeleton, const std::vector<int>& joints, const Stance& stance)
+        : clip_(clip),
+          skeleton_(skeleton),
+          joints_(joints),
+          stance_(stance),
+          turn_(mobb::Rotation::from_degrees(-stance.heading_deg)),
+          about_up_(about_up(turn_)) {}
+
+    void read(int frame, BodyPose& out) const {
+        const mobb::Disk& disk = clip_.samples()[static_cast<std::size_t>(frame)];
+        const auto positions = skeleton_.at(frame);
+        out.joints.resize(joints_.size());
+        for (std::size_t i = 0; i < joints_.size(); ++i) {
+            const glm::dvec3 p(positions[static_cast<std::size_t>(joints_[i])]);
+            out.joints[i] = glm::dvec3(seen_from(stance_, turn_, {disk.x + p.x, disk.y + p.y}), p.z);
+        }
+        const glm::quat& root = skeleton_.rotations_at(frame)[static_cast<std::size_t>(skeleton_.root)];
+        out.root = glm::normalize(about_up_ * glm::dquat(root));
     }
-    const glm::quat& root = skeleton.rotations_at(frame)[static_cast<std::size_t>(skeleton.root)];
-    out.root = glm::normalize(about_up(turn) * glm::dquat(root));
-    return out;
-}
+
+  private:
+    const mobb::Clip& clip_;
+    const Skeleton& skeleton_;
+    const std::vector<int>& joints_;
+    const Stance& stance_;
+    mobb::Rotation turn_;
+    glm::dquat about_up_;
+};
 
 BodyPose turned(BodyPose pose, const mobb::Rotation& turn) {
     for (glm::dvec3& p : pose.joints) p = glm::dvec3(turn({p.x, p.y}), p.z);
@@ -96,20 +126,24 @@ struct Join {
 
 class Measurer {
   public:
-    explicit Measurer(const Scene& scene) {
+    Measurer(const Scene& scene, Importer& importer) {
         const std::vector<int> rigs = rig_of_each_clip(scene);
-        Importer importer;
         std::vector<std::vector<Contact>> stands;  // by move
         motions_.reserve(scene.graph->moves.size());
         for (const GraphMove& move : scene.graph->moves) {
             const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
             motions_.emplace_back();
             stands.emplace_back();
-            if (!clip.skeleton) continue;
+            // Skeletons that are made here are held one at a time.
+            const int of = clip.skeleton || !move.turned || !clip.turn ? move.clip : origin_of(scene, move).clip;
+            const SceneClip& straight = scene.clips[static_cast<std::size_t>(of)];
+            if (!straight.skeleton) continue;
+            const std::shared_ptr<const Skeleton> skeleton =
+                of == move.clip ? clip.skeleton : turned_skeleton(*straight.skeleton, *straight.clip, *clip.turn);
             const std::optional<std::size_t> same = recorded_alike(scene, move, stands.size() - 1);
-            stands.back() = same ? stands[*same] : stands_in(scene, move, importer);
-            motions_.back() = motion_of(*clip.clip, *clip.skeleton, rigs[static_cast<std::size_t>(move.clip)],
-                                        move.entry, move.exit, stands.back());
+            stands.back() = same ? stands[*same] : stands_in(scene, move, *skeleton, importer);
+            motions_.back() = motion_of(*clip.clip, *skeleton, rigs[static_cast<std::size_t>(of)], move.entry,
+                                        move.exit, stands.back());
         }
     }
 
@@ -130,6 +164,10 @@ class Measurer {
     }
 
   private:
+    static const GraphMove& origin_of(const Scene& scene, const GraphMove& turned) {
+        return scene.graph->moves[static_cast<std::size_t>(turned.turned->move)];
+    }
+
     /// The move that a turned one is a variant of, if it is among the first `known` and warps the same part of the same
     /// recording: feet stand alike there, and it is read once.
     static std::optional<std::size_t> recorded_alike(const Scene& scene, const GraphMove& move, std::size_t known) {
@@ -144,9 +182,10 @@ class Measurer {
     }
 
     /// Feet stand where they do in the recording: those that a warp makes slide still should.
-    static std::vector<Contact> stands_in(const Scene& scene, const GraphMove& move, Importer& importer) {
+    static std::vector<Contact> stands_in(const Scene& scene, const GraphMove& move, const Skeleton& skeleton,
+                                          Importer& importer) {
         const SceneClip& clip = scene.clips[static_cast<std::size_t>(move.clip)];
-        if (!clip.warp) return standing(*clip.clip, *clip.skeleton, 0, clip.clip->count());
+        if (!clip.warp) return standing(*clip.clip, skeleton, 0, clip.clip->count());
         const RecordedMove recorded = recorded_move(scene, move, importer);
         return standing(*recorded.clip, *recorded.skeleton, recorded.entry, recorded.exit);
     }
@@ -276,18 +315,26 @@ MoveMotion motion_of(const mobb::Clip& clip, const Skeleton& skeleton, int rig, 
     for (std::size_t i = 0; i < below.size(); ++i) {
         if (below[i]) out.joints.push_back(static_cast<int>(i));
     }
-    const auto pose = [&](int frame, const Stance& from) { return pose_from(clip, skeleton, frame, out.joints, from); };
     const int count = clip.count();
-    for (int frame = 0; frame < std::min(count, 2); ++frame) out.begin.push_back(pose(frame, entry));
-    for (int frame = std::max(0, count - 2); frame < count; ++frame) out.end.push_back(pose(frame, exit));
+    const auto read = [&](std::vector<BodyPose>& poses, int first, int end, const Stance& from) {
+        const PoseReader reader(clip, skeleton, out.joints, from);
+        for (int frame = first; frame < end; ++frame) reader.read(frame, poses.emplace_back());
+    };
+    read(out.begin, 0, std::min(count, 2), entry);
+    read(out.end, std::max(0, count - 2), count, exit);
     out.inside = no_changes(out.joints.size());
-    std::vector<BodyPose> poses;  // the last three
+    const Stance clips_own;
+    const PoseReader reader(clip, skeleton, out.joints, clips_own);
+    std::array<BodyPose, 3> last;  // by frame
     for (int frame = 0; frame < count; ++frame) {
-        if (poses.size() == 3) poses.erase(poses.begin());
-        poses.push_back(pose(frame, {}));
-        if (frame > 0) raise_by_step(out.inside, poses[poses.size() - 2], poses.back());
-        if (frame > 1) raise_by_two_steps(out.inside, poses, out.dt);
+        const auto before = [&](int frames) -> BodyPose& {
+            return last[static_cast<std::size_t>(frame + 3 - frames) % 3];
+        };
+        reader.read(frame, before(0));
+        if (frame > 0) raise_by_step(out.inside, before(1), before(0));
+        if (frame > 1) raise_by_two_steps(out.inside, before(2), before(1), before(0), out.dt);
     }
+    out.inside = lengths(std::move(out.inside));
     for (const Contact& contact : stands) {
         std::vector<glm::dvec2> places = places_of(contact, clip, skeleton);
         if (lasts(contact.count, out.dt)) {
@@ -308,8 +355,8 @@ LargestChanges changes_across(const MoveMotion& before, const MoveMotion& after,
     LargestChanges out = no_changes(before.joints.size());
     raise_by_step(out, before.end.back(), poses[before.end.size()]);
     for (std::size_t i = 2; i < poses.size(); ++i)
-        raise_by_two_steps(out, std::span(poses).subspan(i - 2, 3), before.dt);
-    return out;
+        raise_by_two_steps(out, poses[i - 2], poses[i - 1], poses[i], before.dt);
+    return lengths(std::move(out));
 }
 
 bool promises_continuity(const Scene& scene) {
@@ -323,17 +370,19 @@ Continuity graph_continuity(const Scene& scene) {
     for (const auto& [before, after] : transitions_of(*scene.graph)) joins.push_back({before, after});
     std::vector<int> moves(scene.graph->moves.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = static_cast<int>(i);
-    return Measurer(scene).measure(joins, moves);
+    Importer importer;
+    return Measurer(scene, importer).measure(joins, moves);
 }
 
 std::vector<bool> joins_over(const Scene& scene, const std::vector<std::pair<int, int>>& transitions) {
-    const Measurer measurer(scene);
+    Importer importer;
+    const Measurer measurer(scene, importer);
     std::vector<bool> out;
     for (const auto& [before, after] : transitions) out.push_back(measurer.measure({{before, after}}, {}).over > 0);
     return out;
 }
 
-RunContinuity run_continuity(const Scene& scene) {
+RunContinuity run_continuity(const Scene& scene, Importer& importer) {
     JoinsOfRun free;
     JoinsOfRun forced;
     std::vector<int> moves;
@@ -349,7 +398,7 @@ RunContinuity run_continuity(const Scene& scene) {
     }
     std::sort(moves.begin(), moves.end());
     moves.erase(std::unique(moves.begin(), moves.end()), moves.end());
-    const Measurer measurer(scene);
+    const Measurer measurer(scene, importer);
     return {measurer.measure(free.joins(), moves), measurer.measure(forced.joins(), {})};
 }
 

@@ -130,7 +130,8 @@ struct RunContinuity {
     Continuity forced;  ///< joins with a forced play, and no moves
 };
 
-/// Over all joins of the scene's run.
-RunContinuity run_continuity(const Scene& scene);
+/// Over all joins of the scene's run. A turned clip without a skeleton has that of the move that it is a variant of,
+/// turned. `importer` reads what was recorded, unless it has before.
+RunContinuity run_continuity(const Scene& scene, Importer& importer);
 
 }  // namespace mobbscope

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <tuple>
@@ -19,12 +20,6 @@ namespace {
 
 constexpr double kTravels = 0.3;     // metres from a move's begin to its end: what is less is standing
 constexpr double kSamePlace = 1e-6;  // metres, degrees: as precisely as plays must join
-
-/// A move of the set, not placed yet.
-Candidate candidate_of(const MoveSet& moves, int move) {
-    const PlannedMove& origin = moves.origin(move);
-    return {origin.move, origin.turn_deg, move, moves.clip(move).blocks.shared_clip(), {}, false, {}, false, false};
-}
 
 /// Metres by which a disk reaches over a wall.
 double beyond_wall(const mobb::Disk& disk, glm::dvec2 area) {
@@ -42,10 +37,7 @@ class Chooser {
           asked_(asked),
           search_(moves, reservations, run, point.agent, point.play, asked) {
         choice_.time = point.time;
-        // Both ways of one turn: more is seldom needed.
-        const std::size_t usually = 3 * moves.after(point.before.move).size();
-        choice_.candidates.reserve(usually);
-        motions_.reserve(usually);
+        reserve(1);
     }
 
     Choice choose() {
@@ -54,6 +46,9 @@ class Chooser {
             // Both ways by one angle belong together.
             const double angle = std::abs(kTurns[turn]);
             for (; turn < kTurns.size() && std::abs(kTurns[turn]) == angle; ++turn) add_candidates(kTurns[turn]);
+            // Often no turn is needed, and often more than the least.
+            if (angle <= kTurnStep) look_up(angle == 0 ? 0 : 180);
+            if (angle == kTurnStep) reserve(kTurns.size());
             check_candidates(first);
             if (take_clear(first)) return done();
         }
@@ -66,6 +61,17 @@ class Chooser {
     }
 
   private:
+    /// What is near all candidates that turn by no more than that.
+    void look_up(double most_turn_deg) {
+        nearby_ = reservations_.nearby(point_.agent, moves_.room_after(point_.before.move, before_, most_turn_deg));
+    }
+
+    void reserve(std::size_t turns) {
+        const std::size_t count = turns * moves_.after(point_.before.move).size();
+        choice_.candidates.reserve(count);
+        motions_.reserve(count);
+    }
+
     void add_candidates(double turn) {
         const std::vector<int>& moves = moves_.after(point_.before.move);
         for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -76,12 +82,9 @@ class Chooser {
             if (!at) continue;
             const PlayableClip& clip = moves_.clip(*played);
             const std::optional<FloorRect> on_floor = bounds_on_floor(clip, *at, run_.area);
-            motions_.emplace_back(point_.agent, point_.play, *played, clip, *at,
-                                  on_floor ? *on_floor : clip.bounds.bounds(*at));
-            Candidate& candidate = choice_.candidates.emplace_back(candidate_of(moves_, *played));
-            candidate.turn_deg = turn;
-            candidate.placement = at->placement;
-            candidate.leaves_floor = !on_floor;
+            choice_.candidates.push_back({moves[i], turn, *played, at->placement, !on_floor});
+            auto& motion = motions_.emplace_back();
+            if (on_floor) motion.emplace(point_.agent, point_.play, *played, clip, *at, *on_floor);
         }
     }
 
@@ -102,27 +105,37 @@ class Chooser {
 
     /// Those from `first` on.
     void check_candidates(std::size_t first) {
-        find_blockers(first, false);
+        check_against_others(first, false);
         for (const std::size_t i : those(first, &Candidate::is_free))
-            choice_.candidates[i].in_the_way = reservations_.in_the_way(motions_[i]);
+            choice_.candidates[i].in_the_way = reservations_.in_the_way(*motions_[i], nearby_);
+    }
+
+    /// If all leave the floor, the least harm is done by one of them.
+    void check_off_floor() {
+        for (std::size_t i = 0; i < motions_.size(); ++i) {
+            const Candidate& candidate = choice_.candidates[i];
+            motions_[i] =
+                moves_.motion(point_.agent, point_.play, candidate.played, OrientedPlacement(candidate.placement));
+        }
+        check_against_others(0, true);
     }
 
     /// Of the candidates from `first` on that leave the floor, or of those that do not.
-    void find_blockers(std::size_t first, bool off_floor) {
-        const auto against = [&](const ReservationGrid& grid, const auto& condition) {
-            const std::vector<std::size_t> of = those(first, condition);
+    void check_against_others(std::size_t first, bool off_floor) {
+        const auto against = [&](const Surroundings& others, Met met) {
+            const std::vector<std::size_t> of = those(first, [&](const Candidate& candidate) {
+                return candidate.leaves_floor == off_floor && candidate.met == Met::nobody;
+            });
             std::vector<const PlayedMove*> motions;
-            for (const std::size_t i : of) motions.push_back(&motions_[i]);
-            std::vector<CandidateCheck> checks = grid.check_all(motions, asked_);
+            for (const std::size_t i : of) motions.push_back(&*motions_[i]);
+            const std::vector<CandidateCheck> checks = others.check_all(motions, asked_);
             for (std::size_t i = 0; i < of.size(); ++i) {
-                choice_.candidates[of[i]].blocker = std::move(checks[i].blocker);
+                if (checks[i].collides) choice_.candidates[of[i]].met = met;
                 choice_.queries += checks[i].asked;
             }
         };
-        const auto asked = [&](const Candidate& candidate) { return candidate.leaves_floor == off_floor; };
-        against(reservations_.motions(), asked);
-        against(reservations_.plans(),
-                [&](const Candidate& candidate) { return asked(candidate) && !candidate.blocker; });
+        against(nearby_.motions, Met::play);
+        against(nearby_.plans, Met::plan);
     }
 
     /// One of the free candidates that are in nobody's way and have a way on. At most one turn either way has any: the
@@ -158,9 +171,8 @@ class Chooser {
 
     /// Whoever planned to go there may have to choose something else.
     bool take_against_plans() {
-        return take_at_least_turn([](const Candidate& candidate) {
-                   return !candidate.leaves_floor && candidate.blocker && candidate.blocker->planned > 0;
-               }) ||
+        return take_at_least_turn(
+                   [](const Candidate& candidate) { return !candidate.leaves_floor && candidate.met == Met::plan; }) ||
                take_longest_plan();
     }
 
@@ -199,7 +211,7 @@ class Chooser {
             !kept.empty() && kept[0].move == candidate.move && kept[0].turn_deg == candidate.turn_deg;
         kept = was_planned ? kept.subspan(1) : kept.first(0);
         const std::int64_t before = search_.queries();
-        candidate.no_way_on = !search_.look(candidate.played, motions_[index].at, kept);
+        candidate.no_way_on = !search_.look(candidate.played, motions_[index]->at, kept);
         choice_.queries += search_.queries() - before;
         if (candidate.no_way_on && (!longest_ || search_.seconds() > longest_seconds_)) {
             longest_ = index;
@@ -216,13 +228,12 @@ class Chooser {
         }
         const auto stays = [](const Candidate& candidate) { return !candidate.leaves_floor; };
         const bool some_stay = std::ranges::any_of(choice_.candidates, stays);
-        if (!some_stay) find_blockers(0, true);
-        std::vector<std::size_t> of = those(0, [&](const Candidate& c) { return c.leaves_floor != some_stay; });
-        // Who meets somebody late is likely not to harm for long, and the rest is then measured no farther than that.
-        std::ranges::sort(of, std::greater<>(), [&](std::size_t i) { return std::pair(first_contact(i), i); });
+        if (!some_stay) check_off_floor();
+        const std::vector<std::size_t> of = those(0, [&](const Candidate& c) { return c.leaves_floor != some_stay; });
         std::vector<std::size_t> best;
         Harm least{std::numeric_limits<double>::infinity(), 0, 0};
         for (const std::size_t i : of) {
+            // What is more than the least so far is measured no farther than that.
             const Harm harm = harm_of(i, std::get<0>(least));
             if (best.empty() || harm < least) {
                 best.clear();
@@ -230,7 +241,6 @@ class Chooser {
             }
             if (harm == least) best.push_back(i);
         }
-        std::ranges::sort(best);
         choice_.taken = best[draws().below(static_cast<std::uint32_t>(best.size()))];
     }
 
@@ -238,20 +248,14 @@ class Chooser {
     /// the first contact is.
     using Harm = std::tuple<double, double, double>;
 
-    /// Global seconds of the first contact with what another plays; never: infinite.
-    double first_contact(std::size_t index) const {
-        const std::optional<Blocker>& blocker = choice_.candidates[index].blocker;
-        return blocker && blocker->planned == 0 ? blocker->contact.time : std::numeric_limits<double>::infinity();
-    }
-
     /// Seconds that are more than `most` may be counted in part.
     Harm harm_of(std::size_t index, double most) const {
-        const mobb::PlacedBlocks& way = motions_[index].placed;
+        const PlayedMove& motion = *motions_[index];
+        const mobb::PlacedBlocks& way = motion.placed;
         const double beyond = beyond_wall(way.disk(way.end() - 1), run_.area);
-        const double first = first_contact(index);
-        const double seconds =
-            std::isinf(first) ? 0 : reservations_.motions().seconds_of_contact(motions_[index], most);
-        return {seconds, beyond, -first};
+        const ContactTimes contact =
+            choice_.candidates[index].met == Met::play ? nearby_.motions.contact_times(motion, most) : ContactTimes{};
+        return {contact.seconds, beyond, -contact.first};
     }
 
     CounterRandom draws() const {
@@ -267,7 +271,8 @@ class Chooser {
     FollowingPlacements placements_{moves_, point_.before.move, before_, moves_.after(point_.before.move)};
     PlanSearch search_;
     Choice choice_;
-    std::vector<PlayedMove> motions_;  ///< by candidate
+    ReservationTable::Nearby nearby_;                 ///< what is near the candidates
+    std::vector<std::optional<PlayedMove>> motions_;  ///< by candidate; none: it leaves the floor
     /// Who stands has a way on nearly always, in front of a wall too: nobody would leave it again.
     bool stood_ = run_.plan > 0 && !travels(point_.before.move);
     std::optional<std::size_t> longest_;  ///< of the candidates without a way on, the one whose plan is longest
@@ -292,6 +297,15 @@ void reserve_plays(ReservationTable& reservations, const MoveSet& moves, const C
     }
 }
 
+std::optional<Blocker> blocker_of(const MoveSet& moves, const ReservationTable& reservations, const ChoicePoint& point,
+                                  const Candidate& candidate) {
+    if (candidate.met == Met::nobody) return std::nullopt;
+    const PlayedMove motion =
+        moves.motion(point.agent, point.play, candidate.played, OrientedPlacement(candidate.placement));
+    const ReservationGrid& others = candidate.met == Met::play ? reservations.motions() : reservations.plans();
+    return others.around(motion).blocker(motion);
+}
+
 }  // namespace
 
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
@@ -302,9 +316,11 @@ Choice choose(const MoveSet& moves, const ReservationTable& reservations, const 
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
     const std::vector<Play>& plays = run.agents.at(static_cast<std::size_t>(agent)).plays;
     const Play& made = plays.at(static_cast<std::size_t>(play));
+    const auto clip_of = [&](const Candidate& candidate) { return moves.clip(candidate.played).blocks.shared_clip(); };
     if (play == 0) {
-        Candidate placed = candidate_of(moves, made.move);
-        placed.placement = made.placement;
+        const PlannedMove& origin = moves.origin(made.move);
+        Candidate placed{origin.move, origin.turn_deg, made.move, made.placement};
+        placed.clip = clip_of(placed);
         return {made.chosen_at, made.kind, {placed}, 0, made.plan, 0};
     }
     const ChoicePoint point{agent, play, plays[static_cast<std::size_t>(play) - 1], made.chosen_at};
@@ -312,7 +328,12 @@ Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play)
     for (int other = 0; other < static_cast<int>(run.agents.size()); ++other) {
         if (other != agent) reserve_plays(reservations, moves, run, other, point);
     }
-    return choose(moves, reservations, run, point);
+    Choice choice = choose(moves, reservations, run, point);
+    for (Candidate& candidate : choice.candidates) {
+        candidate.clip = clip_of(candidate);
+        candidate.blocker = blocker_of(moves, reservations, point, candidate);
+    }
+    return choice;
 }
 
 bool comes_out_as(const Play& play, const Choice& choice) {

@@ -10,20 +10,27 @@
 
 namespace mobbscope {
 
+/// Whom a candidate collides with.
+enum class Met {
+    nobody,
+    plan,  ///< what another plans to play, and nothing that another plays
+    play,
+};
+
 /// A move that may follow, where it would be played.
 struct Candidate {
     int move = 0;         ///< index into MotionGraph::moves, of one that is not turned itself
     double turn_deg = 0;  ///< on the way of it, counter-clockwise
     int played = 0;       ///< the move turned so: index among those of the MoveSet
-    mobb::ClipPtr clip;   ///< of that
     mobb::Placement placement;
     bool leaves_floor = false;
-    std::optional<Blocker>
-        blocker;  ///< who it collides with; candidates that leave the floor are checked only by a forced choice
-    bool in_the_way = false;  ///< free, but see ReservationTable::in_the_way
-    bool no_way_on = false;   ///< free and drawn, but no plan was found that could follow it
+    Met met = Met::nobody;             ///< candidates that leave the floor are checked only by a forced choice
+    bool in_the_way = false;           ///< free, but see ReservationTable::in_the_way
+    bool no_way_on = false;            ///< free and drawn, but no plan was found that could follow it
+    mobb::ClipPtr clip{};              ///< of what is played; only where a choice is repeated
+    std::optional<Blocker> blocker{};  ///< who it collides with; likewise
 
-    bool is_free() const { return !leaves_floor && !blocker; }
+    bool is_free() const { return !leaves_floor && met == Met::nobody; }
 };
 
 struct Choice {
@@ -57,9 +64,9 @@ struct ChoicePoint {
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
               std::vector<AskedPair>* asked = nullptr);
 
-/// Repeats the choice of one play of a run; it is exactly as it was if the run has not been changed since it was
-/// simulated. An agent's first play was placed, not chosen: its choice has that play as the only candidate. Throws
-/// std::out_of_range if there is no such agent or play.
+/// Repeats the choice of one play of a run, with clips and blockers; it is exactly as it was if the run has not been
+/// changed since it was simulated. An agent's first play was placed, not chosen: its choice has that play as the only
+/// candidate. Throws std::out_of_range if there is no such agent or play.
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play);
 
 /// A choice, and the agent and play that it belongs to.

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kSpeedOver = 0.25;  // seconds: of a moment, as a walker's root is not equally fast within a step
 
+constexpr std::size_t kTogether = 16;  // followers in a group: of more the ones that take least room were not alone
+
 /// Place of a turn among all from -180 degrees on.
 std::size_t heading_index(double turn_deg) { return static_cast<std::size_t>(turn_deg / kTurnStep + 12.5); }
 
@@ -76,15 +78,55 @@ MoveSet::MoveSet(const FittedScene& fitted, std::optional<double> turn_rate, Que
     }
 }
 
-std::vector<MoveSet::Follower> MoveSet::turned_each_way(const std::vector<int>& moves) const {
-    std::vector<Follower> out;
+MoveSet::Room MoveSet::room_of(const std::vector<Follower>& moves) const {
+    Room out;
+    for (const Follower& next : moves) {
+        const double turn_at_once = turns_at_once() ? next.planned.turn_deg : 0;
+        const OrientedPlacement at = beginning_at({{}, turn_at_once, 0}, move(next.played).entry);
+        const glm::dvec2 end = end_of(at, exit(next.played), 0).position;
+        const FloorRect last{end - next.last.r, end + next.last.r};
+        out.bounds = out.bounds.with(clip(next.played).bounds.bounds(at)).with(last);
+        out.end = std::max(out.end, duration(next.played));
+    }
+    return out;
+}
+
+MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, double most_turn_deg) const {
+    Room all;
+    for (const FollowerGroup& group : followers(move)) {
+        if (std::abs(group.moves.front().planned.turn_deg) > most_turn_deg) break;
+        all = {all.bounds.with(group.room.bounds), 0, std::max(all.end, group.room.end)};
+    }
+    return room_after(move, placed, all);
+}
+
+MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, const Room& room) const {
+    const MoveEnd end = end_of(placed, exit(move), duration(move));
+    const mobb::Rotation heading = placed.rotation * exit_rotation(move);
+    const glm::dvec2 half = (room.bounds.high - room.bounds.low) / 2.0;
+    const glm::dvec2 center = end.position + heading(room.bounds.low + half);
+    const double c = std::abs(heading.c), s = std::abs(heading.s);
+    // Far more than all rounding made here and where candidates are placed.
+    const double margin = 1e-6 + 1e-9 * (std::abs(center.x) + std::abs(center.y) + half.x + half.y);
+    const glm::dvec2 reach = glm::dvec2(c * half.x + s * half.y, s * half.x + c * half.y) + margin;
+    const double spare = 1e-6 + 1e-9 * (std::abs(end.time) + room.end);
+    return {{center - reach, center + reach}, end.time - spare, end.time + room.end + spare};
+}
+
+std::vector<MoveSet::FollowerGroup> MoveSet::turned_each_way(const std::vector<int>& moves) const {
+    std::vector<FollowerGroup> out;
     for (const double turn : kTurns) {
+        bool is_new = true;
         for (std::size_t i = 0; i < moves.size(); ++i) {
             const PlannedMove planned{moves[i], turn};
-            if (const std::optional<int> played = turned(planned))
-                out.push_back({planned, *played, i, clip(*played).last});
+            const std::optional<int> played = turned(planned);
+            if (!played) continue;
+            if (is_new || out.back().moves.size() == kTogether) out.emplace_back();
+            is_new = false;
+            out.back().moves.push_back({planned, *played, i, clip(*played).last});
         }
     }
+    for (FollowerGroup& group : out) group.room = room_of(group.moves);
     return out;
 }
 
@@ -163,7 +205,7 @@ std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play)
     return out;
 }
 
-MoveSet::Extended MoveSet::extended(std::span<const int> used) const {
+MoveSet::Extended MoveSet::extended(std::span<const int> used, TurnedSkeletons skeletons) const {
     Extended out{fitted_->scene(), std::vector<int>(moves_.size(), -1)};
     out.scene.crowd = nullptr;
     MotionGraph graph = this->graph();
@@ -178,7 +220,9 @@ MoveSet::Extended MoveSet::extended(std::span<const int> used) const {
         const PlannedMove& origin = this->origin(index);
         GraphMove move = this->move(index);
         SceneClip clip = out.scene.clips[static_cast<std::size_t>(move.clip)];
-        bend(clip, turn_at_rate(origin.turn_deg, turn_rate_));
+        clip.turn = turn_at_rate(origin.turn_deg, turn_rate_);
+        if (clip.source && skeletons == TurnedSkeletons::left_out) clip.skeleton = nullptr;
+        if (clip.skeleton) clip.skeleton = turned_skeleton(*clip.skeleton, *clip.clip, *clip.turn);
         clip.name = names.take(clip.name + formatted(" turned %+.0f", origin.turn_deg));
         clip.clip = this->clip(index).blocks.shared_clip();
         // Of samples in the scene those that are bent are kept.

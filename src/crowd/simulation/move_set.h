@@ -29,6 +29,13 @@ enum class QueriedBy {
     trees,   ///< those of the fit in use
 };
 
+/// Whether clips that are turned on the way get skeletons of their own: a run has hundreds of them, and a file has
+/// none.
+enum class TurnedSkeletons {
+    made,
+    left_out,  ///< of clips with a source
+};
+
 /// The moves of a motion graph, and behind them all that they become by turns: each move that is no variant of
 /// another, by each of kTurns that its duration allows, unless the graph has that variant. Moves are counted through
 /// both. Refers to the scene, which must outlive it and have a graph. Const calls are safe from any number of threads.
@@ -75,10 +82,25 @@ class MoveSet {
         std::size_t number;  ///< of the move itself among those of after_by_room
         mobb::Disk last;     ///< of the clip
     };
+    /// What holds moves that may follow, for as long as they last: each disk, and the disk that stands where a move
+    /// ends.
+    struct Room {
+        FloorRect bounds;
+        double begin = 0, end = 0;  ///< global seconds
+    };
+    /// Some that turn alike: they are near each other.
+    struct FollowerGroup {
+        std::vector<Follower> moves;
+        Room room;  ///< after a move that ends at 0, at the origin, along +x
+    };
     /// Each of after_by_room by each of kTurns that it can turn by: all that turn least first, each time in that order.
-    const std::vector<Follower>& followers(int move) const {
+    const std::vector<FollowerGroup>& followers(int move) const {
         return followers_[static_cast<std::size_t>(this->move(move).to)];
     }
+    /// The room of a group of followers where the move before is placed.
+    Room room_after(int move, const OrientedPlacement& placed, const Room& room) const;
+    /// Of all followers that turn by no more than that.
+    Room room_after(int move, const OrientedPlacement& placed, double most_turn_deg) const;
 
     /// Where `next` is placed after `before`.
     OrientedPlacement following(int before, const OrientedPlacement& placed, const PlannedMove& next) const;
@@ -97,7 +119,7 @@ class MoveSet {
         Scene scene;
         std::vector<int> index;  ///< of each move in that scene's graph; -1 of those that are not in it
     };
-    Extended extended(std::span<const int> used) const;
+    Extended extended(std::span<const int> used, TurnedSkeletons skeletons = TurnedSkeletons::made) const;
 
   private:
     struct Move {
@@ -115,7 +137,8 @@ class MoveSet {
 
     const Move& at(int move) const { return moves_[static_cast<std::size_t>(move)]; }
     void add_turned();
-    std::vector<Follower> turned_each_way(const std::vector<int>& moves) const;
+    Room room_of(const std::vector<Follower>& moves) const;
+    std::vector<FollowerGroup> turned_each_way(const std::vector<int>& moves) const;
     std::optional<Move> turned_move(const PlannedMove& origin) const;
 
     const FittedScene* fitted_;
@@ -126,7 +149,7 @@ class MoveSet {
     std::vector<int> unturned_;
     std::vector<std::vector<int>> by_hub_;
     std::vector<std::vector<int>> by_room_;
-    std::vector<std::vector<Follower>> followers_;
+    std::vector<std::vector<FollowerGroup>> followers_;
 };
 
 /// Where the moves that may follow another are placed, each worked out when it is asked for first. Refers to what it is

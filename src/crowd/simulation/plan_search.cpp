@@ -44,26 +44,31 @@ bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seco
     if (seconds >= run_.plan && (run_.grace == 0 || !reservations_.faces_wall(before, placed))) return true;
     if (seconds >= kLongest * run_.plan) return false;
     FollowingPlacements placements(moves_, before, placed, moves_.after_by_room(before));
-    for (const MoveSet::Follower& next : moves_.followers(before)) {
-        const OrientedPlacement* const at = placements.at(next.number, next.planned.turn_deg);
-        // Most that leave the floor have left it at their end.
-        if (!at || is_over_wall(next.last, *at, run_.area)) continue;
-        const PlayableClip& clip = moves_.clip(next.played);
-        const std::optional<FloorRect> bounds = bounds_on_floor(clip, *at, run_.area);
-        if (!bounds) continue;
-        if (--left_ < 0) return false;
-        if (!is_free({agent_, play_, next.played, clip, *at, *bounds})) continue;
-        const double end = seconds + moves_.duration(next.played);
-        add(next.planned, end);
-        if (extend(next.played, *at, end)) return true;
-        plan_.pop_back();
+    for (const MoveSet::FollowerGroup& group : moves_.followers(before)) {
+        // Looked up once for all of them, when the first one stays on the floor.
+        std::optional<Surroundings> motions, plans;
+        for (const MoveSet::Follower& next : group.moves) {
+            const OrientedPlacement* const at = placements.at(next.number, next.planned.turn_deg);
+            // Most that leave the floor have left it at their end.
+            if (!at || is_over_wall(next.last, *at, run_.area)) continue;
+            const PlayableClip& clip = moves_.clip(next.played);
+            const std::optional<FloorRect> bounds = bounds_on_floor(clip, *at, run_.area);
+            if (!bounds) continue;
+            if (--left_ < 0) return false;
+            if (!motions) {
+                const auto [all, begin, end] = moves_.room_after(before, placed, group.room);
+                motions = reservations_.motions().around(agent_, all, begin, end);
+                plans = reservations_.plans().around(agent_, all, begin, end);
+            }
+            const PlayedMove motion(agent_, play_, next.played, clip, *at, *bounds);
+            if (!motions->is_clear(motion, queries_, asked_) || !plans->is_clear(motion, queries_, asked_)) continue;
+            const double seconds_then = seconds + moves_.duration(next.played);
+            add(next.planned, seconds_then);
+            if (extend(next.played, *at, seconds_then)) return true;
+            plan_.pop_back();
+        }
     }
     return false;
-}
-
-bool PlanSearch::is_free(const PlayedMove& motion) {
-    return reservations_.motions().is_clear(motion, queries_, asked_) &&
-           reservations_.plans().is_clear(motion, queries_, asked_);
 }
 
 }  // namespace mobbscope

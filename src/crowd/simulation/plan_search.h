@@ -30,7 +30,6 @@ class PlanSearch {
 
   private:
     bool extend(int before, const OrientedPlacement& placed, double seconds);
-    bool is_free(const PlayedMove& motion);
     void add(const PlannedMove& next, double seconds);
 
     const MoveSet& moves_;

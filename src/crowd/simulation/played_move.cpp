@@ -18,33 +18,29 @@ ClipBounds::ClipBounds(const mobb::Clip& clip) : reach_(clip.reach()) {
 }
 
 FloorRect ClipBounds::bounds(const OrientedPlacement& placed) const {
-    // Several corners at a time, as many as compilers put into vector registers. Rounding keeps the order of numbers:
-    // what is translated at the end is as if each corner were.
-    constexpr std::size_t kLanes = 4;
+    // Two corners at a time: compilers leave such a loop of single numbers as it is. Rounding keeps the order of
+    // numbers: what is translated at the end is as if each corner were.
+    using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
+    const auto at = [](const std::array<double, kCorners>& values, std::size_t i) {
+        return Two{values[i], values[i + 1]};
+    };
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    std::array<double, kLanes> low_x, low_y, high_x, high_y;
-    low_x.fill(kFar);
-    low_y.fill(kFar);
-    high_x.fill(-kFar);
-    high_y.fill(-kFar);
+    Two low_x{kFar, kFar}, low_y = low_x;
+    Two high_x = -low_x, high_y = -low_x;
     const auto [c, s] = placed.rotation;
-    for (std::size_t i = 0; i < kCorners; i += kLanes) {
-        for (std::size_t k = 0; k < kLanes; ++k) {
-            const double x = c * x_[i + k] - s * y_[i + k];
-            const double y = s * x_[i + k] + c * y_[i + k];
-            low_x[k] = x < low_x[k] ? x : low_x[k];
-            low_y[k] = y < low_y[k] ? y : low_y[k];
-            high_x[k] = x > high_x[k] ? x : high_x[k];
-            high_y[k] = y > high_y[k] ? y : high_y[k];
-        }
+    for (std::size_t i = 0; i < kCorners; i += 2) {
+        const Two x = c * at(x_, i) - s * at(y_, i);
+        const Two y = s * at(x_, i) + c * at(y_, i);
+        low_x = x < low_x ? x : low_x;
+        low_y = y < low_y ? y : low_y;
+        high_x = x > high_x ? x : high_x;
+        high_y = y > high_y ? y : high_y;
     }
     const glm::dvec2 translate = placed.placement.translate;
     // Far more than all rounding made here and where disks are placed.
     const double margin = 1e-12 * (reach_ + std::abs(translate.x) + std::abs(translate.y));
-    const auto least = [](const auto& v) { return std::min(std::min(v[0], v[1]), std::min(v[2], v[3])); };
-    const auto most = [](const auto& v) { return std::max(std::max(v[0], v[1]), std::max(v[2], v[3])); };
-    const glm::dvec2 low(least(low_x), least(low_y));
-    const glm::dvec2 high(most(high_x), most(high_y));
+    const glm::dvec2 low(std::min(low_x[0], low_x[1]), std::min(low_y[0], low_y[1]));
+    const glm::dvec2 high(std::max(high_x[0], high_x[1]), std::max(high_y[0], high_y[1]));
     return {low + translate - margin, high + translate + margin};
 }
 
@@ -57,8 +53,20 @@ std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const Oriente
     const bool is_within =
         bounds.low.x >= -wall.x && bounds.low.y >= -wall.y && bounds.high.x <= wall.x && bounds.high.y <= wall.y;
     if (is_within) return bounds;
+    // Blocks of disks whose bound is over no wall are left out; the margin is far more than its single precision.
+    const mobb::Blocks::Paths blocks = clip.blocks.paths(0);
+    const glm::dvec2 origin = clip.blocks.origin();
+    const double margin = 1e-6 * (1 + clip.blocks.reach());
     const std::span<const mobb::Disk> disks = clip.clip().samples();
-    return std::any_of(disks.rbegin(), disks.rend(), is_over) ? std::nullopt : std::optional(bounds);
+    for (int block = clip.blocks.count(0) - 1; block >= 0; --block) {
+        if (!is_over({origin.x + blocks.x()[block], origin.y + blocks.y()[block], blocks.r()[block] + margin}))
+            continue;
+        const auto of_block = disks.subspan(static_cast<std::size_t>(block) * mobb::Blocks::kSamples);
+        if (std::ranges::any_of(of_block.first(std::min<std::size_t>(of_block.size(), mobb::Blocks::kSamples)),
+                                is_over))
+            return std::nullopt;
+    }
+    return bounds;
 }
 
 }  // namespace mobbscope

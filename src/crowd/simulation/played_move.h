@@ -9,6 +9,7 @@
 #include <mobb/tree.h>
 #include <scene/motion_graph.h>
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 #include <array>
@@ -27,6 +28,8 @@ struct FloorRect {
     bool meets(const FloorRect& other) const {
         return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
     }
+    /// Around both.
+    FloorRect with(const FloorRect& other) const { return {glm::min(low, other.low), glm::max(high, other.high)}; }
 };
 
 /// A polygon around all disks of a clip. Where a run's agents first stand is drawn by these bounds: with others the

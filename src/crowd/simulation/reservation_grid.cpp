@@ -1,25 +1,18 @@
 #include <crowd/simulation/reservation_grid.h>
-#include <mobb/production.h>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <mobb/predicate.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory_resource>
-#include <optional>
-#include <tuple>
+#include <utility>
 
 namespace mobbscope {
 
 namespace {
 
-constexpr double kCell = 4;         // metres: about what a clip of two seconds covers
-constexpr int kMostCells = 1024;    // in a row or column: a huge floor gets larger cells
-constexpr std::size_t kGrain = 64;  // candidates a task: fewer are not worth a thread
+constexpr double kCell = 4;       // metres: about what a clip of two seconds covers
+constexpr int kMostCells = 1024;  // in a row or column: a huge floor gets larger cells
 constexpr std::size_t kUsuallyNear = 32;
 
 int cells_along(double length) {
@@ -31,30 +24,6 @@ void for_each_cell(const auto& range, const auto& visit) {
     for (int y = range.y0; y <= range.y1; ++y) {
         for (int x = range.x0; x <= range.x1; ++x) visit(x, y);
     }
-}
-
-std::optional<mobb::Contact> contact_of(const PlayedMove& a, const PlayedMove& b) {
-    return a.playable->tree ? mobb::query(a.placed_tree(), b.placed_tree()) : mobb::query(a.placed, b.placed);
-}
-
-/// Adds the seconds over which two collide to `seconds`. What makes them more than `most` may be counted in part.
-void add_contact(const PlayedMove& a, const PlayedMove& b, double most, double& seconds) {
-    const auto add = [&seconds](const std::vector<mobb::Interval>& intervals) {
-        for (const mobb::Interval& interval : intervals) seconds += interval.t1 - interval.t0;
-    };
-    if (a.playable->tree) return add(mobb::contact_intervals(a.placed_tree(), b.placed_tree()));
-    struct Sink {
-        mobb::IntervalCollector<mobb::PlacedBlocks, mobb::PlacedBlocks> collector;
-        double before, most;
-    } sink{{a.placed, b.placed, {}}, seconds, most};
-    const auto on_hit = [](void* receiver, int i, int j) {
-        auto& [collector, before, enough] = *static_cast<Sink*>(receiver);
-        collector(i, j);
-        const mobb::Interval& last = collector.intervals.back();
-        return before + (last.t1 - last.t0) > enough;
-    };
-    mobb::for_each_hit(a.placed, b.placed, {on_hit, &sink});
-    add(sink.collector.intervals);
 }
 
 }  // namespace
@@ -87,6 +56,7 @@ std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
     }
     const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, held.cells.x0, held.cells.y0};
     longest_ = std::max(longest_, entry.end - entry.begin);
+    latest_end_ = std::max(latest_end_, entry.end);
     for_each_cell(held.cells, [&](int x, int y) {
         std::vector<Entry>& cell = cells_[index(x, y)];
         cell.insert(std::ranges::upper_bound(cell, entry.begin, {}, &Entry::begin), entry);
@@ -126,106 +96,19 @@ void ReservationGrid::visit_cells(const CellRange& range, double from, double to
     });
 }
 
-/// What a look-up finds. For as many as there usually are no memory is allocated.
-struct ReservationGrid::NearMotions {
-    alignas(Near) std::array<std::byte, kUsuallyNear * sizeof(Near)> buffer;
-    std::pmr::monotonic_buffer_resource memory{buffer.data(), buffer.size()};
-    std::pmr::vector<Near> list{&memory};
-
-    NearMotions() { list.reserve(kUsuallyNear); }
-};
-
-void ReservationGrid::find_near(const PlayedMove& candidate, NearMotions& near) const {
-    const double begin = candidate.begin(), end = candidate.end();
+Surroundings ReservationGrid::around(int agent, const FloorRect& bounds, double begin, double end) const {
+    std::vector<Surroundings::Near> near;
+    // Most plans go on when all that is played has ended.
+    if (begin >= latest_end_) return Surroundings(std::move(near));
+    near.reserve(kUsuallyNear);
     // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
     const double from = begin - longest_ - 1e-12 * std::abs(begin);
-    visit_cells(cells_of(candidate.bounds), from, end, [&](const Entry& other) {
-        if (other.agent != candidate.agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
-            candidate.bounds.meets(other.bounds))
-            near.list.push_back({other.begin, &motions_[other.slot].motion});
+    visit_cells(cells_of(bounds), from, end, [&](const Entry& other) {
+        if (other.agent != agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
+            bounds.meets(other.bounds))
+            near.push_back({other.bounds, other.begin, other.end, &motions_[other.slot].motion});
     });
-    std::sort(near.list.begin(), near.list.end(), [](const Near& a, const Near& b) {
-        if (a.begin != b.begin) return a.begin < b.begin;
-        return std::tie(a.motion->agent, a.motion->play) < std::tie(b.motion->agent, b.motion->play);
-    });
-}
-
-std::size_t ReservationGrid::first_met(const PlayedMove& candidate, std::span<const Near> near) {
-    if (candidate.playable->tree) {
-        const auto meets = [&](const Near& other) { return contact_of(candidate, *other.motion).has_value(); };
-        return static_cast<std::size_t>(std::ranges::find_if(near, meets) - near.begin());
-    }
-    std::array<const mobb::PlacedBlocks*, kUsuallyNear> others;
-    for (std::size_t begin = 0; begin < near.size(); begin += kUsuallyNear) {
-        const std::size_t count = std::min(kUsuallyNear, near.size() - begin);
-        for (std::size_t i = 0; i < count; ++i) others[i] = &near[begin + i].motion->placed;
-        const auto met = mobb::intersects_any(candidate.placed, std::span(others).first(count));
-        if (met) return begin + *met;
-    }
-    return near.size();
-}
-
-CandidateCheck ReservationGrid::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
-    CandidateCheck check;
-    NearMotions near;
-    find_near(candidate, near);
-    for (const auto& [begin, other] : near.list) {
-        // What begins after the first contact cannot be met before it.
-        if (check.blocker && begin > check.blocker->contact.time) break;
-        ++check.asked;
-        if (asked) asked->push_back({candidate, *other});
-        const auto contact = contact_of(candidate, *other);
-        if (!contact) continue;
-        if (!check.blocker ||
-            std::tuple(contact->time, other->agent) < std::tuple(check.blocker->contact.time, check.blocker->agent)) {
-            check.blocker = {other->agent,       other->play, *contact,
-                             other->planned,     other->move, other->playable->blocks.shared_clip(),
-                             other->at.placement};
-        }
-    }
-    return check;
-}
-
-std::vector<CandidateCheck> ReservationGrid::check_all(std::span<const PlayedMove* const> candidates,
-                                                       std::vector<AskedPair>* asked) const {
-    std::vector<CandidateCheck> out(candidates.size());
-    std::vector<std::vector<AskedPair>> pairs(asked ? candidates.size() : 0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), kGrain), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            out[i] = check(*candidates[i], asked ? &pairs[i] : nullptr);
-        }
-    });
-    for (const std::vector<AskedPair>& of_one : pairs) asked->insert(asked->end(), of_one.begin(), of_one.end());
-    return out;
-}
-
-bool ReservationGrid::is_clear(const PlayedMove& candidate, std::int64_t& queries,
-                               std::vector<AskedPair>* asked) const {
-    NearMotions near;
-    find_near(candidate, near);
-    const std::size_t first = first_met(candidate, near.list);
-    const std::size_t count = std::min(first + 1, near.list.size());
-    queries += static_cast<std::int64_t>(count);
-    if (asked) {
-        for (std::size_t i = 0; i < count; ++i) asked->push_back({candidate, *near.list[i].motion});
-    }
-    return first == near.list.size();
-}
-
-bool ReservationGrid::is_clear(const PlayedMove& candidate) const {
-    std::int64_t queries = 0;
-    return is_clear(candidate, queries);
-}
-
-double ReservationGrid::seconds_of_contact(const PlayedMove& candidate, double most) const {
-    double seconds = 0;
-    NearMotions near;
-    find_near(candidate, near);
-    for (const Near& other : near.list) {
-        if (seconds > most) break;
-        add_contact(candidate, *other.motion, most, seconds);
-    }
-    return seconds;
+    return Surroundings(std::move(near));
 }
 
 void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const {

@@ -24,7 +24,7 @@ constexpr std::array<glm::dvec2, 6> kHalfCircle{{{0.5, 0.1339745962155614},
 }  // namespace
 
 ReservationTable::ReservationTable(const MoveSet& moves, glm::dvec2 area, double grace)
-    : moves_(moves), area_(area), motions_(area), plans_(area), stands_(area) {
+    : moves_(moves), area_(area), grace_(grace), motions_(area), plans_(area), stands_(area) {
     if (grace == 0) return;
     for (const SceneClip& clip : moves.fitted().scene().clips) {
         const std::vector<mobb::Disk> disk{{0, 0, clip.clip->samples().back().r}};
@@ -83,11 +83,23 @@ bool ReservationTable::faces_wall(int move, const OrientedPlacement& placed) con
     });
 }
 
-bool ReservationTable::in_the_way(const PlayedMove& motion) const {
+ReservationTable::Nearby ReservationTable::nearby(int agent, const MoveSet::Room& room) const {
+    const double end = room.end + grace_;
+    return {motions_.around(agent, room.bounds, room.begin, end),
+            plans_.around(agent, room.bounds, room.begin, room.end),
+            stands_.around(agent, room.bounds, room.begin, end)};
+}
+
+ReservationTable::Nearby ReservationTable::nearby(const PlayedMove& motion) const {
+    const FloorRect bounds = stand_of_clip_.empty() ? motion.bounds : motion.bounds.with(stand(motion).bounds);
+    return nearby(motion.agent, {bounds, motion.begin(), motion.end()});
+}
+
+bool ReservationTable::in_the_way(const PlayedMove& motion, const Nearby& nearby) const {
     if (stand_of_clip_.empty()) return false;
-    if (faces_wall(motion.move, motion.at) || !stands_.is_clear(motion)) return true;
+    if (faces_wall(motion.move, motion.at) || !nearby.stands.is_clear(motion)) return true;
     const PlayedMove standing = stand(motion);
-    return !stands_.is_clear(standing) || !motions_.is_clear(standing);
+    return !nearby.stands.is_clear(standing) || !nearby.motions.is_clear(standing);
 }
 
 }  // namespace mobbscope

@@ -27,10 +27,20 @@ class ReservationTable {
     const ReservationGrid& motions() const { return motions_; }  ///< that are played
     const ReservationGrid& plans() const { return plans_; }      ///< that are planned to follow
 
+    /// What is reserved near some candidates. It may be asked until something is reserved or forgotten.
+    struct Nearby {
+        Surroundings motions, plans, stands;
+    };
+    /// Near all that may follow a play of an agent: where they are, and for the grace where they end.
+    Nearby nearby(int agent, const MoveSet::Room& room) const;
+    /// Near one move of the set, likewise.
+    Nearby nearby(const PlayedMove& motion) const;
+
     /// Whether a move of the set that might follow would leave some agent, perhaps its own, without a free choice: it
     /// runs through the place where another agent's moves end, within the grace after that; or it ends where another
     /// agent passes or stands within the grace; or it faces a wall. Without a grace it is false.
-    bool in_the_way(const PlayedMove& motion) const;
+    /// `nearby`: what is near it.
+    bool in_the_way(const PlayedMove& motion, const Nearby& nearby) const;
 
     /// Whether a move, where it is placed, ends too near a wall to turn round before it: neither half circle to the
     /// left nor to the right lies on the floor, at the speed with which the move ends and the set's turn rate. Of
@@ -43,6 +53,7 @@ class ReservationTable {
 
     const MoveSet& moves_;
     glm::dvec2 area_;
+    double grace_;
     std::vector<PlayableClip> stand_of_clip_;  ///< as large as the clip's last disk; empty without a grace
     ReservationGrid motions_;
     ReservationGrid plans_;

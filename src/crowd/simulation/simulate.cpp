@@ -99,13 +99,14 @@ class Simulator {
             at.placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
             if (!bounds_on_floor(moves_.clip(move), at, options_.area)) continue;
             const PlayedMove motion = moves_.motion(agent, 0, move, at);
-            if (!reservations_.motions().is_clear(motion) || !reservations_.plans().is_clear(motion)) continue;
+            const ReservationTable::Nearby nearby = reservations_.nearby(motion);
+            if (!nearby.motions.is_clear(motion) || !nearby.plans.is_clear(motion)) continue;
             Play play{move, at.placement, at.placement.start, PlayKind::chosen};
             PlanSearch search(moves_, reservations_, simulation_.run, agent, 0);
             const bool has_way_on = search.look(move, at);
             play.plan = search.plan();
             // Where the floor is nearly full, any place will do.
-            if (i < kTries / 2 && (!has_way_on || reservations_.in_the_way(motion))) continue;
+            if (i < kTries / 2 && (!has_way_on || reservations_.in_the_way(motion, nearby))) continue;
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
             ++counts().agents;
             commit(agent, play);
@@ -147,7 +148,7 @@ class Simulator {
         for (const Candidate& candidate : choice.candidates) {
             if (candidate.leaves_floor) {
                 ++c.off_floor;
-            } else if (candidate.blocker) {
+            } else if (candidate.met != Met::nobody) {
                 ++c.colliding;
             } else if (candidate.no_way_on) {
                 ++c.no_way_on;
@@ -242,12 +243,12 @@ Scene QuerySample::workload(const MoveSet& moves) const {
     return std::move(out);
 }
 
-Scene scene_of_run(const MoveSet& moves, CrowdRun run) {
+Scene scene_of_run(const MoveSet& moves, CrowdRun run, TurnedSkeletons skeletons) {
     std::vector<int> used;
     for (const CrowdAgent& agent : run.agents) {
         for (const Play& play : agent.plays) used.push_back(play.move);
     }
-    auto [scene, index] = moves.extended(used);
+    auto [scene, index] = moves.extended(used, skeletons);
     for (CrowdAgent& agent : run.agents) {
         for (Play& play : agent.plays) play.move = index[static_cast<std::size_t>(play.move)];
     }

@@ -103,7 +103,7 @@ struct Simulation {
 
 /// The scene of the moves with a run of them as its crowd: behind its graph's moves and clips come the turned ones that
 /// are played, by move and then by turn. What it is does not depend on the order of plays.
-Scene scene_of_run(const MoveSet& moves, CrowdRun run);
+Scene scene_of_run(const MoveSet& moves, CrowdRun run, TurnedSkeletons skeletons = TurnedSkeletons::made);
 
 /// Takes a run's turned moves and its crowd from a scene that is to be simulated anew, and the clips that only they
 /// play. Agents and queries must be gone.

@@ -1,0 +1,194 @@
+#include <crowd/simulation/surroundings.h>
+#include <mobb/production.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace mobbscope {
+
+namespace {
+
+constexpr std::size_t kGrain = 64;  // candidates a task: fewer are not worth a thread
+constexpr std::size_t kAtATime = 32;
+
+bool is_near(const PlayedMove& candidate, const Surroundings::Near& other) {
+    // Without a branch for each, which would often be mispredicted.
+    return static_cast<bool>(
+        static_cast<unsigned>(mobb::overlap_in_time(candidate.begin(), candidate.end(), other.begin, other.end)) &
+        static_cast<unsigned>(candidate.bounds.meets(other.bounds)));
+}
+
+std::optional<mobb::Contact> contact_of(const PlayedMove& a, const PlayedMove& b) {
+    return a.playable->tree ? mobb::query(a.placed_tree(), b.placed_tree()) : mobb::query(a.placed, b.placed);
+}
+
+/// Adds the contacts of two to `times`. What makes them more than `most` seconds may be added in part.
+void add_contacts(const PlayedMove& a, const PlayedMove& b, double most, ContactTimes& times) {
+    if (a.playable->tree) {
+        for (const mobb::Interval& interval : mobb::contact_intervals(a.placed_tree(), b.placed_tree())) {
+            times.seconds += interval.t1 - interval.t0;
+            times.first = std::min(times.first, interval.t0);
+        }
+        return;
+    }
+    constexpr double kNever = std::numeric_limits<double>::lowest();
+    struct Sum {
+        mobb::IntervalCollector<mobb::PlacedBlocks, mobb::PlacedBlocks> pairs;
+        double most;
+        ContactTimes& ended;  // without the present interval
+        mobb::Interval present{kNever, kNever};
+
+        double seconds() const { return ended.seconds + (present.t1 - present.t0); }
+    } sum{{a.placed, b.placed, {}}, most, times};
+    const auto on_hit = [](void* receiver, int i, int j) {
+        Sum& to = *static_cast<Sum*>(receiver);
+        const mobb::Interval next = to.pairs.interval_of(i, j);
+        // Intervals are those of IntervalCollector, none of which is kept.
+        if (next.t0 - to.present.t1 <= mobb::kMinOverlap) {
+            to.present.t1 = next.t1;
+        } else {
+            to.ended = {to.seconds(), std::min(to.ended.first, next.t0)};
+            to.present = next;
+        }
+        return to.seconds() > to.most;
+    };
+    mobb::for_each_hit(a.placed, b.placed, {on_hit, &sum});
+    times.seconds = sum.seconds();
+}
+
+}  // namespace
+
+Surroundings::Surroundings(std::vector<Near> near) : near_(std::move(near)) {
+    std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
+        if (a.begin != b.begin) return a.begin < b.begin;
+        return std::tie(a.motion->agent, a.motion->play) < std::tie(b.motion->agent, b.motion->play);
+    });
+}
+
+Surroundings::Met Surroundings::first_met(const PlayedMove& candidate) const {
+    int asked = 0;
+    if (candidate.playable->tree) {
+        for (std::size_t i = 0; i < near_.size(); ++i) {
+            if (!is_near(candidate, near_[i])) continue;
+            ++asked;
+            if (contact_of(candidate, *near_[i].motion)) return {i, asked};
+        }
+        return {near_.size(), asked};
+    }
+    std::array<std::size_t, kAtATime> index;
+    std::array<const mobb::PlacedBlocks*, kAtATime> others;
+    for (std::size_t i = 0; i < near_.size();) {
+        std::size_t count = 0;
+        for (; i < near_.size() && count < kAtATime; ++i) {
+            index[count] = i;
+            others[count] = &near_[i].motion->placed;
+            count += is_near(candidate, near_[i]) ? std::size_t{1} : std::size_t{0};
+        }
+        const auto met = mobb::intersects_any(candidate.placed, std::span(others).first(count));
+        if (met) return {index[*met], asked + static_cast<int>(*met) + 1};
+        asked += static_cast<int>(count);
+    }
+    return {near_.size(), asked};
+}
+
+template <class Visit>
+int Surroundings::ask_on(const PlayedMove& candidate, const Met& met, const Visit& visit) const {
+    int asked = met.asked - 1;
+    double earliest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = met.index; i < near_.size(); ++i) {
+        const Near& other = near_[i];
+        // What begins after the earliest contact cannot be met before it.
+        if (other.begin > earliest) break;
+        if (!is_near(candidate, other)) continue;
+        ++asked;
+        const auto contact = contact_of(candidate, *other.motion);
+        if (!contact) continue;
+        earliest = std::min(earliest, contact->time);
+        visit(*other.motion, *contact);
+    }
+    return asked;
+}
+
+void Surroundings::append(const PlayedMove& candidate, std::int64_t count, std::vector<AskedPair>& asked) const {
+    for (auto other = near_.begin(); count > 0; ++other) {
+        if (!is_near(candidate, *other)) continue;
+        asked.push_back({candidate, *other->motion});
+        --count;
+    }
+}
+
+CandidateCheck Surroundings::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
+    const Met met = first_met(candidate);
+    CandidateCheck out{met.index < near_.size(), met.asked};
+    if (out.collides) {
+        const auto near = [&](const Near& other) { return is_near(candidate, other); };
+        const auto last = std::find_if(near_.rbegin(), near_.rend(), near);
+        // No contact is before the candidate: what has begun by then is asked, whenever the earliest is.
+        if (last->begin <= candidate.begin()) {
+            const auto behind = near_.begin() + static_cast<std::ptrdiff_t>(met.index) + 1;
+            out.asked += static_cast<int>(std::count_if(behind, last.base(), near));
+        } else {
+            out.asked = ask_on(candidate, met, [](const PlayedMove&, const mobb::Contact&) {});
+        }
+    }
+    if (asked) append(candidate, out.asked, *asked);
+    return out;
+}
+
+std::vector<CandidateCheck> Surroundings::check_all(std::span<const PlayedMove* const> candidates,
+                                                    std::vector<AskedPair>* asked) const {
+    std::vector<CandidateCheck> out(candidates.size());
+    std::vector<std::vector<AskedPair>> pairs(asked ? candidates.size() : 0);
+    const auto check_range = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i) out[i] = check(*candidates[i], asked ? &pairs[i] : nullptr);
+    };
+    if (candidates.size() <= kGrain) {
+        check_range(0, candidates.size());
+    } else {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), kGrain),
+                          [&](const auto& range) { check_range(range.begin(), range.end()); });
+    }
+    for (const std::vector<AskedPair>& of_one : pairs) asked->insert(asked->end(), of_one.begin(), of_one.end());
+    return out;
+}
+
+std::optional<Blocker> Surroundings::blocker(const PlayedMove& candidate) const {
+    std::optional<Blocker> out;
+    const Met met = first_met(candidate);
+    if (met.index == near_.size()) return out;
+    ask_on(candidate, met, [&](const PlayedMove& other, const mobb::Contact& contact) {
+        if (!out || std::tuple(contact.time, other.agent) < std::tuple(out->contact.time, out->agent)) {
+            out = {other.agent,       other.play, contact,
+                   other.planned,     other.move, other.playable->blocks.shared_clip(),
+                   other.at.placement};
+        }
+    });
+    return out;
+}
+
+bool Surroundings::is_clear(const PlayedMove& candidate, std::int64_t& queries, std::vector<AskedPair>* asked) const {
+    const Met met = first_met(candidate);
+    queries += met.asked;
+    if (asked) append(candidate, met.asked, *asked);
+    return met.index == near_.size();
+}
+
+bool Surroundings::is_clear(const PlayedMove& candidate) const {
+    std::int64_t queries = 0;
+    return is_clear(candidate, queries);
+}
+
+ContactTimes Surroundings::contact_times(const PlayedMove& candidate, double most) const {
+    ContactTimes times;
+    for (const Near& other : near_) {
+        if (times.seconds > most) break;
+        if (is_near(candidate, other)) add_contacts(candidate, *other.motion, most, times);
+    }
+    return times;
+}
+
+}  // namespace mobbscope
