@@ -6,7 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace mobbscope {
 
@@ -15,7 +20,7 @@ namespace {
 constexpr std::size_t kGrain = 64;  // candidates a task: fewer are not worth a thread
 constexpr std::size_t kAtATime = 32;
 
-bool is_near(const PlayedMove& candidate, const Surroundings::Near& other) {
+bool comes_near(const PlayedMove& candidate, const Surroundings::Near& other) {
     // Without a branch for each, which would often be mispredicted.
     return static_cast<bool>(
         static_cast<unsigned>(mobb::overlap_in_time(candidate.begin(), candidate.end(), other.begin, other.end)) &
@@ -73,7 +78,7 @@ Surroundings::Met Surroundings::first_met(const PlayedMove& candidate) const {
     int asked = 0;
     if (candidate.playable->tree) {
         for (std::size_t i = 0; i < near_.size(); ++i) {
-            if (!is_near(candidate, near_[i])) continue;
+            if (!comes_near(candidate, near_[i])) continue;
             ++asked;
             if (contact_of(candidate, *near_[i].motion)) return {i, asked};
         }
@@ -86,7 +91,7 @@ Surroundings::Met Surroundings::first_met(const PlayedMove& candidate) const {
         for (; i < near_.size() && count < kAtATime; ++i) {
             index[count] = i;
             others[count] = &near_[i].motion->placed;
-            count += is_near(candidate, near_[i]) ? std::size_t{1} : std::size_t{0};
+            count += comes_near(candidate, near_[i]) ? std::size_t{1} : std::size_t{0};
         }
         const auto met = mobb::intersects_any(candidate.placed, std::span(others).first(count));
         if (met) return {index[*met], asked + static_cast<int>(*met) + 1};
@@ -103,7 +108,7 @@ int Surroundings::ask_on(const PlayedMove& candidate, const Met& met, const Visi
         const Near& other = near_[i];
         // What begins after the earliest contact cannot be met before it.
         if (other.begin > earliest) break;
-        if (!is_near(candidate, other)) continue;
+        if (!comes_near(candidate, other)) continue;
         ++asked;
         const auto contact = contact_of(candidate, *other.motion);
         if (!contact) continue;
@@ -115,7 +120,7 @@ int Surroundings::ask_on(const PlayedMove& candidate, const Met& met, const Visi
 
 void Surroundings::append(const PlayedMove& candidate, std::int64_t count, std::vector<AskedPair>& asked) const {
     for (auto other = near_.begin(); count > 0; ++other) {
-        if (!is_near(candidate, *other)) continue;
+        if (!comes_near(candidate, *other)) continue;
         asked.push_back({candidate, *other->motion});
         --count;
     }
@@ -125,7 +130,7 @@ CandidateCheck Surroundings::check(const PlayedMove& candidate, std::vector<Aske
     const Met met = first_met(candidate);
     CandidateCheck out{met.index < near_.size(), met.asked};
     if (out.collides) {
-        const auto near = [&](const Near& other) { return is_near(candidate, other); };
+        const auto near = [&](const Near& other) { return comes_near(candidate, other); };
         const auto last = std::find_if(near_.rbegin(), near_.rend(), near);
         // No contact is before the candidate: what has begun by then is asked, whenever the earliest is.
         if (last->begin <= candidate.begin()) {
@@ -186,7 +191,7 @@ ContactTimes Surroundings::contact_times(const PlayedMove& candidate, double mos
     ContactTimes times;
     for (const Near& other : near_) {
         if (times.seconds > most) break;
-        if (is_near(candidate, other)) add_contacts(candidate, *other.motion, most, times);
+        if (comes_near(candidate, other)) add_contacts(candidate, *other.motion, most, times);
     }
     return times;
 }
