@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
