@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -75,7 +74,7 @@ Surroundings::Surroundings(std::vector<Near> near) : near_(std::move(near)) {
     });
 }
 
-Surroundings::Met Surroundings::first_met(const PlayedMove& candidate) const {
+Surroundings::FirstMet Surroundings::first_met(const PlayedMove& candidate) const {
     int asked = 0;
     if (candidate.playable->tree) {
         for (std::size_t i = 0; i < near_.size(); ++i) {
@@ -102,7 +101,7 @@ Surroundings::Met Surroundings::first_met(const PlayedMove& candidate) const {
 }
 
 template <class Visit>
-int Surroundings::ask_on(const PlayedMove& candidate, const Met& met, const Visit& visit) const {
+int Surroundings::ask_on(const PlayedMove& candidate, const FirstMet& met, const Visit& visit) const {
     int asked = met.asked - 1;
     double earliest = std::numeric_limits<double>::infinity();
     for (std::size_t i = met.index; i < near_.size(); ++i) {
@@ -128,7 +127,7 @@ void Surroundings::append(const PlayedMove& candidate, std::int64_t count, std::
 }
 
 CandidateCheck Surroundings::check(const PlayedMove& candidate, std::vector<AskedPair>* asked) const {
-    const Met met = first_met(candidate);
+    const FirstMet met = first_met(candidate);
     CandidateCheck out{met.index < near_.size(), met.asked};
     if (out.collides) {
         const auto near = [&](const Near& other) { return comes_near(candidate, other); };
@@ -164,7 +163,7 @@ std::vector<CandidateCheck> Surroundings::check_all(std::span<const PlayedMove* 
 
 std::optional<Blocker> Surroundings::blocker(const PlayedMove& candidate) const {
     std::optional<Blocker> out;
-    const Met met = first_met(candidate);
+    const FirstMet met = first_met(candidate);
     if (met.index == near_.size()) return out;
     ask_on(candidate, met, [&](const PlayedMove& other, const mobb::Contact& contact) {
         if (!out || std::tuple(contact.time, other.agent) < std::tuple(out->contact.time, out->agent)) {
@@ -177,7 +176,7 @@ std::optional<Blocker> Surroundings::blocker(const PlayedMove& candidate) const 
 }
 
 bool Surroundings::is_clear(const PlayedMove& candidate, std::int64_t& queries, std::vector<AskedPair>* asked) const {
-    const Met met = first_met(candidate);
+    const FirstMet met = first_met(candidate);
     queries += met.asked;
     if (asked) append(candidate, met.asked, *asked);
     return met.index == near_.size();

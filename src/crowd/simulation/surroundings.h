@@ -83,14 +83,14 @@ class Surroundings {
 
   private:
     /// The first motion that a candidate is found to collide with.
-    struct Met {
+    struct FirstMet {
         std::size_t index;  ///< of near_; its size: there is none
         int asked;          ///< of the motions near the candidate, those up to it
     };
-    Met first_met(const PlayedMove& candidate) const;
+    FirstMet first_met(const PlayedMove& candidate) const;
     /// Asks on behind that motion to the earliest contact: calls visit(motion, contact) for each. How many are asked.
     template <class Visit>
-    int ask_on(const PlayedMove& candidate, const Met& met, const Visit& visit) const;
+    int ask_on(const PlayedMove& candidate, const FirstMet& met, const Visit& visit) const;
     /// The first `count` motions near the candidate.
     void append(const PlayedMove& candidate, std::int64_t count, std::vector<AskedPair>& asked) const;
 
