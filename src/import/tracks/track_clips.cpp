@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -199,15 +198,17 @@ class TrackClipMaker {
     }
 
     static bool uniform(const StepCounts& steps, double step) {
-        return std::ranges::all_of(steps | std::views::keys,
-                                   [step](double s) { return std::abs(s - step) <= kStepTolerance * step; });
+        return std::ranges::all_of(
+            steps, [step](double s) { return std::abs(s - step) <= kStepTolerance * step; },
+            &StepCounts::value_type::first);
     }
 
     /// Whether only whole steps are missing.
     static bool in_step(const StepCounts& steps, double step) {
-        return std::ranges::all_of(steps | std::views::keys, [step](double s) {
-            return std::abs(s / step - std::round(s / step)) <= kStepTolerance && s > 0.5 * step;
-        });
+        return std::ranges::all_of(
+            steps,
+            [step](double s) { return std::abs(s / step - std::round(s / step)) <= kStepTolerance && s > 0.5 * step; },
+            &StepCounts::value_type::first);
     }
 
     std::vector<mobb::Disk> samples(std::span<const TrackPoint> points, double radius, double dt, bool as_stored) {
