@@ -53,6 +53,7 @@ constexpr int kGrip = 48;
     X(glfwSetWindowTitle) X(glfwSetWindowUserPointer) X(glfwShowWindow) X(glfwSwapBuffers) X(glfwSwapInterval) \
     X(glfwTerminate) X(glfwWaitEvents) X(glfwWaitEventsTimeout) X(glfwWindowHint) X(glfwWindowHintString)
 // clang-format on
+// What is declared cannot stand in parentheses. NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define MOBBSCOPE_DECLARE(function) decltype(&::function) function = nullptr;
 MOBBSCOPE_GLFW_FUNCTIONS(MOBBSCOPE_DECLARE)
 #undef MOBBSCOPE_DECLARE
