@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <crowd/simulation/move_set.h>
+#include <mobb/separation.h>
 #include <scene/clip_turn.h>
 #include <scene/scene_edits.h>
 
@@ -105,10 +106,9 @@ MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, con
     const mobb::Rotation heading = placed.rotation * exit_rotation(move);
     const glm::dvec2 half = (room.bounds.high - room.bounds.low) / 2.0;
     const glm::dvec2 center = end.position + heading(room.bounds.low + half);
-    const double c = std::abs(heading.c), s = std::abs(heading.s);
     // Far more than all rounding made here and where candidates are placed.
     const double margin = 1e-6 + 1e-9 * (std::abs(center.x) + std::abs(center.y) + half.x + half.y);
-    const glm::dvec2 reach = glm::dvec2(c * half.x + s * half.y, s * half.x + c * half.y) + margin;
+    const glm::dvec2 reach = mobb::half_in_world(half, heading) + margin;
     const double spare = 1e-6 + 1e-9 * (std::abs(end.time) + room.end);
     return {{center - reach, center + reach}, end.time - spare, end.time + room.end + spare};
 }

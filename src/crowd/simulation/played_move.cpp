@@ -1,4 +1,5 @@
 #include <crowd/simulation/played_move.h>
+#include <mobb/lanes.h>
 
 #include <algorithm>
 #include <array>
@@ -20,21 +21,20 @@ ClipBounds::ClipBounds(const mobb::Clip& clip) : reach_(clip.reach()) {
 FloorRect ClipBounds::bounds(const OrientedPlacement& placed) const {
     // Two corners at a time: compilers leave such a loop of single numbers as it is. Rounding keeps the order of
     // numbers: what is translated at the end is as if each corner were.
-    using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
     const auto at = [](const std::array<double, kCorners>& values, std::size_t i) {
-        return Two{values[i], values[i + 1]};
+        return mobb::TwoDoubles{values[i], values[i + 1]};
     };
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    Two low_x{kFar, kFar}, low_y = low_x;
-    Two high_x = -low_x, high_y = -low_x;
+    mobb::TwoDoubles low_x{kFar, kFar}, low_y = low_x;
+    mobb::TwoDoubles high_x = -low_x, high_y = -low_x;
     const auto [c, s] = placed.rotation;
     for (std::size_t i = 0; i < kCorners; i += 2) {
-        const Two x = c * at(x_, i) - s * at(y_, i);
-        const Two y = s * at(x_, i) + c * at(y_, i);
-        low_x = x < low_x ? x : low_x;
-        low_y = y < low_y ? y : low_y;
-        high_x = x > high_x ? x : high_x;
-        high_y = y > high_y ? y : high_y;
+        const mobb::TwoDoubles x = c * at(x_, i) - s * at(y_, i);
+        const mobb::TwoDoubles y = s * at(x_, i) + c * at(y_, i);
+        low_x = mobb::least(x, low_x);
+        low_y = mobb::least(y, low_y);
+        high_x = mobb::greatest(x, high_x);
+        high_y = mobb::greatest(y, high_y);
     }
     const glm::dvec2 translate = placed.placement.translate;
     // Far more than all rounding made here and where disks are placed.
