@@ -1,243 +1,12 @@
-// The traversal of two clips' blocks, for answers, counts and traces. Included once for each set of instructions, in a
-// namespace MOBB_LANES of mobb in which hn has the operations. Where an observer watches, each of A's blocks is tested
-// against each of B's that it shares time with (may_meet): what it is told comes from the same operations in the same
-// order on every machine, and none of them is fused. Where nobody does and both clips are of one dt, runs of A's
-// samples are tested against the windows of B's samples that they share time with (nearness), which is faster and rules
-// out more. Either only rules out: what collides is decided by the predicate, or is sure by far more than rounding.
+// The traversal of two clips' blocks, for answers, counts and traces. Included once for each set of instructions, as
+// block_bounds-inl.h is. Where an observer watches, each of A's blocks is tested against each of B's that it shares
+// time with (may_meet): what it is told comes from the same operations in the same order on every machine, and none of
+// them is fused. Where nobody does and both clips are of one dt, runs of A's samples are tested against the windows of
+// B's samples that they share time with (nearness), which is faster and rules out more; clips of different dt have
+// unequal_dt_scan-inl.h.
+#include <mobb/unequal_dt_scan-inl.h>
 
 namespace mobb::MOBB_LANES {
-
-using Paths = Blocks::Paths;
-
-constexpr int kLanes = 8;  // pairs a test: a set of instructions with fewer takes several steps
-using Tag = hn::CappedTag<float, kLanes>;
-
-/// How B's blocks lie against A's.
-struct Relation {
-    float c, s;        ///< rotation from B's frame to A's
-    float ox, oy;      ///< B's origin against A's, in A's frame
-    float slack;       ///< metres by which bounds that stand still must be apart
-    float sure_slack;  ///< metres by which disks must overlap to collide for sure
-};
-
-/// When B's samples begin against A's, of one dt.
-struct Shift {
-    static constexpr std::int64_t kOne = std::int64_t{1} << Blocks::kLogParts;
-    std::int64_t parts;  ///< of a sample
-
-    /// B's first sample begins so many samples after A's ...
-    int whole() const { return static_cast<int>((parts - 1) >> Blocks::kLogParts); }
-    /// ... and these parts of one, 0 < rest_parts() <= kOne: A's sample i shares them with B's i - whole() - 1, and the
-    /// others with i - whole(), if there are any.
-    std::int64_t rest_parts() const { return ((parts - 1) & (kOne - 1)) + 1; }
-    double rest() const { return static_cast<double>(rest_parts()) / kOne; }
-};
-
-/// When a pair of blocks shares time, as shares of a whole block's.
-struct Common {
-    float begin_a = 0, begin_b = 0;  ///< of each since it began
-    float length = 0;                ///< of the time that they share
-};
-
-/// Whether bounds stand still; move, for as long as `lasts` says; or move for all of the common time.
-enum class Paced { still, moving, moving_alike };
-
-/// For n <= kLanes pairs (first_a + lane, first_b + lane): a bit is set where two disks may come within the sum of
-/// their radii, and `room` metres, in their common time. Bits from n on mean nothing.
-template <Paced paced>
-MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int first_b, int n, const Common& common,
-                              const Relation& relation, float room) {
-    const Tag d;
-    const auto c = hn::Set(d, relation.c), s = hn::Set(d, relation.s);
-    const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
-    const auto slack = hn::Set(d, room);
-    unsigned out = 0;
-    for (int lane = 0; lane < n; lane += static_cast<int>(hn::Lanes(d))) {
-        const int i = first_a + lane, j = first_b + lane;
-        auto ax = hn::LoadU(d, a.x() + i), ay = hn::LoadU(d, a.y() + i);
-        auto bx = hn::LoadU(d, b.x() + j), by = hn::LoadU(d, b.y() + j);
-        const auto reach = hn::Add(hn::Add(hn::LoadU(d, a.r() + i), slack), hn::LoadU(d, b.r() + j));
-        const auto zero = hn::Set(d, 0.0F);
-        auto vx = zero, vy = zero;  // what B moves by in the common time, as A sees it
-        if constexpr (paced != Paced::still) {
-            const auto begin_a = hn::Set(d, common.begin_a), begin_b = hn::Set(d, common.begin_b);
-            auto length = hn::Set(d, common.length);
-            if constexpr (paced == Paced::moving) {
-                const auto left_a = hn::Sub(hn::LoadU(d, a.lasts() + i), begin_a);
-                const auto left_b = hn::Sub(hn::LoadU(d, b.lasts() + j), begin_b);
-                length = hn::Max(hn::Min(hn::Min(left_a, left_b), length), zero);
-            }
-            const auto adx = hn::LoadU(d, a.dx() + i), ady = hn::LoadU(d, a.dy() + i);
-            const auto bdx = hn::LoadU(d, b.dx() + j), bdy = hn::LoadU(d, b.dy() + j);
-            ax = hn::Add(ax, hn::Mul(begin_a, adx));
-            ay = hn::Add(ay, hn::Mul(begin_a, ady));
-            bx = hn::Add(bx, hn::Mul(begin_b, bdx));
-            by = hn::Add(by, hn::Mul(begin_b, bdy));
-            const auto mx = hn::Mul(length, bdx), my = hn::Mul(length, bdy);
-            vx = hn::Sub(hn::Sub(hn::Mul(c, mx), hn::Mul(s, my)), hn::Mul(length, adx));
-            vy = hn::Sub(hn::Add(hn::Mul(s, mx), hn::Mul(c, my)), hn::Mul(length, ady));
-        }
-        auto px = hn::Sub(hn::Sub(hn::Mul(c, bx), hn::Mul(s, by)), hn::Sub(ax, ox));
-        auto py = hn::Sub(hn::Add(hn::Mul(s, bx), hn::Mul(c, by)), hn::Sub(ay, oy));
-        if constexpr (paced != Paced::still) {
-            // When they are nearest: the way is never 0 here, and where it nearly is, any moment does.
-            const auto way2 = hn::Add(hn::Add(hn::Mul(vx, vx), hn::Mul(vy, vy)), hn::Set(d, 1e-30F));
-            const auto along = hn::Sub(zero, hn::Add(hn::Mul(px, vx), hn::Mul(py, vy)));
-            const auto moment = hn::Min(hn::Max(hn::Div(along, way2), zero), hn::Set(d, 1.0F));
-            px = hn::Add(px, hn::Mul(moment, vx));
-            py = hn::Add(py, hn::Mul(moment, vy));
-        }
-        const auto meets = hn::Le(hn::Add(hn::Mul(px, px), hn::Mul(py, py)), hn::Mul(reach, reach));
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(d, meets, bits);
-        out |= static_cast<unsigned>(bits[0]) << lane;
-    }
-    return out;
-}
-
-/// Of several pairs, a bit each.
-struct Nearness {
-    std::uint64_t may = 0;   ///< whether some of the samples that are meant may collide
-    std::uint64_t sure = 0;  ///< whether the samples at the centres do, if there are both
-};
-
-/// Of kLanes pairs (first_a + lane, first_b + lane). The samples at the centres share what Shift says of the first
-/// partner.
-MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, const Blocks::Rings& b,
-                              std::ptrdiff_t first_b, const Relation& relation) {
-    const Tag d;
-    const auto c = hn::Set(d, relation.c), s = hn::Set(d, relation.s);
-    const auto ox = hn::Set(d, relation.ox), oy = hn::Set(d, relation.oy);
-    const auto slack = hn::Set(d, relation.slack), sure_slack = hn::Set(d, relation.sure_slack);
-    Nearness out;
-    for (int lane = 0; lane < kLanes; lane += static_cast<int>(hn::Lanes(d))) {
-        const std::ptrdiff_t i = first_a + lane, j = first_b + lane;
-        const auto bx = hn::LoadU(d, b.x + j), by = hn::LoadU(d, b.y + j);
-        const auto px = hn::NegMulAdd(s, by, hn::MulAdd(c, bx, hn::Sub(ox, hn::LoadU(d, a.x + i))));
-        const auto py = hn::MulAdd(c, by, hn::MulAdd(s, bx, hn::Sub(oy, hn::LoadU(d, a.y + i))));
-        const auto squared = hn::MulAdd(px, px, hn::Mul(py, py));
-        const auto most = hn::Add(hn::LoadU(d, a.outer + i), hn::Add(slack, hn::LoadU(d, b.outer + j)));
-        const auto least = hn::Add(hn::LoadU(d, a.inner + i), hn::Sub(hn::LoadU(d, b.inner + j), sure_slack));
-        const auto may = hn::Le(squared, hn::Mul(most, most));
-        const auto sure = hn::Lt(squared, hn::Mul(least, hn::Abs(least)));  // never, where that is negative
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(d, may, bits);
-        out.may |= std::uint64_t{bits[0]} << lane;
-        hn::StoreMaskBits(d, sure, bits);
-        out.sure |= std::uint64_t{bits[0]} << lane;
-    }
-    return out;
-}
-
-/// The lowest `count` bits, none if there are fewer than none. count <= 64.
-MOBB_INLINE std::uint64_t low_bits(int count) { return count > 0 ? ~std::uint64_t{0} >> (64 - count) : 0; }
-
-/// One side of several pairs of blocks, copied side by side: in clips of different dt they do not lie so.
-struct Gathered {
-    float values[5 * kLanes];
-
-    MOBB_INLINE void set(int lane, const Paths& from, bool moves, int i, double begin, double length) {
-        const auto share = static_cast<float>(begin), part = static_cast<float>(length);
-        const float dx = moves ? from.dx()[i] : 0, dy = moves ? from.dy()[i] : 0;
-        values[lane] = from.x()[i] + share * dx;
-        values[kLanes + lane] = from.y()[i] + share * dy;
-        values[2 * kLanes + lane] = from.r()[i];
-        values[3 * kLanes + lane] = part * dx;
-        values[4 * kLanes + lane] = part * dy;
-    }
-    Paths paths() const { return {values, kLanes}; }
-};
-
-MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b, Shift shift) {
-    const float ca = a.cosine(), sa = a.sine(), cb = b.cosine(), sb = b.sine();
-    const glm::dvec2 between = b.center() - a.center();
-    const auto x = static_cast<float>(between.x), y = static_cast<float>(between.y);
-    const float slack = a.slack() + b.slack();
-    const bool tells = shift.rest_parts() >= std::max(a.blocks().sure_parts(), b.blocks().sure_parts());
-    return {
-        ca * cb + sa * sb, ca * sb - sa * cb, ca * x + sa * y, ca * y - sa * x, slack, tells ? slack : Blocks::kNever};
-}
-
-/// Seconds by which times of either may be wrong, from rounding.
-MOBB_INLINE float time_error(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return static_cast<float>(PlacedBlocks::kTimeError * (a.largest_time() + b.largest_time()));
-}
-
-/// Whether samples of the two share time by a constant shift: of one dt, and not so late that it is too inexact to tell
-/// which do.
-MOBB_INLINE bool are_shifted(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.dt() == b.dt() && a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
-}
-
-/// Of two that are shifted and whose roots share time: so samples fit into an int.
-MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) { return {b.begin_parts() - a.begin_parts()}; }
-
-constexpr int kMostBits = 64;
-
-/// Samples [first, end) of A.
-struct SampleSpan {
-    int first, end;
-};
-/// Those that share time with B, where both are of one dt.
-MOBB_INLINE SampleSpan shared_samples(const Blocks& a, const Blocks& b, int whole) {
-    return {std::max(0, whole), std::min(a.count() - 1, b.count() + whole) + 1};
-}
-
-/// Pairs (from_a + k, from_b + k).
-struct Pairs {
-    Blocks::Rings a, b;
-    std::ptrdiff_t from_a, from_b;
-
-    /// kLanes of them from the k-th on.
-    MOBB_INLINE Nearness at(int k, const Relation& relation) const {
-        return nearness(a, from_a + k, b, from_b + k, relation);
-    }
-    MOBB_INLINE Pairs from(int k) const { return {a, b, from_a + k, from_b + k}; }
-    /// The first n of them, n <= kMostBits.
-    MOBB_INLINE Nearness first(int n, const Relation& relation) const {
-        Nearness out;
-        for (int k = 0; k < n; k += kLanes) {
-            const Nearness some = at(k, relation);
-            out.may |= some.may << k;
-            out.sure |= some.sure << k;
-        }
-        const std::uint64_t there = low_bits(n);
-        return {out.may & there, out.sure & there};
-    }
-};
-
-/// Runs of kRun samples of A, one behind the other, that have all samples of a span between them: the first and the
-/// last one may reach over its ends. And the windows of B's samples that they share time with.
-struct WindowPairs {
-    Pairs pairs;
-    int first;  ///< sample of A with which the first run begins
-    int count;
-
-    MOBB_INLINE WindowPairs(const Blocks& a, const Blocks& b, const SampleSpan& span, int whole) {
-        constexpr int kLog = Blocks::kLogRun;
-        const Blocks::PhasePair phases = Blocks::phases_apart(whole + 1);
-        const int to_place = Blocks::kRun - phases.a;  // with it, a sample's place times kRun
-        const int place = (span.first + to_place) >> kLog;
-        first = (place << kLog) - to_place;
-        count = ((span.end - 1 + to_place) >> kLog) + 1 - place;
-        const int samples = phases.a - phases.b - (whole + 1);  // from A's places to B's: whole runs
-        pairs = {a.windows(phases.index_a), b.windows(phases.index_b), place, place + (samples >> kLog)};
-    }
-};
-/// A's blocks of a level above 0 from `first` on, and the windows of B's samples that they share time with.
-MOBB_INLINE Pairs blocks_and_windows(const Blocks& a, const Blocks& b, int level, int first, int whole) {
-    const int log_unit = Blocks::log_span(level - 1), log_span = Blocks::log_span(level);
-    const int middle = (first << log_span) + (1 << (log_span - 1));
-    const int nearest_b = (middle - whole - 1) + (1 << (log_unit - 1));
-    const int number_a = middle >> log_unit, number_b = nearest_b >> log_unit;
-    return {a.windows(level, number_a), b.windows(level, number_b), Blocks::place_of_number(number_a),
-            Blocks::place_of_number(number_b)};
-}
-/// A's samples from i on, and B's from j on.
-MOBB_INLINE Pairs samples_of(const Blocks& blocks_a, int i, const Blocks& blocks_b, int j) {
-    const Blocks::Rings a = blocks_a.samples();
-    return {{a.x, a.y, a.inner, a.inner}, blocks_b.samples(), i, j};
-}
 
 /// One traversal. OnHit is called with the pairs of samples that collide, earliest first, and says whether to stop; if
 /// OnHit::kAny, it may not be called before a traversal stops, as one that collides is as good as the earliest.
@@ -245,7 +14,8 @@ template <class Observer, class OnHit>
 class BlockTraversal {
   public:
     MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, const Relation& relation,
-                               const Shift* shift, [[maybe_unused]] Observer& observer, OnHit& on_hit)
+                               const Shift* shift, [[maybe_unused]] Observer& observer, OnHit& on_hit,
+                               UnequalDtScan<OnHit>* unequal = nullptr)
         : a_(a),
           b_(b),
           blocks_a_(a.blocks()),
@@ -253,6 +23,7 @@ class BlockTraversal {
           relation_(relation),
           shifted_(shift != nullptr),
           shift_(shift ? *shift : Shift{0}),
+          unequal_(unequal),
           observer_(observer),
           on_hit_(on_hit) {}
 
@@ -261,6 +32,8 @@ class BlockTraversal {
         const int top_a = blocks_a_.levels() - 1, top_b = blocks_b_.levels() - 1, top = std::min(top_a, top_b);
         if (!Observer::watches && shifted_)
             return scan_level(top, shared_samples(blocks_a_, blocks_b_, shift_.whole()));
+        if (unequal_ && unequal_->fine(top_a, top_b) == 0)
+            return unequal_->scan({0, blocks_a_.count()}, {0, blocks_b_.count()});
         if (blocks_a_.count(0) == 1 && blocks_b_.count(0) == 1) return test_samples(0, 0);
         if (shifted_) return visit_shifted(top, 0, blocks_a_.count(top), 0, blocks_b_.count(top));
         return visit_stepped(top_a, 0, blocks_a_.count(top_a), top_b, 0, blocks_b_.count(top_b));
@@ -403,6 +176,13 @@ class BlockTraversal {
 
     MOBB_INLINE bool below(int level_a, int i, int level_b, int j) {
         if (level_a == 0 && level_b == 0) return test_samples(i, j);
+        if (unequal_ && unequal_->fine(level_a, level_b) <= 1) {
+            const auto samples = [](const Blocks& blocks, int level, int block) {
+                const int first = block * Blocks::span(level);
+                return SampleSpan{first, std::min(blocks.count(), first + Blocks::span(level))};
+            };
+            return unequal_->scan(samples(blocks_a_, level_a, i), samples(blocks_b_, level_b, j));
+        }
         // Blocks that last about as long descend together; else the longer one, if it can.
         constexpr double kAlike = 3;
         const double seconds_a = Blocks::span(level_a) * a_.dt(), seconds_b = Blocks::span(level_b) * b_.dt();
@@ -531,7 +311,8 @@ class BlockTraversal {
     const Blocks& blocks_b_;
     const Relation relation_;
     const bool shifted_;
-    const Shift shift_;  ///< if so
+    const Shift shift_;                    ///< if so
+    UnequalDtScan<OnHit>* const unequal_;  ///< of clips of different dt, where nobody watches
     Observer& observer_;
     OnHit& on_hit_;
 };
@@ -552,8 +333,12 @@ struct AnyHit {
 /// Of roots that share time and may meet. Returns true if on_hit stopped it.
 template <class Observer, class OnHit>
 MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer& observer, OnHit& on_hit) {
-    if (!are_shifted(a, b)) [[unlikely]]
-        return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit).run();
+    if (!are_shifted(a, b)) [[unlikely]] {
+        if (Observer::watches || !are_timed(a, b))
+            return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit).run();
+        UnequalDtScan unequal(a, b, on_hit);
+        return BlockTraversal(a, b, relate(a, b, Shift{0}), nullptr, observer, on_hit, &unequal).run();
+    }
     const Shift shift = shift_of(a, b);
     return BlockTraversal(a, b, relate(a, b, shift), &shift, observer, on_hit).run();
 }

@@ -110,7 +110,7 @@ class alignas(64) Blocks {
         // ... and how long the block lasts, as a share of a whole one: 1 but of the last.
         const float* lasts() const { return arrays + 5 * stride; }
     };
-    static constexpr int kReadAhead = 8;
+    static constexpr int kReadAhead = 10;
     Paths paths(int level) const { return paths_of(levels_[static_cast<std::size_t>(level)]); }
 
     /// Two disks about each of several centres, relative to origin(), metres.

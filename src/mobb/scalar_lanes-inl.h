@@ -1,5 +1,5 @@
-// The operations of Highway that block_query-inl.h uses, on one float at a time: for builds without Highway, and for
-// tests of the others. Names and meanings are Highway's.
+// The operations of Highway that block_bounds-inl.h and unequal_dt_scan-inl.h use, on one float at a time: for builds
+// without Highway, and for tests of the others. Names and meanings are Highway's.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +11,7 @@ template <class, std::size_t>
 using CappedTag = OneLane;
 
 constexpr std::size_t Lanes(OneLane) { return 1; }
+constexpr std::size_t MaxLanes(OneLane) { return 1; }
 inline float LoadU(OneLane, const float* from) { return *from; }
 inline float Set(OneLane, float value) { return value; }
 inline float Add(float a, float b) { return a + b; }
@@ -22,6 +23,9 @@ inline float Abs(float a) { return std::abs(a); }
 inline float Div(float a, float b) { return a / b; }
 inline float Min(float a, float b) { return a < b ? a : b; }
 inline float Max(float a, float b) { return a > b ? a : b; }
+struct FirstLane {};
+inline FirstLane SetTableIndices(OneLane, const std::int32_t*) { return {}; }
+inline float TableLookupLanes(float a, FirstLane) { return a; }
 inline bool Le(float a, float b) { return a <= b; }
 inline bool Lt(float a, float b) { return a < b; }
 inline void StoreMaskBits(OneLane, bool mask, std::uint8_t* bits) { bits[0] = mask ? 1 : 0; }

@@ -87,7 +87,10 @@ TEST(Production, GivesTheDirectSearchsAnswersOnClipsOfSeveralLevels) {
         const auto length = [&] { return static_cast<int>(std::pow(10, random.real(3.4, 4.7))); };
         const double step = random.real(0.005, 0.05);
         const Blocks blocks_a(long_walk(random, length(), step, 0.04));
-        const Blocks blocks_b(long_walk(random, length(), step, random.chance(0.8) ? 0.04 : 0.05));
+        // Each pair of units that clips of different dt are tested by.
+        constexpr std::array kRatios{1.0, 1.0, 1.0, 1.25, 1 / 1.25, 7.0, 1 / 7.0, 40.0, 1 / 40.0};
+        const double ratio = kRatios[static_cast<std::size_t>(random.integer(0, int{kRatios.size()} - 1))];
+        const Blocks blocks_b(long_walk(random, length(), step * ratio, 0.04 * ratio));
         levels = std::max(levels, std::min(blocks_a.levels(), blocks_b.levels()));
         for (int i = 0; i < 20; ++i) {
             Placement place_a, place_b;
@@ -154,32 +157,37 @@ TEST(Production, DoesNotDependOnHowFarAwayOrHowUnlikeTwoClipsAre) {
 
 TEST(Production, TellsHowLongSamplesShareAsTheDirectSearchDoes) {
     // Two samples that overlap, and nothing else that comes near: they share about what they must at least.
+    const EachInstructionSet sets;
     Random random(83);
     int hits = 0, queries = 0;
     for (const double dt : {1.0 / 30, 0.1, 0.5, 1.9, 2.1}) {
-        for (const int sample_b : {15, 16}) {  // the pair is at the edge of blocks
-            std::vector<Disk> disks_a(40, {100, 0, 0.5}), disks_b(40, {-100, 0, 0.5});
-            disks_a[16] = disks_b[static_cast<std::size_t>(sample_b)] = {0, 0, 0.5};
-            const auto clip_a = std::make_shared<const Clip>(dt, disks_a),
-                       clip_b = std::make_shared<const Clip>(dt, disks_b);
-            const Blocks blocks_a(clip_a), blocks_b(clip_b);
-            const FitOptions production{.tree = TreeKind::production};
-            const Tree tree_a(clip_a, production), tree_b(clip_b, production);
-            for (int i = 0; i < 400; ++i, ++queries) {
-                const double start = random.real(0, 10), share = random.real(0.7e-9, 1.3e-9);
-                const Placement place_a{.start = start};
-                // B's sample begins before A's ends, or ends after A's begins.
-                const double later = random.chance(0.5) ? dt - share : share - dt;
-                const Placement place_b{.start = start + (16 - sample_b) * dt + later};
-                const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
-                const std::optional<Contact> expected =
-                    direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
-                hits += expected ? 1 : 0;
-                ASSERT_EQ(query(a, b), expected) << dt << " " << share;
-                ASSERT_EQ(intersects(a, b), expected.has_value()) << dt << " " << share;
-                TraceRecorder recorder;
-                ASSERT_EQ(query(PlacedTree(tree_a, place_a), PlacedTree(tree_b, place_b), recorder), expected)
-                    << dt << " " << share;
+        for (const double ratio : {1.0, 1.7, 1 / 1.7, 9.0, 1 / 9.0, 50.0, 1 / 50.0}) {
+            for (const int sample_b : {15, 16}) {  // the pair is at the edge of blocks
+                const double dt_b = dt * ratio;
+                std::vector<Disk> disks_a(40, {100, 0, 0.5}), disks_b(40, {-100, 0, 0.5});
+                disks_a[16] = disks_b[static_cast<std::size_t>(sample_b)] = {0, 0, 0.5};
+                const auto clip_a = std::make_shared<const Clip>(dt, disks_a),
+                           clip_b = std::make_shared<const Clip>(dt_b, disks_b);
+                const Blocks blocks_a(clip_a), blocks_b(clip_b);
+                const FitOptions production{.tree = TreeKind::production};
+                const Tree tree_a(clip_a, production), tree_b(clip_b, production);
+                for (int i = 0; i < 100; ++i, ++queries) {
+                    const double start = random.real(0, 10), share = random.real(0.7e-9, 1.3e-9);
+                    const Placement place_a{.start = start};
+                    // B's sample begins before A's ends, or ends after A's begins.
+                    const double later = random.chance(0.5) ? dt - share : share - dt_b;
+                    const Placement place_b{.start = start + 16 * dt + later - sample_b * dt_b};
+                    const PlacedBlocks a(blocks_a, place_a), b(blocks_b, place_b);
+                    const std::optional<Contact> expected =
+                        direct_search(PlacedClip(*clip_a, place_a), PlacedClip(*clip_b, place_b));
+                    hits += expected ? 1 : 0;
+                    ASSERT_TRUE(use_instruction_set(sets.names()[static_cast<std::size_t>(i) % sets.names().size()]));
+                    ASSERT_EQ(query(a, b), expected) << dt << " " << dt_b << " " << share;
+                    ASSERT_EQ(intersects(a, b), expected.has_value()) << dt << " " << dt_b << " " << share;
+                    TraceRecorder recorder;
+                    ASSERT_EQ(query(PlacedTree(tree_a, place_a), PlacedTree(tree_b, place_b), recorder), expected)
+                        << dt << " " << dt_b << " " << share;
+                }
             }
         }
     }
