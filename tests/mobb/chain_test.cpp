@@ -2,6 +2,7 @@
 #include <mobb/chain_boxes.h>
 #include <mobb/placed_chain.h>
 #include <mobb/query.h>
+#include <mobb/random_chain.h>
 #include <mobb/random_motion.h>
 
 #include <glm/geometric.hpp>
@@ -14,44 +15,14 @@
 namespace mobb {
 namespace {
 
+using test::part_of;
 using test::query_budget;
 using test::Random;
+using test::random_links;
+using test::random_running_links;
 
 static_assert(NodeSource<PlacedTree> && NodeSource<PlacedChain>);
 static_assert(SampleSource<PlacedClip> && SampleSource<PlacedChain>);
-
-ChainPartPtr part_of(ClipPtr clip, const FitOptions& fit) {
-    return std::make_shared<const ChainPart>(std::make_shared<const Tree>(std::move(clip), fit));
-}
-
-/// One to `most` links of random clips with one dt: each begins where the one before ends, or anywhere.
-std::vector<ChainLink> random_links(Random& random, int most, double time_scale, int most_samples) {
-    const bool linked = random.chance(0.7);
-    const glm::dvec2 origin = random.chance(0.1) ? glm::dvec2{1e4, -1e5} : glm::dvec2{0};
-    std::vector<ChainPartPtr> parts;
-    std::vector<ChainLink> links;
-    const int n = random.integer(1, most);
-    for (int k = 0; k < n; ++k) {
-        if (parts.empty() || random.chance(0.6)) {
-            FitOptions fit = test::random_fit(random);
-            fit.time_scale = time_scale;
-            const double dt = parts.empty() ? 0 : parts.front()->clip().dt();
-            parts.push_back(part_of(test::random_clip(random, most_samples, dt), fit));
-        }
-        const ChainPartPtr& part =
-            parts[static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 1))];
-        ChainLink link{part, origin + glm::dvec2{random.real(-3, 3), random.real(-3, 3)}, test::random_angle(random)};
-        if (linked && !links.empty()) {
-            const ChainLink& before = links.back();
-            const Disk end = placed(before.part->clip().samples().back(), Rotation::from_degrees(before.rotate_deg),
-                                    before.translate);
-            const Disk begin = placed(part->clip().samples().front(), Rotation::from_degrees(link.rotate_deg), {0, 0});
-            link.translate = {end.x - begin.x, end.y - begin.y};
-        }
-        links.push_back(link);
-    }
-    return links;
-}
 
 /// Walks of one to four seconds, each beginning where the one before ends and up to so many degrees to its side.
 std::vector<ChainLink> walking_links(Random& random, int count, double turning) {
@@ -112,15 +83,6 @@ TEST(Chain, EveryQueryGivesTheRebuiltTreesAnswerAndContact) {
     }
     EXPECT_GT(hits, asked / 10);
     EXPECT_LT(hits, asked * 9 / 10);
-}
-
-/// Links of which about half are linear.
-std::vector<ChainLink> random_running_links(Random& random, int most, double time_scale, int most_samples) {
-    std::vector<ChainLink> links = random_links(random, most, time_scale, most_samples);
-    for (ChainLink& link : links) {
-        link.part = part_of(test::random_motion(random, link.part->tree().shared_clip()), link.part->tree().options());
-    }
-    return links;
 }
 
 /// Of all pairs of samples of two chains, the one that collides first.

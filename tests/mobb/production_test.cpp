@@ -1,8 +1,10 @@
 // The production query: the direct search's answers on every set of instructions, and bounds that hold.
 #include <gtest/gtest.h>
 #include <mobb/blocks.h>
+#include <mobb/placed_chain.h>
 #include <mobb/production.h>
 #include <mobb/query.h>
+#include <mobb/random_chain.h>
 #include <mobb/random_motion.h>
 #include <mobb/trace.h>
 
@@ -113,6 +115,39 @@ TEST(Production, GivesTheDirectSearchsAnswersOnClipsOfSeveralLevels) {
     EXPECT_GE(levels, 3);
     EXPECT_GT(hits, 100);
     EXPECT_LT(hits, 700);
+}
+
+TEST(Production, OfChainsGivesTheDirectSearchsAnswersOnEveryInstructionSet) {
+    const EachInstructionSet sets;
+    Random random(84);
+    int hits = 0, asked = 0;
+    while (asked < test::query_budget() / 50) {
+        const auto links = [&] { return test::random_running_links(random, 5, 1, 400, TreeKind::production); };
+        const Chain a(links()), b(links());
+        const ClipPtr clip = nasty_clip(random, random.chance(0.6) ? a.dt() : 0);
+        const Tree tree(clip, {.tree = TreeKind::production});
+        for (int k = 0; k < 10; ++k) {
+            Placement place_a, place_b, place_c;
+            // Of the first links alone, as that is all that placing asks for.
+            test::random_placements(random, a.part(0).clip(), b.part(0).clip(), place_a, place_b);
+            test::random_placements(random, a.part(0).clip(), *clip, place_a, place_c);
+            const PlacedChain chain_a(a, place_a), chain_b(b, place_b);
+            const PlacedTree placed(tree, place_c);
+            const std::optional<Contact> expected = direct_search(chain_a, chain_b);
+            const std::optional<Contact> with_clip = direct_search(placed.placed_clip(), chain_a);
+            for (const std::string_view set : sets.names()) {
+                ASSERT_TRUE(use_instruction_set(set));
+                ASSERT_EQ(query(chain_a, chain_b), expected) << set << ", " << asked;
+                ASSERT_EQ(query(placed, chain_a), with_clip) << set << ", " << asked;
+            }
+            if (k == 0) {
+                ASSERT_EQ(contact_intervals(chain_a, chain_b), direct_contact_intervals(chain_a, chain_b)) << asked;
+            }
+            hits += (expected ? 1 : 0) + (with_clip ? 1 : 0);
+            asked += 2;
+        }
+    }
+    EXPECT_GT(hits, asked / 20);
 }
 
 TEST(Production, FindsAllIntervalsOfContact) {
