@@ -96,6 +96,14 @@ MOBB_INLINE unsigned may_meet(const Paths& a, int first_a, const Paths& b, int f
 struct Nearness {
     std::uint64_t may = 0;   ///< whether some of the samples that are meant may collide
     std::uint64_t sure = 0;  ///< whether the samples at the centres do, if there are both
+
+    /// Whether some may, and none does for sure.
+    MOBB_INLINE bool undecided() const {
+        // A compiler that sees through this makes two branches of it, the first of which is often mispredicted.
+        std::uint64_t open = sure == 0 ? may : 0;
+        asm("" : "+r"(open));
+        return open != 0;
+    }
 };
 
 /// Of kLanes pairs (first_a + lane, first_b + lane). The samples at the centres share what Shift says of the first
@@ -126,8 +134,10 @@ MOBB_INLINE Nearness nearness(const Blocks::Rings& a, std::ptrdiff_t first_a, co
     return out;
 }
 
-/// The lowest `count` bits, none if there are fewer than none. count <= 64.
-MOBB_INLINE std::uint64_t low_bits(int count) { return count > 0 ? ~std::uint64_t{0} >> (64 - count) : 0; }
+/// The lowest `count` bits, 0 < count <= 64.
+MOBB_INLINE std::uint64_t some_low_bits(int count) { return ~std::uint64_t{0} >> (64 - count); }
+/// Likewise; none if there are fewer than none.
+MOBB_INLINE std::uint64_t low_bits(int count) { return count > 0 ? some_low_bits(count) : 0; }
 
 /// One side of several pairs of blocks, copied side by side: in clips of different dt they do not lie so.
 struct Gathered {

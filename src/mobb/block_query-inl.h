@@ -68,6 +68,16 @@ class BlockTraversal {
         return false;
     }
 
+    /// What single precision tells of the samples of runs: sample k of each in bit k.
+    MOBB_INLINE Nearness samples_of_runs(std::uint64_t runs, int first, const SampleSpan& span) const {
+        Nearness out;
+        for (; runs != 0; runs &= runs - 1) {
+            const Nearness some = samples_of_run(first + std::countr_zero(runs) * Blocks::kRun, span);
+            out.may |= some.may;
+            out.sure |= some.sure;
+        }
+        return out;
+    }
     /// The samples of A's runs that are set, of which bit 0 begins with sample `first`.
     MOBB_INLINE bool test_runs(std::uint64_t runs, int first, const SampleSpan& span) {
         for (; runs != 0; runs &= runs - 1) {
@@ -255,15 +265,20 @@ class BlockTraversal {
         return pairs.stopped;
     }
 
-    /// A run from sample i of A on, as far as it lies in the span: each against both of B's that it shares time with.
-    MOBB_INLINE bool test_run(int i, const SampleSpan& span) {
+    /// Of a run from sample i of A on, as far as it lies in the span: each against both of B's that it shares time
+    /// with.
+    MOBB_INLINE Nearness samples_of_run(int i, const SampleSpan& span) const {
         const Nearness samples =
             samples_of(blocks_a_, i, blocks_b_, i - shift_.whole() - 1).first(Blocks::kRun, relation_);
         const std::uint64_t there = low_bits(std::min(span.end - i, Blocks::kRun)) & ~low_bits(span.first - i);
+        return {samples.may & there, samples.sure & there};
+    }
+    MOBB_INLINE bool test_run(int i, const SampleSpan& span) {
+        const Nearness samples = samples_of_run(i, span);
         if constexpr (OnHit::kAny) {
-            if ((samples.sure & there) != 0) return true;
+            if (samples.sure != 0) return true;
         }
-        return (samples.may & there) != 0 && test_near(i, samples.may & there);
+        return samples.may != 0 && test_near(i, samples.may);
     }
     /// A's samples that are set, of which bit 0 is `first`.
     [[gnu::noinline]] bool test_near(int first, std::uint64_t samples) {
@@ -355,49 +370,39 @@ inline bool first_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, 
 MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b) {
     return are_shifted(a, b) && std::min(a.blocks().levels(), b.blocks().levels()) == 1;
 }
-/// What their windows tell of two whose roots meet. The same work for all, without a branch but for the number of
-/// steps.
-struct FirstLook {
-    SampleSpan span;
-    int first, count;  ///< of runs, as WindowPairs says
-    Nearness near;     ///< of run k of A in bit k modulo kMostBits
-
-    FirstLook() = default;
-    MOBB_INLINE FirstLook(const PlacedBlocks& a, const PlacedBlocks& b) {
-        const Shift shift = shift_of(a, b);
-        const Relation relation = relate(a, b, shift);
-        span = shared_samples(a.blocks(), b.blocks(), shift.whole());
-        const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
-        first = windows.first;
-        count = windows.count;
-        // The last step goes over some a second time rather than beyond them.
-        const int last = std::max(count - kLanes, 0);
-        for (int k = 0;; k = std::min(k + kLanes, last)) {
-            const Nearness some = windows.pairs.at(k, relation);
-            near.may |= std::rotl(some.may, k);
-            near.sure |= some.sure;
-            if (k == last) break;
-        }
-        near.may &= low_bits(std::min(count, kMostBits));
-        near.sure &= low_bits(std::min(count, kLanes));
+/// What their windows tell of two whose roots meet: of run k of A, as WindowPairs says, in bit k modulo kMostBits;
+/// which of them are sure means nothing. The same work for all, without a branch but for the number of steps.
+MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b) {
+    const Shift shift = shift_of(a, b);
+    const Relation relation = relate(a, b, shift);
+    const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
+    const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
+    // The last step goes over some a second time rather than beyond them.
+    const int count = windows.count, last = std::max(count - kLanes, 0);
+    Nearness near;
+    for (int k = 0;; k = std::min(k + kLanes, last)) {
+        const Nearness some = windows.pairs.at(k, relation);
+        near.may |= std::rotl(some.may, k);
+        near.sure |= some.sure;
+        if (k == last) break;
     }
-    MOBB_INLINE bool collides() const { return near.sure != 0; }
-    MOBB_INLINE bool undecided() const {
-        // A compiler that sees through this makes two branches of it, the first of which is often mispredicted.
-        std::uint64_t open = near.sure == 0 ? near.may : 0;
-        asm("" : "+r"(open));
-        return open != 0;
-    }
-};
+    near.may &= some_low_bits(std::min(count, kMostBits));
+    near.sure &= some_low_bits(std::min(count, kLanes));
+    return near;
+}
 
-/// Of two that are left undecided by the first look. Out of line, so that it keeps no registers for it.
-[[gnu::noinline]] inline bool any_sample_hits(const PlacedBlocks& a, const PlacedBlocks& b, const FirstLook& look) {
+/// Of two that are left undecided by the first look, with what it says of runs that may. Out of line, so that it keeps
+/// no registers for it.
+[[gnu::noinline]] inline bool any_sample_hits(const PlacedBlocks& a, const PlacedBlocks& b, std::uint64_t runs) {
     NoObserver observer;
     AnyHit any;
     const Shift shift = shift_of(a, b);
     BlockTraversal traversal(a, b, relate(a, b, shift), &shift, observer, any);
-    if (look.count > kMostBits) return traversal.scan_windows(look.span);
-    return traversal.test_runs(look.near.may, look.first, look.span);
+    const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
+    const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
+    if (windows.count > kMostBits) return traversal.scan_windows(span);
+    const Nearness samples = traversal.samples_of_runs(runs, windows.first, span);
+    return samples.undecided() ? traversal.test_runs(runs, windows.first, span) : samples.sure != 0;
 }
 /// Of any two whose roots meet.
 [[gnu::noinline]] inline bool any_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
@@ -408,9 +413,9 @@ struct FirstLook {
 
 inline bool intersects_below_roots(const PlacedBlocks& a, const PlacedBlocks& b) {
     if (!can_look(a, b)) return any_hit_below_roots(a, b);
-    const FirstLook look(a, b);
+    const Nearness near = first_look(a, b);
     // One branch, as it is easier to foretell than which of the two is known.
-    return look.undecided() ? any_sample_hits(a, b, look) : look.collides();
+    return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
 }
 
 inline bool for_each_hit_below_roots(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink,
@@ -430,7 +435,7 @@ void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found
     std::size_t together[kAtATime], below_roots[kAtATime];
     struct {
         std::size_t index;
-        FirstLook look;
+        std::uint64_t runs;
     } undecided[kAtATime];
     for (std::size_t first = 0; first < count && !stop(first); first += kAtATime) {
         const std::size_t end = std::min(count, first + kAtATime);
@@ -462,15 +467,15 @@ void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found
                 found(i, !stop(i) && any_hit_below_roots(*a, *b));
                 continue;
             }
-            const FirstLook look(*a, *b);
-            found(i, look.collides());
-            undecided[open] = {i, look};
-            open += look.undecided() ? std::size_t{1} : std::size_t{0};
+            const Nearness near = first_look(*a, *b);
+            found(i, near.sure != 0);
+            undecided[open] = {i, near.may};
+            open += near.undecided() ? std::size_t{1} : std::size_t{0};
         }
         for (std::size_t k = 0; k < open && !stop(undecided[k].index); ++k) {
             const auto& pair = undecided[k];
             const auto [a, b] = pair_at(pair.index);
-            found(pair.index, any_sample_hits(*a, *b, pair.look));
+            found(pair.index, any_sample_hits(*a, *b, pair.runs));
         }
     }
 }
