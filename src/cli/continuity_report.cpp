@@ -19,11 +19,8 @@ const SceneClip& played_by(const Scene& scene, int move) {
 
 /// Of an End Site, which may have no name, that of the joint whose tip it is.
 std::string joint_name(const Scene& scene, int move, int joint) {
-    // A turned move has the joints of the move that it is a variant of, and often no skeleton of its own.
-    const SceneClip& own = played_by(scene, move);
-    const auto& turned = scene.graph->moves[static_cast<std::size_t>(move)].turned;
-    const SceneClip& clip = own.skeleton || !turned ? own : played_by(scene, turned->move);
-    const std::vector<Joint>& joints = clip.skeleton->joints;
+    const int clip = clip_with_joints(scene, scene.graph->moves[static_cast<std::size_t>(move)]);
+    const std::vector<Joint>& joints = scene.clips[static_cast<std::size_t>(clip)].skeleton->joints;
     const Joint& of = joints[static_cast<std::size_t>(joint)];
     if (!of.end_site || of.parent < 0) return of.name;
     return joints[static_cast<std::size_t>(of.parent)].name + " (tip)";

@@ -135,9 +135,9 @@ class Measurer {
             motions_.emplace_back();
             stands.emplace_back();
             // Skeletons that are made here are held one at a time.
-            const int of = clip.skeleton || !move.turned || !clip.turn ? move.clip : origin_of(scene, move).clip;
+            const int of = clip_with_joints(scene, move);
             const SceneClip& straight = scene.clips[static_cast<std::size_t>(of)];
-            if (!straight.skeleton) continue;
+            if (!straight.skeleton || (of != move.clip && !clip.turn)) continue;
             const std::shared_ptr<const Skeleton> skeleton =
                 of == move.clip ? clip.skeleton : turned_skeleton(*straight.skeleton, *straight.clip, *clip.turn);
             const std::optional<std::size_t> same = recorded_alike(scene, move, stands.size() - 1);
@@ -164,10 +164,6 @@ class Measurer {
     }
 
   private:
-    static const GraphMove& origin_of(const Scene& scene, const GraphMove& turned) {
-        return scene.graph->moves[static_cast<std::size_t>(turned.turned->move)];
-    }
-
     /// The move that a turned one is a variant of, if it is among the first `known` and warps the same part of the same
     /// recording: feet stand alike there, and it is read once.
     static std::optional<std::size_t> recorded_alike(const Scene& scene, const GraphMove& move, std::size_t known) {
@@ -372,6 +368,11 @@ Continuity graph_continuity(const Scene& scene) {
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = static_cast<int>(i);
     Importer importer;
     return Measurer(scene, importer).measure(joins, moves);
+}
+
+int clip_with_joints(const Scene& scene, const GraphMove& move) {
+    if (!move.turned || scene.clips[static_cast<std::size_t>(move.clip)].skeleton) return move.clip;
+    return scene.graph->moves[static_cast<std::size_t>(move.turned->move)].clip;
 }
 
 std::vector<bool> joins_over(const Scene& scene, const std::vector<std::pair<int, int>>& transitions) {

@@ -89,7 +89,7 @@ struct LargestRatio {
     double ratio = 0;
     double across = 0;  ///< the change there
     double inside = 0;  ///< the largest inside the two moves, at least ChangeRow::least
-    int joint = -1;     ///< index into the skeleton's joints; the root for what is not of joints
+    int joint = -1;     ///< of `before`, see clip_with_joints; the root for what is not of joints
     int before = -1;    ///< the moves: indices into the graph's; -1: no join was measured
     int after = -1;
     std::size_t over = 0;  ///< joins with a ratio over kMostRatio
@@ -98,7 +98,7 @@ struct LargestRatio {
 /// How far a foot slides that should stand.
 struct LargestSlide {
     double metres = 0;
-    int joint = -1;   ///< index into the skeleton's joints; -1: none stood
+    int joint = -1;   ///< of `before`, see clip_with_joints; -1: none stood
     int before = -1;  ///< the move; of a contact across a join the one before it
     int after = -1;   ///< the move after it; -1: within one move
 };
@@ -121,6 +121,10 @@ bool promises_continuity(const Scene& scene);
 /// Over all transitions of the scene's graph, and its moves. Throws InputError if there are too many.
 Continuity graph_continuity(const Scene& scene);
 
+/// The clip whose skeleton has a move's joints: the move's own or, of a turned one without a skeleton, that of the move
+/// that it is a variant of. An index into Scene::clips.
+int clip_with_joints(const Scene& scene, const GraphMove& move);
+
 /// Whether something bounded has a ratio over kMostRatio, for each of these transitions of the scene's graph.
 std::vector<bool> joins_over(const Scene& scene, const std::vector<std::pair<int, int>>& transitions);
 
@@ -130,8 +134,8 @@ struct RunContinuity {
     Continuity forced;  ///< joins with a forced play, and no moves
 };
 
-/// Over all joins of the scene's run. A turned clip without a skeleton has that of the move that it is a variant of,
-/// turned. `importer` reads what was recorded, unless it has before.
+/// Over all joins of the scene's run. A turned clip without a skeleton has that of clip_with_joints, turned.
+/// `importer` reads what was recorded, unless it has before.
 RunContinuity run_continuity(const Scene& scene, Importer& importer);
 
 }  // namespace mobbscope
