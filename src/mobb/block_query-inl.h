@@ -450,8 +450,8 @@ void find_colliding(std::size_t count, const PairAt& pair_at, const Found& found
             }
             const auto [a, b] = pair_at(i);
             together[pairs] = i;
-            pairs +=
-                overlap_in_time(a->begin(), a->end_time(), b->begin(), b->end_time()) ? std::size_t{1} : std::size_t{0};
+            pairs += overlap_in_time(a->begin_time(), a->end_time(), b->begin_time(), b->end_time()) ? std::size_t{1}
+                                                                                                     : std::size_t{0};
         }
         std::size_t roots = 0;
         for (std::size_t k = 0; k < pairs; ++k) {

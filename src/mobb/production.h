@@ -54,14 +54,14 @@ class alignas(64) PlacedBlocks {
     float sine() const { return sine_; }
     /// Where the origin of the blocks lies in the world.
     glm::dvec2 center() const { return center_; }
-    /// The root in the world: its centre is center() in the middle between begin() and end_time(); its velocity in m/s,
-    /// and its radius in metres, with as much more as the rounding of what is computed from them.
+    /// The root in the world: its centre is center() in the middle between begin_time() and end_time(); its velocity in
+    /// m/s, and its radius in metres, with as much more as the rounding of what is computed from them.
     bool moves() const { return moves_; }  ///< if not, the velocity is 0
     float velocity_x() const { return velocity_x_; }
     float velocity_y() const { return velocity_y_; }
     float radius() const { return radius_; }
     /// Global times at which the first sample begins and the last one ends.
-    double begin() const { return begin_; }
+    double begin_time() const { return begin_; }
     double end_time() const { return end_; }
     /// Of the clip, from when its first sample begins.
     PlacedFrame frame() const {
@@ -85,7 +85,7 @@ class alignas(64) PlacedBlocks {
     /// No number that times are computed from is larger, seconds: what their rounding is measured by.
     double largest_time() const { return std::abs(start_) + end() * dt(); }
     static constexpr double kTimeError = 0x1p-48;  ///< of them, with a wide margin
-    /// begin() in parts of a sample (see Blocks::kLogParts), to the nearest: how two clips of one dt are shifted
+    /// begin_time() in parts of a sample (see Blocks::kLogParts), to the nearest: how two clips of one dt are shifted
     /// against each other follows from these. kNoParts where that is too inexact: of samples that last long, or begin
     /// late.
     std::int64_t begin_parts() const { return begin_parts_; }
@@ -158,10 +158,10 @@ class alignas(64) PlacedBlocks {
 /// Whether two share time and their roots may meet, where these move.
 inline bool moving_roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
     // In the middle of the common time, and from there to when they are nearest.
-    const double from = std::max(a.begin(), b.begin()), until = std::min(a.end_time(), b.end_time());
+    const double from = std::max(a.begin_time(), b.begin_time()), until = std::min(a.end_time(), b.end_time());
     const double middle = (from + until) / 2;
-    const auto since_a = static_cast<float>(middle - (a.begin() + a.end_time()) / 2);
-    const auto since_b = static_cast<float>(middle - (b.begin() + b.end_time()) / 2);
+    const auto since_a = static_cast<float>(middle - (a.begin_time() + a.end_time()) / 2);
+    const auto since_b = static_cast<float>(middle - (b.begin_time() + b.end_time()) / 2);
     const auto half = static_cast<float>((until - from) / 2);
     const glm::dvec2 between = b.center() - a.center();
     float x = static_cast<float>(between.x) + (b.velocity_x() * since_b - a.velocity_x() * since_a);
@@ -182,8 +182,9 @@ inline bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) {
     if (a.moves() || b.moves()) return moving_roots_meet(a, b);
     const glm::dvec2 between = b.center() - a.center();
     const auto reach = static_cast<double>(a.radius() + b.radius());
-    return static_cast<bool>(static_cast<unsigned>(overlap_in_time(a.begin(), a.end_time(), b.begin(), b.end_time())) &
-                             static_cast<unsigned>(between.x * between.x + between.y * between.y <= reach * reach));
+    return static_cast<bool>(
+        static_cast<unsigned>(overlap_in_time(a.begin_time(), a.end_time(), b.begin_time(), b.end_time())) &
+        static_cast<unsigned>(between.x * between.x + between.y * between.y <= reach * reach));
 }
 
 /// Is told of the pairs of samples that collide, in order of time; says whether to stop.

@@ -68,7 +68,7 @@ class UnequalDtScan {
           fine_(fine_is_a_ ? a : b),
           coarse_(fine_is_a_ ? b : a),
           ratio_(fine_.dt() * coarse_.blocks().per_dt()),
-          begin_((fine_.begin() - coarse_.begin()) * coarse_.blocks().per_dt()),
+          begin_((fine_.begin_time() - coarse_.begin_time()) * coarse_.blocks().per_dt()),
           relation_(relate(fine_, coarse_, Shift{0})),
           on_hit_(on_hit) {}
 
