@@ -19,6 +19,19 @@ int cells_along(double length) {
     return static_cast<int>(std::clamp(std::ceil(length / kCell), 1.0, static_cast<double>(kMostCells)));
 }
 
+/// Puts a value where `free` says that there is none, or else at the end; returns where.
+template <class T>
+std::uint32_t put(std::vector<T>& values, std::vector<std::uint32_t>& free, const T& value) {
+    if (free.empty()) {
+        values.push_back(value);
+        return static_cast<std::uint32_t>(values.size() - 1);
+    }
+    const std::uint32_t place = free.back();
+    free.pop_back();
+    values[place] = value;
+    return place;
+}
+
 /// Row by row: visit(x, y).
 void for_each_cell(const auto& range, const auto& visit) {
     for (int y = range.y0; y <= range.y1; ++y) {
@@ -38,26 +51,20 @@ ReservationGrid::ReservationGrid(glm::dvec2 area)
 
 ReservationGrid::CellRange ReservationGrid::cells_of(const FloorRect& rect) const {
     const auto along = [](double at, double low, double per_metre, int count) {
-        return static_cast<int>(std::clamp((at - low) * per_metre, 0.0, count - 1.0));
+        return static_cast<std::int16_t>(std::clamp((at - low) * per_metre, 0.0, count - 1.0));
     };
     return {along(rect.low.x, low_.x, per_metre_.x, columns_), along(rect.low.y, low_.y, per_metre_.y, rows_),
             along(rect.high.x, low_.x, per_metre_.x, columns_), along(rect.high.y, low_.y, per_metre_.y, rows_)};
 }
 
 std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
-    auto slot = static_cast<std::uint32_t>(motions_.size());
-    const Held held{motion, cells_of(motion.bounds), false};
-    if (free_.empty()) {
-        motions_.push_back(held);
-    } else {
-        slot = free_.back();
-        free_.pop_back();
-        motions_[slot] = held;
-    }
-    const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, held.cells.x0, held.cells.y0};
+    const std::uint32_t place = put(motions_, unused_, motion);
+    const CellRange cells = cells_of(motion.bounds);
+    const std::uint32_t slot = put(held_, free_, Held{cells, place, false});
+    const Entry entry{motion.bounds, motion.begin(), motion.end(), motion.agent, slot, place, cells.x0, cells.y0};
     longest_ = std::max(longest_, entry.end - entry.begin);
     latest_end_ = std::max(latest_end_, entry.end);
-    for_each_cell(held.cells, [&](int x, int y) {
+    for_each_cell(cells, [&](int x, int y) {
         std::vector<Entry>& cell = cells_[index(x, y)];
         cell.insert(std::ranges::upper_bound(cell, entry.begin, {}, &Entry::begin), entry);
     });
@@ -66,20 +73,21 @@ std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
 }
 
 void ReservationGrid::withdraw(std::size_t reservation) {
-    // Its slot is used again when it would have ended.
-    Held& held = motions_[reservation];
+    // Its slot is used again when it would have ended, its place in memory at once.
+    Held& held = held_[reservation];
     for_each_cell(held.cells, [&](int x, int y) {
         std::vector<Entry>& cell = cells_[index(x, y)];
         cell.erase(std::ranges::find(cell, reservation, &Entry::slot));
     });
     held.withdrawn = true;
+    unused_.push_back(held.place);
 }
 
 void ReservationGrid::forget_before(double now) {
     while (!endings_.empty() && endings_.top().end <= now) {
         const std::uint32_t slot = endings_.top().slot;
         endings_.pop();
-        if (!motions_[slot].withdrawn) withdraw(slot);
+        if (!held_[slot].withdrawn) withdraw(slot);
         free_.push_back(slot);
     }
 }
@@ -106,7 +114,7 @@ Surroundings ReservationGrid::around(int agent, const FloorRect& bounds, double 
     visit_cells(cells_of(bounds), from, end, [&](const Entry& other) {
         if (other.agent != agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
             bounds.meets(other.bounds))
-            near.push_back({other.bounds, other.begin, other.end, &motions_[other.slot].motion});
+            near.push_back({other.bounds, other.begin, other.end, &motions_[other.place]});
     });
     return Surroundings(std::move(near));
 }
@@ -121,7 +129,7 @@ void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::
         if (other.agent != candidate.agent && reach.meets(other.bounds)) slots.push_back(other.slot);
     });
     std::sort(slots.begin(), slots.end());
-    for (const std::uint32_t slot : slots) pairs.push_back({candidate, motions_[slot].motion});
+    for (const std::uint32_t slot : slots) pairs.push_back({candidate, motions_[held_[slot].place]});
 }
 
 }  // namespace mobbscope

@@ -25,7 +25,7 @@ class ReservationGrid {
     void withdraw(std::size_t reservation);
     /// Motions that end at `now` or before are dropped: no candidate that begins later can meet them.
     void forget_before(double now);
-    std::size_t size() const { return motions_.size() - free_.size(); }  ///< motions not forgotten
+    std::size_t size() const { return held_.size() - free_.size(); }  ///< motions not forgotten
 
     /// The motions of other agents than `agent` whose bounds meet `bounds`, from `begin` to `end`, global seconds. They
     /// may be asked until something is reserved or forgotten.
@@ -42,11 +42,11 @@ class ReservationGrid {
 
   private:
     struct CellRange {
-        int x0, y0, x1, y1;  ///< inclusive
+        std::int16_t x0, y0, x1, y1;  ///< inclusive
     };
     struct Held {
-        PlayedMove motion;
         CellRange cells;
+        std::uint32_t place;  ///< of motions_
         bool withdrawn;
     };
     /// What decides in a cell whether a motion is near a candidate: beside each other in memory, unlike the motions.
@@ -54,8 +54,9 @@ class ReservationGrid {
         FloorRect bounds;
         double begin, end;  ///< global seconds
         int agent;
-        std::uint32_t slot;  ///< of motions_
-        int x0, y0;          ///< the first cell that it reaches into
+        std::uint32_t slot;   ///< of held_
+        std::uint32_t place;  ///< of motions_
+        std::int16_t x0, y0;  ///< the first cell that it reaches into
     };
     struct Ending {
         double end;
@@ -79,8 +80,10 @@ class ReservationGrid {
     std::vector<std::vector<Entry>> cells_;  ///< motions whose bounds reach into the cell, by their begin
     double longest_ = 0;                     ///< seconds that a motion lasts
     double latest_end_ = std::numeric_limits<double>::lowest();  ///< global seconds; nothing lasts longer
-    std::vector<Held> motions_;
-    std::vector<std::uint32_t> free_;  ///< slots of motions_ that hold nothing
+    std::vector<Held> held_;
+    std::vector<std::uint32_t> free_;    ///< slots of held_ that hold nothing
+    std::vector<PlayedMove> motions_;    ///< that are held; in as little memory as caches hold, if they can
+    std::vector<std::uint32_t> unused_;  ///< places of motions_ that hold nothing
     std::priority_queue<Ending, std::vector<Ending>, std::greater<>> endings_;
 };
 
