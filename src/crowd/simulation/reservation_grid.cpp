@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kCell = 4;       // metres: about what a clip of two seconds covers
 constexpr int kMostCells = 1024;  // in a row or column: a huge floor gets larger cells
-constexpr std::size_t kUsuallyNear = 32;
 
 int cells_along(double length) {
     return static_cast<int>(std::clamp(std::ceil(length / kCell), 1.0, static_cast<double>(kMostCells)));
@@ -65,8 +64,10 @@ std::size_t ReservationGrid::reserve(const PlayedMove& motion) {
     longest_ = std::max(longest_, entry.end - entry.begin);
     latest_end_ = std::max(latest_end_, entry.end);
     for_each_cell(cells, [&](int x, int y) {
-        std::vector<Entry>& cell = cells_[index(x, y)];
-        cell.insert(std::ranges::upper_bound(cell, entry.begin, {}, &Entry::begin), entry);
+        Cell& cell = cells_[index(x, y)];
+        const auto next = std::ranges::upper_bound(cell.begins, entry.begin);
+        cell.entries.insert(cell.entries.begin() + (next - cell.begins.begin()), entry);
+        cell.begins.insert(next, entry.begin);
     });
     endings_.push({entry.end, slot});
     return slot;
@@ -76,8 +77,10 @@ void ReservationGrid::withdraw(std::size_t reservation) {
     // Its slot is used again when it would have ended, its place in memory at once.
     Held& held = held_[reservation];
     for_each_cell(held.cells, [&](int x, int y) {
-        std::vector<Entry>& cell = cells_[index(x, y)];
-        cell.erase(std::ranges::find(cell, reservation, &Entry::slot));
+        Cell& cell = cells_[index(x, y)];
+        const auto entry = std::ranges::find(cell.entries, reservation, &Entry::slot);
+        cell.begins.erase(cell.begins.begin() + (entry - cell.entries.begin()));
+        cell.entries.erase(entry);
     });
     held.withdrawn = true;
     unused_.push_back(held.place);
@@ -95,28 +98,29 @@ void ReservationGrid::forget_before(double now) {
 template <class Visit>
 void ReservationGrid::visit_cells(const CellRange& range, double from, double to, const Visit& visit) const {
     for_each_cell(range, [&](int x, int y) {
-        const std::vector<Entry>& cell = cells_[index(x, y)];
-        for (auto entry = std::ranges::lower_bound(cell, from, {}, &Entry::begin);
-             entry != cell.end() && entry->begin <= to; ++entry) {
+        const auto& [begins, entries] = cells_[index(x, y)];
+        const auto first = std::ranges::lower_bound(begins, from) - begins.begin();
+        const auto last = std::ranges::upper_bound(begins, to) - begins.begin();
+        for (auto entry = entries.begin() + first; entry != entries.begin() + last; ++entry) {
             // Of the cells of the range that a motion reaches into, the first one reports it.
             if (x == std::max(range.x0, entry->x0) && y == std::max(range.y0, entry->y0)) visit(*entry);
         }
     });
 }
 
-Surroundings ReservationGrid::around(int agent, const FloorRect& bounds, double begin, double end) const {
-    std::vector<Surroundings::Near> near;
-    // Most plans go on when all that is played has ended.
-    if (begin >= latest_end_) return Surroundings(std::move(near));
-    near.reserve(kUsuallyNear);
-    // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
-    const double from = begin - longest_ - 1e-12 * std::abs(begin);
-    visit_cells(cells_of(bounds), from, end, [&](const Entry& other) {
-        if (other.agent != agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
-            bounds.meets(other.bounds))
-            near.push_back({other.bounds, other.begin, other.end, &motions_[other.place]});
+void ReservationGrid::find_around(int agent, const FloorRect& bounds, double begin, double end,
+                                  Surroundings& out) const {
+    out.refill([&](std::vector<Surroundings::Near>& near) {
+        // Most plans go on when all that is played has ended.
+        if (begin >= latest_end_) return;
+        // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
+        const double from = begin - longest_ - 1e-12 * std::abs(begin);
+        visit_cells(cells_of(bounds), from, end, [&](const Entry& other) {
+            if (other.agent != agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
+                bounds.meets(other.bounds))
+                near.push_back({other.bounds, other.begin, other.end, &motions_[other.place]});
+        });
     });
-    return Surroundings(std::move(near));
 }
 
 void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::vector<AskedPair>& pairs) const {

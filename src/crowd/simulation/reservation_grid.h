@@ -29,11 +29,17 @@ class ReservationGrid {
 
     /// The motions of other agents than `agent` whose bounds meet `bounds`, from `begin` to `end`, global seconds. They
     /// may be asked until something is reserved or forgotten.
-    Surroundings around(int agent, const FloorRect& bounds, double begin, double end) const;
+    Surroundings around(int agent, const FloorRect& bounds, double begin, double end) const {
+        Surroundings out;
+        find_around(agent, bounds, begin, end, out);
+        return out;
+    }
     /// The same around one candidate.
     Surroundings around(const PlayedMove& candidate) const {
         return around(candidate.agent, candidate.bounds, candidate.begin(), candidate.end());
     }
+    /// The same in place of what is there, in its memory.
+    void find_around(int agent, const FloorRect& bounds, double begin, double end, Surroundings& out) const;
 
     /// Appends every pair of the candidate and a motion of another agent whose bounds on the floor come within `range`
     /// metres of the candidate's, at any time: the pairs that would be queried if times were not compared first, and
@@ -58,6 +64,11 @@ class ReservationGrid {
         std::uint32_t place;  ///< of motions_
         std::int16_t x0, y0;  ///< the first cell that it reaches into
     };
+    /// The motions whose bounds reach into a cell, by their begin.
+    struct Cell {
+        std::vector<double> begins;  ///< of the entries, beside each other
+        std::vector<Entry> entries;
+    };
     struct Ending {
         double end;
         std::uint32_t slot;
@@ -77,8 +88,8 @@ class ReservationGrid {
     glm::dvec2 per_metre_;  ///< cells
     int columns_;
     int rows_;
-    std::vector<std::vector<Entry>> cells_;  ///< motions whose bounds reach into the cell, by their begin
-    double longest_ = 0;                     ///< seconds that a motion lasts
+    std::vector<Cell> cells_;
+    double longest_ = 0;                                         ///< seconds that a motion lasts
     double latest_end_ = std::numeric_limits<double>::lowest();  ///< global seconds; nothing lasts longer
     std::vector<Held> held_;
     std::vector<std::uint32_t> free_;    ///< slots of held_ that hold nothing
