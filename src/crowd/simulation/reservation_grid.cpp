@@ -2,6 +2,7 @@
 #include <mobb/predicate.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -29,6 +30,18 @@ std::uint32_t put(std::vector<T>& values, std::vector<std::uint32_t>& free, cons
     free.pop_back();
     values[place] = value;
     return place;
+}
+
+/// How many of some numbers, the least first, are less than `limit`. Without a branch for each step, which would often
+/// be mispredicted.
+std::size_t count_before(double limit, const std::vector<double>& numbers) {
+    const double* from = numbers.data();
+    for (std::size_t left = numbers.size(); left > 0;) {
+        const std::size_t half = (left + 1) / 2;
+        from += half * static_cast<std::size_t>(from[half - 1] < limit);
+        left -= half;
+    }
+    return static_cast<std::size_t>(from - numbers.data());
 }
 
 /// Row by row: visit(x, y).
@@ -95,15 +108,26 @@ void ReservationGrid::forget_before(double now) {
     }
 }
 
-template <class Visit>
-void ReservationGrid::visit_cells(const CellRange& range, double from, double to, const Visit& visit) const {
+template <class Meets, class Visit>
+void ReservationGrid::visit_cells(const CellRange& range, double from, double to, const Meets& meets,
+                                  const Visit& visit) const {
     for_each_cell(range, [&](int x, int y) {
         const auto& [begins, entries] = cells_[index(x, y)];
-        const auto first = std::ranges::lower_bound(begins, from) - begins.begin();
-        const auto last = std::ranges::upper_bound(begins, to) - begins.begin();
-        for (auto entry = entries.begin() + first; entry != entries.begin() + last; ++entry) {
-            // Of the cells of the range that a motion reaches into, the first one reports it.
-            if (x == std::max(range.x0, entry->x0) && y == std::max(range.y0, entry->y0)) visit(*entry);
+        const Entry* next = entries.data() + count_before(from, begins);
+        const Entry* const last = entries.data() + count_before(to, begins);
+        constexpr std::ptrdiff_t kAtATime = 32;
+        std::array<const Entry*, kAtATime> met;
+        while (next < last) {
+            std::size_t count = 0;
+            for (const Entry* const end = next + std::min(kAtATime, last - next); next != end; ++next) {
+                // Of the cells of the range that a motion reaches into, the first one reports it. Without a branch for
+                // each, which would often be mispredicted.
+                const unsigned is_first = static_cast<unsigned>(x == std::max(range.x0, next->x0)) &
+                                          static_cast<unsigned>(y == std::max(range.y0, next->y0));
+                met[count] = next;
+                count += is_first & static_cast<unsigned>(meets(*next));
+            }
+            for (std::size_t i = 0; i < count; ++i) visit(*met[i]);
         }
     });
 }
@@ -115,10 +139,13 @@ void ReservationGrid::find_around(int agent, const FloorRect& bounds, double beg
         if (begin >= latest_end_) return;
         // What began longer ago than any motion lasts has ended; the margin is far more than rounding.
         const double from = begin - longest_ - 1e-12 * std::abs(begin);
-        visit_cells(cells_of(bounds), from, end, [&](const Entry& other) {
-            if (other.agent != agent && mobb::overlap_in_time(begin, end, other.begin, other.end) &&
-                bounds.meets(other.bounds))
-                near.push_back({other.bounds, other.begin, other.end, &motions_[other.place]});
+        const auto meets = [&](const Entry& other) {
+            return static_cast<unsigned>(other.agent != agent) &
+                   static_cast<unsigned>(mobb::overlap_in_time(begin, end, other.begin, other.end)) &
+                   static_cast<unsigned>(bounds.meets(other.bounds));
+        };
+        visit_cells(cells_of(bounds), from, end, meets, [&](const Entry& other) {
+            near.push_back({other.bounds, other.begin, other.end, &motions_[other.place]});
         });
     });
 }
@@ -129,9 +156,8 @@ void ReservationGrid::all_pairs(const PlayedMove& candidate, double range, std::
     reach.high += range;
     std::vector<std::uint32_t> slots;
     constexpr double kEver = std::numeric_limits<double>::infinity();
-    visit_cells(cells_of(reach), -kEver, kEver, [&](const Entry& other) {
-        if (other.agent != candidate.agent && reach.meets(other.bounds)) slots.push_back(other.slot);
-    });
+    const auto meets = [&](const Entry& other) { return other.agent != candidate.agent && reach.meets(other.bounds); };
+    visit_cells(cells_of(reach), -kEver, kEver, meets, [&](const Entry& other) { slots.push_back(other.slot); });
     std::sort(slots.begin(), slots.end());
     for (const std::uint32_t slot : slots) pairs.push_back({candidate, motions_[held_[slot].place]});
 }

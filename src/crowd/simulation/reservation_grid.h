@@ -79,10 +79,10 @@ class ReservationGrid {
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
-    /// Calls visit(entry) once for each motion that reaches into a cell of the range and begins from `from` to `to`,
-    /// global seconds.
-    template <class Visit>
-    void visit_cells(const CellRange& range, double from, double to, const Visit& visit) const;
+    /// Calls visit(entry) once for each motion that reaches into a cell of the range, begins from `from` on, before
+    /// `to`, global seconds, and for which meets(entry) is true.
+    template <class Meets, class Visit>
+    void visit_cells(const CellRange& range, double from, double to, const Meets& meets, const Visit& visit) const;
 
     glm::dvec2 low_;
     glm::dvec2 per_metre_;  ///< cells
