@@ -150,7 +150,9 @@ TEST_F(WorldTest, WhomSeveralMeetFirstIsWhomEachMeetsFirst) {
                       is_last && alone.collides());
         }
         pairs.clear();
-        if (!alone.collides()) EXPECT_EQ(all.append(candidates[i], alone.asked + 3, pairs), 3);
+        if (!alone.collides()) {
+            EXPECT_EQ(all.append(candidates[i], alone.asked + 3, pairs), 3);
+        }
         colliding += alone.collides();
         late += alone.index >= 64 && alone.collides();
     }

@@ -54,7 +54,8 @@ bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seco
     for (const MoveSet::FollowerGroup& group : moves_.followers(before)) {
         bool is_looked_up = false;
         for (auto next = group.moves.begin(); next != group.moves.end();) {
-            // Where one collides, those that are like it mostly do: they are looked at together.
+            // Where one collides, those that are like it mostly do, and are looked at together; where none does, the
+            // first is mostly gone on from.
             const auto most = static_cast<std::size_t>(collides_ ? std::max(left_, 1) : 1);
             level.clear();
             for (; next != group.moves.end() && level.looked_at.size() < most; ++next) {

@@ -84,13 +84,13 @@ class Surroundings {
     /// What the candidate collides with first; none: it collides with nobody.
     std::optional<Blocker> blocker(const PlayedMove& candidate) const;
 
-    /// Whom each candidate is found to collide with first, for the price of less than a search for each. Goes on from
-    /// what is found: candidates that collide already are not asked about, and queries add up. Requires as many found
-    /// as candidates.
+    /// The first motion that each candidate is found to collide with: several are asked about together. Goes on from
+    /// what is found, as of surroundings asked before: candidates that collide are not asked about, and queries add up.
+    /// Requires as many found as candidates.
     void find_first(std::span<const PlayedMove* const> candidates, std::span<FirstMet> found) const;
     /// Whether the candidate collides with nobody.
     bool is_clear(const PlayedMove& candidate) const;
-    /// The pairs of the first `count` queries about a candidate. How many more there are than these surroundings have.
+    /// Appends the pairs of the first `count` queries about a candidate; returns how many of them are missing here.
     int append(const PlayedMove& candidate, int count, std::vector<AskedPair>& asked) const;
 
     /// Where there are more than `most` seconds of contact, they and the first may be found in part.
