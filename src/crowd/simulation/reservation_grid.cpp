@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 namespace mobbscope {
 
@@ -41,6 +42,13 @@ std::size_t count_before(double limit, const std::vector<double>& numbers) {
         left -= half;
     }
     return static_cast<std::size_t>(from - numbers.data());
+}
+
+/// Into the processor's caches: values up to `end`, the first few lines of them.
+template <class T>
+void fetch(const T* from, const T* end) {
+    constexpr std::ptrdiff_t kLine = 64 / sizeof(T), kMost = 8 * kLine;
+    for (end = from + std::min(end - from, kMost); from < end; from += kLine) __builtin_prefetch(from);
 }
 
 /// Row by row: visit(x, y).
@@ -110,25 +118,46 @@ void ReservationGrid::forget_before(double now) {
 template <class Meets, class Visit>
 void ReservationGrid::visit_cells(const CellRange& range, double from, double to, const Meets& meets,
                                   const Visit& visit) const {
+    struct Window {
+        const Entry* next;
+        const Entry* last;
+        int x, y;
+    };
+    constexpr std::ptrdiff_t kAtATime = 32;
+    std::array<Window, kAtATime> windows;
+    std::size_t count = 0;
+    const auto visit_windows = [&] {
+        for (auto [next, last, x, y] : std::span(windows).first(count)) {
+            std::array<const Entry*, kAtATime> met;
+            while (next < last) {
+                std::size_t meeting = 0;
+                for (const Entry* const end = next + std::min(kAtATime, last - next); next != end; ++next) {
+                    // Of the cells of the range that a motion reaches into, the first one reports it. Without a branch
+                    // for each, which would often be mispredicted.
+                    const unsigned is_first = static_cast<unsigned>(x == std::max(range.x0, next->x0)) &
+                                              static_cast<unsigned>(y == std::max(range.y0, next->y0));
+                    met[meeting] = next;
+                    meeting += is_first & static_cast<unsigned>(meets(*next));
+                }
+                for (std::size_t i = 0; i < meeting; ++i) visit(*met[i]);
+            }
+        }
+        count = 0;
+    };
+    // What belongs to a cell lies anywhere in memory: of all cells it is fetched before it is read of one.
+    for_each_cell(range, [&](int x, int y) {
+        const std::vector<double>& begins = cells_[index(x, y)].begins;
+        fetch(begins.data(), begins.data() + begins.size());
+    });
     for_each_cell(range, [&](int x, int y) {
         const auto& [begins, entries] = cells_[index(x, y)];
-        const Entry* next = entries.data() + count_before(from, begins);
+        const Entry* const first = entries.data() + count_before(from, begins);
         const Entry* const last = entries.data() + count_before(to, begins);
-        constexpr std::ptrdiff_t kAtATime = 32;
-        std::array<const Entry*, kAtATime> met;
-        while (next < last) {
-            std::size_t count = 0;
-            for (const Entry* const end = next + std::min(kAtATime, last - next); next != end; ++next) {
-                // Of the cells of the range that a motion reaches into, the first one reports it. Without a branch for
-                // each, which would often be mispredicted.
-                const unsigned is_first = static_cast<unsigned>(x == std::max(range.x0, next->x0)) &
-                                          static_cast<unsigned>(y == std::max(range.y0, next->y0));
-                met[count] = next;
-                count += is_first & static_cast<unsigned>(meets(*next));
-            }
-            for (std::size_t i = 0; i < count; ++i) visit(*met[i]);
-        }
+        fetch(first, last);
+        windows[count++] = {first, last, x, y};
+        if (count == windows.size()) visit_windows();
     });
+    visit_windows();
 }
 
 void ReservationGrid::find_around(int agent, const FloorRect& bounds, double begin, double end,
